@@ -12,13 +12,9 @@ use criterion::Criterion;
 use peak_alloc::PeakAlloc;
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::material::Material;
-use plummer::fe::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
-};
+use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use plummer::fe::modal::{ModeRange, housing_modes};
-use plummer::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare,
-};
+use plummer::fe::model::{Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare};
 use plummer::numerics::linalg::SparseMatrix;
 
 #[global_allocator]
@@ -26,38 +22,26 @@ static MEMORY: PeakAlloc = PeakAlloc;
 
 /// A cube of 0.1 m in `cells` cubed cells of six tetrahedra; "box" is all of it, "base" its nodes at z = 0.
 fn tet_box(cells: usize) -> Mesh {
-    const PATHS: [[usize; 3]; 6] = [
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [0, 2, 1],
-        [2, 1, 0],
-        [1, 0, 2],
-    ];
+    const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]];
     let side = 2 * cells + 1;
     let index = |p: [usize; 3]| p[0] + side * (p[1] + side * p[2]);
     let at = |i: usize| 0.05 * i as f64 / cells as f64;
-    let nodes: Vec<[f64; 3]> = (0..side.pow(3))
-        .map(|i| [at(i % side), at(i / side % side), at(i / side / side)])
-        .collect();
+    let nodes: Vec<[f64; 3]> =
+        (0..side.pow(3)).map(|i| [at(i % side), at(i / side % side), at(i / side / side)]).collect();
     let mut connectivity = Vec::with_capacity(60 * cells.pow(3));
     for cell in 0..cells.pow(3) {
         let origin = [cell % cells, cell / cells % cells, cell / cells / cells].map(|i| 2 * i);
         for (number, path) in PATHS.into_iter().enumerate() {
             let mut corners = [origin; 4];
             for (step, axis) in path.into_iter().enumerate() {
-                corners[step + 1..]
-                    .iter_mut()
-                    .for_each(|corner| corner[axis] += 2);
+                corners[step + 1..].iter_mut().for_each(|corner| corner[axis] += 2);
             }
             if number > 2 {
                 corners.swap(1, 2); // the odd paths turn the other way round
             }
             connectivity.extend(corners.map(index));
-            let middle = |[a, b]: [usize; 2]| {
-                index([0, 1, 2].map(|k| usize::midpoint(corners[a][k], corners[b][k])))
-            };
+            let middle = |[a, b]: [usize; 2]| index([0, 1, 2].map(|k| usize::midpoint(corners[a][k], corners[b][k])));
             connectivity.extend(EDGES.map(middle));
         }
     }
@@ -66,10 +50,7 @@ fn tet_box(cells: usize) -> Mesh {
         kind: ElementKind::Point,
         tags: (tag..).take(side * side).collect(),
         connectivity: (0..side * side).collect(),
-        entity: Entity {
-            dimension: block,
-            tag: 1,
-        },
+        entity: Entity { dimension: block, tag: 1 },
     };
     let ids = |block, count: usize| (0..count).map(move |index| ElementId { block, index });
     let group = |name: &str, dimension, nodes, elements| PhysicalGroup {
@@ -82,36 +63,20 @@ fn tet_box(cells: usize) -> Mesh {
     Mesh {
         node_tags: (1..=nodes.len() as u64).collect(),
         groups: vec![
-            group(
-                "base",
-                0,
-                (0..side * side).collect(),
-                ids(1, side * side).collect(),
-            ),
-            group(
-                "box",
-                3,
-                (0..nodes.len()).collect(),
-                ids(0, elements).collect(),
-            ),
+            group("base", 0, (0..side * side).collect(), ids(1, side * side).collect()),
+            group("box", 3, (0..nodes.len()).collect(), ids(0, elements).collect()),
         ],
         blocks: vec![
             ElementBlock {
                 kind: ElementKind::Tet10,
                 tags: (1..=elements as u64).collect(),
                 connectivity,
-                entity: Entity {
-                    dimension: 3,
-                    tag: 1,
-                },
+                entity: Entity { dimension: 3, tag: 1 },
             },
             point(0, elements as u64 + 1),
         ],
         nodes,
-        format: MshFormat {
-            version: MshVersion::V41,
-            binary: false,
-        },
+        format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("box of tetrahedra"),
     }
 }
@@ -124,10 +89,7 @@ fn model(mesh: &Mesh) -> HousingModel {
         share: SupportShare::PerNode,
     };
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: "box".to_owned(),
-            material: aluminium.into(),
-        }],
+        parts: vec![HousingPart { group: "box".to_owned(), material: aluminium.into() }],
         supports: vec![base],
         ..HousingDescription::default()
     };
@@ -140,9 +102,7 @@ fn megabytes(matrix: &SparseMatrix) -> f64 {
 }
 
 fn main() {
-    let asked = std::env::var("ASSEMBLY_DOF")
-        .ok()
-        .and_then(|text| text.parse().ok());
+    let asked = std::env::var("ASSEMBLY_DOF").ok().and_then(|text| text.parse().ok());
     let nodes = asked.unwrap_or(250_000.0) / 3.0;
     let cells = ((f64::cbrt(nodes) - 1.0) / 2.0).round().max(1.0) as usize;
     let mesh = tet_box(cells);
@@ -155,15 +115,8 @@ fn main() {
     let assembly_s = started.elapsed().as_secs_f64();
     let peak = f64::from(MEMORY.peak_usage_as_mb() - before) * 1.048_576;
     let size = megabytes(&matrices.stiffness) + megabytes(&matrices.mass);
-    println!(
-        "{} degrees of freedom, {} elements",
-        model.dof(),
-        model.elements().len()
-    );
-    println!(
-        "first assembly {assembly_s:.3} s; K and M {size:.0} MB, peak {peak:.0} MB: {:.2} times",
-        peak / size
-    );
+    println!("{} degrees of freedom, {} elements", model.dof(), model.elements().len());
+    println!("first assembly {assembly_s:.3} s; K and M {size:.0} MB, peak {peak:.0} MB: {:.2} times", peak / size);
     if std::env::var_os("ASSEMBLY_MODES").is_some() {
         let started = Instant::now();
         let modes = housing_modes(&model, matrices, ModeRange::Count(20)).expect("converges");

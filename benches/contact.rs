@@ -10,10 +10,7 @@ use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
 use std::hint::black_box;
 
-const CASE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/examples/tadina2011/outer-dent.toml"
-);
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/tadina2011/outer-dent.toml");
 const STEP: f64 = 1e-7;
 /// Simulated time, s: at 21 Hz a ball passes the dent every 18.5 ms.
 const DURATION: f64 = 0.1;
@@ -40,16 +37,11 @@ fn evaluation(criterion: &mut Criterion) {
         ("with contact damping", false, "2"),
         ("with damping and static residual", true, "2"),
     ] {
-        let set = [
-            "speed.profile=[{time=0,hz=21}]".to_owned(),
-            format!("bearing.contact_damping={damping}"),
-        ];
+        let set = ["speed.profile=[{time=0,hz=21}]".to_owned(), format!("bearing.contact_damping={damping}")];
         let case = Case::load(CASE, &set).expect("an example of the repository");
         let stage = CoupledStructure::build(&case, &Unwatched);
         let stage = stage.expect("meshed").expect("with a ring");
-        let setup = bearing_setup(&case)
-            .expect("valid")
-            .expect("with a bearing");
+        let setup = bearing_setup(&case).expect("valid").expect("with a bearing");
         let rest = Equilibrium::find(&stage.structure, &setup, StaticCondition::at(&setup, 0.0));
         let mut system = CoupledSystem::new(
             &stage.structure,
@@ -62,19 +54,9 @@ fn evaluation(criterion: &mut Criterion) {
         .expect("supported");
         let mut state = system.state_at(0.0, &rest.expect("at rest"), &stage.modes);
         let mut states = States::default();
-        let schedule = Schedule {
-            interval: STEP,
-            steps_per_interval: 1,
-            intervals: (DURATION / STEP) as u64,
-        };
-        let run = integrate(
-            &mut system,
-            Method::Exponential,
-            &schedule,
-            &mut state,
-            &mut states,
-            |_, _| Stepping::Continue,
-        );
+        let schedule = Schedule { interval: STEP, steps_per_interval: 1, intervals: (DURATION / STEP) as u64 };
+        let run =
+            integrate(&mut system, Method::Exponential, &schedule, &mut state, &mut states, |_, _| Stepping::Continue);
         run.expect("stable");
         let mut force = vec![0.0; state.y.len()];
         let mut next = states.0.chunks_exact(1 + 2 * force.len()).cycle();

@@ -24,9 +24,7 @@ impl TetBox {
 
     fn of_megabytes(megabytes: f64) -> Self {
         let cells = (megabytes * 1e6 / Self::CELL_BYTES).cbrt();
-        Self {
-            cells: (cells as usize).max(1),
-        }
+        Self { cells: (cells as usize).max(1) }
     }
 
     fn side(&self) -> usize {
@@ -41,14 +39,7 @@ impl TetBox {
 
     /// Node tags of each element.
     fn elements(&self) -> impl Iterator<Item = [u64; 10]> {
-        const PATHS: [[usize; 3]; 6] = [
-            [0, 1, 2],
-            [1, 2, 0],
-            [2, 0, 1],
-            [0, 2, 1],
-            [2, 1, 0],
-            [1, 0, 2],
-        ];
+        const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]];
         let (n, side) = (self.cells, self.side());
         let tag = move |p: [usize; 3]| (1 + p[0] + side * (p[1] + side * p[2])) as u64;
@@ -57,18 +48,14 @@ impl TetBox {
             PATHS.into_iter().map(move |path| {
                 let mut corners = [origin; 4];
                 for (step, axis) in path.into_iter().enumerate() {
-                    corners[step + 1..]
-                        .iter_mut()
-                        .for_each(|corner| corner[axis] += 2);
+                    corners[step + 1..].iter_mut().for_each(|corner| corner[axis] += 2);
                 }
                 let mut tags = [0; 10];
                 for (slot, corner) in tags.iter_mut().zip(corners) {
                     *slot = tag(corner);
                 }
                 for (slot, [a, b]) in tags[4..].iter_mut().zip(EDGES) {
-                    *slot =
-                        tag([0, 1, 2]
-                            .map(|axis| usize::midpoint(corners[a][axis], corners[b][axis])));
+                    *slot = tag([0, 1, 2].map(|axis| usize::midpoint(corners[a][axis], corners[b][axis])));
                 }
                 tags
             })
@@ -82,10 +69,7 @@ impl TetBox {
             out.write_all(&1_i32.to_le_bytes())?;
             writeln!(out)?;
         }
-        writeln!(
-            out,
-            "$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"box\"\n$EndPhysicalNames"
-        )?;
+        writeln!(out, "$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"box\"\n$EndPhysicalNames")?;
         match (version, binary) {
             ("4.1", false) => self.ascii_v41(&mut out)?,
             ("4.1", true) => self.binary_v41(&mut out)?,
@@ -101,19 +85,13 @@ impl TetBox {
 
     fn ascii_v41(&self, out: &mut impl Write) -> Outcome {
         let [nodes, elements] = self.counts();
-        writeln!(
-            out,
-            "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 2 1 2 0\n$EndEntities"
-        )?;
+        writeln!(out, "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 2 1 2 0\n$EndEntities")?;
         writeln!(out, "$Nodes\n1 {nodes} 1 {nodes}\n3 1 0 {nodes}")?;
         (1..=nodes).try_for_each(|tag| writeln!(out, "{tag}"))?;
         for [x, y, z] in self.nodes() {
             writeln!(out, "{x} {y} {z}")?;
         }
-        writeln!(
-            out,
-            "$EndNodes\n$Elements\n1 {elements} 1 {elements}\n3 1 11 {elements}"
-        )?;
+        writeln!(out, "$EndNodes\n$Elements\n1 {elements} 1 {elements}\n3 1 11 {elements}")?;
         for (tag, element) in (1..).zip(self.elements()) {
             write!(out, "{tag} ")?;
             element.iter().try_for_each(|node| write!(out, "{node} "))?;
@@ -125,21 +103,15 @@ impl TetBox {
     fn binary_v41(&self, out: &mut impl Write) -> Outcome {
         let [nodes, elements] = self.counts();
         let sizes = |out: &mut dyn Write, values: &[u64]| {
-            values
-                .iter()
-                .try_for_each(|value| out.write_all(&value.to_le_bytes()))
+            values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
         };
         let ints = |out: &mut dyn Write, values: &[i32]| {
-            values
-                .iter()
-                .try_for_each(|value| out.write_all(&value.to_le_bytes()))
+            values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
         };
         writeln!(out, "$Entities")?;
         sizes(out, &[0, 0, 0, 1])?;
         ints(out, &[1])?;
-        [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]
-            .iter()
-            .try_for_each(|x: &f64| out.write_all(&x.to_le_bytes()))?;
+        [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].iter().try_for_each(|x: &f64| out.write_all(&x.to_le_bytes()))?;
         sizes(out, &[2])?;
         ints(out, &[1, 2])?;
         sizes(out, &[0])?;
@@ -188,8 +160,7 @@ impl TetBox {
         writeln!(out, "$Nodes\n{nodes}")?;
         for (tag, node) in (1_i32..).zip(self.nodes()) {
             out.write_all(&tag.to_le_bytes())?;
-            node.iter()
-                .try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
+            node.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
         }
         write!(out, "\n$EndNodes\n$Elements\n{}\n", 2 * elements)?;
         let mut tag = 0;
@@ -199,9 +170,7 @@ impl TetBox {
                 for value in [11, 1, 2, tag, group, 1] {
                     out.write_all(&i32::to_le_bytes(value))?;
                 }
-                element
-                    .iter()
-                    .try_for_each(|node| out.write_all(&(*node as i32).to_le_bytes()))?;
+                element.iter().try_for_each(|node| out.write_all(&(*node as i32).to_le_bytes()))?;
             }
         }
         Ok(write!(out, "\n$EndElements\n")?)
@@ -209,9 +178,7 @@ impl TetBox {
 }
 
 fn main() -> Outcome {
-    let megabytes = std::env::var("IMPORT_MB")
-        .ok()
-        .map_or(Ok(150.0), |text| text.parse())?;
+    let megabytes = std::env::var("IMPORT_MB").ok().map_or(Ok(150.0), |text| text.parse())?;
     let folder = tempfile::tempdir()?;
     let mut criterion = Criterion::default().configure_from_args().sample_size(10);
     for (version, binary) in [("4.1", false), ("4.1", true), ("2.2", false), ("2.2", true)] {
@@ -230,8 +197,7 @@ fn main() -> Outcome {
                 run.iter(|| {
                     let bytes = std::fs::read(&path)?;
                     let file = mshio::parse_msh_bytes(&bytes);
-                    file.map(|file| file.total_node_count())
-                        .map_err(|_| std::io::Error::other("mshio"))
+                    file.map(|file| file.total_node_count()).map_err(|_| std::io::Error::other("mshio"))
                 })
             });
         }

@@ -12,20 +12,13 @@ fn scalogram(criterion: &mut Criterion) {
     let pool = pool.expect("a thread");
     for decimation in [1, 10, 100] {
         let transform = WaveletTransform {
-            frequencies: FrequencyAxis::Logarithmic {
-                from_hz: 500.0,
-                to_hz: 40e3,
-                count: 200,
-            },
+            frequencies: FrequencyAxis::Logarithmic { from_hz: 500.0, to_hz: 40e3, count: 200 },
             cycles: 6.0,
             decimation,
         };
-        criterion.bench_function(
-            &format!("scalogram, decimated by {decimation}"),
-            |bencher| {
-                bencher.iter(|| pool.install(|| transform.scalogram(black_box(&series))));
-            },
-        );
+        criterion.bench_function(&format!("scalogram, decimated by {decimation}"), |bencher| {
+            bencher.iter(|| pool.install(|| transform.scalogram(black_box(&series))));
+        });
     }
 }
 

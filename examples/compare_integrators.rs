@@ -29,11 +29,7 @@ struct Scene {
 }
 
 const SCENES: [Scene; 2] = [
-    Scene {
-        name: "smooth, 10 ms",
-        case: "examples/scenes/smooth.toml",
-        common: &[],
-    },
+    Scene { name: "smooth, 10 ms", case: "examples/scenes/smooth.toml", common: &[] },
     Scene {
         name: "healthy, 2 ms",
         case: "examples/tadina2011/healthy.toml",
@@ -48,21 +44,9 @@ const SCENES: [Scene; 2] = [
 ];
 
 /// Settings of one run beside the scene's.
-const NEWMARK: [&str; 3] = [
-    "transient.method=newmark-explicit",
-    "transient.step=1.5e-8",
-    "transient.modes=all",
-];
-const EXPONENTIAL: [&str; 3] = [
-    "transient.method=exponential",
-    "transient.step=2.5e-8",
-    "transient.modes=all",
-];
-const TRUNCATED: [&str; 3] = [
-    "transient.method=exponential",
-    "transient.step=2.5e-8",
-    "transient.modes=auto",
-];
+const NEWMARK: [&str; 3] = ["transient.method=newmark-explicit", "transient.step=1.5e-8", "transient.modes=all"];
+const EXPONENTIAL: [&str; 3] = ["transient.method=exponential", "transient.step=2.5e-8", "transient.modes=all"];
+const TRUNCATED: [&str; 3] = ["transient.method=exponential", "transient.step=2.5e-8", "transient.modes=auto"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut out = std::io::stdout().lock();
@@ -80,41 +64,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let methods = relative_difference(&limited(&exponential)?, &limited(&newmark)?)?;
         let basis = relative_difference(&limited(&truncated)?, &limited(&exponential)?)?;
-        writeln!(
-            out,
-            "{:<14} exponential against newmark-explicit: {methods:.2e} (limit {limit:.0e})",
-            scene.name
-        )?;
-        writeln!(
-            out,
-            "{:<14} truncated basis against all modes:    {basis:.2e} (limit 1e-2)",
-            scene.name
-        )?;
+        writeln!(out, "{:<14} exponential against newmark-explicit: {methods:.2e} (limit {limit:.0e})", scene.name)?;
+        writeln!(out, "{:<14} truncated basis against all modes:    {basis:.2e} (limit 1e-2)", scene.name)?;
         // the two limits on the methods are those that the scenes were made for: nothing but
         // integration error is left on the smooth one, sensitivity to it grows with the contacts
         // that open and close on the healthy one
-        assert!(
-            methods < limit,
-            "{}: the integrators differ by {methods:.3e}",
-            scene.name
-        );
-        assert!(
-            basis < 1e-2,
-            "{}: the truncated basis differs by {basis:.3e}",
-            scene.name
-        );
+        assert!(methods < limit, "{}: the integrators differ by {methods:.3e}", scene.name);
+        assert!(basis < 1e-2, "{}: the truncated basis differs by {basis:.3e}", scene.name);
     }
     Ok(())
 }
 
 fn run(scene: &Scene, settings: &[&str]) -> Result<RunResult, Box<dyn Error>> {
     let path = format!("{}/{}", env!("CARGO_MANIFEST_DIR"), scene.case);
-    let set: Vec<String> = scene
-        .common
-        .iter()
-        .chain(settings)
-        .map(|setting| (*setting).to_owned())
-        .collect();
+    let set: Vec<String> = scene.common.iter().chain(settings).map(|setting| (*setting).to_owned()).collect();
     Ok(compute_run(&Case::load(path, &set)?, &Unwatched)?)
 }
 
@@ -124,11 +87,7 @@ fn limited(result: &RunResult) -> Result<TimeSeries, Box<dyn Error>> {
 }
 
 fn row(out: &mut impl Write, scene: &Scene, result: &RunResult) -> std::io::Result<()> {
-    let basis = if result.simulation.residual {
-        " + residual"
-    } else {
-        ""
-    };
+    let basis = if result.simulation.residual { " + residual" } else { "" };
     writeln!(
         out,
         "{:<14} {:<34} {:>9} {:>10.3e} {:>10} {:>14.3} {:>16.1}",

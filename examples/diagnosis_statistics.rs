@@ -40,10 +40,7 @@ const STATES: [(&str, &str); 4] = [
         "inner race",
         "[{on='inner',angle_deg=0,length=0.8e-3,width=0.2e-3,depth=0.015e-3,profile='in-plane',rim_radius=0.05e-3}]",
     ),
-    (
-        "ball",
-        "[{on='ball',ball=0,angle_deg=0,flat_radius=2e-3,depth=0.01e-3,rim_radius=0.05e-3}]",
-    ),
+    ("ball", "[{on='ball',ball=0,angle_deg=0,flat_radius=2e-3,depth=0.01e-3,rim_radius=0.05e-3}]"),
 ];
 
 const WINDOW: TimeWindow = TimeWindow { from: 2.2, to: 2.8 };
@@ -70,18 +67,8 @@ const CONDITIONS: [Condition; 7] = [
     condition("slip, diameter and -10 dB", true, 0.01, Some(-10.0)),
 ];
 
-const fn condition(
-    name: &'static str,
-    slip: bool,
-    geometry: f64,
-    noise_db: Option<f64>,
-) -> Condition {
-    Condition {
-        name,
-        slip,
-        geometry,
-        noise_db,
-    }
+const fn condition(name: &'static str, slip: bool, geometry: f64, noise_db: Option<f64>) -> Condition {
+    Condition { name, slip, geometry, noise_db }
 }
 
 /// Uniform and normal numbers (splitmix64, Box and Muller).
@@ -115,24 +102,16 @@ fn main() -> Result<(), Failure> {
 
 /// Simulates and judges everything in a housing and writes its table.
 fn table(housing: &str, runs: u32) -> Result<(), Failure> {
-    let path = format!(
-        "{}/examples/housings/{housing}.toml",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let path = format!("{}/examples/housings/{housing}.toml", env!("CARGO_MANIFEST_DIR"));
     let structure = CoupledStructure::build(&Case::load(&path, &[])?, &Unwatched)?;
     let structure = structure.ok_or("the case has no ring")?;
-    let jobs: Vec<(usize, u32)> = (0..STATES.len())
-        .flat_map(|state| (0..runs).map(move |run| (state, run)))
-        .collect();
+    let jobs: Vec<(usize, u32)> = (0..STATES.len()).flat_map(|state| (0..runs).map(move |run| (state, run))).collect();
     let names: Vec<Vec<Vec<&str>>> = jobs
         .par_iter()
         .map(|&(state, run)| judge_run(&path, &structure, state, run))
         .collect::<Result<_, Failure>>()?;
     let mut out = std::io::stdout().lock();
-    writeln!(
-        out,
-        "{housing}, {runs} runs each: times named / times another part was named"
-    )?;
+    writeln!(out, "{housing}, {runs} runs each: times named / times another part was named")?;
     write!(out, "| disturbed by |")?;
     for (state, _) in STATES {
         write!(out, " {state} |")?;
@@ -160,10 +139,7 @@ fn table(housing: &str, runs: u32) -> Result<(), Failure> {
         for (condition, named) in CONDITIONS.iter().zip(verdicts) {
             for wrong in named.iter().filter(|name| **name != part) {
                 let disturbed = condition.name;
-                writeln!(
-                    out,
-                    "run {run}, damaged: {part}, disturbed by: {disturbed}: {wrong} named"
-                )?;
+                writeln!(out, "run {run}, damaged: {part}, disturbed by: {disturbed}: {wrong} named")?;
             }
         }
     }
@@ -217,10 +193,7 @@ fn simulate(
     let mut scene = Scene::around(structure.clone(), run)?;
     let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
-    let span = Span {
-        duration: asked.end - asked.start,
-        output_hz: asked.output_hz,
-    };
+    let span = Span { duration: asked.end - asked.start, output_hz: asked.output_hz };
     let simulation = Simulation::from_rest(&scene, &choice.model, span, |_| ())?;
     let geometry = &scene.setup.geometry;
     let diameters = (2.0 * geometry.ball_radius(), 2.0 * geometry.pitch_radius());
@@ -234,10 +207,7 @@ fn with_noise(signal: &TimeSeries, noise_db: Option<f64>, run: u32) -> Result<Ti
     };
     let level = signal.window(WINDOW.from, WINDOW.to)?.rms() * 10_f64.powf(-noise_db / 20.0);
     let mut random = Random(1000 + u64::from(run));
-    let noisy = signal
-        .values()
-        .iter()
-        .map(|value| value + level * random.normal());
+    let noisy = signal.values().iter().map(|value| value + level * random.normal());
     Ok(signal.with_values(noisy.collect())?)
 }
 
@@ -257,14 +227,8 @@ fn named(
     let kinematics = Kinematics::Given {
         orders: FaultOrders::of(&row.orders(), 0.01)?,
         speed: SpeedProfile::new(&[
-            SpeedKnot {
-                time: 0.2,
-                frequency_hz: 0.0,
-            },
-            SpeedKnot {
-                time: 4.7,
-                frequency_hz: 45.0,
-            },
+            SpeedKnot { time: 0.2, frequency_hz: 0.0 },
+            SpeedKnot { time: 4.7, frequency_hz: 45.0 },
         ])?,
     };
     let settings = AnalysisSettings {
@@ -283,8 +247,5 @@ fn named(
     };
     let windows = analyse("P1", &settings, read, &kinematics)?;
     let diagnosis = windows[0].diagnosis.as_ref().map_err(String::clone)?;
-    Ok(diagnosis
-        .named()
-        .map(|verdict| verdict.fault.name())
-        .collect())
+    Ok(diagnosis.named().map(|verdict| verdict.fault.name()).collect())
 }

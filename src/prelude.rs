@@ -11,9 +11,7 @@ pub use crate::fe::assembly::SystemMatrices;
 pub use crate::fe::material::Material;
 pub use crate::fe::mesh::Mesh;
 pub use crate::fe::modal::{ModalBasis, ModeRange};
-pub use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport,
-};
+pub use crate::fe::model::{Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport};
 pub use crate::formats::{read_superelement_npz, write_superelement_npz};
 pub use crate::numerics::units::LengthUnit;
 pub use crate::numerics::{Unwatched, Watch};

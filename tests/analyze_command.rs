@@ -25,9 +25,7 @@ fn json(output: &Output) -> Value {
 fn named(window: &Value) -> Vec<&str> {
     let faults = window["verdict"]["faults"].as_array().unwrap().iter();
     let named = faults.filter(|fault| fault["conclusion"] == "named");
-    named
-        .map(|fault| fault["fault"].as_str().unwrap())
-        .collect()
+    named.map(|fault| fault["fault"].as_str().unwrap()).collect()
 }
 
 fn numbers(list: &Value) -> Vec<f64> {
@@ -60,10 +58,7 @@ fn window(name: &str, set: &[String]) -> WindowAnalysis {
 fn faults(window: &WindowAnalysis) -> Vec<&'static str> {
     let diagnosis = window.diagnosis.as_ref().unwrap();
     println!("{}", diagnosis.sentence());
-    diagnosis
-        .named()
-        .map(|verdict| verdict.fault.name())
-        .collect()
+    diagnosis.named().map(|verdict| verdict.fault.name()).collect()
 }
 
 #[test]
@@ -164,21 +159,10 @@ fn a_run_and_its_folder_have_the_same_verdict() {
     let words = ["analyze", "dent", "--force", "--window", "0.2:0.25"];
     let brief = plummer(&folder, &words);
     assert_eq!(brief.status.code(), Some(1), "{}", errors(&brief));
-    assert!(
-        errors(&brief).contains("no part could be judged"),
-        "{}",
-        errors(&brief)
-    );
-    let outside = plummer(
-        &folder,
-        &["analyze", "dent", "--force", "--window", "0.2:9"],
-    );
+    assert!(errors(&brief).contains("no part could be judged"), "{}", errors(&brief));
+    let outside = plummer(&folder, &["analyze", "dent", "--force", "--window", "0.2:9"]);
     assert_eq!(outside.status.code(), Some(2));
-    assert!(
-        errors(&outside).contains("is not inside the series"),
-        "{}",
-        errors(&outside)
-    );
+    assert!(errors(&outside).contains("is not inside the series"), "{}", errors(&outside));
 }
 
 /// A table as a recorder may write it: rings of 3 kHz, struck 3.585 times a turn of 25 Hz, and noise.
@@ -187,9 +171,7 @@ fn recorded(header: &str) -> String {
     for k in 0..16_000_u32 {
         let t = f64::from(k) / 16e3;
         let since = t - (t * 89.625).floor() / 89.625;
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         let noise = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
         let ring = (-600.0 * since).exp() * (TAU * 3e3 * since).sin();
         writeln!(text, "{t},{:.6}", ring + 0.3 * noise).unwrap();
@@ -201,14 +183,7 @@ fn recorded(header: &str) -> String {
 fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let folder = scratch("analyze-table");
     fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
-    let bearing = [
-        "--balls",
-        "9",
-        "--pitch-diameter",
-        "39.04",
-        "--ball-diameter",
-        "7.94",
-    ];
+    let bearing = ["--balls", "9", "--pitch-diameter", "39.04", "--ball-diameter", "7.94"];
     let analyze = |more: &[&str]| {
         let words = [&["analyze", "bench.csv", "--force"][..], more].concat();
         plummer(&folder, &words)
@@ -223,7 +198,8 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let written = fs::read_to_string(folder.join("out/bench/analysis.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), found);
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    let command = "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
+    let command =
+        "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
     assert!(report.contains(command), "the command line");
     assert!(report.contains("outer race"));
     // six harmonics of 89.6 Hz; the fourth is within 3 % of three times the ball's 117.8 Hz too
@@ -248,10 +224,7 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let found = json(&analyze(&[&named_bearing[..], &["--json"]].concat()));
     assert_eq!(named(&found["windows"][0]), ["outer race"]);
     let order = found["defect_orders"]["outer"].as_f64().unwrap();
-    assert!(
-        (order / (4.5 * (1.0 - 7.938 / 39.1)) - 1.0).abs() < 1e-12,
-        "{order}"
-    );
+    assert!((order / (4.5 * (1.0 - 7.938 / 39.1)) - 1.0).abs() < 1e-12, "{order}");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
     assert!(report.contains("9 balls of 7.938 mm on a circle of 39.10 mm (GMN, "));
     assert!(report.contains("--bearing 6205"), "the command line");
@@ -259,22 +232,11 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     fs::write(folder.join("6205"), "[bearing]\n").unwrap();
     let file = analyze(&named_bearing);
     assert_eq!(file.status.code(), Some(2));
-    assert!(
-        errors(&file).starts_with("error: 6205:1: "),
-        "{}",
-        errors(&file)
-    );
+    assert!(errors(&file).starts_with("error: 6205:1: "), "{}", errors(&file));
     fs::remove_file(folder.join("6205")).unwrap();
     // by orders alone, and a speed over time that is constant all the same
-    let orders = [
-        "--orders",
-        "outer=3.585,inner=5.415",
-        "--speed",
-        "0:25,1:25",
-    ];
-    let found = json(&analyze(
-        &[&orders[..], &["--json", "--band", "2000:5000"]].concat(),
-    ));
+    let orders = ["--orders", "outer=3.585,inner=5.415", "--speed", "0:25,1:25"];
+    let found = json(&analyze(&[&orders[..], &["--json", "--band", "2000:5000"]].concat()));
     assert_eq!(named(&found["windows"][0]), ["outer race"]);
     assert!(found["defect_orders"]["ball"].is_null());
     assert_eq!(numbers(&found["windows"][0]["band_hz"]), [2e3, 5e3]);
@@ -284,33 +246,21 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let window = &found["windows"][0];
     assert_eq!(named(window), ["outer race"]);
     let band = numbers(&window["band_hz"]);
-    assert!(
-        band[0] >= 1083.0 && band[0] < 3e3 && band[1] > 3e3,
-        "{band:?}"
-    );
+    assert!(band[0] >= 1083.0 && band[0] < 3e3 && band[1] > 3e3, "{band:?}");
     assert_eq!(window["high_pass_hz"].as_f64(), Some(band[0]));
     let kurtosis = window["kurtosis_of_band"].as_f64().unwrap();
     assert!(kurtosis > window["kurtosis_limit"].as_f64().unwrap());
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    assert!(
-        report.contains("--speed 25 --band kurtogram"),
-        "the command line"
-    );
+    assert!(report.contains("--speed 25 --band kurtogram"), "the command line");
     assert!(report.contains("Kurtogram of P1") && report.contains("Kurtosis of that band"));
     // the whitened signal's squared envelope: a number without unit, and what is drawn of it
     assert_eq!(window["whitened"], false);
     let found = json(&by(&["--speed", "25", "--json", "--whiten"]));
     let window = &found["windows"][0];
-    assert_eq!(
-        (&window["whitened"], named(window)),
-        (&Value::from(true), vec!["outer race"])
-    );
+    assert_eq!((&window["whitened"], named(window)), (&Value::from(true), vec!["outer race"]));
     let strongest = &peaks(window)[0];
     assert_eq!(strongest["labels"][0], "1 x outer race", "{strongest}");
-    assert!(
-        strongest["above_median_db"].as_f64().unwrap() > 12.0,
-        "{strongest}"
-    );
+    assert!(strongest["above_median_db"].as_f64().unwrap() > 12.0, "{strongest}");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
     assert!(report.contains("Squared envelope spectrum, whitened, of P1"));
     assert!(report.contains("--speed 25 --whiten"), "the command line");
@@ -362,34 +312,19 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     }
     let unknown = analyze(&["--speed", "25", "--bearing", "6299"]);
     assert_eq!(unknown.status.code(), Some(2));
-    let expected = "error: --bearing: found \"6299\", expected a case file or a bearing of the catalogue\nhelp: bearings: 625, ";
-    assert!(
-        errors(&unknown).starts_with(expected),
-        "{}",
-        errors(&unknown)
-    );
+    let expected =
+        "error: --bearing: found \"6299\", expected a case file or a bearing of the catalogue\nhelp: bearings: 625, ";
+    assert!(errors(&unknown).starts_with(expected), "{}", errors(&unknown));
     let still = by(&["--speed", "0"]);
     assert_eq!(still.status.code(), Some(1));
-    assert!(
-        errors(&still).contains("found one that rests or turns back at 0 s"),
-        "{}",
-        errors(&still)
-    );
+    assert!(errors(&still).contains("found one that rests or turns back at 0 s"), "{}", errors(&still));
 }
 
 /// A table with these channels, rings of 3 kHz as of [`recorded`] in the first of them and its noise in the others.
 fn channels(names: &[&str], with_time: bool) -> String {
     let table = recorded("");
-    let rows: Vec<(&str, &str)> = table
-        .lines()
-        .skip(1)
-        .filter_map(|row| row.split_once(','))
-        .collect();
-    let mut text = if with_time {
-        "time,".to_owned()
-    } else {
-        String::new()
-    };
+    let rows: Vec<(&str, &str)> = table.lines().skip(1).filter_map(|row| row.split_once(',')).collect();
+    let mut text = if with_time { "time,".to_owned() } else { String::new() };
     text.push_str(&names.join(","));
     for (place, (time, ring)) in rows.iter().enumerate() {
         text.push('\n');
@@ -413,25 +348,10 @@ fn a_speed_has_a_unit_and_a_large_one_without_is_doubted() {
     let folder = scratch("analyze-speed");
     fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
     let at = |speed: &str, more: &[&str]| {
-        let words = [
-            "analyze",
-            "bench.csv",
-            "--force",
-            "--orders",
-            ORDERS,
-            "--speed",
-            speed,
-        ];
+        let words = ["analyze", "bench.csv", "--force", "--orders", ORDERS, "--speed", speed];
         plummer(&folder, &[&words[..], more].concat())
     };
-    for speed in [
-        "1500rpm",
-        "1500 RPM",
-        "25 hz",
-        "25",
-        "1500 1/min",
-        "0:1500rpm,1:1500rpm",
-    ] {
+    for speed in ["1500rpm", "1500 RPM", "25 hz", "25", "1500 1/min", "0:1500rpm,1:1500rpm"] {
         let output = at(speed, &["--json"]);
         assert_eq!(errors(&output), "", "{speed}");
         let found = json(&output);
@@ -445,18 +365,13 @@ fn a_speed_has_a_unit_and_a_large_one_without_is_doubted() {
     assert!(report().contains("The shaft turns as --speed says: 1500 rpm."));
     let doubted = at("1797", &[]);
     let words = "--speed 1797 is read as 1797 Hz (107 820 rpm): write 1797rpm if revolutions per minute were meant";
-    assert!(
-        errors(&doubted).starts_with(&format!("warning: {words}\n")),
-        "{}",
-        errors(&doubted)
-    );
+    assert!(errors(&doubted).starts_with(&format!("warning: {words}\n")), "{}", errors(&doubted));
     assert!(report().contains(words));
     assert!(!errors(&at("1797", &["--quiet"])).contains("warning"));
     let unknown = at("1797 rps", &[]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(
-        errors(&unknown)
-            .contains("SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz), found \"1797 rps\""),
+        errors(&unknown).contains("SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz), found \"1797 rps\""),
         "{}",
         errors(&unknown)
     );
@@ -467,16 +382,7 @@ fn orders_have_the_names_of_catalogues_too() {
     let folder = scratch("analyze-orders");
     fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
     let by = |orders: &str| {
-        let words = [
-            "analyze",
-            "bench.csv",
-            "--force",
-            "--speed",
-            "25",
-            "--json",
-            "--orders",
-            orders,
-        ];
+        let words = ["analyze", "bench.csv", "--force", "--speed", "25", "--json", "--orders", orders];
         plummer(&folder, &words)
     };
     let orders = |output: &Output| json(output)["defect_orders"].clone();
@@ -488,11 +394,7 @@ fn orders_have_the_names_of_catalogues_too() {
     let command = "outer=3.585,inner=5.415,ball=4.714,cage=0.398";
     assert!(report.contains(command), "the command line");
     let spin = by("outer=3.585,inner=5.415,ball=2.357");
-    assert!(
-        errors(&spin).contains("write BSF=2.357 if the spin of a ball is meant"),
-        "{}",
-        errors(&spin)
-    );
+    assert!(errors(&spin).contains("write BSF=2.357 if the spin of a ball is meant"), "{}", errors(&spin));
 }
 
 #[test]
@@ -536,8 +438,7 @@ fn all_that_is_missing_is_said_at_once() {
 fn rows(folder: &std::path::Path) -> Vec<Vec<String>> {
     let text = fs::read_to_string(folder.join("analysis.csv")).unwrap();
     let rows = text.lines().skip(1);
-    rows.map(|row| row.split(',').map(str::to_owned).collect())
-        .collect()
+    rows.map(|row| row.split(',').map(str::to_owned).collect()).collect()
 }
 
 #[test]
@@ -546,32 +447,19 @@ fn many_files_are_one_table() {
     fs::write(folder.join("a.csv"), recorded("time,P1 (g)")).unwrap();
     fs::write(folder.join("b.csv"), channels(&["P1", "P2"], true)).unwrap();
     let shared = ["--orders", ORDERS, "--speed", "1500rpm"];
-    let analyze = |files: &[&str], more: &[&str]| {
-        plummer(&folder, &[&["analyze"], files, &shared[..], more].concat())
-    };
-    let all = analyze(
-        &["b.csv", "a.csv"],
-        &["--window", "0:0.5", "--window", "0.5:0.9"],
-    );
+    let analyze = |files: &[&str], more: &[&str]| plummer(&folder, &[&["analyze"], files, &shared[..], more].concat());
+    let all = analyze(&["b.csv", "a.csv"], &["--window", "0:0.5", "--window", "0.5:0.9"]);
     assert_eq!(all.status.code(), Some(0), "{}", errors(&all));
     assert_eq!(errors(&all), "");
     let text = String::from_utf8(all.stdout.clone()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert!(
-        lines[0].starts_with("file   channel  window s  speed Hz"),
-        "{text}"
-    );
+    assert!(lines[0].starts_with("file   channel  window s  speed Hz"), "{text}");
     assert!(lines[1].starts_with("b.csv  P1       0-0.5"), "{text}");
     assert!(lines[1].contains("outer race "), "{text}");
-    assert!(
-        lines[7].starts_with("wrote out/analysis/analysis.json"),
-        "{text}"
-    );
+    assert!(lines[7].starts_with("wrote out/analysis/analysis.json"), "{text}");
     let out = folder.join("out/analysis");
-    let found: Vec<[String; 4]> = rows(&out)
-        .iter()
-        .map(|row| [&row[0], &row[1], &row[2], &row[8]].map(String::clone))
-        .collect();
+    let found: Vec<[String; 4]> =
+        rows(&out).iter().map(|row| [&row[0], &row[1], &row[2], &row[8]].map(String::clone)).collect();
     let outer = "outer race";
     let expected = [
         ["b.csv", "P1", "0", outer],
@@ -586,35 +474,19 @@ fn many_files_are_one_table() {
     let written: Value = serde_json::from_str(&written).unwrap();
     let windows = written["windows"].as_array().unwrap();
     assert_eq!(windows.len(), 6);
-    assert_eq!(
-        (&windows[0]["input"], &windows[4]["input"]),
-        (&"b.csv".into(), &"a.csv".into())
-    );
+    assert_eq!((&windows[0]["input"], &windows[4]["input"]), (&"b.csv".into(), &"a.csv".into()));
     assert_eq!(named(&windows[4]), [outer]);
     assert_eq!(written["inputs"][1]["input"], "a.csv");
-    assert!(
-        (written["inputs"][1]["defect_orders"]["outer"]
-            .as_f64()
-            .unwrap()
-            - 3.585)
-            .abs()
-            < 1e-12
-    );
+    assert!((written["inputs"][1]["defect_orders"]["outer"].as_f64().unwrap() - 3.585).abs() < 1e-12);
     // the report has the table first, then the windows
     let report = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(
-        report.contains("plummer analyze b.csv a.csv --orders"),
-        "the command line"
-    );
+    assert!(report.contains("plummer analyze b.csv a.csv --orders"), "the command line");
     assert!(report.contains("a.csv: P1, 0.000-0.5000 s"));
     let first = fs::read_to_string(out.join("tables/analysis-1-verdicts.csv")).unwrap();
     assert_eq!(first, fs::read_to_string(out.join("analysis.csv")).unwrap());
     // whatever the number of threads
     let same = |threads| {
-        let output = analyze(
-            &["b.csv", "a.csv", "b.csv"],
-            &["--force", "--json", "--threads", threads],
-        );
+        let output = analyze(&["b.csv", "a.csv", "b.csv"], &["--force", "--json", "--threads", threads]);
         json(&output)["windows"].clone()
     };
     assert_eq!(same("1"), same("3"));
@@ -630,11 +502,8 @@ fn many_files_are_one_table() {
     assert!(report.contains(few));
     assert!(!out.join("tables/analysis-2-verdict.csv").exists());
     // an array that is no signal is left out
-    let values = recorded("")
-        .lines()
-        .skip(1)
-        .filter_map(|row| row.split_once(',')?.1.parse().ok())
-        .collect::<Vec<f64>>();
+    let values =
+        recorded("").lines().skip(1).filter_map(|row| row.split_once(',')?.1.parse().ok()).collect::<Vec<f64>>();
     let mut npz = NpzWriter::create(folder.join("m.npz")).unwrap();
     npz.array("rate_hz", &[16e3]).unwrap();
     npz.matrix("map", 2, 3, &[0.0; 6]).unwrap();
@@ -678,10 +547,7 @@ help: did you mean --channel 'P2'?
     assert_eq!(errors(&output), expected);
     let out = folder.join("out/analysis");
     let rows = rows(&out);
-    let found: Vec<[&str; 2]> = rows
-        .iter()
-        .map(|row| [row[0].as_str(), row[8].as_str()])
-        .collect();
+    let found: Vec<[&str; 2]> = rows.iter().map(|row| [row[0].as_str(), row[8].as_str()]).collect();
     let expected = [
         ["empty.csv", "not analysed"],
         ["folder", "not analysed"],
@@ -698,16 +564,8 @@ help: did you mean --channel 'P2'?
     // of no use at all: nothing is written
     let none = analyze(&["a.csv", "other.csv"], &["--out", "none"]);
     assert_eq!(none.status.code(), Some(2));
-    assert!(
-        errors(&none).contains("a.csv: nothing says how fast the shaft turns\n"),
-        "{}",
-        errors(&none)
-    );
-    assert!(
-        errors(&none).contains("\nhelp: --speed 29.95Hz or 1797rpm"),
-        "{}",
-        errors(&none)
-    );
+    assert!(errors(&none).contains("a.csv: nothing says how fast the shaft turns\n"), "{}", errors(&none));
+    assert!(errors(&none).contains("\nhelp: --speed 29.95Hz or 1797rpm"), "{}", errors(&none));
     assert!(!folder.join("none/analysis.json").exists());
 }
 
@@ -717,21 +575,11 @@ fn peaks_of_a_run_up_are_not_compared_with_lines() {
     let folder = scratch("analyze-run-up");
     fs::write(folder.join("bench.csv"), recorded("time,P1 (g)")).unwrap();
     let at = |speed: &str| {
-        let words = [
-            "analyze",
-            "bench.csv",
-            "--force",
-            "--json",
-            "--orders",
-            ORDERS,
-            "--speed",
-            speed,
-        ];
+        let words = ["analyze", "bench.csv", "--force", "--json", "--orders", ORDERS, "--speed", speed];
         let output = plummer(&folder, &words);
         let window = json(&output)["windows"][0].clone();
         let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-        let peaks =
-            fs::read_to_string(folder.join("out/bench/tables/analysis-2-strongest-peaks.csv"));
+        let peaks = fs::read_to_string(folder.join("out/bench/tables/analysis-2-strongest-peaks.csv"));
         (window, report, peaks.unwrap())
     };
     let why = "The speed changes in this window and smears all lines over Hz";
@@ -759,16 +607,8 @@ fn peaks_of_a_run_up_are_not_compared_with_lines() {
     let (some, report, _) = at("0:24.9,1:25.1");
     for peak in some["envelope_peaks"].as_array().unwrap() {
         let labels = peak["labels"].as_array().unwrap();
-        let allowed = [
-            "1 x outer race",
-            "1 x shaft",
-            "2 x shaft",
-            "3 x shaft",
-            "1 x ball",
-        ];
-        let all = labels
-            .iter()
-            .all(|label| allowed.contains(&label.as_str().unwrap()));
+        let allowed = ["1 x outer race", "1 x shaft", "2 x shaft", "3 x shaft", "1 x ball"];
+        let all = labels.iter().all(|label| allowed.contains(&label.as_str().unwrap()));
         assert!(all, "{peak}");
     }
     assert_eq!(some["envelope_peaks"][0]["labels"][0], "1 x outer race");
@@ -782,27 +622,12 @@ fn both_races_of_a_measured_bearing_are_named() {
     let folder = scratch("analyze-measured");
     let root = env!("CARGO_MANIFEST_DIR");
     let file = format!("{root}/examples/measured/nmb_1560kk.npz");
-    let bearing = [
-        "--balls",
-        "7",
-        "--pitch-diameter",
-        "10.514",
-        "--ball-diameter",
-        "2.770",
-    ];
+    let bearing = ["--balls", "7", "--pitch-diameter", "10.514", "--ball-diameter", "2.770"];
     // as its publisher rounds the speed, and as the shaft's lines have it
     for speed in ["306rpm", "304rpm"] {
-        let words = [
-            &["analyze", &file, "--json", "--force", "--speed", speed][..],
-            &bearing,
-        ]
-        .concat();
+        let words = [&["analyze", &file, "--json", "--force", "--speed", speed][..], &bearing].concat();
         let found = json(&plummer(&folder, &words));
-        assert_eq!(
-            named(&found["windows"][0]),
-            ["outer race", "inner race"],
-            "{speed}"
-        );
+        assert_eq!(named(&found["windows"][0]), ["outer race", "inner race"], "{speed}");
     }
 }
 
@@ -818,9 +643,7 @@ fn rings(header: &str, strength: f64, rate: u32, seed: u64) -> String {
             since if since >= 0.0 => since / 89.625,
             since => (since + 1.0) / 89.625,
         };
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         let noise = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
         let ring = strength * (-600.0 * since).exp() * (TAU * 3e3 * since).sin();
         writeln!(text, "{t},{:.6}", ring + 0.3 * noise).unwrap();
@@ -854,15 +677,10 @@ fn what_grew_since_a_baseline_is_said() {
     let line = outer(&window);
     assert_eq!(line["fault"], "outer race");
     assert_eq!(line["conclusion"], "grew", "{line:#}");
-    let [low, high] = numbers(&line["interval_db"])[..] else {
-        panic!("{line:#}")
-    };
+    let [low, high] = numbers(&line["interval_db"])[..] else { panic!("{line:#}") };
     assert!(low < 12.04 && 12.04 < high && high - low < 4.0, "{line:#}");
     let why = window["verdict"]["faults"][0]["why"].as_str().unwrap();
-    assert!(
-        why.contains("It grew since the earlier signal: +1"),
-        "{why}"
-    );
+    assert!(why.contains("It grew since the earlier signal: +1"), "{why}");
     let rms = &window["changes"]["levels"][0];
     assert_eq!(rms["conclusion"], "grew", "{rms:#}");
     let report = fs::read_to_string(folder.join("out/now/report.html")).unwrap();
@@ -883,49 +701,27 @@ fn what_grew_since_a_baseline_is_said() {
     assert_eq!(line["conclusion"], "as before", "{line:#}");
     assert_eq!(window["changes"]["channel"], "P9");
     let why = window["verdict"]["faults"][0]["why"].as_str().unwrap();
-    assert!(
-        why.contains("It was as strong in the earlier signal"),
-        "{why}"
-    );
+    assert!(why.contains("It was as strong in the earlier signal"), "{why}");
     // the band that rings lies beyond half the rate of the baseline
     let line = outer(&against("slow.csv", &[]));
     assert_eq!(line["conclusion"], "cannot be compared", "{line:#}");
     let why = line["why"].as_str().unwrap();
-    assert!(
-        why.contains("ends at 2000 Hz, half its sampling rate"),
-        "{why}"
-    );
+    assert!(why.contains("ends at 2000 Hz, half its sampling rate"), "{why}");
     // a speed and a window of its own
-    let window = against(
-        "same.csv",
-        &["--baseline-speed", "28", "--baseline-window", "1:3"],
-    );
+    let window = against("same.csv", &["--baseline-speed", "28", "--baseline-window", "1:3"]);
     let changes = &window["changes"];
-    assert_eq!(
-        (&changes["from"], &changes["to"]),
-        (&1.0.into(), &3.0.into())
-    );
+    assert_eq!((&changes["from"], &changes["to"]), (&1.0.into(), &3.0.into()));
     let warning = changes["warnings"][0].as_str().unwrap();
-    assert!(
-        warning.starts_with("The shaft turned at 28.00 Hz"),
-        "{warning}"
-    );
+    assert!(warning.starts_with("The shaft turned at 28.00 Hz"), "{warning}");
     // without a baseline nothing is said of one
     let alone = json(&analyze(&["now.csv"], &["--json"]));
     assert!(alone["windows"][0].get("changes").is_none());
     let table = fs::read_to_string(folder.join("out/now/analysis.csv")).unwrap();
     assert!(!table.contains("baseline"), "{table}");
     // many against one, and a file against itself
-    let many = analyze(
-        &["now.csv", "weaker.csv"],
-        &["--baseline", "weaker.csv", "--out", "many"],
-    );
+    let many = analyze(&["now.csv", "weaker.csv"], &["--baseline", "weaker.csv", "--out", "many"]);
     let said = String::from_utf8_lossy(&many.stdout).into_owned();
-    assert!(
-        said.contains("now.csv P1: grew since weaker.csv: outer race +1"),
-        "{said}{}",
-        errors(&many)
-    );
+    assert!(said.contains("now.csv P1: grew since weaker.csv: outer race +1"), "{said}{}", errors(&many));
     assert!(!said.contains("weaker.csv P1: grew"), "{said}");
     let report = fs::read_to_string(folder.join("many/report.html")).unwrap();
     assert!(report.contains("weaker.csv: The baseline is the input itself"));
@@ -941,11 +737,7 @@ fn what_grew_since_a_baseline_is_said() {
             &[],
             "error: --baseline metric.csv, channel \"P1\": expected g as in now.csv, found m/s^2\nhelp: scale one of the two files to the unit of the other\n",
         ),
-        (
-            "same.csv",
-            &["--baseline-window", "1:9"],
-            "error: --baseline same.csv, channel \"P9\": ",
-        ),
+        ("same.csv", &["--baseline-window", "1:9"], "error: --baseline same.csv, channel \"P9\": "),
         ("none.csv", &[], "error: cannot read none.csv"),
     ] {
         let words = [&["--baseline", baseline][..], more].concat();
@@ -957,10 +749,7 @@ fn what_grew_since_a_baseline_is_said() {
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
     // a rate that is typed is not the baseline's where that has times, and lost samples stay an error
     let typed = ["--rate", "16000", "--baseline"];
-    let slow = analyze(
-        &["now.csv"],
-        &[&typed[..], &["slow.csv", "--json"]].concat(),
-    );
+    let slow = analyze(&["now.csv"], &[&typed[..], &["slow.csv", "--json"]].concat());
     let changes = &json(&slow)["windows"][0]["changes"];
     assert!(changes["to"].as_f64().unwrap() > 3.9, "{changes:#}");
     let whole = rings("time,P1 (g)", 1.0, 16_000, 7);
@@ -971,38 +760,19 @@ fn what_grew_since_a_baseline_is_said() {
     let lost = analyze(&["now.csv"], &[&typed[..], &["gap.csv"]].concat());
     assert_eq!(lost.status.code(), Some(2), "{}", errors(&lost));
     // another name, and a sensor that is dead
-    let named = analyze(
-        &["now.csv"],
-        &[
-            "--baseline",
-            "two.csv",
-            "--baseline-channel",
-            "P2",
-            "--json",
-        ],
-    );
+    let named = analyze(&["now.csv"], &["--baseline", "two.csv", "--baseline-channel", "P2", "--json"]);
     assert_eq!(json(&named)["windows"][0]["changes"]["channel"], "P2");
     let rows = (0..4000).map(|k| format!("{},0\n", f64::from(k) / 1e3));
     let dead = format!("time,P1 (g)\n{}", rows.collect::<String>());
     fs::write(folder.join("dead.csv"), dead).unwrap();
     let said = analyze(&["now.csv"], &["--baseline", "dead.csv"]);
     let said = String::from_utf8_lossy(&said.stdout).into_owned();
-    assert!(
-        said.contains("warning: The earlier signal, P1, is constant: nothing can be compared"),
-        "{said}"
-    );
-    assert!(
-        said.contains("the lines of no part can be compared with dead.csv"),
-        "{said}"
-    );
+    assert!(said.contains("warning: The earlier signal, P1, is constant: nothing can be compared"), "{said}");
+    assert!(said.contains("the lines of no part can be compared with dead.csv"), "{said}");
     assert!(!said.contains("nothing grew"), "{said}");
     let dead = analyze(&["dead.csv"], &[]);
     assert_eq!(dead.status.code(), Some(1));
-    assert!(
-        errors(&dead).contains("expected a signal that changes, found a constant"),
-        "{}",
-        errors(&dead)
-    );
+    assert!(errors(&dead).contains("expected a signal that changes, found a constant"), "{}", errors(&dead));
 }
 
 #[test]
@@ -1010,14 +780,7 @@ fn a_shaft_faster_than_the_samples_is_refused() {
     let folder = scratch("analyze-fast");
     fs::write(folder.join("now.csv"), rings("time,P1", 1.0, 4000, 1)).unwrap();
     for speed in ["1e9", "0:30,20:1e300"] {
-        let words = [
-            "analyze",
-            "now.csv",
-            "--orders",
-            "outer=3.585",
-            "--speed",
-            speed,
-        ];
+        let words = ["analyze", "now.csv", "--orders", "outer=3.585", "--speed", speed];
         let output = plummer(&folder, &words);
         assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
         assert!(

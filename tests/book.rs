@@ -35,11 +35,7 @@ fn links(text: &str) -> Vec<Link> {
             let opening = rest[..at].rfind('[');
             let picture = opening.is_some_and(|start| rest[..start].ends_with('!'));
             let target = rest[at + 2..].split(')').next().unwrap_or("");
-            found.push(Link {
-                line,
-                target: target.to_owned(),
-                picture,
-            });
+            found.push(Link { line, target: target.to_owned(), picture });
             rest = &rest[at + 2..];
         }
     }
@@ -57,12 +53,8 @@ fn anchors(text: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for title in headings {
         let kept = title.to_lowercase();
-        let kept = kept
-            .chars()
-            .filter(|&letter| letter.is_alphanumeric() || "-_ ".contains(letter));
-        let slug: String = kept
-            .map(|letter| if letter == ' ' { '-' } else { letter })
-            .collect();
+        let kept = kept.chars().filter(|&letter| letter.is_alphanumeric() || "-_ ".contains(letter));
+        let slug: String = kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect();
         let before = times.entry(slug.clone()).or_insert(0);
         found.insert(match *before {
             0 => slug,
@@ -89,9 +81,7 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 fn remote(target: &str) -> bool {
-    ["http:", "https:", "//", "data:"]
-        .iter()
-        .any(|start| target.starts_with(start))
+    ["http:", "https:", "//", "data:"].iter().any(|start| target.starts_with(start))
 }
 
 /// What is wrong with a link of a page at `path`.
@@ -118,11 +108,7 @@ fn complaint(path: &Path, text: &str, link: &Link) -> Option<String> {
             return Some("no such file".to_owned());
         }
         let page = to.extension().is_some_and(|ending| ending == "md");
-        let text = if page {
-            fs::read_to_string(&to).unwrap()
-        } else {
-            String::new()
-        };
+        let text = if page { fs::read_to_string(&to).unwrap() } else { String::new() };
         (to, text)
     };
     match anchor {
@@ -164,12 +150,7 @@ fn every_link_leads_somewhere() {
             count += 1;
             if let Some(what) = complaint(&path, &text, &link) {
                 let page = path.strip_prefix(root()).unwrap();
-                wrong.push(format!(
-                    "{}:{}: {}: {what}",
-                    page.display(),
-                    link.line,
-                    link.target
-                ));
+                wrong.push(format!("{}:{}: {}: {what}", page.display(), link.line, link.target));
             }
         }
     }
@@ -199,10 +180,7 @@ fn the_summary_lists_every_page_once() {
     let docs = root().join("docs");
     let summary = docs.join("SUMMARY.md");
     let text = fs::read_to_string(&summary).unwrap();
-    let mut listed: Vec<_> = links(&text)
-        .iter()
-        .map(|link| docs.join(&link.target))
-        .collect();
+    let mut listed: Vec<_> = links(&text).iter().map(|link| docs.join(&link.target)).collect();
     listed.sort();
     let mut pages = pages_below(&docs);
     pages.retain(|page| *page != summary);
@@ -221,9 +199,7 @@ fn keys_of(source: &str) -> Vec<&str> {
             field if inside => {
                 let field = field.strip_prefix("pub ").unwrap_or(field);
                 let name = field.split(':').next().unwrap_or("");
-                let is_name = name
-                    .chars()
-                    .all(|letter| letter.is_alphanumeric() || letter == '_');
+                let is_name = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 let named = field.contains(": ") && is_name;
                 if named && !std::mem::take(&mut skipped) {
                     found.push(name);
@@ -238,9 +214,7 @@ fn keys_of(source: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_the_case_file_names_every_key() {
     let page = fs::read_to_string(root().join("docs/case-file.md")).unwrap();
-    let words: BTreeSet<&str> = page
-        .split(|letter: char| !(letter.is_alphanumeric() || letter == '_'))
-        .collect();
+    let words: BTreeSet<&str> = page.split(|letter: char| !(letter.is_alphanumeric() || letter == '_')).collect();
     let mut missing = BTreeSet::new();
     let mut count = 0;
     for entry in fs::read_dir(root().join("src/app/case")).unwrap() {
@@ -269,18 +243,10 @@ fn attributes<'a>(html: &'a str, name: &str) -> Vec<&'a str> {
 #[test]
 fn the_built_book_holds_together() {
     let own = root().join("target/tools/bin/mdbook");
-    let program = if own.is_file() {
-        own
-    } else {
-        PathBuf::from("mdbook")
-    };
+    let program = if own.is_file() { own } else { PathBuf::from("mdbook") };
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("book");
     let _ = fs::remove_dir_all(&folder);
-    let built = Command::new(&program)
-        .args(["build", "-d"])
-        .arg(&folder)
-        .arg(root().join("docs"))
-        .output();
+    let built = Command::new(&program).args(["build", "-d"]).arg(&folder).arg(root().join("docs")).output();
     let Ok(built) = built else {
         println!("skipped: mdbook is not installed (scripts/setup-ci.sh installs it)");
         return;
@@ -316,8 +282,7 @@ fn the_built_book_holds_together() {
             let there = if whole {
                 to.exists()
             } else {
-                fs::read_to_string(&to)
-                    .is_ok_and(|html| html.contains(&format!(" id=\"{anchor}\"")))
+                fs::read_to_string(&to).is_ok_and(|html| html.contains(&format!(" id=\"{anchor}\"")))
             };
             if !there {
                 wrong.push(format!("{}: {target}", name.display()));
@@ -331,55 +296,26 @@ fn the_built_book_holds_together() {
 #[test]
 fn links_anchors_and_complaints() {
     let text = "# One `x`: the ring's, two\n[a](b.md#c) `[no](x)` ![p](q.svg)\n```sh\n[no](y)\n```\n## Two\n### Two\n";
-    let found: Vec<_> = links(text)
-        .into_iter()
-        .map(|link| (link.line, link.target, link.picture))
-        .collect();
-    assert_eq!(
-        found,
-        [
-            (2, "b.md#c".to_owned(), false),
-            (2, "q.svg".to_owned(), true)
-        ]
-    );
+    let found: Vec<_> = links(text).into_iter().map(|link| (link.line, link.target, link.picture)).collect();
+    assert_eq!(found, [(2, "b.md#c".to_owned(), false), (2, "q.svg".to_owned(), true)]);
     let slugs: Vec<_> = anchors(text).into_iter().collect();
     assert_eq!(slugs, ["one-x-the-rings-two", "two", "two-1"]);
 
     let page = root().join("docs/limits.md");
     let said = |target: &str, picture| {
         let target = target.to_owned();
-        complaint(
-            &page,
-            "# A\n",
-            &Link {
-                line: 1,
-                target,
-                picture,
-            },
-        )
+        complaint(&page, "# A\n", &Link { line: 1, target, picture })
     };
     for (target, picture, expected) in [
         ("theory/structure.md", false, None),
         ("theory/structure.md#mesh", false, None),
         ("#a", false, None),
         ("https://gmsh.info", false, None),
-        (
-            "theory/structure.md#no",
-            false,
-            Some("structure.md has no such heading"),
-        ),
+        ("theory/structure.md#no", false, Some("structure.md has no such heading")),
         ("#b", false, Some("limits.md has no such heading")),
         ("none.md", false, Some("no such file")),
-        (
-            "../README.md",
-            false,
-            Some("leads out of docs, which the built book does not have"),
-        ),
-        (
-            "https://gmsh.info/logo.png",
-            true,
-            Some("a picture from a network"),
-        ),
+        ("../README.md", false, Some("leads out of docs, which the built book does not have")),
+        ("https://gmsh.info/logo.png", true, Some("a picture from a network")),
     ] {
         assert_eq!(said(target, picture).as_deref(), expected, "{target}");
     }

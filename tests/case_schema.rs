@@ -119,10 +119,7 @@ fn other_forms_are_valid() {
         9e-13, radius = 5.3e-3 }]\n[[sensors]]\nname = \"a\"\nrecovered = \"P1\"\n";
     assert!(read(superelement, &[]).is_ok());
     let schema = Case::schema();
-    assert_eq!(
-        Validator::new(&schema).check(&as_json(superelement)),
-        Ok(())
-    );
+    assert_eq!(Validator::new(&schema).check(&as_json(superelement)), Ok(()));
 }
 
 /// What the schema says to [`FULL`] with one value set.
@@ -236,37 +233,25 @@ fn wrong_cases_are_refused_by_both() {
     }
     assert!(read("title = \"a\"\n", &[]).is_err());
     let schema = Case::schema();
-    assert!(
-        Validator::new(&schema)
-            .check(&json!({ "title": "a" }))
-            .is_err()
-    );
+    assert!(Validator::new(&schema).check(&json!({ "title": "a" })).is_err());
 }
 
 /// Where a key stands, as it would be written with a value: `bearing = { defects = [{ depth = VALUE }] }`.
 fn written(path: &[String], value: &str) -> String {
-    path.iter()
-        .rev()
-        .enumerate()
-        .fold(value.to_owned(), |inside, (depth, step)| {
-            if step == "[]" {
-                format!("[{inside}]")
-            } else if depth + 1 == path.len() {
-                format!("{step} = {inside}\n")
-            } else {
-                format!("{{ {step} = {inside} }}")
-            }
-        })
+    path.iter().rev().enumerate().fold(value.to_owned(), |inside, (depth, step)| {
+        if step == "[]" {
+            format!("[{inside}]")
+        } else if depth + 1 == path.len() {
+            format!("{step} = {inside}\n")
+        } else {
+            format!("{{ {step} = {inside} }}")
+        }
+    })
 }
 
 /// Every table of the schema, as the path to it, with its keys: from every branch.
 fn tables(schema: &Value) -> Vec<(Vec<String>, Vec<String>)> {
-    fn walk(
-        root: &Value,
-        at: &Value,
-        path: &[String],
-        found: &mut Vec<(Vec<String>, Vec<String>)>,
-    ) {
+    fn walk(root: &Value, at: &Value, path: &[String], found: &mut Vec<(Vec<String>, Vec<String>)>) {
         if let Some(target) = at["$ref"].as_str() {
             let pointer = target.strip_prefix('#').unwrap();
             walk(root, root.pointer(pointer).unwrap(), path, found);
@@ -309,10 +294,7 @@ fn keys_of_the_schema_are_those_of_the_reader() {
             Err(CaseError::UnknownKey { keys, .. }) => keys.valid,
             Err(other) if path.last().is_some_and(|step| step == "[]") => {
                 // two items: damping.ratios
-                let twice = text.replace(
-                    "[{ unheard_of = 1 }]",
-                    "[{ unheard_of = 1 }, { unheard_of = 1 }]",
-                );
+                let twice = text.replace("[{ unheard_of = 1 }]", "[{ unheard_of = 1 }, { unheard_of = 1 }]");
                 match read(&twice, &[]) {
                     Err(CaseError::UnknownKey { keys, .. }) => keys.valid,
                     _ => panic!("{text}: {other}"),
@@ -332,25 +314,19 @@ fn keys_of_the_schema_are_those_of_the_reader() {
 #[test]
 fn keys_have_descriptions() {
     fn without(schema: &Value, path: &str, found: &mut Vec<String>) {
-        if let Some(properties) = schema["properties"]
-            .as_object()
-            .filter(|_| schema["additionalProperties"] == json!(false))
+        if let Some(properties) =
+            schema["properties"].as_object().filter(|_| schema["additionalProperties"] == json!(false))
         {
             for (key, schema) in properties {
                 if !schema["description"].is_string() {
                     found.push(format!("{path}.{key}"));
                 }
                 let text = schema["description"].as_str().unwrap_or_default();
-                assert!(
-                    !text.contains("`None`") && !text.contains("[`"),
-                    "{path}.{key}: {text}"
-                );
+                assert!(!text.contains("`None`") && !text.contains("[`"), "{path}.{key}: {text}");
             }
         }
         match schema {
-            Value::Object(map) => map
-                .iter()
-                .for_each(|(key, value)| without(value, &format!("{path}/{key}"), found)),
+            Value::Object(map) => map.iter().for_each(|(key, value)| without(value, &format!("{path}/{key}"), found)),
             Value::Array(items) => items.iter().for_each(|item| without(item, path, found)),
             _ => {}
         }
@@ -369,15 +345,8 @@ fn the_program_prints_the_schema_and_nothing_else() {
     let text = String::from_utf8(first.stdout).unwrap();
     let printed: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(printed, Case::schema());
-    assert_eq!(
-        printed["$schema"],
-        "http://json-schema.org/draft-07/schema#"
-    );
-    for words in [
-        &["schema"][..],
-        &["schema", "--json"],
-        &["schema", "--quiet"],
-    ] {
+    assert_eq!(printed["$schema"], "http://json-schema.org/draft-07/schema#");
+    for words in [&["schema"][..], &["schema", "--json"], &["schema", "--quiet"]] {
         let again = plummer(&folder, words);
         assert_eq!(String::from_utf8(again.stdout).unwrap(), text, "{words:?}");
     }
@@ -390,76 +359,28 @@ fn the_validator_refuses_what_each_keyword_excludes() {
     for (schema, good, bad) in [
         (json!({ "type": "integer" }), json!(3), json!(3.5)),
         (json!({ "type": "number" }), json!(3), json!("3")),
-        (
-            json!({ "type": ["string", "boolean"] }),
-            json!(true),
-            json!(1),
-        ),
+        (json!({ "type": ["string", "boolean"] }), json!(true), json!(1)),
         (json!({ "enum": ["a", true] }), json!(true), json!(false)),
         (json!({ "const": 3 }), json!(3), json!(4)),
         (json!({ "minimum": 0 }), json!(0), json!(-1)),
-        (
-            json!({ "items": { "type": "number" } }),
-            json!([1, 2]),
-            json!([1, "a"]),
-        ),
+        (json!({ "items": { "type": "number" } }), json!([1, 2]), json!([1, "a"])),
         (json!({ "minItems": 2 }), json!([1, 2]), json!([1])),
         (json!({ "maxItems": 2 }), json!([1, 2]), json!([1, 2, 3])),
-        (
-            json!({ "maxProperties": 1 }),
-            json!({ "a": 1 }),
-            json!({ "a": 1, "b": 2 }),
-        ),
-        (
-            json!({ "required": ["a"] }),
-            json!({ "a": 1 }),
-            json!({ "b": 1 }),
-        ),
-        (
-            json!({ "properties": { "a": { "type": "number" } } }),
-            json!({ "b": "x" }),
-            json!({ "a": "x" }),
-        ),
-        (
-            json!({ "properties": { "a": true }, "additionalProperties": false }),
-            json!({ "a": 1 }),
-            json!({ "b": 1 }),
-        ),
-        (
-            json!({ "additionalProperties": { "type": "number" } }),
-            json!({ "a": 1 }),
-            json!({ "a": "x" }),
-        ),
-        (
-            json!({ "dependencies": { "a": ["b"] } }),
-            json!({ "b": 1 }),
-            json!({ "a": 1 }),
-        ),
-        (
-            json!({ "not": { "required": ["a"] } }),
-            json!({}),
-            json!({ "a": 1 }),
-        ),
-        (
-            json!({ "allOf": [{ "minimum": 0 }, { "type": "integer" }] }),
-            json!(1),
-            json!(-1),
-        ),
-        (
-            json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] }),
-            json!("a"),
-            json!(true),
-        ),
+        (json!({ "maxProperties": 1 }), json!({ "a": 1 }), json!({ "a": 1, "b": 2 })),
+        (json!({ "required": ["a"] }), json!({ "a": 1 }), json!({ "b": 1 })),
+        (json!({ "properties": { "a": { "type": "number" } } }), json!({ "b": "x" }), json!({ "a": "x" })),
+        (json!({ "properties": { "a": true }, "additionalProperties": false }), json!({ "a": 1 }), json!({ "b": 1 })),
+        (json!({ "additionalProperties": { "type": "number" } }), json!({ "a": 1 }), json!({ "a": "x" })),
+        (json!({ "dependencies": { "a": ["b"] } }), json!({ "b": 1 }), json!({ "a": 1 })),
+        (json!({ "not": { "required": ["a"] } }), json!({}), json!({ "a": 1 })),
+        (json!({ "allOf": [{ "minimum": 0 }, { "type": "integer" }] }), json!(1), json!(-1)),
+        (json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] }), json!("a"), json!(true)),
         (
             json!({ "oneOf": [{ "required": ["a"] }, { "required": ["b"] }] }),
             json!({ "a": 1 }),
             json!({ "a": 1, "b": 1 }),
         ),
-        (
-            json!({ "$ref": "#/definitions/n", "definitions": { "n": { "type": "number" } } }),
-            json!(1),
-            json!("a"),
-        ),
+        (json!({ "$ref": "#/definitions/n", "definitions": { "n": { "type": "number" } } }), json!(1), json!("a")),
     ] {
         let validator = Validator::new(&schema);
         assert_eq!(validator.check(&good), Ok(()), "{schema}");

@@ -21,11 +21,7 @@ fn help_goes_to_standard_output_and_a_misspelt_command_to_standard_error() {
     let folder = scratch("help");
     let help = plummer(&folder, &["--help"]);
     assert_eq!(help.status.code(), Some(0));
-    assert!(
-        String::from_utf8(help.stdout)
-            .unwrap()
-            .contains("--set <KEY=VALUE>")
-    );
+    assert!(String::from_utf8(help.stdout).unwrap().contains("--set <KEY=VALUE>"));
     let wrong = plummer(&folder, &["mods", "ring.toml"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(wrong.stdout.is_empty());
@@ -50,10 +46,7 @@ fn wrong_input_is_exit_code_2_with_place_and_help() {
     );
     let set = plummer(&folder, &["modes", "ring.toml", "--set", "ring.nodes=4"]);
     assert_eq!(set.status.code(), Some(2));
-    assert_eq!(
-        errors(&set),
-        "error: --set ring.nodes=4: `ring.nodes`: found 4, expected 8 to 2000 nodes\n"
-    );
+    assert_eq!(errors(&set), "error: --set ring.nodes=4: `ring.nodes`: found 4, expected 8 to 2000 nodes\n");
     let lacking = plummer(&folder, &["run", "ring.toml"]);
     assert_eq!(lacking.status.code(), Some(2));
     assert_eq!(
@@ -107,14 +100,7 @@ fn a_mesh_is_inspected() {
     let plain = look(&["meshes/pedestal.msh"]);
     assert!(plain.contains("1620 Tet10"), "{plain}");
     assert!(plain.contains("give --length-unit mm"), "{plain}");
-    let json = look(&[
-        "meshes/pedestal.msh",
-        "--length-unit",
-        "mm",
-        "--density",
-        "2700",
-        "--json",
-    ]);
+    let json = look(&["meshes/pedestal.msh", "--length-unit", "mm", "--density", "2700", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     // foot and seat less bore and bolt holes; curved edges of Tet10 miss 1.1e-4 of it
     let drawn = 44.0 * 5.0 + 20.0 * 8.0 + std::f64::consts::PI * (50.0 - 36.0);
@@ -151,14 +137,7 @@ fn a_model_is_explained_without_a_run() {
     let output = plummer(&folder, &["run", case, "--explain", "--out", "out"]);
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    for part in [
-        "modes",
-        "balls",
-        "method",
-        "largest step",
-        "together",
-        "exponential-adams",
-    ] {
+    for part in ["modes", "balls", "method", "largest step", "together", "exponential-adams"] {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!folder.join("out").exists(), "nothing is written");

@@ -41,14 +41,7 @@ struct Cells {
 
 impl Cells {
     fn new(place: fn([usize; 3]) -> [f64; 3], around: Option<usize>) -> Self {
-        Self {
-            place,
-            around,
-            tags: BTreeMap::new(),
-            nodes: Vec::new(),
-            elements: Vec::new(),
-            groups: Vec::new(),
-        }
+        Self { place, around, tags: BTreeMap::new(), nodes: Vec::new(), elements: Vec::new(), groups: Vec::new() }
     }
 
     /// Elements of the lattice from one corner to the other, a dimension for each axis along which these differ.
@@ -63,19 +56,13 @@ impl Cells {
         let corners: Vec<Vec<usize>> = match axes.len() {
             0 => vec![vec![]],
             2 => RING.iter().map(|corner| corner.to_vec()).collect(),
-            3 => (0..2)
-                .flat_map(|up| RING.map(|[i, j]| vec![i, j, up]))
-                .collect(),
+            3 => (0..2).flat_map(|up| RING.map(|[i, j]| vec![i, j, up])).collect(),
             _ => panic!("points, faces or cells"),
         };
         let kind = [15, 0, 3, 5][axes.len()];
         let count = |axis: usize| (to[axis] - from[axis]).max(1);
         for cell in 0..count(0) * count(1) * count(2) {
-            let first = [
-                cell % count(0),
-                cell / count(0) % count(1),
-                cell / count(0) / count(1),
-            ];
+            let first = [cell % count(0), cell / count(0) % count(1), cell / count(0) / count(1)];
             let nodes = corners.iter().map(|corner| {
                 let mut at = [0, 1, 2].map(|axis| from[axis] + first[axis]);
                 for (&axis, step) in axes.iter().zip(corner) {
@@ -139,9 +126,7 @@ fn column() -> Cells {
 
 /// The column and a lid whose floor is at the height of the column's.
 fn column_and_lid() -> Cells {
-    column()
-        .add("lid", 1, [5, 0, 0], [7, 2, 2])
-        .add("lid floor", 1, [5, 0, 0], [7, 2, 0])
+    column().add("lid", 1, [5, 0, 0], [7, 2, 2]).add("lid floor", 1, [5, 0, 0], [7, 2, 0])
 }
 
 /// A bore of 12 mm, 4 mm long.
@@ -215,10 +200,7 @@ fn housing(parts: &[&str], supports: &str) -> String {
 
 /// Of the column alone.
 fn on(interface: &str, supports: &str) -> String {
-    format!(
-        "{}[condense]\ninterface = {interface}\n",
-        housing(&["body"], supports)
-    )
+    format!("{}[condense]\ninterface = {interface}\n", housing(&["body"], supports))
 }
 
 /// Of column and lid.
@@ -271,18 +253,13 @@ fn an_interface_that_a_support_clamps() {
          least one that is free\n\
          help: name other nodes in condense.interface, or take the support off them\n",
     );
-    for (fixed, held, left) in [
-        ("[\"x\", \"y\", \"z\"]", 36, 12),
-        ("[\"z\"]", 12, 36),
-        ("[\"x\", \"y\"]", 24, 24),
-    ] {
+    for (fixed, held, left) in [("[\"x\", \"y\", \"z\"]", 36, 12), ("[\"z\"]", 12, 36), ("[\"x\", \"y\"]", 24, 24)] {
         let support = format!("{{ group = \"half\", fixed = {fixed} }}");
         let case = on("{ group = \"floor\" }", &support);
         let said = run(&folder, &case, &["--compare-full"]);
         assert_eq!((said.code, said.error.as_str()), (0, ""), "{fixed}");
-        let line = format!(
-            "{held} displacements of the interface's nodes are no coordinates: held by the support \"half\"\n"
-        );
+        let line =
+            format!("{held} displacements of the interface's nodes are no coordinates: held by the support \"half\"\n");
         assert!(said.summary.contains(&line), "{}", said.summary);
         let json = said.json.unwrap();
         assert_eq!(json["interface_dof"], left);
@@ -312,16 +289,11 @@ fn a_bore_that_a_support_clamps_or_that_the_ring_does_not_reach() {
     let centre = "[0, 0, 0]";
     // a sliding bore turns about the axis and moves along it, whatever the ring does
     let sliding = ring("", 6e-3, centre).replace("tie = {", "tie = { fit = \"sliding\",");
-    let springs =
-        "supports = [{ from_deg = 0, to_deg = 360, spring = { x = 1e6, y = 1e6, z = 1e6 } }]\n";
+    let springs = "supports = [{ from_deg = 0, to_deg = 360, spring = { x = 1e6, y = 1e6, z = 1e6 } }]\n";
     let sliding = sliding + springs;
     let said = run(&folder, &sliding, &[]);
     let body = "is held, but can still move: 2 motions without stiffness\nhelp: join the part";
-    assert!(
-        said.error.contains(body) && said.code == 2,
-        "{}",
-        said.error
-    );
+    assert!(said.error.contains(body) && said.code == 2, "{}", said.error);
     let cut = "{ group = \"cut\", fixed = [\"x\"] }";
     refused(
         &run(&folder, &ring(cut, 6e-3, centre), &[]),
@@ -369,12 +341,9 @@ fn a_part_that_hangs_on_nothing_is_named() {
     let held = "{ group = \"lid floor\", fixed = [\"x\", \"y\", \"z\"] }";
     let said = run(&folder, &with_lid(TOP, held), &["--quiet"]);
     assert_eq!(said.code, 1);
-    let body = "part \"body\" (45 elements, near x = 0.0150, y = 0.0150, z = 0.0250 m) is not connected: 6 extra rigid modes";
-    assert!(
-        said.error.starts_with("error: held: found "),
-        "{}",
-        said.error
-    );
+    let body =
+        "part \"body\" (45 elements, near x = 0.0150, y = 0.0150, z = 0.0250 m) is not connected: 6 extra rigid modes";
+    assert!(said.error.starts_with("error: held: found "), "{}", said.error);
     assert!(said.error.contains(body), "{}", said.error);
     // joined along an edge
     let folder = scene("hinged", &column().add("lid", 0, [3, 0, 5], [5, 3, 7]));
@@ -406,10 +375,7 @@ fn a_part_on_soft_springs_is_right_or_refused() {
                 let exact = (k / mass).sqrt() / TAU;
                 // the lid is not rigid: 1e5 N/m on its floor shift 5e-4 of it, in proportion to k
                 let tolerance = 1e-7 + 5e-9 * k;
-                assert!(
-                    (found / exact - 1.0).abs() < tolerance,
-                    "{k:e}: {found} {exact}"
-                );
+                assert!((found / exact - 1.0).abs() < tolerance, "{k:e}: {found} {exact}");
             }
             1 => assert!(
                 said.error.starts_with("error: vectors diagonalise: found ")
@@ -419,8 +385,10 @@ fn a_part_on_soft_springs_is_right_or_refused() {
             ),
             _ => {
                 let start = "error: part \"lid\", near node ";
-                let what = ": with the interface held, part of the housing is held so softly, or has elements so flat, that ";
-                let help = "help: check the units of the springs that hold it and its flattest elements (`plummer inspect`)";
+                let what =
+                    ": with the interface held, part of the housing is held so softly, or has elements so flat, that ";
+                let help =
+                    "help: check the units of the springs that hold it and its flattest elements (`plummer inspect`)";
                 for part in [start, what, help] {
                     assert!(said.error.contains(part), "{k:e}: {}", said.error);
                 }
@@ -428,11 +396,7 @@ fn a_part_on_soft_springs_is_right_or_refused() {
         }
     }
     // too soft and stiff enough are both met
-    assert_eq!(
-        (ends.first(), ends.last()),
-        (Some(&2), Some(&0)),
-        "{ends:?}"
-    );
+    assert_eq!((ends.first(), ends.last()), (Some(&2), Some(&0)), "{ends:?}");
 }
 
 /// A layer of the column, thinner and thinner: the frequencies of the column without it, or an error.
@@ -448,11 +412,7 @@ fn flat_elements_are_right_or_refused() {
     let reference = run(&scene("no-layer", &column()), &on(TOP, FLOOR), &["--quiet"]);
     let mut ends = Vec::new();
     for place in meshes {
-        let said = run(
-            &scene("flat", &column_of(6, place)),
-            &on(TOP, FLOOR),
-            &["--quiet"],
-        );
+        let said = run(&scene("flat", &column_of(6, place)), &on(TOP, FLOOR), &["--quiet"]);
         if said.code == 0 {
             for list in ["interior_frequencies_hz", "frequencies_hz"] {
                 let (found, expected) = (said.number(list, 0), reference.number(list, 0));
@@ -460,20 +420,9 @@ fn flat_elements_are_right_or_refused() {
                 assert!((found / expected - 1.0).abs() < 5e-4, "{found} {expected}");
             }
         }
-        ends.push((
-            said.code,
-            said.error
-                .split([':', '\n'])
-                .nth(1)
-                .unwrap_or("")
-                .to_owned(),
-        ));
+        ends.push((said.code, said.error.split([':', '\n']).nth(1).unwrap_or("").to_owned()));
     }
-    assert_eq!(
-        ends.iter().map(|end| end.0).collect::<Vec<_>>(),
-        [0, 0, 1, 1, 2],
-        "{ends:?}"
-    );
+    assert_eq!(ends.iter().map(|end| end.0).collect::<Vec<_>>(), [0, 0, 1, 1, 2], "{ends:?}");
 }
 
 fn layered([x, y, z]: [usize; 3], thin: f64) -> [f64; 3] {
@@ -499,16 +448,9 @@ fn an_interface_of_all_nodes_or_of_too_few() {
         &run(&folder, &on("{ group = \"corner\" }", ""), &[]),
         &format!("{start}3 motions without stiffness\n{JOIN}"),
     );
-    refused(
-        &run(&folder, &on("{ group = \"edge\" }", ""), &[]),
-        &format!("{start}1 motion without stiffness\n{JOIN}"),
-    );
+    refused(&run(&folder, &on("{ group = \"edge\" }", ""), &[]), &format!("{start}1 motion without stiffness\n{JOIN}"));
     // one node is enough for a housing that is held
-    let said = run(
-        &folder,
-        &on("{ group = \"corner\" }", FLOOR),
-        &["--compare-full"],
-    );
+    let said = run(&folder, &on("{ group = \"corner\" }", FLOOR), &["--compare-full"]);
     assert_eq!((said.code, said.error.as_str()), (0, ""));
     assert_eq!(said.json.unwrap()["interface_dof"], 3);
 }
@@ -516,23 +458,11 @@ fn an_interface_of_all_nodes_or_of_too_few() {
 #[test]
 fn nodes_twice_or_none_are_refused_by_place() {
     let folder = scene("nodes", &column());
-    let line = |nodes: &str| {
-        run(
-            &folder,
-            &on(&format!("{{ nodes = [{nodes}] }}"), FLOOR),
-            &[],
-        )
-    };
+    let line = |nodes: &str| run(&folder, &on(&format!("{{ nodes = [{nodes}] }}"), FLOOR), &[]);
     refused(
         &line("81, 82, 81"),
         "error: a.toml:7: `condense.interface.nodes[2]`: \"81\" stands here a second time, expected each once\n",
     );
-    refused(
-        &line(""),
-        "error: a.toml:7: `condense.interface.nodes`: found nothing, expected at least one node\n",
-    );
-    refused(
-        &line("81, 1000"),
-        "error: condense.interface.nodes[1]: the mesh has no node 1000\n",
-    );
+    refused(&line(""), "error: a.toml:7: `condense.interface.nodes`: found nothing, expected at least one node\n");
+    refused(&line("81, 1000"), "error: condense.interface.nodes[1]: the mesh has no node 1000\n");
 }

@@ -139,27 +139,14 @@ fn draw(number: u64) -> Drawn {
         modal * 100.0,
         band_hz / 1e3,
         seconds * 1e3,
-        if fault {
-            format!("{:.1}", depth * 1e6)
-        } else {
-            "-".to_owned()
-        },
+        if fault { format!("{:.1}", depth * 1e6) } else { "-".to_owned() },
     );
-    Drawn {
-        keys,
-        fault,
-        band_hz,
-        seconds,
-        text,
-    }
+    Drawn { keys, fault, band_hz, seconds, text }
 }
 
 /// The band-limited signals of a run by a model.
 fn signals(scene: &Scene, model: &RunModel, drawn: &Drawn) -> Result<Trace, String> {
-    let span = Span {
-        duration: drawn.seconds,
-        output_hz: SAMPLES * drawn.band_hz,
-    };
+    let span = Span { duration: drawn.seconds, output_hz: SAMPLES * drawn.band_hz };
     let run = Simulation::from_rest(scene, model, span, |_| ()).map_err(|e| e.to_string())?;
     if let RunEnd::BlewUp(error) = &run.end {
         return Err(error.to_string());
@@ -241,8 +228,7 @@ fn row(number: u64) -> Result<Row, String> {
     let scene = Scene::build(run, &Unwatched).map_err(|error| error.to_string())?;
     let choice = ModelChoice::of_case(run, &scene).map_err(|error| error.to_string())?;
     let estimate = choice.estimated_error.ok_or("no estimate")?;
-    let held =
-        Horizon::of(run, &scene, &choice).ok_or("the estimate's horizon was not measured")?;
+    let held = Horizon::of(run, &scene, &choice).ok_or("the estimate's horizon was not measured")?;
     let balls = scene.equilibrium.balls.iter();
     let pressed = { balls }.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
     let strikes = drawn.fault || !pressed;
@@ -256,19 +242,12 @@ fn row(number: u64) -> Result<Row, String> {
     }
     let until = horizon.min(held.held_s);
     if until <= start {
-        return Err(format!(
-            "the estimate holds for {:.1} ms only",
-            1e3 * held.held_s
-        ));
+        return Err(format!("the estimate holds for {:.1} ms only", 1e3 * held.held_s));
     }
     // since the start, as `accuracy.target` is meant, and without the beginning, in which little has gone wrong yet: the larger one is judged
     let errors = |model: &RunModel| -> Result<[f64; 2], String> {
         let signals = signals(&scene, model, &drawn)?;
-        let error = |from: f64| {
-            signals
-                .error(&truth, from, until)
-                .map_err(|e| e.to_string())
-        };
+        let error = |from: f64| signals.error(&truth, from, until).map_err(|e| e.to_string());
         Ok([error(0.0)?, error(start)?])
     };
     let [whole, inner] = errors(&choice.model)?;
@@ -282,8 +261,7 @@ fn row(number: u64) -> Result<Row, String> {
     let chosen = |what: &str| part(what).map_or("", |part| &part.chosen);
     let [modes, balls, method] =
         ["modes", "balls", "method"].map(|what| part(what).and_then(|part| part.estimated_error));
-    let number_of =
-        |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1e}"));
+    let number_of = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1e}"));
     let holds = whole.max(inner) <= estimate;
     let text = format!(
         "| {number} | {} | {} | {:.1} | {} {} | {} | {} | {} | {estimate:.1e} | {:.1} of {:.1} | {inner:.1e} | {whole:.1e} | {} | {} |",
@@ -300,11 +278,7 @@ fn row(number: u64) -> Result<Row, String> {
         number_of(of_model.ok().map(|[_, inner]| inner)),
         if holds { "yes" } else { "**no**" },
     );
-    Ok(Row {
-        text,
-        smooth,
-        holds,
-    })
+    Ok(Row { text, smooth, holds })
 }
 
 #[test]
@@ -329,11 +303,7 @@ fn estimates_hold() {
         let rows = rows.iter().flatten().filter(|row| row.smooth == smooth);
         let holds: Vec<bool> = rows.map(|row| row.holds).collect();
         let held = holds.iter().filter(|holds| **holds).count();
-        println!(
-            "{}: {held} of {} below their estimate",
-            if smooth { "smooth" } else { "others" },
-            holds.len()
-        );
+        println!("{}: {held} of {} below their estimate", if smooth { "smooth" } else { "others" }, holds.len());
         (held, holds.len())
     };
     let (smooth, others) = (of(true), of(false));

@@ -11,9 +11,7 @@ use plummer::system::{Formulation, LoadedMode};
 use plummer::app::case::{Case, Damping, Defect, Hold, Linearise, Method, Purpose, Variant};
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("examples")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name)
 }
 
 fn load(name: &str) -> Case {
@@ -35,10 +33,7 @@ fn the_dent_is_all_that_distinguishes_the_faulty_bearing() {
     assert_eq!(bearing.defects.len(), 1);
     bearing.defects.clear();
     dent.title.clone_from(&healthy.title);
-    assert_eq!(
-        serde_json::to_value(&dent).unwrap(),
-        serde_json::to_value(&healthy).unwrap()
-    );
+    assert_eq!(serde_json::to_value(&dent).unwrap(), serde_json::to_value(&healthy).unwrap());
 }
 
 #[test]
@@ -70,10 +65,7 @@ fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
     assert!(matches!(&bearing.defects[0], Defect::Dent(dent) if near(dent.length, 0.75e-3)));
     assert!(matches!(case.damping, Some(Damping::Modal(ratio)) if near(ratio, 0.03)));
     let housing = case.meshed_housing().unwrap();
-    assert_eq!(
-        housing.mesh,
-        path("tadina2011").join("../../meshes/ring_6_9.msh")
-    );
+    assert_eq!(housing.mesh, path("tadina2011").join("../../meshes/ring_6_9.msh"));
     assert!(matches!(
         housing.supports[0].hold,
         Hold::Spring(SpringStiffness::Global([x, y, _]), SupportShare::PerGroup)
@@ -83,10 +75,7 @@ fn the_dent_case_holds_the_papers_table_and_the_stated_choices() {
     case.check_groups(&groups).unwrap();
     // omega = 20 pi (t - 0.2): 10 Hz per second.
     let profile = &case.speed.as_ref().unwrap().profile;
-    assert!(near(
-        (profile[1].frequency_hz - profile[0].frequency_hz) / (profile[1].time - profile[0].time),
-        10.0
-    ));
+    assert!(near((profile[1].frequency_hz - profile[0].frequency_hz) / (profile[1].time - profile[0].time), 10.0));
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.method, Method::Auto);
     assert!(near(transient.end, 2.6));
@@ -102,10 +91,7 @@ fn the_beam_case_names_every_choice_of_the_fit() {
     assert!(!ring.shear);
     let (width, height) = (4e-3, 3e-3_f64);
     assert!(near(ring.sections[1].area, width * height));
-    assert!(near(
-        ring.sections[1].inertia,
-        width * height.powi(3) / 12.0
-    ));
+    assert!(near(ring.sections[1].inertia, width * height.powi(3) / 12.0));
     let bearing = case.bearing.as_ref().unwrap();
     assert_eq!(bearing.formulation, Formulation::Printed);
     // Half a ball spacing off the load: 270 + 360 / 7 / 2.
@@ -115,12 +101,7 @@ fn the_beam_case_names_every_choice_of_the_fit() {
         assert!(near(item.hz, hz));
     }
     assert_eq!(case.modes.expected.len(), 3);
-    assert!(
-        case.modes
-            .expected
-            .iter()
-            .all(|item| near(item.within, 0.015))
-    );
+    assert!(case.modes.expected.iter().all(|item| near(item.within, 0.015)));
 }
 
 #[test]
@@ -167,21 +148,14 @@ fn the_smooth_scene_is_preloaded_and_has_no_dent() {
 #[test]
 fn the_scenes_are_what_they_are_called() {
     let smooth = load("scenes/smooth.toml");
-    for (name, dents, damping, hz) in [
-        ("healthy", 0, 1.0, 21.0),
-        ("impact", 1, 2.0, 21.0),
-        ("rattle", 0, 0.0, 45.0),
-    ] {
+    for (name, dents, damping, hz) in [("healthy", 0, 1.0, 21.0), ("impact", 1, 2.0, 21.0), ("rattle", 0, 0.0, 45.0)] {
         let case = load(&format!("scenes/{name}.toml"));
         case.ready_for(Purpose::Chart).unwrap();
         let bearing = case.bearing.as_ref().unwrap();
         assert_eq!(bearing.defects.len(), dents, "{name}");
         assert!((bearing.contact_damping - damping).abs() < 1e-12, "{name}");
         assert!((bearing.play() - 2.5e-6).abs() < 1e-12, "{name}");
-        assert!(near(
-            case.speed.as_ref().unwrap().profile[0].frequency_hz,
-            hz
-        ));
+        assert!(near(case.speed.as_ref().unwrap().profile[0].frequency_hz, hz));
         let same = |case: &Case| {
             let parts = (&case.ring, &case.shaft, &case.damping, &case.sensors);
             serde_json::to_value(parts).unwrap()
@@ -207,10 +181,7 @@ fn the_pedestal_vibrates() {
     assert_eq!(ring.dof(), 6 * 72);
     let unloaded = &result.base.unloaded_hz;
     // this program's own numbers, with gmsh 4.8's mesh: pin it against itself, in full and condensed
-    assert!(
-        (unloaded[0] / 16160.466530 - 1.0).abs() < 1e-9,
-        "{unloaded:?}"
-    );
+    assert!((unloaded[0] / 16160.466530 - 1.0).abs() < 1e-9, "{unloaded:?}");
     let condensed = result.structure.as_ref().unwrap().modes.frequency_hz(0);
     // accuracy.target is 0.01, from above
     let error = condensed / unloaded[0] - 1.0;
@@ -247,8 +218,5 @@ fn variants_have_their_modes_in_full() {
     }
     let [fine, coarse] = [base, coarse].map(|reading| reading.condensation_difference.unwrap());
     // up to three times the band auto keeps what accuracy.target says; twenty plain modes: found 2.34e-2, at the last
-    assert!(
-        fine < 1e-2 && coarse > 2e-2 && coarse < 2.6e-2,
-        "{fine:e} {coarse:e}"
-    );
+    assert!(fine < 1e-2 && coarse > 2e-2 && coarse < 2.6e-2, "{fine:e} {coarse:e}");
 }

@@ -11,8 +11,7 @@ use nalgebra::DMatrix;
 use nalgebra_sparse::io::load_coo_from_matrix_market_file;
 use plummer::files::FileDigest;
 use plummer::formats::{
-    Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz,
-    write_superelement_npz,
+    Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz, write_superelement_npz,
 };
 use serde_json::Value;
 use vtkio::Vtk;
@@ -20,10 +19,8 @@ use vtkio::model::{Attribute, DataSet, Piece};
 
 const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\
     sections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n";
-const SPRINGS: &str =
-    "supports = [{ from_deg = 180, to_deg = 360, spring = { x = 1e5, y = 1e5 } }]\n";
-const TIE: &str =
-    "tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [1, 0, 0] }\n";
+const SPRINGS: &str = "supports = [{ from_deg = 180, to_deg = 360, spring = { x = 1e5, y = 1e5 } }]\n";
+const TIE: &str = "tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [1, 0, 0] }\n";
 const MODES: &str = "[modes]\ncount = 6\n";
 
 /// A folder of this test's own: a ring alone, a plane housing, and both coupled.
@@ -45,11 +42,7 @@ fn scratch(name: &str) -> PathBuf {
 }
 
 fn plummer(folder: &Path, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .current_dir(folder)
-        .args(words.split(' '))
-        .output()
-        .unwrap()
+    Command::new(env!("CARGO_BIN_EXE_plummer")).current_dir(folder).args(words.split(' ')).output().unwrap()
 }
 
 fn good(folder: &Path, words: &str) -> String {
@@ -120,11 +113,7 @@ fn grid(path: &Path) -> (BTreeMap<String, Vec<f64>>, usize, usize) {
         Attribute::DataArray(array) => (array.name.clone(), array.data.cast_into().unwrap()),
         Attribute::Field { .. } => panic!("an array"),
     });
-    (
-        fields.collect(),
-        piece.num_points(),
-        piece.cells.num_cells(),
-    )
+    (fields.collect(), piece.num_points(), piece.cells.num_cells())
 }
 
 /// Matrices of ring, housing and both, read by `nalgebra-sparse` and `npyz` and solved densely, have the frequencies of
@@ -142,19 +131,13 @@ fn matrices_have_the_frequencies_of_modes() {
         assert_eq!(expected.len(), 6);
         for (found, expected) in frequencies(&k, &m, 6).iter().zip(&expected) {
             // a dense solver errs by 1e-15 of the largest eigenvalue, (2 pi 1e7 Hz)^2, and these lie above 1 kHz
-            assert!(
-                (found / expected - 1.0).abs() < 1e-8,
-                "{case} {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-8, "{case} {found} {expected}");
         }
         let mut table = csv::Reader::from_path(out.join("dofs.csv")).unwrap();
         let rows: Vec<BTreeMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
         assert_eq!(rows.len(), k.nrows());
         let last = rows.len() - 1;
-        assert_eq!(
-            (&rows[last]["row"], &rows[last]["mtx_row"]),
-            (&last.to_string(), &(last + 1).to_string())
-        );
+        assert_eq!((&rows[last]["row"], &rows[last]["mtx_row"]), (&last.to_string(), &(last + 1).to_string()));
         let directions = array::<String>(&out.join("dofs.npz"), "direction");
         assert!(rows.iter().map(|row| &row["direction"]).eq(&directions));
         for (name, whole) in [("stiffness", &k), ("mass", &m)] {
@@ -168,18 +151,13 @@ fn matrices_have_the_frequencies_of_modes() {
                 }
             }
             // the upper triangle may differ from the lower one by a rounding
-            assert!(
-                (found - whole).amax() < 1e-15 * whole.amax(),
-                "{case} {name}"
-            );
+            assert!((found - whole).amax() < 1e-15 * whole.amax(), "{case} {name}");
         }
         let record = json(out.join("export.json"));
         assert_eq!(record["to"], "npz");
         assert_eq!(record["earlier"][0]["to"], "mtx");
         for file in record["files"].as_array().unwrap() {
-            let size = fs::metadata(out.join(file["file"].as_str().unwrap()))
-                .unwrap()
-                .len();
+            let size = fs::metadata(out.join(file["file"].as_str().unwrap())).unwrap().len();
             assert_eq!(file["bytes"], size);
         }
     }
@@ -198,10 +176,7 @@ fn shapes_of_earlier_results_are_not_solved_for_again() {
     write_modes_npz(&path, &shapes).unwrap();
     name_again(&out);
     let shown = good(&folder, "export out/coupled --to vtu");
-    assert!(
-        shown.contains("wrote out/coupled/modes.vtu\nwrote out/coupled/ring.vtu\n"),
-        "{shown}"
-    );
+    assert!(shown.contains("wrote out/coupled/modes.vtu\nwrote out/coupled/ring.vtu\n"), "{shown}");
     good(&folder, "export out/coupled --to uff --quiet");
     let (fields, points, cells) = grid(&out.join("modes.vtu"));
     assert_eq!((fields.len(), points, cells), (6, 160, 40));
@@ -210,17 +185,11 @@ fn shapes_of_earlier_results_are_not_solved_for_again() {
     assert_eq!((fields.len(), points, cells), (6, 24, 24));
     assert_eq!(fields["mode 2, 123.2500 Hz"], shapes.shapes[1][480..]);
     let of_housing = read_mode_shapes(&out.join("modes.uff")).unwrap();
-    assert_eq!(
-        (of_housing.count_points(), of_housing.count_modes()),
-        (160, 6)
-    );
+    assert_eq!((of_housing.count_points(), of_housing.count_modes()), (160, 6));
     let of_ring = read_mode_shapes(&out.join("ring.uff")).unwrap();
     for (found, expected) in of_ring.shapes[1].iter().zip(&shapes.shapes[1][480..]) {
         // the format has six digits
-        assert!(
-            (found - expected).abs() <= 1e-5 * expected.abs(),
-            "{found} {expected}"
-        );
+        assert!((found - expected).abs() <= 1e-5 * expected.abs(), "{found} {expected}");
     }
     let record = json(out.join("export.json"));
     assert_eq!(record["results"], "out/coupled");
@@ -229,11 +198,7 @@ fn shapes_of_earlier_results_are_not_solved_for_again() {
     good(&folder, "export coupled.toml --to vtu --out fresh");
     let (fields, ..) = grid(&folder.join("fresh/modes.vtu"));
     assert!(!fields.contains_key("mode 2, 123.2500 Hz"));
-    assert!(
-        json(folder.join("fresh/export.json"))["stages_s"]
-            .get("eigen")
-            .is_some()
-    );
+    assert!(json(folder.join("fresh/export.json"))["stages_s"].get("eigen").is_some());
 }
 
 /// A node that no element uses, as gmsh leaves at the centre of an arc.
@@ -248,27 +213,14 @@ fn unused_nodes_stay_out_of_the_files() {
     let entity = rest.split_once(" 0 ").unwrap().0;
     let more = format!("{entity} 0 1\n{last}\n0 0 0\n$EndNodes");
     let rest = rest.replacen("$EndNodes", &more, 1);
-    let mesh = format!(
-        "{head}$Nodes\n{blocks} {nodes} {} {last}\n{rest}",
-        counts[2]
-    );
+    let mesh = format!("{head}$Nodes\n{blocks} {nodes} {} {last}\n{rest}", counts[2]);
     fs::write(folder.join("a.msh"), mesh).unwrap();
     good(&folder, "modes housing.toml --quiet");
     good(&folder, "export out/housing --to uff");
     good(&folder, "export out/housing --to vtu");
     let out = folder.join("out/housing");
-    assert_eq!(
-        read_mode_shapes(&out.join("modes.npz"))
-            .unwrap()
-            .count_points(),
-        161
-    );
-    assert_eq!(
-        read_mode_shapes(&out.join("modes.uff"))
-            .unwrap()
-            .count_points(),
-        160
-    );
+    assert_eq!(read_mode_shapes(&out.join("modes.npz")).unwrap().count_points(), 161);
+    assert_eq!(read_mode_shapes(&out.join("modes.uff")).unwrap().count_points(), 160);
     assert_eq!(grid(&out.join("modes.vtu")).1, 160);
 }
 
@@ -286,10 +238,7 @@ fn results_that_do_not_fit_are_refused() {
     let whole = read_mode_shapes(&path).unwrap();
     let mut fewer = whole.clone();
     fewer.points.as_mut().unwrap().pop();
-    fewer
-        .shapes
-        .iter_mut()
-        .for_each(|shape| shape.truncate(3 * 183));
+    fewer.shapes.iter_mut().for_each(|shape| shape.truncate(3 * 183));
     write_modes_npz(&path, &fewer).unwrap();
     name_again(&out);
     let error = refused(&folder, "export out/coupled --to uff");
@@ -302,31 +251,19 @@ fn results_that_do_not_fit_are_refused() {
     write_modes_npz(&path, &moved).unwrap();
     name_again(&out);
     let error = refused(&folder, "export out/coupled --to vtu");
-    assert!(
-        error.contains("does not fit the case: expected node "),
-        "{error}"
-    );
+    assert!(error.contains("does not fit the case: expected node "), "{error}");
     let error = refused(&folder, "export out/coupled --to mtx --set ring.nodes=12");
-    assert!(
-        error.starts_with("error: --set changes the case, but out/coupled holds"),
-        "{error}"
-    );
+    assert!(error.starts_with("error: --set changes the case, but out/coupled holds"), "{error}");
     fs::write(&path, "damaged").unwrap();
     assert!(refused(&folder, "export out/coupled --to vtu").contains("is not the file that"));
     name_again(&out);
     assert!(refused(&folder, "export out/coupled --to vtu").contains("expected a NumPy archive"));
     fs::rename(folder.join("coupled.toml"), folder.join("moved.toml")).unwrap();
     let error = refused(&folder, "export out/coupled --to mtx");
-    assert!(
-        error.contains("names the case file coupled.toml, which is not there"),
-        "{error}"
-    );
+    assert!(error.contains("names the case file coupled.toml, which is not there"), "{error}");
     fs::write(out.join("modes.json"), "{ \"case\": 3 }").unwrap();
     let error = refused(&folder, "export out/coupled --to mtx");
-    assert!(
-        error.contains("expected the case file's name under \"case\", found 3"),
-        "{error}"
-    );
+    assert!(error.contains("expected the case file's name under \"case\", found 3"), "{error}");
     assert!(!out.join("export.json").exists() && !out.join("modes.vtu").exists());
 }
 
@@ -334,34 +271,25 @@ fn results_that_do_not_fit_are_refused() {
 fn files_in_the_way_are_refused() {
     let folder = scratch("refused");
     assert!(
-        refused(&folder, "export ring.toml --to stl")
-            .contains("[possible values: vtu, uff, mtx, npz, op4, mbdyn]")
+        refused(&folder, "export ring.toml --to stl").contains("[possible values: vtu, uff, mtx, npz, op4, mbdyn]")
     );
     assert!(!folder.join("out").exists());
     let out = folder.join("out/ring");
     fs::create_dir_all(&out).unwrap();
     fs::write(out.join("mass.mtx"), "kept").unwrap();
     let error = refused(&folder, "export ring.toml --to mtx");
-    assert!(error.starts_with(
-        "error: out/ring/mass.mtx is the result of an earlier run\nhelp: replace it with --force"
-    ));
+    assert!(
+        error.starts_with("error: out/ring/mass.mtx is the result of an earlier run\nhelp: replace it with --force")
+    );
     assert_eq!(fs::read_to_string(out.join("mass.mtx")).unwrap(), "kept");
     assert!(!out.join("stiffness.mtx").exists());
-    assert_eq!(
-        good(&folder, "export ring.toml --to mtx --force --quiet"),
-        ""
-    );
+    assert_eq!(good(&folder, "export ring.toml --to mtx --force --quiet"), "");
     assert_eq!(mtx(&out.join("mass.mtx")).nrows(), 72);
     let shown = good(&folder, "export ring.toml --to mtx --force --json");
     let shown: Value = serde_json::from_str(&shown).unwrap();
     assert_eq!(shown, json(out.join("export.json")));
     assert_eq!(shown["earlier"], serde_json::json!([]));
-    let names: Vec<&Value> = shown["files"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|file| &file["file"])
-        .collect();
+    let names: Vec<&Value> = shown["files"].as_array().unwrap().iter().map(|file| &file["file"]).collect();
     assert_eq!(names, ["stiffness.mtx", "mass.mtx", "dofs.csv"]);
     let left: Vec<String> = fs::read_dir(&out)
         .unwrap()
@@ -379,39 +307,20 @@ fn tables_lie_beside_the_report() {
     let out = folder.join("out/housing");
     let result = json(out.join("modes.json"));
     let report = fs::read_to_string(out.join("report.html")).unwrap();
-    let tables: Vec<&str> = result["tables"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
+    let tables: Vec<&str> = result["tables"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert_eq!(tables.len(), report.matches("class=\"csv\"").count());
     for name in &tables {
         assert!(report.contains(name), "{name}");
     }
-    let table = tables
-        .iter()
-        .find(|name| name.contains("-eigenfrequencies"))
-        .unwrap();
+    let table = tables.iter().find(|name| name.contains("-eigenfrequencies")).unwrap();
     let mut rows = csv::Reader::from_path(out.join(table)).unwrap();
-    let column = rows
-        .headers()
-        .unwrap()
-        .iter()
-        .position(|title| title == "Frequency [Hz]")
-        .unwrap();
-    let found: Vec<f64> = rows
-        .records()
-        .map(|row| row.unwrap()[column].parse().unwrap())
-        .collect();
+    let column = rows.headers().unwrap().iter().position(|title| title == "Frequency [Hz]").unwrap();
+    let found: Vec<f64> = rows.records().map(|row| row.unwrap()[column].parse().unwrap()).collect();
     // every bit of what the archive has
     let shapes = read_mode_shapes(&out.join("modes.npz")).unwrap();
     assert_eq!(found, shapes.frequencies_hz);
     let digest = FileDigest::of_file(&folder.join("a.msh")).unwrap().sha256;
-    assert_eq!(
-        result["meshes"],
-        serde_json::json!([{ "path": "a.msh", "sha256": digest }])
-    );
+    assert_eq!(result["meshes"], serde_json::json!([{ "path": "a.msh", "sha256": digest }]));
     assert!(report.contains(&format!("SHA-256 {digest}")));
     // what an earlier report left goes, what others put there stays
     fs::write(out.join("tables/modes-99-old.csv"), "old").unwrap();
@@ -431,9 +340,7 @@ fn write_solid(folder: &Path) {
         supports = [{ group = \"feet\", fixed = [\"x\", \"y\", \"z\"] }]\n\
         [condense]\nfixed_interface_modes = 6\n";
     let ring = RING.replace("24", "8");
-    let solid = format!(
-        "{text}{ring}{TIE}[[sensors]]\nname = \"a\"\npoint = [0, 10e-3, 0]\ndirection = [0, 1, 0]\n"
-    );
+    let solid = format!("{text}{ring}{TIE}[[sensors]]\nname = \"a\"\npoint = [0, 10e-3, 0]\ndirection = [0, 1, 0]\n");
     fs::write(folder.join("solid.toml"), solid).unwrap();
 }
 
@@ -441,22 +348,11 @@ fn write_solid(folder: &Path) {
 #[test]
 fn a_condensed_housing_is_exported() {
     let folder = scratch("condensed");
-    good(
-        &folder,
-        "condense coupled.toml --quiet --set condense.fixed_interface_modes=10",
-    );
+    good(&folder, "condense coupled.toml --quiet --set condense.fixed_interface_modes=10");
     let out = folder.join("out/coupled");
     let record = read_superelement_npz(&out.join("superelement.npz")).unwrap();
-    let shown = good(
-        &folder,
-        "export coupled.toml --to op4 --set condense.fixed_interface_modes=10",
-    );
-    assert!(
-        shown.contains(
-            "wrote out/coupled/superelement.op4\nwrote out/coupled/superelement_dofs.csv\n"
-        ),
-        "{shown}"
-    );
+    let shown = good(&folder, "export coupled.toml --to op4 --set condense.fixed_interface_modes=10");
+    assert!(shown.contains("wrote out/coupled/superelement.op4\nwrote out/coupled/superelement_dofs.csv\n"), "{shown}");
     let matrices = read_op4(&out.join("superelement.op4")).unwrap();
     let names: Vec<&str> = matrices.iter().map(Op4Matrix::name).collect();
     assert_eq!(names, ["KAA", "MAA", "BANDHZ", "COMPLHZ"]);
@@ -465,35 +361,21 @@ fn a_condensed_housing_is_exported() {
     let mut table = csv::Reader::from_path(out.join("superelement_dofs.csv")).unwrap();
     let rows: Vec<BTreeMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
     assert_eq!(rows.len(), record.order());
-    assert_eq!(
-        (rows[4]["body"].as_str(), rows[4]["node"].as_str()),
-        ("ring", "1")
-    );
+    assert_eq!((rows[4]["body"].as_str(), rows[4]["node"].as_str()), ("ring", "1"));
     assert_eq!(rows[4]["direction"], "y");
     assert_eq!(rows[72]["body"], "modal");
     let export = json(out.join("export.json"));
-    assert_eq!(
-        (&export["to"], export["files"].as_array().unwrap().len()),
-        (&"op4".into(), 2)
-    );
+    assert_eq!((&export["to"], export["files"].as_array().unwrap().len()), (&"op4".into(), 2));
     let again = refused(&folder, "export coupled.toml --to op4");
-    assert!(
-        again.starts_with("error: out/coupled/superelement.op4 is the result of an earlier run")
-    );
+    assert!(again.starts_with("error: out/coupled/superelement.op4 is the result of an earlier run"));
     // held by its feet: no inertia
     write_solid(&folder);
     let shown = good(&folder, "export solid.toml --to mbdyn");
-    assert!(
-        shown.contains("held by its supports: `clamped` in MBDyn's joint"),
-        "{shown}"
-    );
+    assert!(shown.contains("held by its supports: `clamped` in MBDyn's joint"), "{shown}");
     let text = fs::read_to_string(folder.join("out/solid/superelement.fem")).unwrap();
     // the ring's nodes and, as the whole mesh is too much, those of the bore and of the sensor
     assert!(text.contains("ring0") && text.contains("ring7"), "names");
-    let refusals = [
-        ("ring.toml", "a ring alone"),
-        ("housing.toml", "a housing that nothing is attached to"),
-    ];
+    let refusals = [("ring.toml", "a ring alone"), ("housing.toml", "a housing that nothing is attached to")];
     for (case, found) in refusals {
         for format in ["op4", "mbdyn"] {
             assert_eq!(
@@ -517,27 +399,16 @@ fn an_interface_is_reduced() {
     let out = folder.join("out/coupled");
     let path = out.join("superelement.npz");
     let whole = read_superelement_npz(&path).unwrap();
-    let shown = good(
-        &folder,
-        &format!(
-            "condense coupled.toml --force --compare-full {set} --set condense.interface_modes=20"
-        ),
-    );
-    assert!(
-        shown.contains("20 modes of the interface in place of its coordinates"),
-        "{shown}"
-    );
+    let shown =
+        good(&folder, &format!("condense coupled.toml --force --compare-full {set} --set condense.interface_modes=20"));
+    assert!(shown.contains("20 modes of the interface in place of its coordinates"), "{shown}");
     let reduced = read_superelement_npz(&path).unwrap();
     assert_eq!((whole.order(), reduced.order()), (82, 30));
     let back = reduced.interface_recovery.as_ref().unwrap();
     assert_eq!(back.labels, whole.interface);
     // k_cc = R^T k_bb R, but for the rigid motions' round-off
-    let bb =
-        |a: &plummer::numerics::linalg::DenseMatrix, n: usize| a.submatrix(0, 0, n, n).to_owned();
-    for (own, of_whole) in [
-        (&reduced.stiffness, &whole.stiffness),
-        (&reduced.mass, &whole.mass),
-    ] {
+    let bb = |a: &plummer::numerics::linalg::DenseMatrix, n: usize| a.submatrix(0, 0, n, n).to_owned();
+    for (own, of_whole) in [(&reduced.stiffness, &whole.stiffness), (&reduced.mass, &whole.mass)] {
         let product = back.modes.transpose() * bb(of_whole, 72) * &back.modes;
         let difference = (product - bb(own, 20)).norm_max();
         assert!(difference < 1e-9 * own.norm_max(), "{difference:e}");
@@ -552,16 +423,11 @@ fn an_interface_is_reduced() {
     let rises = numbers(&of_interface["relative_rise"]);
     assert_eq!((rises.len(), &rises[..3]), (5, &[0.0; 3][..]));
     // found 3.1e-8; round-off of a frequency is below 1e-11
-    assert!(
-        rises[3..].iter().all(|rise| (1e-9..1e-6).contains(rise)),
-        "{rises:?}"
-    );
+    assert!(rises[3..].iter().all(|rise| (1e-9..1e-6).contains(rise)), "{rises:?}");
     let sizes = result["error_by_size"].as_array().unwrap();
-    let errors =
-        |key: &str| -> Vec<f64> { sizes.iter().filter_map(|row| row[key].as_f64()).collect() };
-    let reduced_errors: Vec<f64> = (sizes.iter())
-        .filter_map(|row| row["interface_reduced"]["error"].as_f64())
-        .collect();
+    let errors = |key: &str| -> Vec<f64> { sizes.iter().filter_map(|row| row[key].as_f64()).collect() };
+    let reduced_errors: Vec<f64> =
+        (sizes.iter()).filter_map(|row| row["interface_reduced"]["error"].as_f64()).collect();
     for errors in [errors("plain"), errors("enhanced"), reduced_errors] {
         assert!(errors.len() > 5, "{errors:?}");
         assert!(errors.last() < errors.first(), "{errors:?}");
@@ -572,10 +438,7 @@ fn an_interface_is_reduced() {
     }
     // neither Nastran nor a ring can take modes
     assert_eq!(
-        refused(
-            &folder,
-            "export coupled.toml --to op4 --set condense.interface_modes=20"
-        ),
+        refused(&folder, "export coupled.toml --to op4 --set condense.interface_modes=20"),
         "error: --to op4 writes the displacements of an interface, by which others attach it: expected \
          condense.interface_modes = \"none\", found modes in their place\n\
          help: --set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes\n"
@@ -583,39 +446,23 @@ fn an_interface_is_reduced() {
     let text = format!("[housing]\nsuperelement = \"out/coupled/superelement.npz\"\n{RING}{MODES}");
     fs::write(folder.join("npz.toml"), text).unwrap();
     let error = refused(&folder, "modes npz.toml");
-    assert!(
-        error.contains("found 20 modes of an interface of 72 coordinates"),
-        "{error}"
-    );
+    assert!(error.contains("found 20 modes of an interface of 72 coordinates"), "{error}");
     // three rigid motions in the plane
-    let few = plummer(
-        &folder,
-        &format!("condense coupled.toml --force {set} --set condense.interface_modes=2"),
-    );
+    let few = plummer(&folder, &format!("condense coupled.toml --force {set} --set condense.interface_modes=2"));
     let error = String::from_utf8(few.stderr).unwrap();
-    assert!(
-        error.contains("2 modes of the interface are kept, expected at least 3"),
-        "{error}"
-    );
+    assert!(error.contains("2 modes of the interface are kept, expected at least 3"), "{error}");
 }
 
 /// A superelement written by `condense`, or its OUTPUT4 file, in the housing's place.
 #[test]
 fn a_superelement_takes_the_housing_s_place() {
     let folder = scratch("import");
-    good(
-        &folder,
-        "condense coupled.toml --quiet --set condense.fixed_interface_modes=40",
-    );
-    good(
-        &folder,
-        "export coupled.toml --to op4 --quiet --set condense.fixed_interface_modes=40",
-    );
+    good(&folder, "condense coupled.toml --quiet --set condense.fixed_interface_modes=40");
+    good(&folder, "export coupled.toml --to op4 --quiet --set condense.fixed_interface_modes=40");
     good(&folder, "modes coupled.toml --quiet");
     let full = numbers(&json(folder.join("out/coupled/modes.json"))["frequencies_hz"]);
     for kind in ["npz", "op4"] {
-        let text =
-            format!("[housing]\nsuperelement = \"out/coupled/superelement.{kind}\"\n{RING}{MODES}");
+        let text = format!("[housing]\nsuperelement = \"out/coupled/superelement.{kind}\"\n{RING}{MODES}");
         fs::write(folder.join(format!("{kind}.toml")), text).unwrap();
         let shown = good(&folder, &format!("modes {kind}.toml"));
         assert!(shown.contains("What needs its mesh is left out"), "{shown}");
@@ -645,14 +492,8 @@ fn a_superelement_takes_the_housing_s_place() {
             assert!((own / found - 1.0).abs() < 1e-8, "{own} {found}");
         }
         let error = refused(&folder, &format!("export {kind}.toml --to op4"));
-        assert!(
-            error.contains("found a superelement, which is condensed already"),
-            "{error}"
-        );
-        let error = refused(
-            &folder,
-            &format!("modes {kind}.toml --set ring.nodes=10 --force"),
-        );
+        assert!(error.contains("found a superelement, which is condensed already"), "{error}");
+        let error = refused(&folder, &format!("modes {kind}.toml --set ring.nodes=10 --force"));
         // without labels it is the block structure that tells
         let told = match kind {
             "npz" => "interface coordinates for ring.nodes = 10 (x, y, about_z of each)",
@@ -670,9 +511,7 @@ fn a_superelement_takes_the_housing_s_place() {
     write_superelement_npz(&path, &record).unwrap();
     let error = refused(&folder, "modes npz.toml --force");
     assert!(
-        error.starts_with(
-            "error: housing.superelement: out/coupled/superelement.npz: check \"k_bq = 0\" ("
-        ),
+        error.starts_with("error: housing.superelement: out/coupled/superelement.npz: check \"k_bq = 0\" ("),
         "{error}"
     );
     let checked = plummer(&folder, "condense npz.toml --force");

@@ -35,23 +35,14 @@ fn meshes() -> Vec<PathBuf> {
 /// Runs `init` in a folder and returns what it says as JSON.
 fn init(folder: &Path, words: &[&str]) -> Value {
     let output = plummer(folder, &[&["init", "--json"], words].concat());
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{words:?}: {}",
-        errors(&output)
-    );
+    assert_eq!(output.status.code(), Some(0), "{words:?}: {}", errors(&output));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
 /// Everything that is commented out as a value switched on.
 fn switched_on(text: &str) -> String {
-    let value = |line: &str| {
-        line.starts_with('#') && !line.starts_with("# ") && !line.starts_with("#:") && line != "#"
-    };
-    let lines = text
-        .lines()
-        .map(|line| if value(line) { &line[1..] } else { line });
+    let value = |line: &str| line.starts_with('#') && !line.starts_with("# ") && !line.starts_with("#:") && line != "#";
+    let lines = text.lines().map(|line| if value(line) { &line[1..] } else { line });
     lines.collect::<Vec<_>>().join("\n") + "\n"
 }
 
@@ -66,30 +57,15 @@ fn every_mesh_makes_a_case_that_loads() {
         init(&folder, &[mesh.to_str().unwrap()]);
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.starts_with("#:schema plummer.schema.json\n"), "{name}");
-        assert!(
-            text.lines().all(|line| line.chars().count() <= 160),
-            "{name}"
-        );
+        assert!(text.lines().all(|line| line.chars().count() <= 160), "{name}");
         let case = Case::load(&file, &[]).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         case.ready_for(Purpose::Modes).unwrap();
         // relative to the case, and there
         let found = &case.meshed_housing().unwrap().mesh;
-        assert_eq!(
-            fs::canonicalize(found).unwrap(),
-            fs::canonicalize(&mesh).unwrap()
-        );
-        let whole = Case::from_source(Source {
-            path: file.clone(),
-            text: switched_on(&text),
-            set: Vec::new(),
-        });
+        assert_eq!(fs::canonicalize(found).unwrap(), fs::canonicalize(&mesh).unwrap());
+        let whole = Case::from_source(Source { path: file.clone(), text: switched_on(&text), set: Vec::new() });
         let whole = whole.unwrap_or_else(|error| panic!("{name}: {error}\n{}", switched_on(&text)));
-        assert!(
-            whole
-                .bearing
-                .is_some_and(|bearing| !bearing.defects.is_empty()),
-            "{name}"
-        );
+        assert!(whole.bearing.is_some_and(|bearing| !bearing.defects.is_empty()), "{name}");
         assert!(whole.ring.is_some_and(|ring| ring.tie.is_some()), "{name}");
         // the same mesh, the same file
         init(&folder, &[mesh.to_str().unwrap(), "--force"]);
@@ -113,14 +89,8 @@ fn modes_run_on_the_shipped_housings() {
         let mesh = root().join(format!("meshes/{name}.msh"));
         let found = init(&folder, &[mesh.to_str().unwrap(), "--length-unit", "mm"]);
         assert_eq!(found["bore"]["group"], bore, "{name}");
-        assert!(
-            (found["bore"]["radius_m"].as_f64().unwrap() / 6e-3 - 1.0).abs() < 1e-6,
-            "{name}"
-        );
-        assert!(
-            found["bearing"].is_null(),
-            "{name}: no bearing of 12 mm is in the catalogue"
-        );
+        assert!((found["bore"]["radius_m"].as_f64().unwrap() / 6e-3 - 1.0).abs() < 1e-6, "{name}");
+        assert!(found["bearing"].is_null(), "{name}: no bearing of 12 mm is in the catalogue");
         let case = format!("{name}.toml");
         let modes = plummer(&folder, &["modes", &case, "--json", "--threads", "1"]);
         assert_eq!(modes.status.code(), Some(0), "{name}: {}", errors(&modes));
@@ -136,12 +106,7 @@ fn modes_run_on_the_shipped_housings() {
 #[test]
 fn a_bearing_that_fits_is_taken_and_its_contacts_can_be_loaded() {
     let folder = scratch("init-6205");
-    let tube = Tube {
-        inner: 26.0,
-        outer: 40.0,
-        length: 15.0,
-        ..Tube::default()
-    };
+    let tube = Tube { inner: 26.0, outer: 40.0, length: 15.0, ..Tube::default() };
     fs::write(folder.join("housing.msh"), tube.msh()).unwrap();
     let found = init(&folder, &["housing.msh"]);
     assert_eq!(found["length_unit"], "mm");
@@ -153,21 +118,10 @@ fn a_bearing_that_fits_is_taken_and_its_contacts_can_be_loaded() {
     assert_eq!(bearing.balls, 9);
     // GMN: 39.1 and 7.938 mm
     assert!((bearing.outer_race_radius - 0.5e-3 * (39.1 + 7.938)).abs() < 1e-9);
-    assert!(
-        (bearing.play() - 6.25e-6).abs() < 1e-9,
-        "{}",
-        bearing.play()
-    );
+    assert!((bearing.play() - 6.25e-6).abs() < 1e-9, "{}", bearing.play());
     // a coarser ring than the file's, for the sake of time
     for set in ["modes.linearise=none", "modes.linearise=static"] {
-        let words = [
-            "--force",
-            "--quiet",
-            "--threads",
-            "1",
-            "--set",
-            "ring.nodes=24",
-        ];
+        let words = ["--force", "--quiet", "--threads", "1", "--set", "ring.nodes=24"];
         let words = [&["modes", "housing.toml", "--set", set], &words[..]].concat();
         let output = plummer(&folder, &words);
         assert_eq!(output.status.code(), Some(0), "{set}: {}", errors(&output));
@@ -195,40 +149,23 @@ fn half_a_noisy_bore_along_x_away_from_the_origin() {
     let part = |key: &str, place: usize| bore[key][place].as_f64().unwrap();
     // nodes off by up to 0.026 mm: a centre by half a circle of some 100 of them is off by a part of that
     for (place, expected) in [0.100, 0.250, -0.070].into_iter().enumerate() {
-        assert!(
-            (part("centre_m", place) - expected).abs() < 2.6e-5,
-            "{bore}"
-        );
+        assert!((part("centre_m", place) - expected).abs() < 2.6e-5, "{bore}");
     }
     assert!(part("axis", 0) > 0.999_99, "{bore}");
-    assert!(
-        (bore["radius_m"].as_f64().unwrap() / 26e-3 - 1.0).abs() < 1e-3,
-        "{bore}"
-    );
-    assert!(
-        (bore["turn"].as_f64().unwrap() - 0.5).abs() < 0.01,
-        "{bore}"
-    );
+    assert!((bore["radius_m"].as_f64().unwrap() / 26e-3 - 1.0).abs() < 1e-3, "{bore}");
+    assert!((bore["turn"].as_f64().unwrap() - 0.5).abs() < 0.01, "{bore}");
     let case = Case::load(folder.join("lower.toml"), &[]).unwrap();
     let tie = case.ring.as_ref().unwrap().tie.as_ref().unwrap();
     // up stays up: the bearing's 90 degrees are the mesh's y
     assert!(tie.zero_deg[2] < -0.999, "{:?}", tie.zero_deg);
-    let modes = plummer(
-        &folder,
-        &["modes", "lower.toml", "--quiet", "--threads", "1"],
-    );
+    let modes = plummer(&folder, &["modes", "lower.toml", "--quiet", "--threads", "1"]);
     assert_eq!(modes.status.code(), Some(0), "{}", errors(&modes));
 }
 
 #[test]
 fn the_bearing_tells_the_unit() {
     let folder = scratch("init-unit");
-    let tube = Tube {
-        inner: 2.6,
-        outer: 4.0,
-        length: 1.5,
-        ..Tube::default()
-    };
+    let tube = Tube { inner: 2.6, outer: 4.0, length: 1.5, ..Tube::default() };
     fs::write(folder.join("a.msh"), tube.msh()).unwrap();
     let found = init(&folder, &["a.msh", "--bearing", "6205-2RS"]);
     assert_eq!(found["length_unit"], "cm");
@@ -247,16 +184,10 @@ fn what_is_wrong_is_exit_code_2() {
     fs::write(folder.join("taken.toml"), "kept").unwrap();
     let nameless = Tube::default().msh();
     let (_, nameless) = nameless.split_once("$EndPhysicalNames\n").unwrap();
-    let nameless = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}",
-        nameless.replace(" 2 1 1 ", " 2 0 1 ")
-    );
+    let nameless = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}", nameless.replace(" 2 1 1 ", " 2 0 1 "));
     fs::write(folder.join("nameless.msh"), nameless).unwrap();
     for (words, expected) in [
-        (
-            vec![ring.as_str(), "--out", "taken.toml"],
-            "error: taken.toml exists\nhelp: replace it with --force",
-        ),
+        (vec![ring.as_str(), "--out", "taken.toml"], "error: taken.toml exists\nhelp: replace it with --force"),
         (vec![&ring, "--out", "."], "error: .: found no file name"),
         (
             vec![&ring, "--bearing", "6299"],
@@ -268,18 +199,11 @@ fn what_is_wrong_is_exit_code_2() {
              help: nearest of the catalogue: 625 (16 mm); is --length-unit right?",
         ),
         (vec!["no.msh"], "error: "),
-        (
-            vec!["nameless.msh"],
-            "error: nameless.msh: found no physical group of volumes",
-        ),
+        (vec!["nameless.msh"], "error: nameless.msh: found no physical group of volumes"),
     ] {
         let output = plummer(&folder, &[&["init"], &words[..]].concat());
         assert_eq!(output.status.code(), Some(2), "{words:?}");
-        assert!(
-            errors(&output).starts_with(expected),
-            "{words:?}: {}",
-            errors(&output)
-        );
+        assert!(errors(&output).starts_with(expected), "{words:?}: {}", errors(&output));
         assert!(output.stdout.is_empty());
     }
     let damaged = mesh("tests/data/damaged/node_nan.msh");
@@ -287,14 +211,8 @@ fn what_is_wrong_is_exit_code_2() {
     let tried = plummer(&folder, &["init", &damaged]);
     assert_eq!(tried.status.code(), looked.status.code());
     assert_eq!(errors(&tried), errors(&looked));
-    assert_eq!(
-        fs::read_to_string(folder.join("taken.toml")).unwrap(),
-        "kept"
-    );
-    let names: Vec<_> = fs::read_dir(&folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name())
-        .collect();
+    assert_eq!(fs::read_to_string(folder.join("taken.toml")).unwrap(), "kept");
+    let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names.len(), 2, "{names:?}");
 }
 
@@ -302,10 +220,7 @@ fn what_is_wrong_is_exit_code_2() {
 fn what_was_found_is_said_on_standard_output() {
     let folder = scratch("init-says");
     let mesh = root().join("meshes/ring_6_9.msh");
-    let output = plummer(
-        &folder,
-        &["init", mesh.to_str().unwrap(), "--out", "sub/ring.toml"],
-    );
+    let output = plummer(&folder, &["init", mesh.to_str().unwrap(), "--out", "sub/ring.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let text = String::from_utf8(output.stdout).unwrap();
     for part in [
@@ -320,14 +235,8 @@ fn what_was_found_is_said_on_standard_output() {
         assert!(text.contains(part), "{part}\n{text}");
     }
     let case = fs::read_to_string(folder.join("sub/ring.toml")).unwrap();
-    assert!(
-        case.contains("group = \"top\""),
-        "a point for the sensor: {case}"
-    );
-    assert!(
-        case.contains("curve \"lower\": a circle of radius 9 mm about z, over 50 % of the turn"),
-        "{case}"
-    );
+    assert!(case.contains("group = \"top\""), "a point for the sensor: {case}");
+    assert!(case.contains("curve \"lower\": a circle of radius 9 mm about z, over 50 % of the turn"), "{case}");
     assert!(case.contains("title = \"ring\""), "{case}");
 }
 
@@ -348,10 +257,7 @@ fn the_catalogue_is_listed_with_its_sources() {
     let json = init(&folder, &["--list-bearings"]);
     let bearings = json["bearings"].as_array().unwrap();
     assert_eq!(bearings.len(), 34);
-    let bearing = bearings
-        .iter()
-        .find(|bearing| bearing["name"] == "6205")
-        .unwrap();
+    let bearing = bearings.iter().find(|bearing| bearing["name"] == "6205").unwrap();
     // with gamma = 7.938 / 39.1: 4.5 (1 - gamma), 4.5 (1 + gamma), (1 - gamma^2) / (2 gamma), (1 - gamma) / 2
     let gamma = 7.938 / 39.1;
     for (key, order) in [

@@ -13,7 +13,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-const DENT: &str = "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
+const DENT: &str =
+    "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
 
 /// `plummer run` of a scene with an end, its results in a folder of this test's own.
 struct Run {
@@ -26,11 +27,7 @@ impl Run {
     fn new(name: &str, end: &'static str) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
         let _ = fs::remove_dir_all(&folder);
-        Self {
-            folder,
-            end,
-            step: "2.5e-7",
-        }
+        Self { folder, end, step: "2.5e-7" }
     }
 
     fn command(&self, more: &[&str]) -> Command {
@@ -113,10 +110,7 @@ fn a_run_that_is_killed_again_and_again_comes_to_the_same_bytes() {
     assert!(!killed.partial().exists());
     let (code, text) = killed.ended(&["--resume"]);
     assert_eq!(code, 2);
-    assert!(
-        text.contains("run.json is the result of a finished run: there is nothing to go on with"),
-        "{text}"
-    );
+    assert!(text.contains("run.json is the result of a finished run: there is nothing to go on with"), "{text}");
 }
 
 #[test]
@@ -124,43 +118,25 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     let run = Run::new("interrupted", "50");
     let (code, text) = run.ended(&["--resume"]);
     assert_eq!(code, 2);
-    assert!(
-        text.contains("there is no unfinished run to go on with"),
-        "{text}"
-    );
+    assert!(text.contains("there is no unfinished run to go on with"), "{text}");
     let child = run.begin(&["--threads", "1"]);
     let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     let (code, text) = told(child.wait_with_output().unwrap());
     assert_eq!(code, 1, "{text}");
     assert!(text.starts_with("error: interrupted at t = "), "{text}");
-    assert!(
-        text.contains(" s of 50 s; the signals so far and a checkpoint are in "),
-        "{text}"
-    );
+    assert!(text.contains(" s of 50 s; the signals so far and a checkpoint are in "), "{text}");
     assert!(text.contains("help: go on with: plummer run "), "{text}");
     assert!(text.trim_end().ends_with("--resume"), "{text}");
     let checkpoint = run.checkpoint().unwrap();
     // neither a new run nor a changed one touches it
     let (code, text) = run.ended(&[]);
     assert_eq!(code, 2);
-    assert!(
-        text.contains(".run.partial holds an unfinished run\n"),
-        "{text}"
-    );
+    assert!(text.contains(".run.partial holds an unfinished run\n"), "{text}");
     assert!(text.contains("--force"), "{text}");
     let (code, text) = run.ended(&["--resume", "--set", "shaft.mass=0.2"]);
     assert_eq!(code, 2);
-    assert!(
-        text.contains("was begun with something else: --set "),
-        "{text}"
-    );
+    assert!(text.contains("was begun with something else: --set "), "{text}");
     assert!(text.contains("--set shaft.mass=0.2\n"), "{text}");
     let (code, text) = run.ended(&["--resume", "--force"]);
     assert_eq!(code, 2, "{text}");
@@ -168,15 +144,8 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     // rows that the checkpoint counts are gone
     fs::write(run.partial().join("time_s.f64"), "").unwrap();
     let (code, text) = run.ended(&["--resume"]);
-    assert!(
-        text.contains("time_s.f64 has 0 bytes") || code == 1,
-        "{code} {text}"
-    );
-    fs::write(
-        run.partial().join("checkpoint"),
-        &checkpoint[..checkpoint.len() - 1],
-    )
-    .unwrap();
+    assert!(text.contains("time_s.f64 has 0 bytes") || code == 1, "{code} {text}");
+    fs::write(run.partial().join("checkpoint"), &checkpoint[..checkpoint.len() - 1]).unwrap();
     let (code, text) = run.ended(&["--resume"]);
     assert_eq!(code, 2);
     assert!(text.contains("is no whole checkpoint"), "{text}");
@@ -189,26 +158,14 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
 
 #[test]
 fn a_run_that_blows_up_leaves_what_it_had_and_names_a_step() {
-    let run = Run {
-        step: "2.5e-6",
-        ..Run::new("blown-up", "0.01")
-    };
+    let run = Run { step: "2.5e-6", ..Run::new("blown-up", "0.01") };
     let (code, text) = run.ended(&[]);
     assert_eq!(code, 1, "{text}");
-    assert!(
-        text.starts_with("error: the solution blew up at t = "),
-        "{text}"
-    );
+    assert!(text.starts_with("error: the solution blew up at t = "), "{text}");
     assert!(text.contains("contacts there vibrate at up to "), "{text}");
-    assert!(
-        text.contains(" kHz, exponential-adams is stable up to "),
-        "{text}"
-    );
+    assert!(text.contains(" kHz, exponential-adams is stable up to "), "{text}");
     assert!(text.contains("--set transient.step="), "{text}");
-    assert!(
-        text.contains(" instants computed until then are in signals.npz"),
-        "{text}"
-    );
+    assert!(text.contains(" instants computed until then are in signals.npz"), "{text}");
     assert!(run.folder.join("signals.npz").exists() && run.folder.join("run.json").exists());
     assert!(!run.partial().exists());
 }

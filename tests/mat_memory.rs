@@ -24,10 +24,7 @@ use plummer::formats::{MeasuredError, SignalRequest};
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 fn words(words: &[usize]) -> Vec<u8> {
-    words
-        .iter()
-        .flat_map(|&word| (word as u32).to_le_bytes())
-        .collect()
+    words.iter().flat_map(|&word| (word as u32).to_le_bytes()).collect()
 }
 
 /// An element of its type and bytes.
@@ -40,12 +37,8 @@ fn element(kind: usize, bytes: &[u8]) -> Vec<u8> {
 
 /// An array of a class with what follows its name.
 fn array(class: usize, name: &str, sizes: [usize; 2], content: &[u8]) -> Vec<u8> {
-    let parts = [
-        element(6, &words(&[class, 0])),
-        element(5, &words(&sizes)),
-        element(1, name.as_bytes()),
-        content.to_vec(),
-    ];
+    let parts =
+        [element(6, &words(&[class, 0])), element(5, &words(&sizes)), element(1, name.as_bytes()), content.to_vec()];
     element(14, &parts.concat())
 }
 
@@ -56,11 +49,7 @@ fn bytes_of(name: &str, sizes: [usize; 2]) -> Vec<u8> {
 
 /// Structs with fields of so many bytes a name.
 fn structs(name: &str, count: usize, length: usize, names: &[u8], values: &[u8]) -> Vec<u8> {
-    let parts = [
-        element(5, &words(&[length])),
-        element(1, names),
-        values.to_vec(),
-    ];
+    let parts = [element(5, &words(&[length])), element(1, names), values.to_vec()];
     array(2, name, [count, 1], &parts.concat())
 }
 
@@ -95,11 +84,7 @@ fn check(bytes: &[u8], factor: usize, what: &str) -> usize {
         }
     });
     let limit = factor * bytes.len() + (16 << 20);
-    assert!(
-        found <= limit,
-        "{what}: {found} B for a file of {} B",
-        bytes.len()
-    );
+    assert!(found <= limit, "{what}: {found} B for a file of {} B", bytes.len());
     println!("{what}: {found} B for {} B, limit {limit} B", bytes.len());
     found
 }
@@ -142,10 +127,7 @@ fn memory_is_bounded_by_the_size_of_the_file() {
             let path = Path::new("a.mat");
             let any = SignalRequest::default();
             let found = peak(&ALLOCATOR, || drop(signals_from_mat(&bytes, path, &any)));
-            assert!(
-                found <= 20_000 * whole.len() + (16 << 20),
-                "{name}: {found} B"
-            );
+            assert!(found <= 20_000 * whole.len() + (16 << 20), "{name}: {found} B");
         }
     }
 }

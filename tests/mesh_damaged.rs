@@ -38,10 +38,7 @@ fn message(path: &Path) -> String {
 fn every_message_is_the_one_expected() -> Outcome {
     let text = std::fs::read_to_string(folder().join("expected.txt"))?;
     let expected: Vec<&str> = text.lines().collect();
-    let found: Vec<String> = files()?
-        .iter()
-        .map(|(name, path)| format!("{name}: {}", message(path)))
-        .collect();
+    let found: Vec<String> = files()?.iter().map(|(name, path)| format!("{name}: {}", message(path))).collect();
     assert!(found.len() >= 40);
     assert_eq!(found, expected);
     Ok(())
@@ -58,13 +55,7 @@ fn unusual_files_give_the_usual_mesh() -> Outcome {
         assert_eq!(mesh.nodes, usual.nodes, "{name}");
         assert_eq!(mesh.blocks, usual.blocks, "{name}");
         // 2.2 has no group 5: its element is not repeated in that file
-        let named = |mesh: &Mesh| {
-            mesh.groups
-                .iter()
-                .filter(|g| g.tag != 5)
-                .cloned()
-                .collect::<Vec<_>>()
-        };
+        let named = |mesh: &Mesh| mesh.groups.iter().filter(|g| g.tag != 5).cloned().collect::<Vec<_>>();
         assert_eq!(named(&mesh), named(&usual), "{name}");
         count += 1;
     }
@@ -75,11 +66,5 @@ fn unusual_files_give_the_usual_mesh() -> Outcome {
 #[test]
 fn a_directory_is_no_mesh() {
     let path = folder();
-    assert_eq!(
-        message(&path),
-        format!(
-            "cannot read the mesh {}: expected a file, found a folder",
-            path.display()
-        )
-    );
+    assert_eq!(message(&path), format!("cannot read the mesh {}: expected a file, found a folder", path.display()));
 }

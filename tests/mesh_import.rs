@@ -20,13 +20,9 @@ fn read(name: &str, unit: LengthUnit) -> Result<Mesh, MeshError> {
 /// Nodes whose coordinates fulfil a condition, and nothing else, must be in the group.
 fn assert_group(mesh: &Mesh, name: &str, inside: impl Fn(f64, f64) -> bool) -> Outcome {
     let group = mesh.group(name)?;
-    let expected: Vec<usize> = (0..mesh.nodes.len())
-        .filter(|&node| inside(mesh.nodes[node][0], mesh.nodes[node][1]))
-        .collect();
-    assert!(
-        !expected.is_empty(),
-        "{name}: no node fulfils the condition"
-    );
+    let expected: Vec<usize> =
+        (0..mesh.nodes.len()).filter(|&node| inside(mesh.nodes[node][0], mesh.nodes[node][1])).collect();
+    assert!(!expected.is_empty(), "{name}: no node fulfils the condition");
     assert_eq!(group.nodes, expected, "{name} in {}", mesh.source.display());
     Ok(())
 }
@@ -37,10 +33,7 @@ fn near(a: f64, b: f64) -> bool {
 
 fn count(mesh: &Mesh, kind: ElementKind) -> usize {
     let elements = mesh.inventory().elements;
-    elements
-        .iter()
-        .find(|entry| entry.kind == kind)
-        .map_or(0, |entry| entry.count)
+    elements.iter().find(|entry| entry.kind == kind).map_or(0, |entry| entry.count)
 }
 
 #[test]
@@ -63,18 +56,11 @@ fn reference_meshes_have_the_counts_of_their_reference() -> Outcome {
 
 #[test]
 fn ring_groups_are_where_the_geometry_says() -> Outcome {
-    for name in [
-        "ring2d_quad8",
-        "ring2d_tri6",
-        "ring2d_quad4_coarse",
-        "ring2d_quad4_coarse_bin",
-    ] {
+    for name in ["ring2d_quad8", "ring2d_tri6", "ring2d_quad4_coarse", "ring2d_quad4_coarse_bin"] {
         let mesh = read(&format!("tests/data/{name}.msh"), LengthUnit::Metre)?;
         assert_group(&mesh, "bore", |x, y| near(x.hypot(y), 6e-3))?;
         assert_group(&mesh, "outer", |x, y| near(x.hypot(y), 9e-3))?;
-        assert_group(&mesh, "outer_lower", |x, y| {
-            near(x.hypot(y), 9e-3) && y < 1e-9
-        })?;
+        assert_group(&mesh, "outer_lower", |x, y| near(x.hypot(y), 9e-3) && y < 1e-9)?;
         assert_group(&mesh, "housing", |_, _| true)?;
     }
     Ok(())
@@ -96,11 +82,7 @@ fn gmsh_binary_reads_like_its_ascii() -> Outcome {
     let ascii = read("tests/data/ring2d_quad4_coarse.msh", LengthUnit::Metre)?;
     let binary = read("tests/data/ring2d_quad4_coarse_bin.msh", LengthUnit::Metre)?;
     // ASCII has 16 digits, binary all of them
-    let pairs = ascii
-        .nodes
-        .iter()
-        .flatten()
-        .zip(binary.nodes.iter().flatten());
+    let pairs = ascii.nodes.iter().flatten().zip(binary.nodes.iter().flatten());
     assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-17));
     assert_eq!(ascii.node_tags, binary.node_tags);
     assert_eq!(ascii.blocks, binary.blocks);
@@ -138,19 +120,12 @@ fn from_ring_node([x, y, _]: [f64; 3]) -> f64 {
 fn bores_match_a_ring_of_72_nodes_or_do_not() -> Outcome {
     let fine = read("meshes/ring_6_9.msh", LengthUnit::Millimetre)?;
     let bore = fine.group("bore")?;
-    let matching = bore
-        .nodes
-        .iter()
-        .filter(|&&n| from_ring_node(fine.nodes[n]) < 1e-9);
+    let matching = bore.nodes.iter().filter(|&&n| from_ring_node(fine.nodes[n]) < 1e-9);
     assert_eq!((bore.nodes.len(), matching.count()), (144, 72));
     let coarse = read("meshes/ring_6_9_coarse.msh", LengthUnit::Millimetre)?;
     let bore = coarse.group("bore")?;
     assert_eq!(bore.nodes.len(), 40);
-    assert!(
-        bore.nodes
-            .iter()
-            .all(|&n| from_ring_node(coarse.nodes[n]) > 0.2)
-    );
+    assert!(bore.nodes.iter().all(|&n| from_ring_node(coarse.nodes[n]) > 0.2));
     Ok(())
 }
 
@@ -172,19 +147,13 @@ fn pillow_block_stands_on_two_feet() -> Outcome {
 fn example_meshes_fill_their_drawings() -> Result<(), Box<dyn std::error::Error>> {
     let ring = PI * (81.0 - 36.0);
     let pillow_block = 44.0 * 5.0 + 20.0 * 8.0 + PI * 100.0 / 2.0 - PI * 36.0;
-    let drawings = [
-        ("ring_6_9", ring),
-        ("ring_6_9_coarse", ring),
-        ("ring_6_9_tri", ring),
-        ("pillow_block", pillow_block),
-    ];
+    let drawings =
+        [("ring_6_9", ring), ("ring_6_9_coarse", ring), ("ring_6_9_tri", ring), ("pillow_block", pillow_block)];
     for (name, square_mm) in drawings {
         let mesh = read(&format!("meshes/{name}.msh"), LengthUnit::Millimetre)?;
         let mut total = 0.0;
         for block in &mesh.blocks {
-            let surface = ContinuumKind::ALL
-                .into_iter()
-                .find(|kind| kind.name() == block.kind.name());
+            let surface = ContinuumKind::ALL.into_iter().find(|kind| kind.name() == block.kind.name());
             for element in block.elements() {
                 let coords: Vec<[f64; 3]> = element.iter().map(|&n| mesh.nodes[n]).collect();
                 total += surface.map_or(Ok(0.0), |kind| measure(kind, &coords))?;
@@ -205,10 +174,7 @@ fn messages_name_the_file() {
     let missing = file("tests/data/missing.msh");
     assert_eq!(
         message("tests/data/missing.msh"),
-        format!(
-            "cannot read the mesh {}: No such file or directory (os error 2)",
-            missing.display()
-        )
+        format!("cannot read the mesh {}: No such file or directory (os error 2)", missing.display())
     );
     let rust = file("tests/mesh_import.rs");
     assert_eq!(

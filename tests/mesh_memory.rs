@@ -45,10 +45,7 @@ fn lines(count: usize, mut line: impl FnMut(usize) -> String) -> String {
 fn greedy() -> Vec<(&'static str, String)> {
     const N: usize = 20_000;
     let nodes = |tags: String, coordinates: usize| {
-        format!(
-            "$Nodes\n1 {N} 1 {N}\n0 1 0 {N}\n{tags}{}$EndNodes\n",
-            "0 0 0\n".repeat(coordinates)
-        )
+        format!("$Nodes\n1 {N} 1 {N}\n0 1 0 {N}\n{tags}{}$EndNodes\n", "0 0 0\n".repeat(coordinates))
     };
     let point = "$Elements\n1 1 1 1\n0 1 15 1\n1 1\n$EndElements\n";
     let all = |line: &dyn Fn(usize) -> String| lines(N, line);
@@ -68,77 +65,23 @@ fn greedy() -> Vec<(&'static str, String)> {
     let names = all(&|n| format!("0 {n} \"\""));
     vec![
         ("nodes", ascii("4.1", &(nodes(tags.clone(), N) + point))),
-        (
-            "sparse nodes",
-            ascii("4.1", &nodes(all(&|n| (n * n * 1000).to_string()), N)),
-        ),
+        ("sparse nodes", ascii("4.1", &nodes(all(&|n| (n * n * 1000).to_string()), N))),
         ("nodes announced", ascii("4.1", &nodes(tags.clone(), 0))),
-        (
-            "points",
-            ascii("4.1", &format!("{all_groups}{ONE_NODE}{point}")),
-        ),
+        ("points", ascii("4.1", &format!("{all_groups}{ONE_NODE}{point}"))),
         ("elements", ascii("4.1", &format!("{ONE_NODE}{one_block}"))),
-        (
-            "elements in all groups",
-            ascii("4.1", &format!("{all_groups}{ONE_NODE}{one_block}")),
-        ),
+        ("elements in all groups", ascii("4.1", &format!("{all_groups}{ONE_NODE}{one_block}"))),
         ("blocks", ascii("4.1", &format!("{ONE_NODE}{many_blocks}"))),
-        (
-            "blocks of own groups",
-            ascii("4.1", &format!("{own_group}{ONE_NODE}{many_blocks}")),
-        ),
-        (
-            "blocks in all groups",
-            ascii("4.1", &format!("{all_groups}{ONE_NODE}{same_entity}")),
-        ),
-        (
-            "entities",
-            ascii(
-                "4.1",
-                &format!("$Entities\n{N} 0 0 0\n{plain}$EndEntities\n{ONE_NODE}{point}"),
-            ),
-        ),
-        (
-            "curves",
-            ascii(
-                "4.1",
-                &format!("$Entities\n0 {N} 0 0\n{curves}$EndEntities\n{ONE_NODE}{point}"),
-            ),
-        ),
-        (
-            "names",
-            ascii(
-                "4.1",
-                &format!("$PhysicalNames\n{N}\n{names}$EndPhysicalNames\n{ONE_NODE}{point}"),
-            ),
-        ),
-        (
-            "2.2 elements",
-            ascii("2.2", &v22(all(&|n| format!("{n} 15 0 1")))),
-        ),
-        (
-            "2.2 entities",
-            ascii("2.2", &v22(all(&|n| format!("{n} 15 2 0 {n} 1")))),
-        ),
-        (
-            "2.2 groups",
-            ascii("2.2", &v22(all(&|n| format!("{n} 15 1 {n} 1")))),
-        ),
-        (
-            "2.2 groups and entities",
-            ascii("2.2", &v22(all(&|n| format!("{n} 15 2 {n} {n} 1")))),
-        ),
-        (
-            "2.2 in turn",
-            ascii(
-                "2.2",
-                &v22(all(&|n| format!("{n} 15 2 {} {} 1", n % 2, n % 3))),
-            ),
-        ),
-        (
-            "2.2 cut",
-            ascii("2.2", &v22(all(&|n| format!("{n} 15 2 0 {n} 1"))))[..300_000].to_owned(),
-        ),
+        ("blocks of own groups", ascii("4.1", &format!("{own_group}{ONE_NODE}{many_blocks}"))),
+        ("blocks in all groups", ascii("4.1", &format!("{all_groups}{ONE_NODE}{same_entity}"))),
+        ("entities", ascii("4.1", &format!("$Entities\n{N} 0 0 0\n{plain}$EndEntities\n{ONE_NODE}{point}"))),
+        ("curves", ascii("4.1", &format!("$Entities\n0 {N} 0 0\n{curves}$EndEntities\n{ONE_NODE}{point}"))),
+        ("names", ascii("4.1", &format!("$PhysicalNames\n{N}\n{names}$EndPhysicalNames\n{ONE_NODE}{point}"))),
+        ("2.2 elements", ascii("2.2", &v22(all(&|n| format!("{n} 15 0 1"))))),
+        ("2.2 entities", ascii("2.2", &v22(all(&|n| format!("{n} 15 2 0 {n} 1"))))),
+        ("2.2 groups", ascii("2.2", &v22(all(&|n| format!("{n} 15 1 {n} 1"))))),
+        ("2.2 groups and entities", ascii("2.2", &v22(all(&|n| format!("{n} 15 2 {n} {n} 1"))))),
+        ("2.2 in turn", ascii("2.2", &v22(all(&|n| format!("{n} 15 2 {} {} 1", n % 2, n % 3))))),
+        ("2.2 cut", ascii("2.2", &v22(all(&|n| format!("{n} 15 2 0 {n} 1"))))[..300_000].to_owned()),
     ]
 }
 

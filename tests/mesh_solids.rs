@@ -7,11 +7,8 @@ use plummer::numerics::units::LengthUnit;
 
 type Outcome = Result<(), MeshError>;
 
-const CUBES: [(&str, ElementKind, usize); 3] = [
-    ("hex20", ElementKind::Hex20, 8),
-    ("wedge15", ElementKind::Wedge15, 16),
-    ("tet10", ElementKind::Tet10, 48),
-];
+const CUBES: [(&str, ElementKind, usize); 3] =
+    [("hex20", ElementKind::Hex20, 8), ("wedge15", ElementKind::Wedge15, 16), ("tet10", ElementKind::Tet10, 48)];
 
 fn cube(name: &str, encoding: &str) -> Result<Mesh, MeshError> {
     let file = format!("tests/data/cube_{name}_{encoding}.msh");
@@ -23,25 +20,14 @@ fn cube(name: &str, encoding: &str) -> Result<Mesh, MeshError> {
 fn of_dimension(mesh: &Mesh, dimension: usize) -> Vec<ElementId> {
     let blocks = mesh.blocks.iter().enumerate();
     let own = blocks.filter(|(_, block)| block.kind.dimension() == dimension);
-    own.flat_map(|(number, block)| {
-        (0..block.len()).map(move |index| ElementId {
-            block: number,
-            index,
-        })
-    })
-    .collect()
+    own.flat_map(|(number, block)| (0..block.len()).map(move |index| ElementId { block: number, index })).collect()
 }
 
 #[test]
 fn every_encoding_gives_the_same_mesh() -> Outcome {
     for (name, kind, count) in CUBES {
         let expected = cube(name, "msh41_bin")?;
-        let solids: usize = expected
-            .blocks
-            .iter()
-            .filter(|b| b.kind == kind)
-            .map(|b| b.len())
-            .sum();
+        let solids: usize = expected.blocks.iter().filter(|b| b.kind == kind).map(|b| b.len()).sum();
         assert_eq!(solids, count, "{name}");
         assert_eq!(of_dimension(&expected, 3).len(), count, "{name}");
         for encoding in ["msh41", "msh22", "msh22_bin"] {
@@ -49,27 +35,13 @@ fn every_encoding_gives_the_same_mesh() -> Outcome {
             assert_eq!(found.format.binary, encoding.ends_with("bin"));
             assert_eq!(found.node_tags, expected.node_tags, "{name} {encoding}");
             assert_eq!(found.groups, expected.groups, "{name} {encoding}");
-            let pairs = found
-                .nodes
-                .iter()
-                .flatten()
-                .zip(expected.nodes.iter().flatten());
+            let pairs = found.nodes.iter().flatten().zip(expected.nodes.iter().flatten());
             // ASCII has 16 digits
-            assert!(
-                pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-18),
-                "{name} {encoding}"
-            );
-            assert_eq!(
-                found.blocks.len(),
-                expected.blocks.len(),
-                "{name} {encoding}"
-            );
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-18), "{name} {encoding}");
+            assert_eq!(found.blocks.len(), expected.blocks.len(), "{name} {encoding}");
             for (found, expected) in found.blocks.iter().zip(&expected.blocks) {
                 assert_eq!((found.kind, found.entity), (expected.kind, expected.entity));
-                assert_eq!(
-                    found.connectivity, expected.connectivity,
-                    "{name} {encoding}"
-                );
+                assert_eq!(found.connectivity, expected.connectivity, "{name} {encoding}");
                 assert_eq!(found.len(), expected.len());
             }
         }
@@ -88,12 +60,7 @@ fn repeated_elements_are_one_of_several_groups() -> Outcome {
         assert_eq!((&body.elements, &body.nodes), (&same.elements, &same.nodes));
         let [support, contact] = ["support", "contact"].map(|group| mesh.group(group));
         let (support, contact) = (support?, contact?);
-        assert!(
-            support
-                .elements
-                .iter()
-                .all(|id| contact.elements.contains(id))
-        );
+        assert!(support.elements.iter().all(|id| contact.elements.contains(id)));
         assert_eq!(contact.elements.len(), 2 * support.elements.len(), "{name}");
     }
     Ok(())
@@ -103,10 +70,7 @@ fn repeated_elements_are_one_of_several_groups() -> Outcome {
 fn enclosed_volume(mesh: &Mesh, faces: &[BoundaryFace]) -> f64 {
     let mut total = 0.0;
     for face in faces {
-        let corners: Vec<[f64; 3]> = face.nodes[..face.kind.corners()]
-            .iter()
-            .map(|&node| mesh.nodes[node])
-            .collect();
+        let corners: Vec<[f64; 3]> = face.nodes[..face.kind.corners()].iter().map(|&node| mesh.nodes[node]).collect();
         for end in 2..corners.len() {
             let [a, b, c] = [corners[0], corners[end - 1], corners[end]];
             total += (a[0] * (b[1] * c[2] - b[2] * c[1])
@@ -143,10 +107,7 @@ fn surface_of_a_cube_is_closed_and_encloses_its_volume() -> Outcome {
             .collect();
         // every edge once in each direction
         assert_eq!(distinct(edges.iter().copied()), edges.len(), "{name}");
-        assert!(
-            edges.iter().all(|[a, b]| edges.contains(&[*b, *a])),
-            "{name}"
-        );
+        assert!(edges.iter().all(|[a, b]| edges.contains(&[*b, *a])), "{name}");
         assert_eq!(vertices + faces.len(), edges.len() / 2 + 2, "{name}: Euler");
         // the plane elements of gmsh are among them
         let surface = mesh.group("contact")?;

@@ -18,9 +18,7 @@ fn scratch(name: &str) -> PathBuf {
     let example = fs::read_to_string(project("examples/modal/ring.toml")).unwrap();
     let end = example.find("# Modes of another program").unwrap();
     let meshes = project("meshes").display().to_string();
-    let text = example[..end]
-        .replace("../../meshes", &meshes)
-        .replace("ring_6_9.msh", "ring_6_9_48.msh");
+    let text = example[..end].replace("../../meshes", &meshes).replace("ring_6_9.msh", "ring_6_9_48.msh");
     fs::write(folder.join("ring.toml"), text).unwrap();
     let tri = "ring_6_9_tri.msh";
     fs::copy(project("meshes").join(tri), folder.join(tri)).unwrap();
@@ -73,7 +71,9 @@ fn a_result_agrees_with_its_own_file() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let shown = text(&output.stdout);
     assert!(
-        shown.contains("against itself (before.npz): 384 points in common (here 384, there 384), MAC >= 0.95, within 1 %"),
+        shown.contains(
+            "against itself (before.npz): 384 points in common (here 384, there 384), MAC >= 0.95, within 1 %"
+        ),
         "{shown}"
     );
     let json = result(&folder);
@@ -100,18 +100,14 @@ fn a_result_agrees_with_its_own_file() {
 fn a_frequency_that_is_off_is_exit_code_1() {
     let folder = scratch("off");
     write_exact(&folder.join("bench.csv"), "5", 1.01);
-    let with = |within: &str| {
-        format!(
-            "modes.compare=[{{file=\"bench.csv\",what=\"the bench\",mac=0.99,within={within}}}]"
-        )
-    };
+    let with =
+        |within: &str| format!("modes.compare=[{{file=\"bench.csv\",what=\"the bench\",mac=0.99,within={within}}}]");
     let wide = modes(&folder, &[&with("0.015")]);
     assert_eq!(wide.status.code(), Some(0), "{}", text(&wide.stdout));
     let narrow = modes(&folder, &[&with("0.005")]);
     assert_eq!(narrow.status.code(), Some(1));
     assert!(
-        text(&narrow.stderr)
-            .starts_with("error: 8 of 9 modes agree with the bench (bench.csv)\nhelp: "),
+        text(&narrow.stderr).starts_with("error: 8 of 9 modes agree with the bench (bench.csv)\nhelp: "),
         "{}",
         text(&narrow.stderr)
     );
@@ -120,10 +116,7 @@ fn a_frequency_that_is_off_is_exit_code_1() {
     assert!(shown.contains("FAILS: frequency"), "{shown}");
     let json = result(&folder);
     let pairs = json["comparisons"][0]["pairs"].as_array().unwrap();
-    let failed: Vec<&Value> = pairs
-        .iter()
-        .filter(|pair| pair["misses"] != serde_json::json!([]))
-        .collect();
+    let failed: Vec<&Value> = pairs.iter().filter(|pair| pair["misses"] != serde_json::json!([])).collect();
     assert_eq!(failed.len(), 1);
     assert_eq!(failed[0]["misses"], serde_json::json!(["frequency"]));
     assert_eq!(failed[0]["here"], serde_json::json!([7]));
@@ -132,7 +125,9 @@ fn a_frequency_that_is_off_is_exit_code_1() {
     let both = modes(&folder, &[&with("0.005"), expected]);
     assert_eq!(both.status.code(), Some(1));
     assert!(
-        text(&both.stderr).starts_with("error: 1 of 1 expected eigenfrequencies were not found within their tolerance; 8 of 9 modes agree"),
+        text(&both.stderr).starts_with(
+            "error: 1 of 1 expected eigenfrequencies were not found within their tolerance; 8 of 9 modes agree"
+        ),
         "{}",
         text(&both.stderr)
     );
@@ -146,20 +141,13 @@ fn wrong_files_are_exit_code_2_with_file_and_line() {
         assert_eq!(output.status.code(), Some(2), "{file}");
         text(&output.stderr)
     };
-    fs::write(
-        folder.join("hz.csv"),
-        "# a list\nmode,frequency_hz\n1,500\n",
-    )
-    .unwrap();
+    fs::write(folder.join("hz.csv"), "# a list\nmode,frequency_hz\n1,500\n").unwrap();
     assert_eq!(
         errors("hz.csv"),
         "error: hz.csv:2: expected the header mode,frequency_hz,x,y,z,ux,uy,uz or mode,frequency_hz,node,ux,uy,uz, found \"mode,frequency_hz\"\n\
          help: frequencies without shapes are checked by `modes.expected` in the case file\n"
     );
-    assert_eq!(
-        errors("no.csv"),
-        "error: cannot read no.csv: No such file or directory (os error 2)\n"
-    );
+    assert_eq!(errors("no.csv"), "error: cannot read no.csv: No such file or directory (os error 2)\n");
     assert_eq!(
         errors("ring.toml"),
         "error: expected a file of mode shapes (.npz, .csv, .uff or .unv), found ring.toml\n"
@@ -167,20 +155,12 @@ fn wrong_files_are_exit_code_2_with_file_and_line() {
     let far = "mode,frequency_hz,x,y,z,ux,uy,uz\n1,500,9,0,0,1,0,0\n1,500,0,9,0,1,0,0\n1,500,6,0,0,1,0,0\n";
     fs::write(folder.join("far.csv"), far).unwrap();
     let far = errors("far.csv");
-    assert!(
-        far.starts_with("error: far.csv: only 0 points of the two sets of modes coincide"),
-        "{far}"
-    );
-    assert!(
-        far.contains("help: points are in m; `points_within`"),
-        "{far}"
-    );
+    assert!(far.starts_with("error: far.csv: only 0 points of the two sets of modes coincide"), "{far}");
+    assert!(far.contains("help: points are in m; `points_within`"), "{far}");
     let missing = modes(&folder, &["modes.convergence.meshes=[\"no.msh\"]"]);
     assert_eq!(missing.status.code(), Some(2));
     assert!(
-        text(&missing.stderr).starts_with(
-            "error: modes.convergence.meshes[0] (no.msh): cannot read the mesh no.msh: "
-        ),
+        text(&missing.stderr).starts_with("error: modes.convergence.meshes[0] (no.msh): cannot read the mesh no.msh: "),
         "{}",
         text(&missing.stderr)
     );
@@ -200,21 +180,16 @@ fn the_example_compares_and_converges() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let shown = text(&output.stdout);
     assert!(
-        shown.contains(
-            "against the exact solution (examples/modal/exact_ring.csv): 48 points in common"
-        ),
+        shown.contains("against the exact solution (examples/modal/exact_ring.csv): 48 points in common"),
         "{shown}"
     );
-    assert!(shown.contains("convergence over 3 meshes, h = 2.43 mm, 1.21 mm, 0.809 mm (this case); order promised: 4"), "{shown}");
+    assert!(
+        shown.contains("convergence over 3 meshes, h = 2.43 mm, 1.21 mm, 0.809 mm (this case); order promised: 4"),
+        "{shown}"
+    );
     let json = result(&folder);
     assert_eq!(json["comparisons"][0]["ok"], true);
-    assert_eq!(
-        json["comparisons"][0]["lone_here"]
-            .as_array()
-            .unwrap()
-            .len(),
-        3
-    );
+    assert_eq!(json["comparisons"][0]["lone_here"].as_array().unwrap().len(), 3);
     let exact = &json["comparisons"][0]["there_hz"];
     let converged = json["convergence"]["modes"].as_array().unwrap();
     assert_eq!(converged.len(), 9);
@@ -242,34 +217,16 @@ fn the_example_compares_and_converges() {
 #[test]
 fn what_is_not_extrapolated_is_told() {
     let folder = scratch("unlike");
-    let output = modes(
-        &folder,
-        &["modes.convergence.meshes=[\"ring_6_9_tri.msh\"]"],
-    );
+    let output = modes(&folder, &["modes.convergence.meshes=[\"ring_6_9_tri.msh\"]"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let shown = text(&output.stdout);
-    assert!(
-        shown.contains("ring_6_9_tri.msh has Tri6 where this case's mesh has Quad8"),
-        "{shown}"
-    );
-    assert_eq!(
-        shown
-            .matches("not known, on no other mesh of its kind\n")
-            .count(),
-        9,
-        "{shown}"
-    );
+    assert!(shown.contains("ring_6_9_tri.msh has Tri6 where this case's mesh has Quad8"), "{shown}");
+    assert_eq!(shown.matches("not known, on no other mesh of its kind\n").count(), 9, "{shown}");
     let json = result(&folder);
     let converged = json["convergence"]["modes"].as_array().unwrap();
-    assert!(
-        converged
-            .iter()
-            .all(|mode| mode["mesh_error"].is_null() && mode["frequencies_hz"][1].is_f64())
-    );
+    assert!(converged.iter().all(|mode| mode["mesh_error"].is_null() && mode["frequencies_hz"][1].is_f64()));
     let page = report(&folder);
-    assert!(
-        page.contains("shown only") && page.contains("No other mesh has the elements of this case")
-    );
+    assert!(page.contains("shown only") && page.contains("No other mesh has the elements of this case"));
 }
 
 /// A band in which nothing vibrates: no empty files, and what was asked for by name.

@@ -24,23 +24,11 @@ use zip::{CompressionMethod, ZipWriter};
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 fn archive(shape: &str, count: usize, method: CompressionMethod) -> Vec<u8> {
-    archive_of(
-        &["frequencies_hz", "shapes"],
-        "<f8",
-        shape,
-        8 * count,
-        method,
-    )
+    archive_of(&["frequencies_hz", "shapes"], "<f8", shape, 8 * count, method)
 }
 
 /// Arrays of one type and shape with so many bytes.
-fn archive_of(
-    names: &[&str],
-    descr: &str,
-    shape: &str,
-    bytes: usize,
-    method: CompressionMethod,
-) -> Vec<u8> {
+fn archive_of(names: &[&str], descr: &str, shape: &str, bytes: usize, method: CompressionMethod) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for name in names {
         let options = SimpleFileOptions::DEFAULT.compression_method(method);
@@ -90,11 +78,7 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
     read(&one("<i4", "(500000,)", 2_000_000), 2 * factor, &|npz| {
         npz.whole("a").unwrap();
     });
-    let text = if method == CompressionMethod::Stored {
-        20
-    } else {
-        20_000
-    };
+    let text = if method == CompressionMethod::Stored { 20 } else { 20_000 };
     read(&one("<U1", "(500000,)", 2_000_000), text, &|npz| {
         npz.texts("a").unwrap();
     });
@@ -102,12 +86,7 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
         npz.texts("a").unwrap_err();
     });
     // square, wide and tall: a few rows or columns of many numbers
-    for shape in [
-        "(500, 500)",
-        "(1, 250000)",
-        "(250000, 1)",
-        "(0, 9999999999)",
-    ] {
+    for shape in ["(500, 500)", "(1, 250000)", "(250000, 1)", "(0, 9999999999)"] {
         let names = ["k", "m", "weight", "sensors", "field_recovery"];
         let bytes = archive_of(&names, "<f8", shape, 2_000_000, method);
         read(&bytes, factor, &|_| ());
@@ -119,29 +98,18 @@ fn memory_is_bounded_by_the_size_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.npz");
     let mut random = Random(7);
-    for (method, factor) in [
-        (CompressionMethod::Stored, 8),
-        (CompressionMethod::Deflated, 4200),
-    ] {
+    for (method, factor) in [(CompressionMethod::Stored, 8), (CompressionMethod::Deflated, 4200)] {
         let check = |bytes: &[u8], what: &str| {
             fs::write(&path, bytes).unwrap();
             let (found, limit) = (peak_of_all(&path), factor * bytes.len() + (1 << 20));
-            assert!(
-                found <= limit,
-                "{what}: {found} B for a file of {} B",
-                bytes.len()
-            );
+            assert!(found <= limit, "{what}: {found} B for a file of {} B", bytes.len());
             found
         };
         check_other_readers(folder.path(), method, factor);
         // honest arrays are really read: more than their own size is allocated
         let honest = archive("(500000,)", 500_000, method);
         assert!(check(&honest, "honest") >= 4_000_000);
-        for shape in [
-            "(9999999999,)",
-            "(1, 1000000000000, 1)",
-            "(500000, 1000000000)",
-        ] {
+        for shape in ["(9999999999,)", "(1, 1000000000000, 1)", "(500000, 1000000000)"] {
             check(&archive(shape, 1000, method), shape);
         }
         let whole = archive("(10, 20, 3)", 600, method);

@@ -25,28 +25,16 @@ fn check(bytes: &[u8], what: &str) -> usize {
     let path = Path::new("a.op4");
     let limit = 16 * bytes.len() + (1 << 20);
     let found = peak(&ALLOCATOR, || drop(op4_from_bytes(bytes, path)));
-    assert!(
-        found <= limit,
-        "{what}: {found} B for a file of {} B",
-        bytes.len()
-    );
+    assert!(found <= limit, "{what}: {found} B for a file of {} B", bytes.len());
     let dense = peak(&ALLOCATOR, || {
         for matrix in op4_from_bytes(bytes, path).unwrap_or_default() {
             let _ = matrix.dense();
         }
     });
     let limit = limit + (8 << 20).max(8000 * bytes.len() / 8);
-    assert!(
-        dense <= limit,
-        "{what}, dense: {dense} B for a file of {} B",
-        bytes.len()
-    );
+    assert!(dense <= limit, "{what}, dense: {dense} B for a file of {} B", bytes.len());
     let functions = peak(&ALLOCATOR, || drop(responses_from_bytes(bytes, path)));
-    assert!(
-        functions <= limit,
-        "{what}: {functions} B for a file of {} B",
-        bytes.len()
-    );
+    assert!(functions <= limit, "{what}: {functions} B for a file of {} B", bytes.len());
     found
 }
 
@@ -62,8 +50,7 @@ fn memory_is_bounded_by_the_size_of_the_file() {
         assert!(check(&bytes, "honest") >= 2_000_000);
     }
     // runs of one number each, which have the most to keep for their bytes
-    let mut runs =
-        b"       1 9999999       2       1K       1P,9E8.1\n       1       0 9999999\n".to_vec();
+    let mut runs = b"       1 9999999       2       1K       1P,9E8.1\n       1       0 9999999\n".to_vec();
     for row in 1..20_000 {
         runs.extend(format!("{:>8}{row:>8}\n 1.0E+00\n", 2).into_bytes());
     }
@@ -78,15 +65,12 @@ fn memory_is_bounded_by_the_size_of_the_file() {
     }
     let mut random = Random(7);
     for folder in ["op4", "uff"] {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/data")
-            .join(folder);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(folder);
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             let whole = fs::read(&path).unwrap();
             for round in 0..300 {
-                let bytes =
-                    random.damaged(&whole, [0x7f, b'9'], |random| random.next() % whole.len());
+                let bytes = random.damaged(&whole, [0x7f, b'9'], |random| random.next() % whole.len());
                 check(&bytes, &format!("{}, round {round}", path.display()));
             }
         }

@@ -14,12 +14,7 @@ use std::process::Command;
 use plummer::report::{Abscissa, Axis, Curve, Family, Marker, Plot, Report, Section};
 use serde_json::Value;
 
-const BROWSERS: [&str; 4] = [
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-];
+const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 /// What a reader does. `done` is read back as JSON.
 const SCRIPT: &str = r#"
@@ -103,23 +98,16 @@ addEventListener("load", () => setTimeout(() => {
 "#;
 
 fn page() -> String {
-    let even = || Abscissa::Even {
-        start: 0.0,
-        step: 0.5,
-    };
+    let even = || Abscissa::Even { start: 0.0, step: 0.5 };
     let rising = (0..=400).map(|k| 0.005 * f64::from(k)).collect();
     let frequency = Axis::new("Frequency", "Hz");
-    let plot = Plot::new(
-        "Envelope",
-        frequency,
-        Axis::new("Amplitude", "m/s^2").range(0.0, 6.0),
-    )
-    .curve(Curve::new("rising", even(), rising))
-    .curve(Curve::new("<b class=name>five", even(), vec![5.0; 401]))
-    .marker(Marker::new(25.0, "<i class=name>race"))
-    .marker(Marker::new(75.0, "<i class=name>race"))
-    .family(Family::new("<i class=name>race", 25.0, 1).sides("shaft", 14.0))
-    .family(Family::new("cage", 60.0, 2));
+    let plot = Plot::new("Envelope", frequency, Axis::new("Amplitude", "m/s^2").range(0.0, 6.0))
+        .curve(Curve::new("rising", even(), rising))
+        .curve(Curve::new("<b class=name>five", even(), vec![5.0; 401]))
+        .marker(Marker::new(25.0, "<i class=name>race"))
+        .marker(Marker::new(75.0, "<i class=name>race"))
+        .family(Family::new("<i class=name>race", 25.0, 1).sides("shaft", 14.0))
+        .family(Family::new("cage", 60.0, 2));
     let report = Report::new("Browser", "none", "0").section(Section::new("S").plot(plot));
     let html = report.to_html().unwrap();
     html.replace("</body>", &format!("<script>{SCRIPT}</script></body>"))
@@ -134,20 +122,14 @@ fn done(folder: &Path) -> Option<Value> {
         command.args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"]);
         command.args(["--virtual-time-budget=2000", "--window-size=1280,900"]);
         command.arg(format!("--user-data-dir={}", folder.display()));
-        command
-            .arg(format!("file://{}", path.display()))
-            .output()
-            .ok()
+        command.arg(format!("file://{}", path.display())).output().ok()
     })?;
     let dom = String::from_utf8(output.stdout).unwrap();
     let found = dom.split("<pre id=\"done\">").nth(1);
     let errors = String::from_utf8_lossy(&output.stderr);
     let found = found.unwrap_or_else(|| panic!("the script did not end: {errors}"));
     let json = found.split("</pre>").next().unwrap();
-    let json = json
-        .replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&amp;", "&");
+    let json = json.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
     Some(serde_json::from_str(&json).unwrap())
 }
 
@@ -192,18 +174,12 @@ fn a_reader_zooms_reads_and_marks_harmonics() {
     assert!((done["pairStepped"].as_f64().unwrap() - 10.0).abs() < 1e-3);
     assert_eq!(done["pairLeft"], serde_json::json!([true, "", 0]));
 
-    assert_eq!(
-        done["options"],
-        serde_json::json!(["none", "<i class=name>race", "cage"])
-    );
+    assert_eq!(done["options"], serde_json::json!(["none", "<i class=name>race", "cage"]));
     let multiples = |f: f64, count: u32| (1..=count).map(|k| f64::from(k) * f).collect::<Vec<_>>();
     near(&done["harmonics"], &multiples(25.0, 8), exact);
     let header = ["Harmonic", "Frequency [Hz]", "Amplitude [m/s²]"];
     assert_eq!(done["rows"][0], serde_json::json!(header));
-    assert_eq!(
-        done["rows"][3],
-        serde_json::json!(["3×", "75.000", "0.7500"])
-    );
+    assert_eq!(done["rows"][3], serde_json::json!(["3×", "75.000", "0.7500"]));
     assert_eq!(done["rows"].as_array().unwrap().len(), 9);
     assert_eq!(done["coloured"], 8);
     assert_eq!(done["markers"], "none");
@@ -212,25 +188,13 @@ fn a_reader_zooms_reads_and_marks_harmonics() {
     near(&done["fourthDragged"], &dragged, exact);
     assert!((done["fourthStepped"].as_f64().unwrap() + 1.0).abs() < 1e-3);
     assert!((done["stepped"].as_f64().unwrap() - 1.0).abs() < 1e-3);
-    assert_eq!(
-        done["sidesLabel"],
-        serde_json::json!([false, "side lines at ±1 and ±2 x shaft"])
-    );
+    assert_eq!(done["sidesLabel"], serde_json::json!([false, "side lines at ±1 and ±2 x shaft"]));
     // of the first harmonic one is below 0; of the ninth, at 225 Hz, one is in view
     near(&done["sides"], &[22.0, 36.0, 64.0, 78.0, 197.0], exact);
-    assert_eq!(
-        done["sideRow"],
-        serde_json::json!([
-            "2×", "50.000", "0.5000", "0.2200", "0.3600", "0.6400", "0.7800"
-        ])
-    );
+    assert_eq!(done["sideRow"], serde_json::json!(["2×", "50.000", "0.5000", "0.2200", "0.3600", "0.6400", "0.7800"]));
     assert_eq!(done["noSides"], serde_json::json!([true, 0]));
     // a four-hundredth of the plot
     assert!((done["least"].as_f64().unwrap() - 0.5).abs() < exact);
     assert_eq!(done["none"], serde_json::json!([0, true, true]));
-    assert_eq!(
-        done["elements"],
-        serde_json::json!([0, 0]),
-        "names are text"
-    );
+    assert_eq!(done["elements"], serde_json::json!([0, 0]), "names are text");
 }

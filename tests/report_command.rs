@@ -16,22 +16,13 @@ const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\
 /// A folder with a case in it.
 fn with_case(name: &str) -> PathBuf {
     let folder = scratch(name);
-    fs::write(
-        folder.join("ring.toml"),
-        format!("{RING}[modes]\ncount = 6\n"),
-    )
-    .unwrap();
+    fs::write(folder.join("ring.toml"), format!("{RING}[modes]\ncount = 6\n")).unwrap();
     folder
 }
 
 fn good(folder: &Path, words: &[&str]) -> String {
     let output = plummer(folder, words);
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{words:?}: {}",
-        errors(&output)
-    );
+    assert_eq!(output.status.code(), Some(0), "{words:?}: {}", errors(&output));
     String::from_utf8(output.stdout).unwrap()
 }
 
@@ -55,28 +46,16 @@ fn drawn(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 fn pages_tables_and_figures_come_back_to_the_byte() {
     let folder = scratch("report-again");
     // mode shapes, and a second command in the same folder
-    for (command, case) in [
-        ("modes", "housings/ring.toml"),
-        ("run", "scenes/smooth.toml"),
-    ] {
-        let case = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("examples")
-            .join(case);
+    for (command, case) in [("modes", "housings/ring.toml"), ("run", "scenes/smooth.toml")] {
+        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(case);
         good(&folder, &[command, case.to_str().unwrap(), "--out", "out"]);
     }
     let out = folder.join("out");
     let first = drawn(&out);
-    for (start, least) in [
-        ("report.html", 1),
-        ("run-report.html", 1),
-        ("tables/modes-", 2),
-        ("tables/run-", 2),
-        ("figures/run-", 1),
-    ] {
-        let count = first
-            .keys()
-            .filter(|name| name.to_string_lossy().starts_with(start))
-            .count();
+    for (start, least) in
+        [("report.html", 1), ("run-report.html", 1), ("tables/modes-", 2), ("tables/run-", 2), ("figures/run-", 1)]
+    {
+        let count = first.keys().filter(|name| name.to_string_lossy().starts_with(start)).count();
         assert!(count >= least, "{start}: {:?}", first.keys());
     }
     let results = fs::read(out.join("modes.json")).unwrap();
@@ -84,10 +63,7 @@ fn pages_tables_and_figures_come_back_to_the_byte() {
         fs::write(out.join(name), "gone").unwrap();
     }
     let said = good(&folder, &["report", "out"]);
-    assert!(
-        said.contains("modes: ") && said.contains("wrote out/report.html"),
-        "{said}"
-    );
+    assert!(said.contains("modes: ") && said.contains("wrote out/report.html"), "{said}");
     for (name, bytes) in drawn(&out) {
         assert!(first[&name] == bytes, "{} differs", name.display());
     }
@@ -117,17 +93,10 @@ fn what_is_no_content_of_a_report_is_named() {
     let page = fs::read(folder.join("out/report.html")).unwrap();
     fs::write(&record, &bytes[..bytes.len() / 2]).unwrap();
     let said = refused(&["report", "out"]);
-    assert!(
-        said.contains("out/report.cbor.gz") && said.contains("--force"),
-        "{said}"
-    );
+    assert!(said.contains("out/report.cbor.gz") && said.contains("--force"), "{said}");
     fs::write(&record, b"<html>").unwrap();
     refused(&["report", "out"]);
-    assert_eq!(
-        fs::read(folder.join("out/report.html")).unwrap(),
-        page,
-        "as it was"
-    );
+    assert_eq!(fs::read(folder.join("out/report.html")).unwrap(), page, "as it was");
 }
 
 /// The folder of a table is made of what the content says of itself.
@@ -141,11 +110,7 @@ fn content_that_means_harm_writes_nothing_beside_its_folder() {
         fs::write(folder.join("out/report.cbor.gz"), bytes).unwrap();
         let output = plummer(&folder, &["report", "out"]);
         assert_eq!(output.status.code(), Some(2), "{prefix}");
-        assert!(
-            errors(&output).contains("expected one of run, modes"),
-            "{}",
-            errors(&output)
-        );
+        assert!(errors(&output).contains("expected one of run, modes"), "{}", errors(&output));
     }
     let column = plummer::report::Column::text("a");
     let table = plummer::report::Table::new("../../../evil", [column])
@@ -153,25 +118,16 @@ fn content_that_means_harm_writes_nothing_beside_its_folder() {
     let report = plummer::report::Report::new("<script>", "c", "0")
         .section(plummer::report::Section::new("S").table(table))
         .tables_in("../..", "modes");
-    fs::write(
-        folder.join("out/report.cbor.gz"),
-        report.to_record().unwrap(),
-    )
-    .unwrap();
+    fs::write(folder.join("out/report.cbor.gz"), report.to_record().unwrap()).unwrap();
     good(&folder, &["report", "out"]);
     let page = fs::read_to_string(folder.join("out/report.html")).unwrap();
     assert!(!page.contains("<script>alert"));
     let names = |path: &Path| {
-        let mut names: Vec<_> = fs::read_dir(path)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<_> =
+            fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     };
     assert_eq!(names(&folder), ["out", "ring.toml"]);
-    assert_eq!(
-        names(&folder.join("out")),
-        ["report.cbor.gz", "report.html", "tables"]
-    );
+    assert_eq!(names(&folder.join("out")), ["report.cbor.gz", "report.html", "tables"]);
 }

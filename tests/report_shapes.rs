@@ -10,8 +10,8 @@
 use std::fs;
 
 use plummer::report::{
-    Axis, Bars, Cell, Column, Document, Matrix, ModeShapeView, Report, Section, ShapeFigures,
-    ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, Table, Verdict,
+    Axis, Bars, Cell, Column, Document, Matrix, ModeShapeView, Report, Section, ShapeFigures, ShapeGroup, ShapeLine,
+    ShapeMode, ShapeTriangle, Table, Verdict,
 };
 
 /// A cube with sides of 0.1 m; every face has points of its own.
@@ -20,10 +20,7 @@ fn cube(squares: usize, modes: usize) -> ModeShapeView {
     view.groups = ["sides </script><b>bold</b>", "top"]
         .iter()
         .enumerate()
-        .map(|(colour, name)| ShapeGroup {
-            name: (*name).to_owned(),
-            colour,
-        })
+        .map(|(colour, name)| ShapeGroup { name: (*name).to_owned(), colour })
         .collect();
     let at = |k: usize| 0.1 * k as f64 / squares as f64;
     for (axis, end) in (0..3).flat_map(|axis| [(axis, 0), (axis, squares)]) {
@@ -49,23 +46,15 @@ fn cube(squares: usize, modes: usize) -> ModeShapeView {
     let top = view.points.len() - (squares + 1).pow(2);
     view.lines.push(ShapeLine {
         name: "rim".to_owned(),
-        points: vec![
-            top,
-            top + squares,
-            view.points.len() - 1,
-            view.points.len() - 1 - squares,
-        ],
+        points: vec![top, top + squares, view.points.len() - 1, view.points.len() - 1 - squares],
         closed: true,
     });
     for mode in 1..=modes {
         let wave = 9.0 * mode as f64;
-        let displacement = view.points.iter().map(|&[x, y, z]| {
-            [
-                z * (wave * y).cos(),
-                z * (wave * x).sin(),
-                z * (wave * (x + y)).sin(),
-            ]
-        });
+        let displacement = view
+            .points
+            .iter()
+            .map(|&[x, y, z]| [z * (wave * y).cos(), z * (wave * x).sin(), z * (wave * (x + y)).sin()]);
         view.modes.push(ShapeMode {
             label: mode.to_string(),
             frequency_hz: 123.4 * mode as f64,
@@ -79,37 +68,16 @@ fn cube(squares: usize, modes: usize) -> ModeShapeView {
 fn report(view: ModeShapeView) -> Report {
     let expected = Table::new(
         "Expected and found",
-        [
-            Column::text("Mode"),
-            Column::number("Found", "Hz"),
-            Column::text("Verdict"),
-        ],
+        [Column::text("Mode"), Column::number("Found", "Hz"), Column::text("Verdict")],
     )
-    .row([
-        Cell::text("1"),
-        Cell::number(123.456_789, 4),
-        Cell::badge(Verdict::Ok),
-    ])
-    .row([
-        Cell::text("2"),
-        Cell::number(246.8, 4),
-        Cell::badge(Verdict::Bad),
-    ])
+    .row([Cell::text("1"), Cell::number(123.456_789, 4), Cell::badge(Verdict::Ok)])
+    .row([Cell::text("2"), Cell::number(246.8, 4), Cell::badge(Verdict::Bad)])
     .showing_modes([Some(0), Some(1)]);
     let labels: Vec<String> = vec!["1".into(), "2".into()];
-    let masses = Bars::new(
-        "Effective mass",
-        "Mode",
-        labels.clone(),
-        Axis::new("Mass", "kg"),
-    )
-    .series("x", vec![1.0, 0.25]);
-    let criterion = Matrix::new(
-        "MAC",
-        ("Found", labels.clone()),
-        ("Expected", labels),
-        vec![vec![0.99, 0.01], vec![0.02, 0.98]],
-    );
+    let masses =
+        Bars::new("Effective mass", "Mode", labels.clone(), Axis::new("Mass", "kg")).series("x", vec![1.0, 0.25]);
+    let criterion =
+        Matrix::new("MAC", ("Found", labels.clone()), ("Expected", labels), vec![vec![0.99, 0.01], vec![0.02, 0.98]]);
     Report::new("Cube", "plummer modes cube.toml", "0.1.0")
         .date("21 November 2026")
         .document(
@@ -163,27 +131,16 @@ fn names_are_text_wherever_they_stand() {
     assert!(!html.contains("<b>bold") && !html.contains("note <1>"));
     assert!(html.contains("sides &lt;&#x2f;script&gt;&lt;b&gt;bold"));
     // Scripts that end are those that the page begins.
-    let (begun, ended) = (
-        html.matches("<script").count(),
-        html.matches("</script").count(),
-    );
+    let (begun, ended) = (html.matches("<script").count(), html.matches("</script").count());
     assert_eq!((begun, ended), (3, 3));
 }
 
 #[test]
 fn nothing_is_fetched_and_nothing_is_evaluated() {
     let html = report(cube(2, 2)).to_html().expect("a valid report");
-    for outside in [
-        " src=",
-        "<link",
-        "@import",
-        "url(http",
-        "href=\"http",
-        "fetch(",
-        "XMLHttpRequest",
-        "eval(",
-        "new Function",
-    ] {
+    for outside in
+        [" src=", "<link", "@import", "url(http", "href=\"http", "fetch(", "XMLHttpRequest", "eval(", "new Function"]
+    {
         assert!(!html.contains(outside), "{outside}");
     }
 }
@@ -214,8 +171,5 @@ fn a_view_that_does_not_fit_together_is_an_error() {
     let mut view = cube(2, 1);
     view.modes[0].displacement.pop();
     let error = report(view).to_html().expect_err("must fail");
-    assert_eq!(
-        error.to_string(),
-        "shape \"Cube\": mode \"1\" has 53 displacements for 54 points"
-    );
+    assert_eq!(error.to_string(), "shape \"Cube\": mode \"1\" has 53 displacements for 54 points");
 }

@@ -67,18 +67,10 @@ fn check(schema: &Value, result: &Value, what: &str) {
 fn what_commands_print_is_valid() {
     let folder = scratch("results-schema");
     let at = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
-    let (ring, impact, beam) = (
-        at("examples/housings/ring.toml"),
-        at("examples/scenes/impact.toml"),
-        at("examples/tadina2011/beam.toml"),
-    );
+    let (ring, impact, beam) =
+        (at("examples/housings/ring.toml"), at("examples/scenes/impact.toml"), at("examples/tadina2011/beam.toml"));
     let mesh = at("meshes/ring_6_9.msh");
-    let small = [
-        "ring.nodes=12",
-        "accuracy.band_hz=[0,160000]",
-        "transient.end=0.13e-3",
-        "transient.ensemble.runs=2",
-    ];
+    let small = ["ring.nodes=12", "accuracy.band_hz=[0,160000]", "transient.end=0.13e-3", "transient.ensemble.runs=2"];
     let smooth = at("examples/scenes/smooth.toml");
     let mut chart = vec!["chart", &smooth, "--quick", "--only", "accuracy"];
     chart.extend(small.iter().flat_map(|set| ["--set", set]));
@@ -94,10 +86,7 @@ fn what_commands_print_is_valid() {
         ("analyze", vec!["analyze", "out/impact", "out/ring"]),
         ("chart", chart),
         ("sweep", [&["sweep", &beam], &vary[..]].concat()),
-        (
-            "sweep",
-            [&["sweep", &beam, "--slurm", "--out", "out/jobs"], &vary[..]].concat(),
-        ),
+        ("sweep", [&["sweep", &beam, "--slurm", "--out", "out/jobs"], &vary[..]].concat()),
         ("verify", vec!["verify"]),
         ("inspect", vec!["inspect", &mesh, "--length-unit", "mm"]),
         ("init", vec!["init", &mesh, "--length-unit", "mm"]),
@@ -142,10 +131,7 @@ fn every_key_says_what_it_is() {
         assert!(found.len() > 5, "{command}: {found:?}");
         for (key, property) in found {
             let text = property["description"].as_str().unwrap_or_default();
-            assert!(
-                !text.is_empty() && !text.contains("`None`"),
-                "{command}: {key}"
-            );
+            assert!(!text.is_empty() && !text.contains("`None`"), "{command}: {key}");
         }
     }
 }

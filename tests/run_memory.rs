@@ -21,20 +21,14 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 fn stepping_four_times_as_long_takes_the_same_memory() {
     let root = env!("CARGO_MANIFEST_DIR");
     let path = format!("{root}/examples/scenes/smooth.toml");
-    let set = [
-        "transient.step=2.5e-6".to_owned(),
-        "transient.method=newmark".to_owned(),
-    ];
+    let set = ["transient.step=2.5e-6".to_owned(), "transient.method=newmark".to_owned()];
     let case = Case::load(&path, &set).unwrap();
     let run = case.for_run().unwrap();
     let scene = Scene::build(run, &Unwatched).unwrap();
     let model = ModelChoice::of_case(run, &scene).unwrap().model;
     let folder = tempfile::tempdir().unwrap();
     let taken = [0.02, 0.08].map(|duration| {
-        let span = Span {
-            duration,
-            output_hz: run.transient.output_hz,
-        };
+        let span = Span { duration, output_hz: run.transient.output_hz };
         let identity = RunIdentity::of(&case).unwrap();
         let mut unfinished = UnfinishedRun::begin(&folder.path().join("partial"), identity);
         let before = ALLOCATOR.current_usage();

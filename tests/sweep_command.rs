@@ -41,10 +41,7 @@ fn rows(folder: &Path) -> Vec<Vec<String>> {
     let text = fs::read_to_string(folder.join("sweep.csv")).unwrap();
     let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
     let mut rows: Vec<Vec<String>> = text.lines().map(cells).collect();
-    let wall = rows[0]
-        .iter()
-        .position(|name| name == "wall_s [s]")
-        .unwrap();
+    let wall = rows[0].iter().position(|name| name == "wall_s [s]").unwrap();
     for row in &mut rows {
         row.remove(wall);
     }
@@ -54,12 +51,7 @@ fn rows(folder: &Path) -> Vec<Vec<String>> {
 #[test]
 fn points_that_fail_are_listed_and_the_others_are_as_if_run_alone() {
     let folder = ring("table");
-    let vary = [
-        "--vary",
-        "ring.nodes=36,1,72",
-        "--vary",
-        "ring.shear=true,false",
-    ];
+    let vary = ["--vary", "ring.nodes=36,1,72", "--vary", "ring.shear=true,false"];
     let (code, out, err) = sweep(&folder, &vary);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     assert!(out.contains("4 of 6 points done"), "{out}");
@@ -76,23 +68,13 @@ fn points_that_fail_are_listed_and_the_others_are_as_if_run_alone() {
     let message = sweep["points"][2]["message"].as_str().unwrap();
     assert!(message.contains("ring.nodes"), "{message}");
     // the same point by hand
-    let alone = [
-        "modes",
-        "Ring ä.toml",
-        "--set",
-        "ring.nodes=72",
-        "--set",
-        "ring.shear=false",
-    ];
+    let alone = ["modes", "Ring ä.toml", "--set", "ring.nodes=72", "--set", "ring.shear=false"];
     let alone = [&alone[..], &["--out", "alone"]].concat();
     assert!(plummer(&folder, &alone).status.success());
     let alone = json(&folder.join("alone/modes.json"));
     let point = json(&results.join("sweep/6/modes.json"));
     assert_eq!(point["frequencies_hz"], alone["frequencies_hz"]);
-    let place = rows[0]
-        .iter()
-        .position(|name| name == "frequency.4 [Hz]")
-        .unwrap();
+    let place = rows[0].iter().position(|name| name == "frequency.4 [Hz]").unwrap();
     let found: f64 = rows[6][place].parse().unwrap();
     assert_eq!(Value::from(found), alone["frequencies_hz"][3]);
     let html = fs::read_to_string(results.join("report.html")).unwrap();
@@ -109,23 +91,11 @@ fn what_no_point_can_be_is_an_error_before_anything_is_written() {
             2,
             "no point of the sweep is a valid case; point 1: --set ring.nods=36: unknown key `ring.nods`",
         ),
-        (
-            &["--vary", "ring.nodes"],
-            2,
-            "--vary ring.nodes: expected KEY=VALUES",
-        ),
+        (&["--vary", "ring.nodes"], 2, "--vary ring.nodes: expected KEY=VALUES"),
         (&["--vary", "ring.nodes=1:5"], 2, "expected FROM:TO:COUNT"),
-        (
-            &["--vary", "ring.nodes=36", "--vary", "ring.nodes=72"],
-            2,
-            "varied twice",
-        ),
+        (&["--vary", "ring.nodes=36", "--vary", "ring.nodes=72"], 2, "varied twice"),
         (&[], 2, "--vary"),
-        (
-            &["--vary", "ring.nodes=36", "--resume"],
-            2,
-            "holds no sweep",
-        ),
+        (&["--vary", "ring.nodes=36", "--resume"], 2, "holds no sweep"),
     ] {
         let (found, _, err) = sweep(&folder, words);
         assert_eq!(found, code, "{words:?}: {err}");
@@ -135,10 +105,7 @@ fn what_no_point_can_be_is_an_error_before_anything_is_written() {
     // every point is refused: nothing has a result
     let (code, _, err) = sweep(&folder, &["--vary", "ring.nodes=1,2"]);
     assert_eq!(code, 2, "{err}");
-    for words in [
-        &["sweep", "--merge", "."][..],
-        &["sweep", ".", "--task", "1/2"],
-    ] {
+    for words in [&["sweep", "--merge", "."][..], &["sweep", ".", "--task", "1/2"]] {
         let (code, _, err) = told(plummer(&folder, words));
         assert_eq!(code, 2, "{err}");
         assert!(err.contains("holds no sweep"), "{err}");
@@ -154,16 +121,10 @@ fn a_sweep_goes_on_with_what_is_missing_and_with_nothing_else() {
     let expected = rows(&results);
     let (code, _, err) = sweep(&folder, &vary);
     assert_eq!(code, 2);
-    assert!(
-        err.contains("holds a sweep") && err.contains("--resume"),
-        "{err}"
-    );
+    assert!(err.contains("holds a sweep") && err.contains("--resume"), "{err}");
     let (code, _, err) = sweep(&folder, &["--vary", "ring.nodes=36", "--resume"]);
     assert_eq!(code, 2);
-    assert!(
-        err.contains("--vary ring.nodes=36,72, now --vary ring.nodes=36"),
-        "{err}"
-    );
+    assert!(err.contains("--vary ring.nodes=36,72, now --vary ring.nodes=36"), "{err}");
     // one point is lost, the other marked
     fs::remove_dir_all(results.join("sweep/2")).unwrap();
     fs::write(results.join("sweep/1/mark"), "kept").unwrap();
@@ -189,12 +150,7 @@ fn shares_of_a_job_array_merge_to_the_same_table() {
     let array = fs::read_to_string(folder.join("ar ray/sweep/array.sbatch")).unwrap();
     assert!(array.contains("#SBATCH --array=1-2\n"), "{array}");
     let share = |share: &str| told(plummer(&folder, &["sweep", "--task", share, "ar ray"]));
-    let merge = |force: &[&str]| {
-        told(plummer(
-            &folder,
-            &[&["sweep", "--merge", "ar ray"], force].concat(),
-        ))
-    };
+    let merge = |force: &[&str]| told(plummer(&folder, &[&["sweep", "--merge", "ar ray"], force].concat()));
     assert_eq!(share("1/2").0, 0);
     let (code, _, err) = merge(&[]);
     assert_eq!(code, 1);
@@ -203,10 +159,7 @@ fn shares_of_a_job_array_merge_to_the_same_table() {
     assert_eq!((code, out.lines().next()), (0, Some("point 2: done")));
     let (code, _, err) = merge(&["--force"]);
     assert_eq!((code, err.as_str()), (0, ""));
-    assert_eq!(
-        rows(&folder.join("ar ray")),
-        rows(&folder.join("out/Ring ä"))
-    );
+    assert_eq!(rows(&folder.join("ar ray")), rows(&folder.join("out/Ring ä")));
     // the case is not the one that was planned
     let case = folder.join("Ring ä.toml");
     let text = fs::read_to_string(&case).unwrap();
@@ -227,20 +180,8 @@ fn interrupted_runs_go_on() {
             .current_dir(&folder)
             .args(["sweep"])
             .arg(&case)
-            .args([
-                "--vary",
-                "shaft.mass=0.15,0.2",
-                "--threads",
-                "2",
-                "--out",
-                out,
-            ])
-            .args([
-                "--set",
-                "transient.step=2.5e-7",
-                "--set",
-                "transient.end=0.8",
-            ])
+            .args(["--vary", "shaft.mass=0.15,0.2", "--threads", "2", "--out", out])
+            .args(["--set", "transient.step=2.5e-7", "--set", "transient.end=0.8"])
             .args(["--set", "analysis.envelope=[{from=0.05,to=0.2}]"])
             .args(more)
             .stdout(Stdio::null())
@@ -249,26 +190,13 @@ fn interrupted_runs_go_on() {
     };
     assert!(command("whole", &[]).status().unwrap().success());
     let mut child = command("parts", &[]).spawn().unwrap();
-    let begun = |number: usize| {
-        folder
-            .join(format!("parts/sweep/{number}/.run.partial"))
-            .exists()
-    };
+    let begun = |number: usize| folder.join(format!("parts/sweep/{number}/.run.partial")).exists();
     while !(begun(1) && begun(2)) {
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "it ended before it could be stopped"
-        );
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be stopped");
         sleep(Duration::from_millis(2));
     }
     let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-TERM", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
+    assert!(Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
     let (code, _, err) = told(child.wait_with_output().unwrap());
     assert_eq!(code, 1, "{err}");
     assert!(err.contains("interrupted at 0 of 2 points"), "{err}");
@@ -277,26 +205,11 @@ fn interrupted_runs_go_on() {
     let output = command("parts", &["--resume"]).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     for point in ["1", "2"] {
-        let signals = |out: &str| {
-            fs::read(
-                folder
-                    .join(out)
-                    .join("sweep")
-                    .join(point)
-                    .join("signals.npz"),
-            )
-            .unwrap()
-        };
-        assert!(
-            signals("whole") == signals("parts"),
-            "point {point}: other bytes"
-        );
+        let signals = |out: &str| fs::read(folder.join(out).join("sweep").join(point).join("signals.npz")).unwrap();
+        assert!(signals("whole") == signals("parts"), "point {point}: other bytes");
     }
     let rms = |out: &str| json(&folder.join(out).join("sweep.json"))["done"].clone();
     assert_eq!(rms("parts"), rms("whole"));
     let header = fs::read_to_string(folder.join("whole/sweep.csv")).unwrap();
-    assert!(
-        header.starts_with("point,shaft.mass,state,wall_s [s],P1.1.speed_hz [Hz],P1.1.rms [m/s²],"),
-        "{header}"
-    );
+    assert!(header.starts_with("point,shaft.mass,state,wall_s [s],P1.1.speed_hz [Hz],P1.1.rms [m/s²],"), "{header}");
 }

@@ -33,13 +33,8 @@ fn steps(text: &str) -> Vec<Step> {
         let mut words = info.split(' ');
         match words.next() {
             Some("sh") => {
-                let mut step = Step {
-                    line,
-                    script: lines.join("\n"),
-                    exit: 0,
-                    needs: Vec::new(),
-                    expected: Vec::new(),
-                };
+                let mut step =
+                    Step { line, script: lines.join("\n"), exit: 0, needs: Vec::new(), expected: Vec::new() };
                 for word in words {
                     match word.split_once('=') {
                         Some(("exit", code)) => step.exit = code.parse().unwrap(),
@@ -83,10 +78,7 @@ fn missing<'a>(output: &str, expected: &'a [String]) -> Option<&'a str> {
         let fits = |at: &usize| {
             let lines = run.iter().enumerate();
             lines
-                .map(|(k, line)| {
-                    said.get(at + k)
-                        .is_some_and(|said| alike(said, line.trim_end()))
-                })
+                .map(|(k, line)| said.get(at + k).is_some_and(|said| alike(said, line.trim_end())))
                 .take_while(|&same| same)
                 .count()
         };
@@ -104,10 +96,7 @@ fn missing<'a>(output: &str, expected: &'a [String]) -> Option<&'a str> {
 /// Whether a program, or else a module of Python, is there.
 fn installed(name: &str, path: &OsStr) -> bool {
     let looked = "command -v \"$1\" || python3 -c \"import $1\"";
-    let output = Command::new("bash")
-        .args(["-c", looked, "bash", name])
-        .env("PATH", path)
-        .output();
+    let output = Command::new("bash").args(["-c", looked, "bash", name]).env("PATH", path).output();
     output.is_ok_and(|output| output.status.success())
 }
 
@@ -176,9 +165,7 @@ fn python() {
 
 #[test]
 fn blocks_are_steps() {
-    let found = steps(
-        "```sh\na\nb\n```\n```text\nc\n```\n```sh exit=1 needs=gmsh,ccx\nd\n```\n```toml\n```\n",
-    );
+    let found = steps("```sh\na\nb\n```\n```text\nc\n```\n```sh exit=1 needs=gmsh,ccx\nd\n```\n```toml\n```\n");
     assert_eq!(found.len(), 2);
     assert_eq!((found[0].script.as_str(), found[0].exit), ("a\nb", 0));
     assert_eq!(found[0].expected, ["c"]);

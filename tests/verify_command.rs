@@ -32,20 +32,9 @@ fn every_check_passes_in_an_empty_folder_and_stands_in_the_result() {
         assert!(!json[key].is_null(), "{key}");
     }
     let checks = json["checks"].as_array().unwrap();
-    let of = |section: &str| {
-        checks
-            .iter()
-            .filter(|check| check["section"] == section)
-            .count()
-    };
+    let of = |section: &str| checks.iter().filter(|check| check["section"] == section).count();
     assert_eq!(of("The paper's numbers"), 25);
-    for section in [
-        "Curved beams",
-        "Whole housings",
-        "Condensation",
-        "Simulation",
-        "Signals",
-    ] {
+    for section in ["Curved beams", "Whole housings", "Condensation", "Simulation", "Signals"] {
         assert!(of(section) >= 6, "{section}");
     }
     for check in checks {

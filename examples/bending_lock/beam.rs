@@ -5,9 +5,7 @@ use super::load::end_load;
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::element::continuum::{ContinuumKind, Formulation};
 use plummer::fe::material::Material;
-use plummer::fe::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
-};
+use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
 use plummer::numerics::linalg::{SparseCholesky, submatrix};
 use std::error::Error;
@@ -33,9 +31,7 @@ impl Beam {
     /// `count` equal elements, one over the section.
     pub fn uniform(length: f64, count: usize) -> Self {
         Self {
-            lines: (0..=count)
-                .map(|i| length * i as f64 / count as f64)
-                .collect(),
+            lines: (0..=count).map(|i| length * i as f64 / count as f64).collect(),
             tilts: vec![0.0; count + 1],
             across: 1,
             quarter: false,
@@ -46,11 +42,7 @@ impl Beam {
     pub fn tilted(mut self, degrees: f64, alternate: bool) -> Self {
         let last = self.tilts.len() - 1;
         for (line, tilt) in self.tilts.iter_mut().enumerate().take(last).skip(1) {
-            let sign = if alternate && line % 2 == 1 {
-                -1.0
-            } else {
-                1.0
-            };
+            let sign = if alternate && line % 2 == 1 { -1.0 } else { 1.0 };
             *tilt = sign * degrees.to_radians().tan();
         }
         self
@@ -62,9 +54,7 @@ impl Beam {
         let mut steps = vec![0.5 * HEIGHT / across as f64];
         let mut end = steps[0];
         while end < length {
-            let step = (1.25 * steps[steps.len() - 1])
-                .min(0.5 * HEIGHT)
-                .max(steps[0]);
+            let step = (1.25 * steps[steps.len() - 1]).min(0.5 * HEIGHT).max(steps[0]);
             steps.push(step);
             end += step;
         }
@@ -72,12 +62,7 @@ impl Beam {
         for step in &steps {
             lines.push(lines[lines.len() - 1] + step * length / end);
         }
-        Self {
-            tilts: vec![0.0; lines.len()],
-            lines,
-            across,
-            quarter: true,
-        }
+        Self { tilts: vec![0.0; lines.len()], lines, across, quarter: true }
     }
 
     fn length(&self) -> f64 {
@@ -87,14 +72,7 @@ impl Beam {
     /// Position of half step i along x, j along y, k along z, m.
     fn place(&self, [i, j, k]: [usize; 3]) -> [f64; 3] {
         let share = |step: usize| step as f64 / (2 * self.across) as f64;
-        let side = |step| {
-            HEIGHT
-                * if self.quarter {
-                    0.5 * share(step)
-                } else {
-                    share(step) - 0.5
-                }
-        };
+        let side = |step| HEIGHT * if self.quarter { 0.5 * share(step) } else { share(step) - 0.5 };
         let z = side(k);
         let line = |i: usize| self.lines[i] + self.tilts[i] * z;
         [f64::midpoint(line(i / 2), line(i.div_ceil(2))), side(j), z]
@@ -104,24 +82,13 @@ impl Beam {
         let cells = [self.lines.len() - 1, self.across, self.across];
         let [a, b, c] = cells.map(|n| 2 * n + 1);
         let index = |p: [usize; 3]| p[0] + a * (p[1] + b * p[2]);
-        let mut nodes: Vec<_> = (0..a * b * c)
-            .map(|n| self.place([n % a, n / a % b, n / a / b]))
-            .collect();
+        let mut nodes: Vec<_> = (0..a * b * c).map(|n| self.place([n % a, n / a % b, n / a / b])).collect();
         let mut connectivity = Vec::new();
         for cell in 0..cells.iter().product() {
-            let origin = [
-                cell % cells[0],
-                cell / cells[0] % cells[1],
-                cell / cells[0] / cells[1],
-            ];
+            let origin = [cell % cells[0], cell / cells[0] % cells[1], cell / cells[0] / cells[1]];
             for corners in corners_in_a_cell(kind) {
-                let corners: Vec<_> = corners
-                    .iter()
-                    .map(|p| [0, 1, 2].map(|i| 2 * origin[i] + p[i]))
-                    .collect();
-                let middle = |[a, b]: [usize; 2]| {
-                    [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]))
-                };
+                let corners: Vec<_> = corners.iter().map(|p| [0, 1, 2].map(|i| 2 * origin[i] + p[i])).collect();
+                let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]));
                 connectivity.extend(corners.iter().copied().map(index));
                 connectivity.extend(kind.edges().iter().map(|&edge| index(middle(edge))));
             }
@@ -134,23 +101,16 @@ impl Beam {
             }
         }
         let count = connectivity.len() / kind.nodes();
-        let entity = Entity {
-            dimension: 3,
-            tag: 1,
-        };
+        let entity = Entity { dimension: 3, tag: 1 };
         let group = PhysicalGroup {
             name: "beam".to_owned(),
             dimension: 3,
             tag: 1,
             nodes: (0..nodes.len()).collect(),
-            elements: (0..count)
-                .map(|index| ElementId { block: 0, index })
-                .collect(),
+            elements: (0..count).map(|index| ElementId { block: 0, index }).collect(),
         };
         let block = ElementBlock {
-            kind: ElementKind::all()
-                .find(|k| k.name() == kind.name())
-                .expect("has its mesh kind"),
+            kind: ElementKind::all().find(|k| k.name() == kind.name()).expect("has its mesh kind"),
             tags: (1..=count as u64).collect(),
             connectivity,
             entity,
@@ -160,10 +120,7 @@ impl Beam {
             nodes,
             blocks: vec![block],
             groups: vec![group],
-            format: MshFormat {
-                version: MshVersion::V41,
-                binary: false,
-            },
+            format: MshFormat { version: MshVersion::V41, binary: false },
             source: "cantilever".into(),
         }
     }
@@ -177,15 +134,8 @@ impl Beam {
         poisson: f64,
     ) -> Result<f64, Box<dyn Error>> {
         let mesh = self.mesh(kind);
-        let part = HousingPart {
-            group: "beam".to_owned(),
-            material: Material::new(YOUNG, poisson, 7800.0)?.into(),
-        };
-        let description = HousingDescription {
-            parts: vec![part],
-            formulation,
-            ..HousingDescription::default()
-        };
+        let part = HousingPart { group: "beam".to_owned(), material: Material::new(YOUNG, poisson, 7800.0)?.into() };
+        let description = HousingDescription { parts: vec![part], formulation, ..HousingDescription::default() };
         let model = HousingModel::new(&mesh, description)?;
         let stiffness = SystemMatrices::assemble(&model)?.stiffness;
         let mut free = model.free_dofs();
@@ -218,32 +168,18 @@ fn corners_in_a_cell(kind: ContinuumKind) -> Vec<Vec<[usize; 3]>> {
             .to_vec(),
         _ => {
             let steps = |x: f64| if x > 0.0 { 2 } else { 0 };
-            vec![
-                kind.natural_nodes()[..8]
-                    .iter()
-                    .map(|x| x.map(steps))
-                    .collect(),
-            ]
+            vec![kind.natural_nodes()[..8].iter().map(|x| x.map(steps)).collect()]
         }
     }
 }
 
 /// Six tetrahedra about the diagonal of a cell (Kuhn).
 fn tetrahedra() -> Vec<Vec<[usize; 3]>> {
-    let paths = [
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [0, 2, 1],
-        [2, 1, 0],
-        [1, 0, 2],
-    ];
+    let paths = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     let along = |(number, path): (usize, [usize; 3])| {
         let mut corners = vec![[0; 3]; 4];
         for (step, axis) in path.into_iter().enumerate() {
-            corners[step + 1..]
-                .iter_mut()
-                .for_each(|corner| corner[axis] += 2);
+            corners[step + 1..].iter_mut().for_each(|corner| corner[axis] += 2);
         }
         if number > 2 {
             corners.swap(1, 2); // the odd paths turn the other way round

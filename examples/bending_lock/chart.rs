@@ -50,10 +50,7 @@ const ACROSS: usize = 2;
 /// All panels, two a row, with a legend.
 pub fn svg(panels: &[Panel]) -> String {
     let rows = panels.len().div_ceil(ACROSS);
-    let (width, height) = (
-        PANEL[0] * ACROSS as f64 + 24.0,
-        TOP + PANEL[1] * rows as f64 + 8.0,
-    );
+    let (width, height) = (PANEL[0] * ACROSS as f64 + 24.0, TOP + PANEL[1] * rows as f64 + 8.0);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#222\">\n\
@@ -82,11 +79,7 @@ pub fn svg(panels: &[Panel]) -> String {
     }
     for (place, panel) in panels.iter().enumerate() {
         let x = 24.0 + PANEL[0] * (place % ACROSS) as f64;
-        draw(
-            &mut out,
-            panel,
-            [x, TOP + PANEL[1] * (place / ACROSS) as f64],
-        );
+        draw(&mut out, panel, [x, TOP + PANEL[1] * (place / ACROSS) as f64]);
     }
     out.push_str("</svg>\n");
     out
@@ -99,27 +92,9 @@ fn draw(out: &mut String, panel: &Panel, [left, top]: [f64; 2]) {
         let y = top + 26.0 + CELL[1] * row as f64;
         text(out, "r", left + NAMES - 8.0, y + 16.0, name);
         for (column, &error) in errors.iter().enumerate() {
-            let level = COLOURS
-                .iter()
-                .position(|colour| error.abs() < colour.0)
-                .unwrap_or(5);
-            rectangle(
-                out,
-                [
-                    middle(column) - 0.5 * CELL[0],
-                    y,
-                    CELL[0] - 1.0,
-                    CELL[1] - 1.0,
-                ],
-                COLOURS[level].1,
-            );
-            text(
-                out,
-                if level > 3 { "w" } else { "c" },
-                middle(column),
-                y + 16.0,
-                &number(error),
-            );
+            let level = COLOURS.iter().position(|colour| error.abs() < colour.0).unwrap_or(5);
+            rectangle(out, [middle(column) - 0.5 * CELL[0], y, CELL[0] - 1.0, CELL[1] - 1.0], COLOURS[level].1);
+            text(out, if level > 3 { "w" } else { "c" }, middle(column), y + 16.0, &number(error));
         }
     }
     let below = top + 26.0 + CELL[1] * panel.rows.len() as f64;
@@ -133,24 +108,14 @@ fn draw(out: &mut String, panel: &Panel, [left, top]: [f64; 2]) {
 fn number(error: f64) -> String {
     let digits = if error.abs() < 9.95 { 1 } else { 0 };
     let plain = format!("{:.digits$}", error.abs());
-    let sign = if error < 0.0 && plain != "0.0" {
-        "\u{2212}"
-    } else {
-        ""
-    };
+    let sign = if error < 0.0 && plain != "0.0" { "\u{2212}" } else { "" };
     sign.to_owned() + &plain
 }
 
 fn rectangle(out: &mut String, [x, y, width, height]: [f64; 4], colour: &str) {
-    let _ = writeln!(
-        out,
-        "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{colour}\"/>"
-    );
+    let _ = writeln!(out, "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{colour}\"/>");
 }
 
 fn text(out: &mut String, class: &str, x: f64, y: f64, content: &str) {
-    let _ = writeln!(
-        out,
-        "<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{content}</text>"
-    );
+    let _ = writeln!(out, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{content}</text>");
 }

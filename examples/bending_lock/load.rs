@@ -11,11 +11,7 @@ pub fn end_load(mesh: &Mesh, kind: ContinuumKind, length: f64) -> Result<Vec<f64
     let end = length * (1.0 - 1e-9);
     for element in mesh.blocks[0].elements() {
         let on_end = |node: &&usize| mesh.nodes[**node][0] > end;
-        let mut corners: Vec<usize> = element[..kind.corners()]
-            .iter()
-            .filter(on_end)
-            .copied()
-            .collect();
+        let mut corners: Vec<usize> = element[..kind.corners()].iter().filter(on_end).copied().collect();
         let face = match (corners.len(), kind.edges().is_empty()) {
             (3, true) => ContinuumKind::Tri3,
             (3, false) => ContinuumKind::Tri6,
@@ -35,33 +31,18 @@ pub fn end_load(mesh: &Mesh, kind: ContinuumKind, length: f64) -> Result<Vec<f64
         for &[a, b] in face.edges() {
             let ends = [corners[a], corners[b]];
             let place = |node: usize| element.iter().position(|&other| other == node);
-            let same = |edge: &[usize; 2]| {
-                ends.iter()
-                    .all(|&n| edge.iter().any(|&e| Some(e) == place(n)))
-            };
-            let edge = kind
-                .edges()
-                .iter()
-                .position(same)
-                .ok_or("an edge of the face")?;
+            let same = |edge: &[usize; 2]| ends.iter().all(|&n| edge.iter().any(|&e| Some(e) == place(n)));
+            let edge = kind.edges().iter().position(same).ok_or("an edge of the face")?;
             nodes.push(element[kind.corners() + edge]);
         }
         let coords: Vec<_> = nodes.iter().map(|&node| flat(node)).collect();
-        let rule = if corners.len() == 3 {
-            QuadratureRule::TRIANGLE_12
-        } else {
-            QuadratureRule::SQUARE_4X4
-        };
+        let rule = if corners.len() == 3 { QuadratureRule::TRIANGLE_12 } else { QuadratureRule::SQUARE_4X4 };
         let natural: f64 = rule.points().iter().map(|point| point.weight).sum();
         // triangles and rectangles: the Jacobian is constant
         let jacobian = measure(face, &coords)? / natural;
         for point in rule.points() {
             let values = shape_values(face, point.natural);
-            let z: f64 = coords
-                .iter()
-                .zip(values)
-                .map(|(x, value)| x[1] * value)
-                .sum();
+            let z: f64 = coords.iter().zip(values).map(|(x, value)| x[1] * value).sum();
             let shear = 1.0 - (2.0 * z / HEIGHT).powi(2);
             for (&node, value) in nodes.iter().zip(values) {
                 load[node] += point.weight * jacobian * shear * value;

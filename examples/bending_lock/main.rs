@@ -46,11 +46,7 @@ const SHORT: [f64; 3] = [0.05, 0.1, 0.15];
 /// Rows of the chart.
 const ELEMENTS: [(&str, ContinuumKind, LinearFormulation); 7] = [
     ("Hex8 plain", ContinuumKind::Hex8, LinearFormulation::Plain),
-    (
-        "Hex8 (default)",
-        ContinuumKind::Hex8,
-        LinearFormulation::Incompatible,
-    ),
+    ("Hex8 (default)", ContinuumKind::Hex8, LinearFormulation::Incompatible),
     ("Hex20", ContinuumKind::Hex20, LinearFormulation::Plain),
     ("Tet4", ContinuumKind::Tet4, LinearFormulation::Plain),
     ("Tet10", ContinuumKind::Tet10, LinearFormulation::Plain),
@@ -69,13 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let lengths = PROPORTIONS.map(|a| ALONG as f64 * a * HEIGHT);
         let beams = lengths.map(|length| (Beam::uniform(length, ALONG), reference.at(length)));
         let title = format!("Poisson's ratio {poisson}");
-        panels.push(panel(
-            title,
-            "length / height of an element",
-            &PROPORTIONS,
-            &beams,
-            poisson,
-        )?);
+        panels.push(panel(title, "length / height of an element", &PROPORTIONS, &beams, poisson)?);
     }
     let reference = Reference::new(0.3)?;
     let length = 5.0 * ALONG as f64 * HEIGHT;
@@ -83,24 +73,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         let tilted = |angle| Beam::uniform(length, ALONG).tilted(angle, alternate);
         let beams = ANGLES.map(|angle| (tilted(angle), reference.at(length)));
         let title = format!("{name}, length / height 5, ratio 0.3");
-        panels.push(panel(
-            title,
-            "angle of the sides, degrees",
-            &ANGLES,
-            &beams,
-            0.3,
-        )?);
+        panels.push(panel(title, "angle of the sides, degrees", &ANGLES, &beams, 0.3)?);
     }
     let beams = COUNTS.map(|count| (Beam::uniform(0.1, count), reference.at(0.1)));
     let counts = COUNTS.map(|count| count as f64);
     let title = "Beam 100 x 10 x 10 mm, ratio 0.3".to_owned();
-    panels.push(panel(
-        title,
-        "elements along the beam",
-        &counts,
-        &beams,
-        0.3,
-    )?);
+    panels.push(panel(title, "elements along the beam", &counts, &beams, 0.3)?);
 
     let mut out = std::io::stdout().lock();
     for panel in &panels {
@@ -138,21 +116,14 @@ impl Reference {
         let [p, q, r] = SHORT;
         let parabola = |a: f64, b: f64, c: f64| (length - b) * (length - c) / ((a - b) * (a - c));
         let weights = [parabola(p, q, r), parabola(q, p, r), parabola(r, p, q)];
-        let rest: f64 = weights
-            .iter()
-            .zip(self.rest)
-            .map(|(weight, rest)| weight * rest)
-            .sum();
+        let rest: f64 = weights.iter().zip(self.rest).map(|(weight, rest)| weight * rest).sum();
         let fine = slender(length) + rest;
         if self.poisson > 0.0 {
             return fine;
         }
         let timoshenko = slender(length) + 6.0 * length / (5.0 * 0.5 * YOUNG * HEIGHT.powi(2));
         let difference = fine / timoshenko - 1.0;
-        assert!(
-            difference.abs() < 1e-4,
-            "reference of {length} m against Timoshenko: {difference:.2e}"
-        );
+        assert!(difference.abs() < 1e-4, "reference of {length} m against Timoshenko: {difference:.2e}");
         timoshenko
     }
 }
@@ -171,22 +142,14 @@ fn panel(
 ) -> Result<Panel, Box<dyn Error>> {
     let mut rows = Vec::new();
     for (name, kind, linear) in ELEMENTS {
-        let formulation = Formulation {
-            linear,
-            ..Formulation::default()
-        };
+        let formulation = Formulation { linear, ..Formulation::default() };
         let mut errors = Vec::new();
         for (beam, reference) in beams {
             errors.push(100.0 * (beam.compliance(kind, formulation, poisson)? / reference - 1.0));
         }
         rows.push((name, errors));
     }
-    Ok(Panel {
-        title,
-        axis,
-        columns: columns.to_vec(),
-        rows,
-    })
+    Ok(Panel { title, axis, columns: columns.to_vec(), rows })
 }
 
 /// What the chart shows, as numbers in per cent.
@@ -194,60 +157,35 @@ fn check(panels: &[Panel]) {
     let error = |panel: usize, row: usize, column: usize| panels[panel].rows[row].1[column];
     let largest = |panel: usize, row: usize| {
         let errors = &panels[panel].rows[row].1;
-        errors
-            .iter()
-            .fold(0.0_f64, |largest, error| largest.max(error.abs()))
+        errors.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()))
     };
     // the default Hex8 bends whatever its proportions; what is left is the line of 10 elements (1/4 n^2 = 0.25 %)
     // and the contraction that the clamped end holds over the whole first element
     for (panel, limit) in [(0, 0.4), (1, 1.3), (2, 2.5)] {
-        assert!(
-            largest(panel, DEFAULT) < limit,
-            "Hex8: {}",
-            largest(panel, DEFAULT)
-        );
+        assert!(largest(panel, DEFAULT) < limit, "Hex8: {}", largest(panel, DEFAULT));
     }
     // the plain one is stiffer by 1 + (l/h)^2 / 2 for ratio 0: its shear strain is that of the bending angle
     for (column, proportion) in PROPORTIONS.iter().enumerate() {
         let expected = 1.0 / (1.0 + 0.5 * proportion * proportion);
         let found = 1.0 + error(0, PLAIN, column) / 100.0;
-        assert!(
-            (found / expected - 1.0).abs() < 0.01,
-            "plain Hex8: {found} for {expected}"
-        );
+        assert!((found / expected - 1.0).abs() < 0.01, "plain Hex8: {found} for {expected}");
     }
     // what fails: nearly incompressible, and trapezoids (MacNeal's limit); Hex20 stands the latter
-    assert!(
-        (-17.0..-14.0).contains(&error(4, DEFAULT, 2)),
-        "{}",
-        error(4, DEFAULT, 2)
-    );
+    assert!((-17.0..-14.0).contains(&error(4, DEFAULT, 2)), "{}", error(4, DEFAULT, 2));
     assert!(error(5, DEFAULT, 1) < -75.0 && error(5, DEFAULT, 3) < -95.0);
     for row in [HEX20, TET10] {
         assert!(error(5, row, 2).abs() < 3.0, "{}", error(5, row, 2));
     }
     // one element is 1/4 too stiff even where it does not lock
-    assert!(
-        (-28.0..-25.0).contains(&error(7, DEFAULT, 4)),
-        "{}",
-        error(7, DEFAULT, 4)
-    );
+    assert!((-28.0..-25.0).contains(&error(7, DEFAULT, 4)), "{}", error(7, DEFAULT, 4));
 }
 
 /// The quarter that the reference computes deflects as the whole section does.
 fn check_symmetry() -> Result<(), Box<dyn Error>> {
     let quarter = Beam::fine(SHORT[0], 1);
-    let whole = Beam {
-        quarter: false,
-        across: 2,
-        ..Beam::fine(SHORT[0], 1)
-    };
-    let [part, all] = [quarter, whole]
-        .map(|beam| beam.compliance(ContinuumKind::Hex20, Formulation::default(), 0.4));
+    let whole = Beam { quarter: false, across: 2, ..Beam::fine(SHORT[0], 1) };
+    let [part, all] = [quarter, whole].map(|beam| beam.compliance(ContinuumKind::Hex20, Formulation::default(), 0.4));
     let difference = part? / all? - 1.0;
-    assert!(
-        difference.abs() < 1e-9,
-        "quarter against whole section: {difference:.1e}"
-    );
+    assert!(difference.abs() < 1e-9, "quarter against whole section: {difference:.1e}");
     Ok(())
 }

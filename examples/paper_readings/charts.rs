@@ -5,9 +5,7 @@ use crate::fits::{Fits, Moved};
 use crate::paper::{BOUNCE, SWAY};
 use crate::study::{ReadingResult, Study};
 use crate::tables::NAMES;
-use plummer::report::{
-    Abscissa, Axis, Curve, CurveStyle, Marker, Plot, SpanPoint, SpanRow, Spans, significant,
-};
+use plummer::report::{Abscissa, Axis, Curve, CurveStyle, Marker, Plot, SpanPoint, SpanRow, Spans, significant};
 
 /// The charts of the study.
 pub struct Charts {
@@ -28,10 +26,7 @@ impl Charts {
             let base = base?.nearest_hz[k];
             (!moved.is_empty()).then(|| (name, spans(study, moved, k, base)))
         });
-        Self {
-            moved: charts.collect(),
-            scatter: scatter(study, fits),
-        }
+        Self { moved: charts.collect(), scatter: scatter(study, fits) }
     }
 }
 
@@ -43,20 +38,10 @@ fn spans(study: &Study, moved: &[Moved], k: usize, base: f64) -> Spans {
             .filter(|moved| moved.factor == factor)
             .map(|moved| {
                 let label = study.grid.label(factor, moved.level);
-                SpanPoint {
-                    label: if moved.shaped[k] {
-                        label
-                    } else {
-                        format!("{label} *")
-                    },
-                    at: moved.hz[k] / 1e3,
-                }
+                SpanPoint { label: if moved.shaped[k] { label } else { format!("{label} *") }, at: moved.hz[k] / 1e3 }
             })
             .collect();
-        (!points.is_empty()).then(|| SpanRow {
-            name: factor.name().to_owned(),
-            points,
-        })
+        (!points.is_empty()).then(|| SpanRow { name: factor.name().to_owned(), points })
     });
     Spans {
         title: format!("What one choice does to the mode nearest to {}", NAMES[k]),
@@ -87,11 +72,8 @@ fn scatter(study: &Study, fits: &Fits) -> Plot {
             .unzip()
     };
     for (level, equations) in study.grid.equations.iter().enumerate() {
-        let with: Vec<&ReadingResult> = study
-            .readings
-            .iter()
-            .filter(|reading| reading.levels[Factor::Equations as usize] == level)
-            .collect();
+        let with: Vec<&ReadingResult> =
+            study.readings.iter().filter(|reading| reading.levels[Factor::Equations as usize] == level).collect();
         let (x, y) = points(&with);
         let name = match equations {
             Equations::Printed => "printed equations",
@@ -99,19 +81,11 @@ fn scatter(study: &Study, fits: &Fits) -> Plot {
         };
         plot = plot.curve(Curve::new(name, Abscissa::Points(x), y).style(CurveStyle::Points));
     }
-    let fitting: Vec<&ReadingResult> = fits
-        .fits
-        .iter()
-        .filter(|fit| fit.all_shaped())
-        .map(|fit| &fit.reading)
-        .collect();
+    let fitting: Vec<&ReadingResult> =
+        fits.fits.iter().filter(|fit| fit.all_shaped()).map(|fit| &fit.reading).collect();
     let (x, y) = points(&fitting);
     let fitting = Curve::new("all three given", Abscissa::Points(x), y);
-    let line = Curve::new(
-        "11.3 kHz",
-        Abscissa::Points(vec![3e3, 12e3]),
-        vec![BOUNCE; 2],
-    );
+    let line = Curve::new("11.3 kHz", Abscissa::Points(vec![3e3, 12e3]), vec![BOUNCE; 2]);
     plot.curve(fitting.style(CurveStyle::Points))
         .curve(line.style(CurveStyle::Dashed))
         .marker(Marker::new(SWAY, "8.2 kHz"))

@@ -161,28 +161,15 @@ impl Grid {
     pub fn full() -> Self {
         Self {
             widths: vec![3e-3, 3.5e-3, 4e-3, 4.5e-3, 5e-3],
-            springs: vec![
-                Springs::CommonNodes,
-                Springs::CentreLine,
-                Springs::Outside,
-                Springs::Radial,
-            ],
+            springs: vec![Springs::CommonNodes, Springs::CentreLine, Springs::Outside, Springs::Radial],
             arcs: vec![SpringArc::HalfOpen, SpringArc::Closed],
-            bonds: vec![
-                RingBond::OwnRadius,
-                RingBond::CommonCentroid,
-                RingBond::Composite,
-            ],
+            bonds: vec![RingBond::OwnRadius, RingBond::CommonCentroid, RingBond::Composite],
             shear: vec![false, true],
             rotary_inertia: vec![true, false],
             steel: vec![200e9, 206e9, 210e9],
             aluminium: vec![69e9, 72e9],
             equations: vec![Equations::Printed, Equations::Consistent],
-            contacts: vec![
-                ContactSource::Geometry,
-                ContactSource::TableOne,
-                ContactSource::RingSteel,
-            ],
+            contacts: vec![ContactSource::Geometry, ContactSource::TableOne, ContactSource::RingSteel],
             loads: vec![0.5, 1.0, 2.0],
             cages: vec![0.0, 0.5, 1.0],
         }
@@ -350,8 +337,7 @@ mod tests {
         assert_eq!(distinct.len(), structures.len());
         assert_eq!(structures[1][STRUCTURE_FACTORS - 1], 1);
         for (factor, size) in Factor::ALL.into_iter().zip(grid.sizes()) {
-            let words: std::collections::HashSet<_> =
-                (0..size).map(|level| grid.label(factor, level)).collect();
+            let words: std::collections::HashSet<_> = (0..size).map(|level| grid.label(factor, level)).collect();
             assert_eq!(words.len(), size, "{}", factor.name());
             assert!(!words.contains("") && grid.label(factor, size).is_empty());
         }

@@ -86,10 +86,7 @@ fn close(setup: &BearingSetup, rest: &Equilibrium) -> (BearingSetup, Equilibrium
         ball.inner = ball.outer;
         largest = largest.max(gap);
     }
-    let setup = BearingSetup {
-        oversizes,
-        ..setup.clone()
-    };
+    let setup = BearingSetup { oversizes, ..setup.clone() };
     (setup, closed, largest)
 }
 
@@ -119,11 +116,7 @@ pub fn distance(hz: &[f64]) -> Option<f64> {
     };
     let ring = RING[1];
     let errors = [sway / SWAY, bounce / BOUNCE, first / ring, second / ring];
-    Some(
-        errors
-            .iter()
-            .fold(0.0, |worst: f64, ratio| worst.max((ratio - 1.0).abs())),
-    )
+    Some(errors.iter().fold(0.0, |worst: f64, ratio| worst.max((ratio - 1.0).abs())))
 }
 
 /// The rows as a section of the report, and whether they confirm that closed contacts give the paper's frequencies.
@@ -141,14 +134,8 @@ pub fn section(grid: &Grid, rows: &[Row]) -> Section {
         let place = |factor, level: Option<usize>| {
             Cell::text(level.map_or_else(String::new, |level| grid.label(factor, level)))
         };
-        let springs = grid
-            .springs
-            .iter()
-            .position(|springs| *springs == row.springs);
-        let cage = grid
-            .cages
-            .iter()
-            .position(|cage| (cage - row.cage).abs() < 1e-9);
+        let springs = grid.springs.iter().position(|springs| *springs == row.springs);
+        let cage = grid.cages.iter().position(|cage| (cage - row.cage).abs() < 1e-9);
         for (contacts, hz) in ["open", "closed"].into_iter().zip(&row.frequencies_hz) {
             let words: Vec<String> = hz.iter().map(|hz| fixed(*hz, 0)).collect();
             table = table.row([
@@ -157,8 +144,7 @@ pub fn section(grid: &Grid, rows: &[Row]) -> Section {
                 Cell::number(1e6 * row.gap, 3),
                 Cell::text(contacts),
                 Cell::text(words.join(", ")),
-                distance(hz)
-                    .map_or_else(|| Cell::text("–"), |worst| Cell::number(100.0 * worst, 2)),
+                distance(hz).map_or_else(|| Cell::text("–"), |worst| Cell::number(100.0 * worst, 2)),
             ]);
         }
     }
@@ -196,11 +182,7 @@ mod tests {
     /// 8159, 11288 and 35791/35927 Hz: an independent model of the same linearisation, whole Hz.
     #[test]
     fn closed_contacts_and_springs_at_the_nodes_give_what_another_model_gave() {
-        let grid = Grid {
-            springs: vec![Springs::CommonNodes, Springs::CentreLine],
-            cages: vec![0.0],
-            ..Grid::full()
-        };
+        let grid = Grid { springs: vec![Springs::CommonNodes, Springs::CentreLine], cages: vec![0.0], ..Grid::full() };
         check(&rows(&grid).unwrap());
     }
 }

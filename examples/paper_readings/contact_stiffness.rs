@@ -6,9 +6,7 @@
 use crate::paper::{Failure, TABLE_ONE};
 use crate::tables::signed;
 use plummer::app::verification::BEARING;
-use plummer::bearing::hertz::{
-    HertzError, HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness,
-};
+use plummer::bearing::hertz::{HertzError, HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness};
 use plummer::report::{Cell, Column, Section, Table, significant};
 
 /// Young's modulus of bearing steel, Pa.
@@ -71,27 +69,15 @@ impl RaceCurvatures {
 
     /// Every radius of Table 1 taken as positive, and (22) as it is printed.
     fn literal() -> [Self; 2] {
-        Self::right().map(|race| Self {
-            groove_sign: 1.0,
-            race_sign: 1.0,
-            plus: true,
-            ..race
-        })
+        Self::right().map(|race| Self { groove_sign: 1.0, race_sign: 1.0, plus: true, ..race })
     }
 
     fn contact(&self) -> Contact {
         let across = self.groove_sign / self.groove;
         let along = self.race_sign / self.race;
         let sum = 2.0 / self.ball + across + along;
-        let bracket = if self.plus {
-            across + along
-        } else {
-            across - along
-        };
-        Contact {
-            sum,
-            difference: bracket.abs() / sum,
-        }
+        let bracket = if self.plus { across + along } else { across - along };
+        Contact { sum, difference: bracket.abs() / sum }
     }
 }
 
@@ -124,10 +110,7 @@ fn hypothesis(what: impl Into<String>, found: [Result<f64, HertzError>; 2]) -> H
     let [inner, outer] = found.map(Result::ok);
     Hypothesis {
         what: what.into(),
-        misfit: [
-            inner.map(|k| k / TABLE_ONE[0] - 1.0),
-            outer.map(|k| k / TABLE_ONE[1] - 1.0),
-        ],
+        misfit: [inner.map(|k| k / TABLE_ONE[0] - 1.0), outer.map(|k| k / TABLE_ONE[1] - 1.0)],
         inner,
         outer,
     }
@@ -157,36 +140,17 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, Failure> {
         races.map(|race| race.contact().hertz(modulus).map(|found| found.stiffness))
     };
     let scaled = |factor: f64| of(RaceCurvatures::right(), modulus).map(|k| k.map(|k| factor * k));
-    let changed =
-        |change: &dyn Fn(RaceCurvatures) -> RaceCurvatures| RaceCurvatures::right().map(change);
+    let changed = |change: &dyn Fn(RaceCurvatures) -> RaceCurvatures| RaceCurvatures::right().map(change);
     let mut all = vec![
         hypothesis("geometry, 206 GPa", scaled(1.0)),
-        hypothesis(
-            "geometry, 200 GPa",
-            of(RaceCurvatures::right(), modulus_of(200e9)?),
-        ),
-        hypothesis(
-            "geometry, 210 GPa",
-            of(RaceCurvatures::right(), modulus_of(210e9)?),
-        ),
-        hypothesis(
-            "the same per N/mm^1.5, turned with 10^4 instead of 10^4.5",
-            scaled(10_f64.powf(-0.5)),
-        ),
+        hypothesis("geometry, 200 GPa", of(RaceCurvatures::right(), modulus_of(200e9)?)),
+        hypothesis("geometry, 210 GPa", of(RaceCurvatures::right(), modulus_of(210e9)?)),
+        hypothesis("the same per N/mm^1.5, turned with 10^4 instead of 10^4.5", scaled(10_f64.powf(-0.5))),
         hypothesis("E' = E/(1 - nu^2) in the place of half of it", scaled(2.0)),
-        hypothesis(
-            "a quarter of E/(1 - nu^2): the half taken twice",
-            scaled(0.5),
-        ),
+        hypothesis("a quarter of E/(1 - nu^2): the half taken twice", scaled(0.5)),
         hypothesis("Poisson's ratio left out", scaled(1.0 - POISSON * POISSON)),
-        hypothesis(
-            "diameters in the place of radii",
-            scaled(std::f64::consts::SQRT_2),
-        ),
-        hypothesis(
-            "half the radii in the place of radii",
-            scaled(std::f64::consts::FRAC_1_SQRT_2),
-        ),
+        hypothesis("diameters in the place of radii", scaled(std::f64::consts::SQRT_2)),
+        hypothesis("half the radii in the place of radii", scaled(std::f64::consts::FRAC_1_SQRT_2)),
         hypothesis(
             "kappa not used: the approach of a circular patch",
             RaceCurvatures::right().map(|race| {
@@ -196,91 +160,40 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, Failure> {
         ),
         hypothesis(
             "groove radii left out: ball on cylinders",
-            of(
-                changed(&|race| RaceCurvatures {
-                    groove_sign: 0.0,
-                    ..race
-                }),
-                modulus,
-            ),
+            of(changed(&|race| RaceCurvatures { groove_sign: 0.0, ..race }), modulus),
         ),
         hypothesis(
             "race radii left out: ball in straight grooves",
-            of(
-                changed(&|race| RaceCurvatures {
-                    race_sign: 0.0,
-                    ..race
-                }),
-                modulus,
-            ),
+            of(changed(&|race| RaceCurvatures { race_sign: 0.0, ..race }), modulus),
         ),
         hypothesis(
             "both left out: ball on a flat",
-            of(
-                changed(&|race| RaceCurvatures {
-                    groove_sign: 0.0,
-                    race_sign: 0.0,
-                    ..race
-                }),
-                modulus,
-            ),
+            of(changed(&|race| RaceCurvatures { groove_sign: 0.0, race_sign: 0.0, ..race }), modulus),
         ),
-        hypothesis(
-            "groove radii exchanged between the races",
-            of(swapped_grooves(RaceCurvatures::right()), modulus),
-        ),
-        hypothesis(
-            "(22) as printed, signs right",
-            of(
-                changed(&|race| RaceCurvatures { plus: true, ..race }),
-                modulus,
-            ),
-        ),
+        hypothesis("groove radii exchanged between the races", of(swapped_grooves(RaceCurvatures::right()), modulus)),
+        hypothesis("(22) as printed, signs right", of(changed(&|race| RaceCurvatures { plus: true, ..race }), modulus)),
         hypothesis(
             "grooves taken as convex, races right",
-            of(
-                changed(&|race| RaceCurvatures {
-                    groove_sign: 1.0,
-                    ..race
-                }),
-                modulus,
-            ),
+            of(changed(&|race| RaceCurvatures { groove_sign: 1.0, ..race }), modulus),
         ),
         hypothesis(
             "every radius positive, (22) put right",
-            of(
-                RaceCurvatures::literal().map(|race| RaceCurvatures {
-                    plus: false,
-                    ..race
-                }),
-                modulus,
-            ),
+            of(RaceCurvatures::literal().map(|race| RaceCurvatures { plus: false, ..race }), modulus),
         ),
     ];
     let [inner, outer] = scaled(1.0);
-    let series =
-        |inner: f64, outer: f64| (inner.powf(-2.0 / 3.0) + outer.powf(-2.0 / 3.0)).powf(-1.5);
+    let series = |inner: f64, outer: f64| (inner.powf(-2.0 / 3.0) + outer.powf(-2.0 / 3.0)).powf(-1.5);
     let both = series(inner?, outer?);
-    all.push(hypothesis(
-        "both contacts in series, for each",
-        [Ok(both), Ok(both)],
-    ));
+    all.push(hypothesis("both contacts in series, for each", [Ok(both), Ok(both)]));
     // Palmgren's line contact of the ball's diameter: 8.06e4 l^(8/9) N/mm^(10/9), l in mm
     let line = 8.06e4 * (2e3 * BEARING.ball_radius).powf(8.0 / 9.0) * 1e3_f64.powf(10.0 / 9.0);
-    all.push(hypothesis(
-        "line contact of a roller as long as the ball is thick (N/m^(10/9))",
-        [Ok(line), Ok(line)],
-    ));
+    all.push(hypothesis("line contact of a roller as long as the ball is thick (N/m^(10/9))", [Ok(line), Ok(line)]));
     for (young, steel) in [(206e9, "206 GPa"), (200e9, "200 GPa")] {
         let modulus = modulus_of(young)?;
         let literal = RaceCurvatures::literal();
-        let with =
-            |what: &str| format!("every radius positive, (21) and (22) as printed, {steel}{what}");
+        let with = |what: &str| format!("every radius positive, (21) and (22) as printed, {steel}{what}");
         all.push(hypothesis(with(""), of(literal, modulus)));
-        all.push(hypothesis(
-            with(", groove radii exchanged"),
-            of(swapped_grooves(literal), modulus),
-        ));
+        all.push(hypothesis(with(", groove radii exchanged"), of(swapped_grooves(literal), modulus)));
         all.push(hypothesis(
             with(", approach interpolated in a table"),
             literal.map(|race| race.contact().interpolated_in_a_table(modulus)),
@@ -295,16 +208,7 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, Failure> {
 }
 
 fn swapped_grooves([inner, outer]: [RaceCurvatures; 2]) -> [RaceCurvatures; 2] {
-    [
-        RaceCurvatures {
-            groove: outer.groove,
-            ..inner
-        },
-        RaceCurvatures {
-            groove: inner.groove,
-            ..outer
-        },
-    ]
+    [RaceCurvatures { groove: outer.groove, ..inner }, RaceCurvatures { groove: inner.groove, ..outer }]
 }
 
 /// Why Table 1's contact stiffness is a third of Hertz': the table of all hypotheses, and what follows from the nearest.
@@ -335,18 +239,16 @@ pub fn section(hypotheses: &[Hypothesis]) -> Section {
 
 /// Force at which the inner contact's slope, 1.5 k^(2/3) F^(1/3), is Table 1's number, N.
 fn tangent_force(hypotheses: &[Hypothesis]) -> Option<f64> {
-    let geometry = hypotheses
-        .iter()
-        .find(|hypothesis| hypothesis.what == "geometry, 206 GPa")?;
+    let geometry = hypotheses.iter().find(|hypothesis| hypothesis.what == "geometry, 206 GPa")?;
     let k = geometry.inner?;
     Some((TABLE_ONE[0] / 1.5).powi(3) / (k * k))
 }
 
 /// Young's modulus with which every radius taken as positive gives Table 1's numbers, Pa: k goes with it.
 fn moduli(hypotheses: &[Hypothesis]) -> Option<[f64; 2]> {
-    let literal = hypotheses.iter().find(|hypothesis| {
-        hypothesis.what == "every radius positive, (21) and (22) as printed, 206 GPa"
-    })?;
+    let literal = hypotheses
+        .iter()
+        .find(|hypothesis| hypothesis.what == "every radius positive, (21) and (22) as printed, 206 GPa")?;
     let [inner, outer] = literal.misfit;
     Some([206e9 / (1.0 + inner?), 206e9 / (1.0 + outer?)])
 }
@@ -366,17 +268,14 @@ pub fn table(hypotheses: &[Hypothesis]) -> Table {
     for hypothesis in hypotheses {
         let stiffness = |k: Option<f64>| blank(k.map(|k| Cell::number(1e-9 * k, 4)));
         let off = |misfit: Option<f64>| {
-            let cell =
-                misfit.map(|misfit| Cell::text(signed(100.0 * misfit)).value(100.0 * misfit));
+            let cell = misfit.map(|misfit| Cell::text(signed(100.0 * misfit)).value(100.0 * misfit));
             cell.unwrap_or_else(|| Cell::text("–"))
         };
         table = table.row([
             Cell::text(&hypothesis.what),
             stiffness(hypothesis.inner),
             stiffness(hypothesis.outer),
-            hypothesis
-                .ratio()
-                .map_or_else(|| Cell::text("–"), |ratio| Cell::number(ratio, 4)),
+            hypothesis.ratio().map_or_else(|| Cell::text("–"), |ratio| Cell::number(ratio, 4)),
             off(hypothesis.misfit[0]),
             off(hypothesis.misfit[1]),
         ]);
@@ -405,10 +304,7 @@ mod tests {
     #[test]
     fn the_right_curvatures_give_the_bearings_own_stiffness() {
         let geometry = BearingGeometry::new(BEARING).unwrap();
-        let steel = ContactMaterial {
-            young: STEEL,
-            poisson: POISSON,
-        };
+        let steel = ContactMaterial { young: STEEL, poisson: POISSON };
         let own = RaceContacts::new(&geometry, steel, steel, steel).unwrap();
         let here = found("geometry, 206 GPa");
         // the same theory by way of sum and difference, whose 1 - F cancels two digits
@@ -423,16 +319,8 @@ mod tests {
         for (what, inner, outer) in [
             ("both left out: ball on a flat", 4.7724e9, 4.7724e9),
             ("every radius positive, (22) put right", 3.7424e9, 3.8757e9),
-            (
-                "every radius positive, (21) and (22) as printed, 206 GPa",
-                3.9221e9,
-                3.9913e9,
-            ),
-            (
-                "every radius positive, (21) and (22) as printed, 206 GPa, groove radii exchanged",
-                3.9320e9,
-                3.9804e9,
-            ),
+            ("every radius positive, (21) and (22) as printed, 206 GPa", 3.9221e9, 3.9913e9),
+            ("every radius positive, (21) and (22) as printed, 206 GPa, groove radii exchanged", 3.9320e9, 3.9804e9),
         ] {
             let found = found(what);
             // five digits were printed
@@ -446,10 +334,7 @@ mod tests {
     #[test]
     fn the_nearest_stand_first_and_none_has_table_1s_four_digits() {
         let all = hypotheses().unwrap();
-        assert!(
-            all.windows(2)
-                .all(|pair| pair[0].worst() <= pair[1].worst())
-        );
+        assert!(all.windows(2).all(|pair| pair[0].worst() <= pair[1].worst()));
         // half a unit in Table 1's last digit
         assert!(all[0].worst() > 0.0005 / 3.828);
         assert!(all[0].worst() < 0.005);

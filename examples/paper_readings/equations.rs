@@ -31,15 +31,9 @@ pub fn rows() -> Result<Vec<Row>, Failure> {
     for equations in ["printed", "consistent"] {
         for (contact, stiffness) in [
             ("geometry, 206 GPa", "bearing.stiffness=hertz"),
-            (
-                "Table 1",
-                "bearing.stiffness={ inner = 3.828e9, outer = 3.867e9 }",
-            ),
+            ("Table 1", "bearing.stiffness={ inner = 3.828e9, outer = 3.867e9 }"),
         ] {
-            for (balls, angle) in [
-                ("two", "bearing.first_ball_deg=295.714"),
-                ("one", "bearing.first_ball_deg=270"),
-            ] {
+            for (balls, angle) in [("two", "bearing.first_ball_deg=295.714"), ("one", "bearing.first_ball_deg=270")] {
                 let formulation = format!("bearing.formulation={equations}");
                 let case = beam_case(&[&formulation, stiffness, angle])?;
                 let result = compute_modes(&case, &Unwatched)?;
@@ -86,11 +80,7 @@ fn table(rows: &[Row]) -> Table {
     ];
     let mut table = Table::new("What other equations and another stiffness give", columns);
     for row in rows {
-        let hz: Vec<String> = row
-            .frequencies_hz
-            .iter()
-            .map(|hz| significant(hz / 1e3, 4))
-            .collect();
+        let hz: Vec<String> = row.frequencies_hz.iter().map(|hz| significant(hz / 1e3, 4)).collect();
         table = table.row([
             Cell::text(row.equations),
             Cell::text(row.contact),

@@ -53,24 +53,12 @@ pub struct FitGroup {
 
 impl FitGroup {
     /// Choices that a group shares.
-    pub const SHARED: [Factor; 6] = [
-        Factor::Equations,
-        Factor::Contact,
-        Factor::Bond,
-        Factor::Shear,
-        Factor::Springs,
-        Factor::Cage,
-    ];
+    pub const SHARED: [Factor; 6] =
+        [Factor::Equations, Factor::Contact, Factor::Bond, Factor::Shear, Factor::Springs, Factor::Cage];
 
     /// Choices that differ within a group.
-    pub const OPEN: [Factor; 6] = [
-        Factor::Width,
-        Factor::SpringArc,
-        Factor::RotaryInertia,
-        Factor::Steel,
-        Factor::Aluminium,
-        Factor::Load,
-    ];
+    pub const OPEN: [Factor; 6] =
+        [Factor::Width, Factor::SpringArc, Factor::RotaryInertia, Factor::Steel, Factor::Aluminium, Factor::Load];
 }
 
 /// The readings that give all three frequencies.
@@ -93,11 +81,7 @@ impl Fit {
     pub fn of(reading: &ReadingResult) -> Option<Self> {
         let errors = errors(reading.nearest_hz);
         let fits = errors.iter().all(|error| error.abs() <= WITHIN);
-        fits.then(|| Self {
-            reading: *reading,
-            errors,
-            shaped: shaped(reading),
-        })
+        fits.then(|| Self { reading: *reading, errors, shaped: shaped(reading) })
     }
 
     /// The largest of the three relative distances.
@@ -131,9 +115,7 @@ impl Fits {
         let determined = Factor::ALL
             .into_iter()
             .filter_map(|factor| {
-                let mut occurring = counts
-                    .iter()
-                    .filter(|count| count.factor == factor && count.fits > 0);
+                let mut occurring = counts.iter().filter(|count| count.factor == factor && count.fits > 0);
                 match (occurring.next(), occurring.next()) {
                     (Some(only), None) => Some((factor, only.level)),
                     _ => None,
@@ -144,21 +126,12 @@ impl Fits {
             let shaped = shaped(reading);
             !shaped.iter().all(|shaped| *shaped)
         });
-        Self {
-            groups: groups(study, &fits),
-            misnamed: misnamed.count(),
-            counts,
-            determined,
-            fits,
-        }
+        Self { groups: groups(study, &fits), misnamed: misnamed.count(), counts, determined, fits }
     }
 
     /// The place of a reading among those that fit, from 1; `None`: it does not.
     pub fn rank(&self, levels: &Levels) -> Option<usize> {
-        let place = self
-            .fits
-            .iter()
-            .position(|fit| fit.reading.levels == *levels);
+        let place = self.fits.iter().position(|fit| fit.reading.levels == *levels);
         place.map(|place| place + 1)
     }
 }
@@ -182,18 +155,11 @@ fn counts(study: &Study, fits: &[Fit]) -> Vec<LevelCount> {
 }
 
 fn groups(study: &Study, fits: &[Fit]) -> Vec<FitGroup> {
-    let key = |levels: &Levels| -> Vec<usize> {
-        FitGroup::SHARED
-            .iter()
-            .map(|factor| levels[*factor as usize])
-            .collect()
-    };
+    let key =
+        |levels: &Levels| -> Vec<usize> { FitGroup::SHARED.iter().map(|factor| levels[*factor as usize]).collect() };
     let mut by_key: BTreeMap<Vec<usize>, Vec<&Fit>> = BTreeMap::new();
     for fit in fits {
-        by_key
-            .entry(key(&fit.reading.levels))
-            .or_default()
-            .push(fit);
+        by_key.entry(key(&fit.reading.levels)).or_default().push(fit);
     }
     let mut sizes: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
     for reading in &study.readings {
@@ -203,10 +169,7 @@ fn groups(study: &Study, fits: &[Fit]) -> Vec<FitGroup> {
         .into_iter()
         .filter_map(|(shared, members)| {
             let open = FitGroup::OPEN.iter().map(|factor| {
-                let mut levels: Vec<usize> = members
-                    .iter()
-                    .map(|fit| fit.reading.levels[*factor as usize])
-                    .collect();
+                let mut levels: Vec<usize> = members.iter().map(|fit| fit.reading.levels[*factor as usize]).collect();
                 levels.sort_unstable();
                 levels.dedup();
                 levels

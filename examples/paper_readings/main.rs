@@ -55,10 +55,7 @@ fn main() -> Result<(), Failure> {
 
     let study = Study::compute(Grid::full())?;
     let fits = Fits::of(&study);
-    let known = study
-        .grid
-        .known()
-        .ok_or("the grid lacks the built-in reading")?;
+    let known = study.grid.known().ok_or("the grid lacks the built-in reading")?;
     let base = study.readings.iter().find(|r| r.levels == known);
     let moved = moved_by_one_choice(&study, &known);
     let charts = Charts::of(&study, &fits, base, &moved);
@@ -82,18 +79,9 @@ fn main() -> Result<(), Failure> {
     let fitting = fits.fits.iter().map(|fit| &fit.reading);
     let mut files = vec![
         ("report.html".to_owned(), html),
-        (
-            "readings.csv".to_owned(),
-            tables::csv(&study, &study.readings),
-        ),
-        (
-            "readings-that-fit.csv".to_owned(),
-            tables::csv(&study, fitting),
-        ),
-        (
-            "figures/readings-scatter.svg".to_owned(),
-            charts.scatter.to_svg()?,
-        ),
+        ("readings.csv".to_owned(), tables::csv(&study, &study.readings)),
+        ("readings-that-fit.csv".to_owned(), tables::csv(&study, fitting)),
+        ("figures/readings-scatter.svg".to_owned(), charts.scatter.to_svg()?),
     ];
     for (name, chart) in &charts.moved {
         files.push((format!("figures/{name}.svg"), chart.to_svg()?));
@@ -103,11 +91,7 @@ fn main() -> Result<(), Failure> {
     }
     writeln!(out, "written: {}", folder.display())?;
 
-    assert!(
-        files[0]
-            .1
-            .contains("every radius positive, (21) and (22) as printed")
-    );
+    assert!(files[0].1.contains("every radius positive, (21) and (22) as printed"));
     check_equations(&rows);
     check_readings(&study, &fits);
     closed_contacts::check(&closed);
@@ -137,55 +121,30 @@ fn print(out: &mut impl Write, section: &Section) -> Result<(), Failure> {
 fn check_equations(rows: &[equations::Row]) {
     assert_eq!(rows.len(), 8);
     for row in rows {
-        let near = row
-            .frequencies_hz
-            .iter()
-            .any(|hz| (hz / paper::BOUNCE - 1.0).abs() < 0.02);
+        let near = row.frequencies_hz.iter().any(|hz| (hz / paper::BOUNCE - 1.0).abs() < 0.02);
         let expected = row.equations == "printed" && row.contact != "Table 1" && row.balls == "two";
-        assert_eq!(
-            near, expected,
-            "{} {} {}",
-            row.equations, row.contact, row.balls
-        );
+        assert_eq!(near, expected, "{} {} {}", row.equations, row.contact, row.balls);
     }
 }
 
 /// The numbers of `docs/paper.md`.
 fn check_readings(study: &Study, fits: &Fits) {
-    assert_eq!(
-        (study.readings.len(), study.without_equilibrium),
-        (155_520, 0)
-    );
+    assert_eq!((study.readings.len(), study.without_equilibrium), (155_520, 0));
     assert_eq!(fits.fits.len(), 226);
     assert!(fits.fits.iter().all(|fit| fit.all_shaped()));
     assert_eq!(fits.misnamed, 107_327);
     let place = |factor, level| (factor, level);
     let grid = &study.grid;
     let determined = [
-        place(
-            Factor::Bond,
-            grid.bonds
-                .iter()
-                .position(|b| *b == RingBond::CommonCentroid),
-        ),
-        place(
-            Factor::Equations,
-            grid.equations.iter().position(|e| *e == Equations::Printed),
-        ),
+        place(Factor::Bond, grid.bonds.iter().position(|b| *b == RingBond::CommonCentroid)),
+        place(Factor::Equations, grid.equations.iter().position(|e| *e == Equations::Printed)),
     ];
     for (factor, level) in determined {
-        assert!(
-            fits.determined
-                .contains(&(factor, level.unwrap_or(usize::MAX))),
-            "{factor:?}"
-        );
+        assert!(fits.determined.contains(&(factor, level.unwrap_or(usize::MAX))), "{factor:?}");
     }
     let fitting = |contact| {
         let level = grid.contacts.iter().position(|c| *c == contact);
-        let count = fits
-            .counts
-            .iter()
-            .find(|c| c.factor == Factor::Contact && Some(c.level) == level);
+        let count = fits.counts.iter().find(|c| c.factor == Factor::Contact && Some(c.level) == level);
         count.map(|count| count.fits)
     };
     assert_eq!(fitting(ContactSource::Geometry), Some(115));

@@ -34,11 +34,7 @@ pub fn outside_of_ring(hz: f64) -> f64 {
 
 /// Relative distances of three frequencies (Hz) from the paper's.
 pub fn errors(hz: [f64; 3]) -> [f64; 3] {
-    [
-        hz[0] / SWAY - 1.0,
-        hz[1] / BOUNCE - 1.0,
-        outside_of_ring(hz[2]),
-    ]
+    [hz[0] / SWAY - 1.0, hz[1] / BOUNCE - 1.0, outside_of_ring(hz[2])]
 }
 
 /// The case `examples/tadina2011/beam.toml` without the variants that it lists, with keys set as on the command line.

@@ -46,11 +46,8 @@ impl NamedMotions {
     pub fn new(structure: &Structure, modes: &StructureModes) -> Self {
         let ring = structure.ring();
         let radius = ring.section().radius;
-        let mut columns = vec![
-            ring.rigid_motion(1.0, 0.0, 0.0),
-            ring.rigid_motion(0.0, 1.0, 0.0),
-            ring.rigid_motion(0.0, 0.0, 1.0),
-        ];
+        let mut columns =
+            vec![ring.rigid_motion(1.0, 0.0, 0.0), ring.rigid_motion(0.0, 1.0, 0.0), ring.rigid_motion(0.0, 0.0, 1.0)];
         for quarter in [0.0, 0.25 * std::f64::consts::PI] {
             // w = cos 2 phi', u = - sin 2 phi' / 2 has no extension (u' + w = 0); theta = (u - w') / R: no shear
             let mut motion = Vec::with_capacity(ring.dof());
@@ -69,9 +66,7 @@ impl NamedMotions {
         let momentum = structure.mass() * &motions;
         let mut momenta = modes.shapes.transpose() * &momentum;
         for column in 0..columns.len() {
-            let energy: f64 = (0..structure.dof())
-                .map(|row| motions[(row, column)] * momentum[(row, column)])
-                .sum();
+            let energy: f64 = (0..structure.dof()).map(|row| motions[(row, column)] * momentum[(row, column)]).sum();
             for mode in 0..modes.count() {
                 momenta[(mode, column)] /= energy.sqrt();
             }
@@ -89,9 +84,7 @@ impl NamedMotions {
             if energy <= 0.0 {
                 return 0.0;
             }
-            let part: f64 = (0..count)
-                .map(|row| amplitudes[row] * self.momenta[(row, column)])
-                .sum();
+            let part: f64 = (0..count).map(|row| amplitudes[row] * self.momenta[(row, column)]).sum();
             mode.structure_share * part * part / energy
         };
         ShapeShares {
@@ -106,11 +99,7 @@ impl NamedMotions {
 
     /// The paper's three by their shapes.
     pub fn by_shape(&self, shapes: &LoadedShapes) -> ByShape {
-        let mut found = ByShape {
-            sway: None,
-            bounce: None,
-            two_waves: None,
-        };
+        let mut found = ByShape { sway: None, bounce: None, two_waves: None };
         let mut most_along = MOSTLY;
         for (number, mode) in shapes.modes.modes.iter().enumerate() {
             let shares = self.shares(shapes, number);

@@ -1,8 +1,7 @@
 //! The three frequencies of every reading on a grid.
 
 use crate::choices::{
-    ContactSource, Equations, FACTORS, Grid, Levels, RingBond, STRUCTURE_FACTORS, SpringArc,
-    Springs,
+    ContactSource, Equations, FACTORS, Grid, Levels, RingBond, STRUCTURE_FACTORS, SpringArc, Springs,
 };
 use crate::paper::{BOUNCE, Failure, SWAY, TABLE_ONE, beam_case, outside_of_ring};
 use crate::shapes::{ByShape, NamedMotions, ShapeShares};
@@ -13,8 +12,7 @@ use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::model::{RadialSupport, Ring, RingSupport, SpringShare};
 use plummer::numerics::linalg::DenseMatrix;
 use plummer::system::{
-    BearingSetup, Equilibrium, Formulation, LoadedModes, LoadedShapes, StaticCondition, Structure,
-    StructureModes,
+    BearingSetup, Equilibrium, Formulation, LoadedModes, LoadedShapes, StaticCondition, Structure, StructureModes,
 };
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -77,11 +75,7 @@ impl Study {
             .collect::<Result<_, Failure>>()?;
         let all = parts.into_iter().flatten();
         let readings: Vec<ReadingResult> = all.flatten().collect();
-        Ok(Self {
-            without_equilibrium: grid.readings() - readings.len(),
-            grid,
-            readings,
-        })
+        Ok(Self { without_equilibrium: grid.readings() - readings.len(), grid, readings })
     }
 }
 
@@ -89,19 +83,11 @@ impl SharedBearing {
     pub fn new() -> Result<Self, Failure> {
         let setup = bearing_setup(&beam_case(&[])?)?.ok_or("the built-in case has no bearing")?;
         let [inner, outer] = TABLE_ONE;
-        Ok(Self {
-            geometry: hertz(&setup, 206e9)?,
-            table_one: ContactStiffness::given(inner, outer)?,
-            setup,
-        })
+        Ok(Self { geometry: hertz(&setup, 206e9)?, table_one: ContactStiffness::given(inner, outer)?, setup })
     }
 
     /// All readings of one structure, in the order of the grid; `None`: no equilibrium.
-    fn readings_of(
-        &self,
-        grid: &Grid,
-        structure_levels: &Levels,
-    ) -> Result<Vec<Option<ReadingResult>>, Failure> {
+    fn readings_of(&self, grid: &Grid, structure_levels: &Levels) -> Result<Vec<Option<ReadingResult>>, Failure> {
         let ring = ring(grid, structure_levels)?;
         let structure = Structure::ring_alone(ring, self.setup.gravity);
         let modes = structure.modes()?;
@@ -143,10 +129,7 @@ impl SharedBearing {
     pub fn condition(&self, place: f64) -> StaticCondition {
         let at_rest = StaticCondition::at(&self.setup, 0.0);
         let spacing = TAU / f64::from(self.setup.geometry.balls());
-        StaticCondition {
-            cage_angle: 1.5 * PI + 0.5 * spacing * (1.0 - place),
-            ..at_rest
-        }
+        StaticCondition { cage_angle: 1.5 * PI + 0.5 * spacing * (1.0 - place), ..at_rest }
     }
 
     /// Modes that a bearing at this cage angle needs.
@@ -160,10 +143,7 @@ impl SharedBearing {
         let condition = self.condition(place);
         let mut loads = DenseMatrix::zeros(structure.dof(), balls);
         for ball in 0..balls {
-            let angle = self
-                .setup
-                .cage
-                .ball_angle(condition.cage_angle, ball as u32);
+            let angle = self.setup.cage.ball_angle(condition.cage_angle, ball as u32);
             let (sin, cos) = angle.sin_cos();
             for (dof, factor) in structure.ring().displacement_row(angle, [cos, sin, 0.0]) {
                 loads[(dof, ball)] += factor;
@@ -192,21 +172,13 @@ fn result(levels: Levels, shapes: &LoadedShapes, motions: &NamedMotions) -> Opti
 
 /// The mode with the smallest distance that is not a ball's own; of several at the same distance the lowest.
 pub fn nearest(loaded: &LoadedModes, distance: impl Fn(f64) -> f64) -> Option<usize> {
-    let own = loaded
-        .modes
-        .iter()
-        .enumerate()
-        .filter(|(_, mode)| !mode.is_ball_mode());
-    own.min_by(|(_, a), (_, b)| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)))
-        .map(|(number, _)| number)
+    let own = loaded.modes.iter().enumerate().filter(|(_, mode)| !mode.is_ball_mode());
+    own.min_by(|(_, a), (_, b)| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz))).map(|(number, _)| number)
 }
 
 /// Contact stiffness from Table 1's radii in steel of this modulus, Pa.
 fn hertz(setup: &BearingSetup, young: f64) -> Result<ContactStiffness, Failure> {
-    let steel = ContactMaterial {
-        young,
-        poisson: 0.3,
-    };
+    let steel = ContactMaterial { young, poisson: 0.3 };
     Ok(RaceContacts::new(&setup.geometry, steel, steel, steel)?.stiffness())
 }
 
@@ -226,19 +198,9 @@ pub fn ring(grid: &Grid, levels: &Levels) -> Result<Ring, Failure> {
     };
     let layers = [
         // Table 1
-        layer(
-            grid.steel[levels[6]],
-            0.3,
-            7850.0,
-            [5.37e-6, 8.88e-13, 5.314e-3],
-        )?,
+        layer(grid.steel[levels[6]], 0.3, 7850.0, [5.37e-6, 8.88e-13, 5.314e-3])?,
         // 3 mm thick: radii 6 to 9 mm
-        layer(
-            grid.aluminium[levels[7]],
-            0.33,
-            2700.0,
-            [3e-3 * width, width * 27e-9 / 12.0, 7.5e-3],
-        )?,
+        layer(grid.aluminium[levels[7]], 0.33, 2700.0, [3e-3 * width, width * 27e-9 / 12.0, 7.5e-3])?,
     ];
     let bond = match grid.bonds[levels[3]] {
         RingBond::OwnRadius => Bond::Slip(RadiusRule::Own),
@@ -270,12 +232,9 @@ pub fn ring(grid: &Grid, levels: &Levels) -> Result<Ring, Failure> {
         Springs::CommonNodes => ring.add_support(&at(section.radius))?,
         Springs::CentreLine => ring.add_support(&at(7.5e-3))?,
         Springs::Outside => ring.add_support(&at(9e-3))?,
-        Springs::Radial => ring.add_radial_support(&RadialSupport {
-            from,
-            to,
-            radial: SPRING,
-            tangential: HELD * SPRING,
-        })?,
+        Springs::Radial => {
+            ring.add_radial_support(&RadialSupport { from, to, radial: SPRING, tangential: HELD * SPRING })?
+        }
     }
     Ok(ring)
 }

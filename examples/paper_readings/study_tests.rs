@@ -37,19 +37,13 @@ struct Twin {
 }
 
 const TWINS: [Twin; 7] = [
-    Twin {
-        change: |_| {},
-        set: &[],
-    },
+    Twin { change: |_| {}, set: &[] },
     Twin {
         change: |grid| {
             grid.equations = vec![Equations::Consistent];
             grid.contacts = vec![ContactSource::TableOne];
         },
-        set: &[
-            "bearing.formulation=consistent",
-            "bearing.stiffness={ inner = 3.828e9, outer = 3.867e9 }",
-        ],
+        set: &["bearing.formulation=consistent", "bearing.stiffness={ inner = 3.828e9, outer = 3.867e9 }"],
     },
     Twin {
         change: |grid| {
@@ -88,11 +82,7 @@ const TWINS: [Twin; 7] = [
             grid.arcs = vec![SpringArc::Closed];
             grid.springs = vec![Springs::Outside];
         },
-        set: &[
-            "ring.radius_rule=own",
-            "ring.supports[0].to_deg=361",
-            "ring.supports[0].offset=3.686e-3",
-        ],
+        set: &["ring.radius_rule=own", "ring.supports[0].to_deg=361", "ring.supports[0].offset=3.686e-3"],
     },
     Twin {
         change: |grid| {
@@ -151,10 +141,7 @@ fn a_reading_is_the_case_with_its_keys() {
         for (found, expected) in found.iter().zip(expected) {
             // modes above 300 kHz by their static response; angles of the case are given to a thousandth of a degree
             let error = found / expected - 1.0;
-            assert!(
-                error.abs() < 1e-5,
-                "{set:?}: {found} and {expected} Hz, {error:e}"
-            );
+            assert!(error.abs() < 1e-5, "{set:?}: {found} and {expected} Hz, {error:e}");
         }
     }
 }
@@ -170,30 +157,19 @@ fn the_known_reading_fits_and_is_what_one_choice_is_counted_from() {
     let fit = fits.fits[place - 1];
     assert!(fit.all_shaped() && fit.worst() < 0.012, "{fit:?}");
     // 8292.8, 11265.0 and 35707.2 Hz: this program's own, all digits given
-    for (found, expected) in fit
-        .reading
-        .nearest_hz
-        .iter()
-        .zip([8292.8, 11265.0, 35707.2])
-    {
+    for (found, expected) in fit.reading.nearest_hz.iter().zip([8292.8, 11265.0, 35707.2]) {
         assert!((found / expected - 1.0).abs() < 1e-5, "{found}");
     }
-    let counted: usize = fits
-        .counts
-        .iter()
-        .filter(|count| count.factor == Factor::Cage)
-        .map(|count| count.fits)
-        .sum();
+    let counted: usize = fits.counts.iter().filter(|count| count.factor == Factor::Cage).map(|count| count.fits).sum();
     assert_eq!(counted, fits.fits.len());
     let grouped: usize = fits.groups.iter().map(|group| group.fits).sum();
     assert_eq!(grouped, fits.fits.len());
     let moved = moved_by_one_choice(&study, &known);
     // springs 2, rings 1, equations 1, stiffness 1, load 1, cage 2
     assert_eq!(moved.len(), 8);
-    let springs = moved.iter().find(|moved| {
-        moved.factor == Factor::Springs
-            && grid.label(Factor::Springs, moved.level).contains("outside")
-    });
+    let springs = moved
+        .iter()
+        .find(|moved| moved.factor == Factor::Springs && grid.label(Factor::Springs, moved.level).contains("outside"));
     assert!(springs.unwrap().by[0] > 0.05 && springs.unwrap().by[2].abs() < 1e-2);
 }
 
@@ -201,14 +177,7 @@ fn the_known_reading_fits_and_is_what_one_choice_is_counted_from() {
 #[test]
 fn shapes_name_modes_where_the_nearest_is_another() {
     let study = study(small());
-    let level = |springs| {
-        study
-            .grid
-            .springs
-            .iter()
-            .position(|s| *s == springs)
-            .unwrap()
-    };
+    let level = |springs| study.grid.springs.iter().position(|s| *s == springs).unwrap();
     let radial = level(Springs::Radial);
     for reading in &study.readings {
         let shares = reading.shapes[2];
@@ -221,10 +190,7 @@ fn shapes_name_modes_where_the_nearest_is_another() {
             assert!(Fit::of(reading).is_none_or(|fit| !fit.all_shaped()));
         }
     }
-    let differing = study
-        .readings
-        .iter()
-        .filter(|reading| !agrees(reading.nearest_hz[1], reading.by_shape.bounce));
+    let differing = study.readings.iter().filter(|reading| !agrees(reading.nearest_hz[1], reading.by_shape.bounce));
     assert!(differing.count() > 10);
 }
 
@@ -250,18 +216,9 @@ fn the_static_response_of_the_modes_left_out_is_what_makes_few_modes_enough() {
     };
     let (exact, with, without) = (bounce(&modes), bounce(&basis), bounce(&few));
     // modes that know of others bring that response themselves
-    let knowing = bounce(&StructureModes {
-        has_more: true,
-        ..few
-    });
-    assert!(
-        (knowing / exact - 1.0).abs() < 1e-5,
-        "{knowing} and {exact}"
-    );
+    let knowing = bounce(&StructureModes { has_more: true, ..few });
+    assert!((knowing / exact - 1.0).abs() < 1e-5, "{knowing} and {exact}");
     assert!(kept < 20 && modes.count() == 216, "{kept}");
     assert!((with / exact - 1.0).abs() < 1e-5, "{with} and {exact}");
-    assert!(
-        (without / exact - 1.0).abs() > 5e-5,
-        "{without} and {exact}"
-    );
+    assert!((without / exact - 1.0).abs() > 5e-5, "{without} and {exact}");
 }

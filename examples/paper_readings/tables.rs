@@ -15,37 +15,17 @@ pub const NAMES: [&str; 3] = ["8.2 kHz", "11.3 kHz", "35 to 36 kHz"];
 
 /// A number of per cent with its sign, two significant digits.
 pub fn signed(value: f64) -> String {
-    if value > 0.0 {
-        format!("+{}", significant(value, 2))
-    } else {
-        significant(value, 2)
-    }
+    if value > 0.0 { format!("+{}", significant(value, 2)) } else { significant(value, 2) }
 }
 
 /// The study as a section of the report; `base` is the built-in reading and `moved` what one choice does to it.
-pub fn section(
-    study: &Study,
-    fits: &Fits,
-    base: Option<&ReadingResult>,
-    moved: &[Moved],
-    charts: &Charts,
-) -> Section {
+pub fn section(study: &Study, fits: &Fits, base: Option<&ReadingResult>, moved: &[Moved], charts: &Charts) -> Section {
     let total = study.readings.len();
     let shaped = fits.fits.iter().filter(|fit| fit.all_shaped()).count();
     let mut facts = vec![
         Fact::new("Readings", total.to_string()),
-        Fact::new(
-            "Without an equilibrium",
-            study.without_equilibrium.to_string(),
-        ),
-        Fact::new(
-            "Give all three",
-            format!(
-                "{} ({} %)",
-                fits.fits.len(),
-                percent(fits.fits.len(), total)
-            ),
-        ),
+        Fact::new("Without an equilibrium", study.without_equilibrium.to_string()),
+        Fact::new("Give all three", format!("{} ({} %)", fits.fits.len(), percent(fits.fits.len(), total))),
         Fact::new("By shape too", shaped.to_string()),
         Fact::new(
             "Nearest modes of another shape, in at least one of three",
@@ -54,10 +34,9 @@ pub fn section(
         Fact::new("The same in all that fit", determined(study, fits)),
     ];
     if let Some(known) = study.grid.known() {
-        let rank = fits.rank(&known).map_or_else(
-            || "it does not fit".to_owned(),
-            |rank| format!("{rank} of {}", fits.fits.len()),
-        );
+        let rank = fits
+            .rank(&known)
+            .map_or_else(|| "it does not fit".to_owned(), |rank| format!("{rank} of {}", fits.fits.len()));
         facts.push(Fact::new("Place of the built-in case among them", rank));
     }
     let mut section = Section::new("How unique the reading is")
@@ -80,33 +59,13 @@ pub fn section(
 /// What the three modes of the built-in reading are, as shares of their kinetic energy.
 fn shape_table(base: &ReadingResult) -> Table {
     let mut columns = vec![Column::text("Paper"), Column::number("Mode", "kHz")];
-    for name in [
-        "Ring across the load",
-        "Ring along the load",
-        "Ring turning",
-        "Ring in two waves",
-        "Shaft",
-        "Balls",
-    ] {
+    for name in ["Ring across the load", "Ring along the load", "Ring turning", "Ring in two waves", "Shaft", "Balls"] {
         columns.push(Column::number(name, "%"));
     }
-    let mut table = Table::new(
-        "The three modes of the built-in reading: shares of their kinetic energy",
-        columns,
-    );
+    let mut table = Table::new("The three modes of the built-in reading: shares of their kinetic energy", columns);
     for (k, shares) in base.shapes.iter().enumerate() {
-        let parts = [
-            shares.across,
-            shares.along,
-            shares.turning,
-            shares.two_waves,
-            shares.shaft,
-            shares.balls,
-        ];
-        let mut cells = vec![
-            Cell::text(NAMES[k]),
-            Cell::number(base.nearest_hz[k] / 1e3, 4),
-        ];
+        let parts = [shares.across, shares.along, shares.turning, shares.two_waves, shares.shaft, shares.balls];
+        let mut cells = vec![Cell::text(NAMES[k]), Cell::number(base.nearest_hz[k] / 1e3, 4)];
         cells.extend(parts.map(|part| Cell::text(fixed(100.0 * part, 1)).value(100.0 * part)));
         table = table.row(cells);
     }
@@ -138,10 +97,7 @@ fn count_table(study: &Study, fits: &Fits) -> Table {
         Column::number("By shape too", ""),
         Column::number("Part of the readings", "%"),
     ];
-    let mut table = Table::new(
-        "Readings that give all three frequencies, by choice",
-        columns,
-    );
+    let mut table = Table::new("Readings that give all three frequencies, by choice", columns);
     for count in &fits.counts {
         let part = 100.0 * count.fits as f64 / count.readings.max(1) as f64;
         table = table.row([
@@ -166,23 +122,13 @@ fn moved_table(study: &Study, moved: &[Moved]) -> Table {
         columns.push(Column::number(format!("Nearest to {name}"), "kHz"));
         columns.push(Column::number("Moved by", "%"));
     }
-    let mut table = Table::new(
-        "The built-in reading with one choice changed at a time",
-        columns,
-    )
-    .footnote("The nearest mode has another shape than the one that the paper speaks of.");
+    let mut table = Table::new("The built-in reading with one choice changed at a time", columns)
+        .footnote("The nearest mode has another shape than the one that the paper speaks of.");
     for moved in moved {
-        let mut cells = vec![
-            Cell::text(moved.factor.name()),
-            Cell::text(study.grid.label(moved.factor, moved.level)),
-        ];
+        let mut cells = vec![Cell::text(moved.factor.name()), Cell::text(study.grid.label(moved.factor, moved.level))];
         for k in 0..3 {
             let cell = Cell::number(moved.hz[k] / 1e3, 4);
-            cells.push(if moved.shaped[k] {
-                cell
-            } else {
-                cell.footnote(1)
-            });
+            cells.push(if moved.shaped[k] { cell } else { cell.footnote(1) });
             let by = 100.0 * moved.by[k];
             cells.push(Cell::text(signed(by)).value(by));
         }
@@ -192,10 +138,7 @@ fn moved_table(study: &Study, moved: &[Moved]) -> Table {
 }
 
 fn group_table(study: &Study, fits: &Fits) -> Table {
-    let mut columns: Vec<Column> = FitGroup::SHARED
-        .iter()
-        .map(|factor| Column::text(factor.name()))
-        .collect();
+    let mut columns: Vec<Column> = FitGroup::SHARED.iter().map(|factor| Column::text(factor.name())).collect();
     columns.push(Column::number("Give all three", ""));
     columns.push(Column::number("of", ""));
     columns.push(Column::number("By shape too", ""));
@@ -206,11 +149,7 @@ fn group_table(study: &Study, fits: &Fits) -> Table {
         format!(
             "Readings that give all three, by the choices that act most: {} groups{}",
             fits.groups.len(),
-            if fits.groups.len() > SHOWN[1] {
-                format!(", the {} largest", SHOWN[1])
-            } else {
-                String::new()
-            }
+            if fits.groups.len() > SHOWN[1] { format!(", the {} largest", SHOWN[1]) } else { String::new() }
         ),
         columns,
     );
@@ -226,13 +165,10 @@ fn group_table(study: &Study, fits: &Fits) -> Table {
         cells.push(Cell::number(100.0 * group.best.worst(), 2));
         for factor in [Factor::Width, Factor::Load] {
             let open = FitGroup::OPEN.iter().zip(&group.open);
-            let words = open
-                .filter(|(open, _)| **open == factor)
-                .flat_map(|(_, levels)| levels)
-                .map(|level| {
-                    let label = study.grid.label(factor, *level);
-                    label.split(' ').next().unwrap_or_default().to_owned()
-                });
+            let words = open.filter(|(open, _)| **open == factor).flat_map(|(_, levels)| levels).map(|level| {
+                let label = study.grid.label(factor, *level);
+                label.split(' ').next().unwrap_or_default().to_owned()
+            });
             cells.push(Cell::text(words.collect::<Vec<_>>().join(", ")));
         }
         table = table.row(cells);
@@ -246,10 +182,7 @@ fn fit_table(study: &Study, fits: &Fits) -> Table {
     columns.push(Column::text("By shape"));
     columns.push(Column::text("Choices"));
     let shown = fits.fits.len().min(SHOWN[0]);
-    let mut table = Table::new(
-        format!("The {shown} readings that come nearest to all three"),
-        columns,
-    );
+    let mut table = Table::new(format!("The {shown} readings that come nearest to all three"), columns);
     for (place, fit) in fits.fits.iter().take(shown).enumerate() {
         let mut cells = vec![whole(place + 1)];
         cells.extend(fit.reading.nearest_hz.map(|hz| Cell::number(hz / 1e3, 4)));
@@ -285,7 +218,9 @@ pub fn csv<'a>(study: &Study, readings: impl IntoIterator<Item = &'a ReadingResu
         text.push_str(&factor.name().to_lowercase().replace([' ', '\''], "_"));
         text.push(',');
     }
-    text.push_str("nearest_8200_hz,nearest_11300_hz,nearest_35000_to_36000_hz,sway_hz,bounce_hz,two_waves_hz,gives_all_three\n");
+    text.push_str(
+        "nearest_8200_hz,nearest_11300_hz,nearest_35000_to_36000_hz,sway_hz,bounce_hz,two_waves_hz,gives_all_three\n",
+    );
     for reading in readings {
         row(&mut text, study, reading);
     }
@@ -298,11 +233,7 @@ fn row(text: &mut String, study: &Study, reading: &ReadingResult) {
         text.push(',');
     }
     let by_shape = reading.by_shape;
-    for hz in reading.nearest_hz.map(Some).into_iter().chain([
-        by_shape.sway,
-        by_shape.bounce,
-        by_shape.two_waves,
-    ]) {
+    for hz in reading.nearest_hz.map(Some).into_iter().chain([by_shape.sway, by_shape.bounce, by_shape.two_waves]) {
         // writing to a String cannot fail
         match hz {
             Some(hz) => {

@@ -24,11 +24,7 @@ pub fn shell_word(text: &str) -> String {
 /// the ends of lines and tabs become the replacement character.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     let control = |c: char| c.is_control() && c != '\n' && c != '\t';
-    if text.contains(control) {
-        Cow::Owned(text.replace(control, "\u{fffd}"))
-    } else {
-        Cow::Borrowed(text)
-    }
+    if text.contains(control) { Cow::Owned(text.replace(control, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
 #[cfg(test)]

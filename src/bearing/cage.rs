@@ -51,9 +51,7 @@ impl Cage {
         first_ball_angle: f64,
     ) -> Result<Self, CageError> {
         if !first_ball_angle.is_finite() {
-            return Err(CageError::FirstBall {
-                angle: first_ball_angle,
-            });
+            return Err(CageError::FirstBall { angle: first_ball_angle });
         }
         let rolling_ratio = bearing.orders().cage;
         let times = slip.knot_times(&shaft);
@@ -68,8 +66,7 @@ impl Cage {
             SpeedPiece {
                 time,
                 speed: rolling_ratio * driving.speed * (1.0 - start),
-                acceleration: rolling_ratio
-                    * (driving.acceleration * (1.0 - start) - driving.speed * slope),
+                acceleration: rolling_ratio * (driving.acceleration * (1.0 - start) - driving.speed * slope),
                 jerk: -2.0 * rolling_ratio * driving.acceleration * slope,
             }
         };
@@ -100,11 +97,7 @@ impl Cage {
     pub(crate) fn ratio_between(&self, from: f64, to: f64) -> f64 {
         let shaft = self.shaft.angle(to) - self.shaft.angle(from);
         let ratio = (self.rotation.at(to).angle - self.rotation.at(from).angle) / shaft;
-        if ratio.is_finite() {
-            ratio
-        } else {
-            self.rolling_ratio
-        }
+        if ratio.is_finite() { ratio } else { self.rolling_ratio }
     }
 
     /// The first time (s) after `time` at which the motion of shaft or cage changes its law; infinity if there is none.
@@ -165,17 +158,9 @@ mod tests {
         let cage = Cage::new(&source_bearing(), speed.clone(), slip, 1.0).unwrap();
         for time in [-2.0, -0.1, 0.0, 0.7, 1.4, 3.0] {
             let (motion, shaft) = (cage.motion(time), speed.motion(time));
-            assert_relative_eq!(
-                motion.angle,
-                1.0 + RATIO * shaft.angle,
-                max_relative = 1e-13
-            );
+            assert_relative_eq!(motion.angle, 1.0 + RATIO * shaft.angle, max_relative = 1e-13);
             assert_relative_eq!(motion.speed, RATIO * shaft.speed, epsilon = 1e-12);
-            assert_relative_eq!(
-                motion.acceleration,
-                RATIO * shaft.acceleration,
-                epsilon = 1e-12
-            );
+            assert_relative_eq!(motion.acceleration, RATIO * shaft.acceleration, epsilon = 1e-12);
         }
         assert_relative_eq!(cage.ball_angle(0.5, 7), 0.5 + TAU, max_relative = 1e-14);
     }
@@ -204,19 +189,11 @@ mod tests {
                 let node = half / 3.0_f64.sqrt();
                 angle += half * (defined(middle - node) + defined(middle + node));
                 assert_relative_eq!(cage.motion(to).angle, angle, max_relative = 1e-12);
-                assert_relative_eq!(
-                    cage.motion(middle).speed,
-                    defined(middle),
-                    max_relative = 1e-11
-                );
+                assert_relative_eq!(cage.motion(middle).speed, defined(middle), max_relative = 1e-11);
                 let step = 1e-4 * half;
                 let rate = (defined(middle + step) - defined(middle - step)) / (2.0 * step);
                 // a difference over 1e-4 of the piece
-                assert_relative_eq!(
-                    cage.motion(middle).acceleration,
-                    rate,
-                    epsilon = 1e-7 * rate.abs().max(1.0)
-                );
+                assert_relative_eq!(cage.motion(middle).acceleration, rate, epsilon = 1e-7 * rate.abs().max(1.0));
                 from = to;
             }
             assert_relative_eq!(cage.motion(0.0).angle, -0.4, epsilon = 1e-14);
@@ -228,11 +205,7 @@ mod tests {
         let speed = SpeedProfile::constant(20.0).unwrap();
         let slip = SlipProfile::over_time(&[(0.0, 0.0), (1.0, 0.2)]).unwrap();
         let cage = Cage::new(&source_bearing(), speed, slip.clone(), 0.0).unwrap();
-        assert_relative_eq!(
-            cage.ratio_between(0.0, 1.0),
-            0.9 * RATIO,
-            max_relative = 1e-13
-        );
+        assert_relative_eq!(cage.ratio_between(0.0, 1.0), 0.9 * RATIO, max_relative = 1e-13);
         let still = SpeedProfile::constant(0.0).unwrap();
         let cage = Cage::new(&source_bearing(), still, slip, 0.0).unwrap();
         assert_relative_eq!(cage.ratio_between(0.0, 1.0), RATIO);

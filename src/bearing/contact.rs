@@ -52,30 +52,18 @@ impl HertzContact {
     pub fn linearised(&self, delta: f64, rate: f64) -> ContactForce {
         let factor = 1.0 + self.damping * rate;
         if delta <= 0.0 || factor <= 0.0 {
-            return ContactForce {
-                force: 0.0,
-                by_penetration: 0.0,
-                by_rate: 0.0,
-            };
+            return ContactForce { force: 0.0, by_penetration: 0.0, by_rate: 0.0 };
         }
         let root = self.stiffness * delta.sqrt();
         let elastic = root * delta;
-        ContactForce {
-            force: elastic * factor,
-            by_penetration: 1.5 * root * factor,
-            by_rate: elastic * self.damping,
-        }
+        ContactForce { force: elastic * factor, by_penetration: 1.5 * root * factor, by_rate: elastic * self.damping }
     }
 
     /// Elastic energy at penetration `delta` (m), J: `(2/5) k δ^{5/2}`, the paper's (9).
     #[must_use]
     #[inline]
     pub fn energy(&self, delta: f64) -> f64 {
-        if delta <= 0.0 {
-            0.0
-        } else {
-            0.4 * self.stiffness * delta * delta * delta.sqrt()
-        }
+        if delta <= 0.0 { 0.0 } else { 0.4 * self.stiffness * delta * delta * delta.sqrt() }
     }
 }
 
@@ -85,27 +73,13 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    const LAW: HertzContact = HertzContact {
-        stiffness: 1.129e10,
-        damping: 1.5,
-    };
+    const LAW: HertzContact = HertzContact { stiffness: 1.129e10, damping: 1.5 };
 
     #[test]
     fn force_is_the_power_law() {
-        let elastic = HertzContact {
-            damping: 0.0,
-            ..LAW
-        };
-        assert_relative_eq!(
-            elastic.force(2e-6, 0.3),
-            1.129e10 * 2e-6_f64.powf(1.5),
-            max_relative = 1e-14
-        );
-        assert_relative_eq!(
-            LAW.force(2e-6, 0.1),
-            1.15 * elastic.force(2e-6, 0.0),
-            max_relative = 1e-14
-        );
+        let elastic = HertzContact { damping: 0.0, ..LAW };
+        assert_relative_eq!(elastic.force(2e-6, 0.3), 1.129e10 * 2e-6_f64.powf(1.5), max_relative = 1e-14);
+        assert_relative_eq!(LAW.force(2e-6, 0.1), 1.15 * elastic.force(2e-6, 0.0), max_relative = 1e-14);
     }
 
     #[test]

@@ -127,8 +127,7 @@ mod tests {
         for m in [1e-12, 1e-3, 0.2, 0.5, 0.77, 0.999] {
             let here = from_complement(m, 1.0 - m);
             let there = from_complement(1.0 - m, m);
-            let relation =
-                here.second * there.first + there.second * here.first - here.first * there.first;
+            let relation = here.second * there.first + there.second * here.first - here.first * there.first;
             assert_relative_eq!(relation, FRAC_PI_2, max_relative = 4e-15);
         }
     }
@@ -153,9 +152,6 @@ mod tests {
             assert!(complete(m).is_err());
         }
         let error = complete(1.0).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "elliptic parameter m = 1 must be below 1"
-        );
+        assert_eq!(error.to_string(), "elliptic parameter m = 1 must be below 1");
     }
 }

@@ -117,19 +117,15 @@ impl BearingGeometry {
                 return Err(GeometryError::Value { key, value, rule });
             }
         }
-        for (key, value) in [
-            ("inner_groove_radius", d.inner_groove_radius),
-            ("outer_groove_radius", d.outer_groove_radius),
-        ] {
+        for (key, value) in
+            [("inner_groove_radius", d.inner_groove_radius), ("outer_groove_radius", d.outer_groove_radius)]
+        {
             if value <= d.ball_radius {
                 let rule = "must be greater than ball_radius";
                 return Err(GeometryError::Value { key, value, rule });
             }
         }
-        let radial_play = checked_play(
-            d.outer_race_radius - d.inner_race_radius - 2.0 * d.ball_radius,
-            d.ball_radius,
-        )?;
+        let radial_play = checked_play(d.outer_race_radius - d.inner_race_radius - 2.0 * d.ball_radius, d.ball_radius)?;
         let pitch_radius = 0.5 * (d.outer_race_radius + d.inner_race_radius);
         let most = (PI / (d.ball_radius / pitch_radius).asin()).floor();
         if f64::from(d.balls) > most {
@@ -141,11 +137,7 @@ impl BearingGeometry {
             });
         }
         let row = BallRow::new(d.balls, 2.0 * d.ball_radius, 2.0 * pitch_radius, 0.0)?;
-        Ok(Self {
-            dimensions,
-            radial_play,
-            orders: row.orders(),
-        })
+        Ok(Self { dimensions, radial_play, orders: row.orders() })
     }
 
     /// The same bearing with radial play `play` (m; negative: preload) in place of what the radii give.
@@ -158,10 +150,7 @@ impl BearingGeometry {
     /// [`GeometryError::Play`] beyond a tenth of the ball radius or not finite.
     pub fn with_radial_play(self, play: f64) -> Result<Self, GeometryError> {
         let radial_play = checked_play(play, self.dimensions.ball_radius)?;
-        Ok(Self {
-            radial_play,
-            ..self
-        })
+        Ok(Self { radial_play, ..self })
     }
 
     /// The dimensions as given.
@@ -246,9 +235,8 @@ impl BearingGeometry {
     /// edition, section 2.2). The model of this crate is loaded radially: its own contact angle is zero.
     #[must_use]
     pub fn free_contact_angle(&self) -> Option<f64> {
-        let between_centres = (self.inner_conformity() + self.outer_conformity() - 1.0)
-            * 2.0
-            * self.dimensions.ball_radius;
+        let between_centres =
+            (self.inner_conformity() + self.outer_conformity() - 1.0) * 2.0 * self.dimensions.ball_radius;
         let cosine = 1.0 - self.radial_play / between_centres;
         (self.radial_play >= 0.0 && cosine >= 0.0).then(|| cosine.acos())
     }
@@ -286,11 +274,7 @@ impl BearingGeometry {
 
 fn checked_play(play: f64, ball_radius: f64) -> Result<f64, GeometryError> {
     let limit = PLAY_LIMIT * ball_radius;
-    if play.abs() <= limit {
-        Ok(play)
-    } else {
-        Err(GeometryError::Play { play, limit })
-    }
+    if play.abs() <= limit { Ok(play) } else { Err(GeometryError::Play { play, limit }) }
 }
 
 #[cfg(test)]

@@ -12,11 +12,7 @@ fn derived_numbers_of_the_source_bearing() {
     assert_relative_eq!(bearing.pitch_radius(), 3.755_25e-3, max_relative = 1e-12);
     assert_relative_eq!(bearing.inner_conformity(), 0.52, max_relative = 1e-12);
     assert_relative_eq!(bearing.outer_conformity(), 0.535, max_relative = 1e-12);
-    assert_relative_eq!(
-        bearing.effective_inner_race_radius(),
-        2.754e-3,
-        max_relative = 1e-12
-    );
+    assert_relative_eq!(bearing.effective_inner_race_radius(), 2.754e-3, max_relative = 1e-12);
     assert_relative_eq!(bearing.orders().outer, 2.568, epsilon = 5e-4);
     assert_relative_eq!(bearing.orders().ball_defect, 3.489, epsilon = 5e-4);
 }
@@ -45,10 +41,7 @@ fn given_play_moves_the_inner_race_alone() {
 
 #[test]
 fn interference_from_the_radii_is_preload() {
-    let dimensions = BearingDimensions {
-        inner_race_radius: 2.758e-3,
-        ..source_dimensions()
-    };
+    let dimensions = BearingDimensions { inner_race_radius: 2.758e-3, ..source_dimensions() };
     let bearing = BearingGeometry::new(dimensions).unwrap();
     assert_relative_eq!(bearing.radial_play(), -1.5e-6, max_relative = 1e-9);
 }
@@ -57,54 +50,21 @@ fn interference_from_the_radii_is_preload() {
 fn every_rule_fires_with_key_value_and_rule() {
     let good = source_dimensions();
     for (dimensions, message) in [
+        (BearingDimensions { balls: 2, ..good }, "balls = 2 must be 3 to 40"),
+        (BearingDimensions { balls: 41, ..good }, "balls = 41 must be 3 to 40"),
+        (BearingDimensions { ball_radius: -1.0, ..good }, "ball_radius = -1 must be positive and finite"),
+        (BearingDimensions { ball_mass: f64::NAN, ..good }, "ball_mass = NaN must be positive and finite"),
+        (BearingDimensions { inner_race_radius: 0.0, ..good }, "inner_race_radius = 0 must be positive and finite"),
         (
-            BearingDimensions { balls: 2, ..good },
-            "balls = 2 must be 3 to 40",
-        ),
-        (
-            BearingDimensions { balls: 41, ..good },
-            "balls = 41 must be 3 to 40",
-        ),
-        (
-            BearingDimensions {
-                ball_radius: -1.0,
-                ..good
-            },
-            "ball_radius = -1 must be positive and finite",
-        ),
-        (
-            BearingDimensions {
-                ball_mass: f64::NAN,
-                ..good
-            },
-            "ball_mass = NaN must be positive and finite",
-        ),
-        (
-            BearingDimensions {
-                inner_race_radius: 0.0,
-                ..good
-            },
-            "inner_race_radius = 0 must be positive and finite",
-        ),
-        (
-            BearingDimensions {
-                outer_race_radius: f64::INFINITY,
-                ..good
-            },
+            BearingDimensions { outer_race_radius: f64::INFINITY, ..good },
             "outer_race_radius = inf must be positive and finite",
         ),
         (
-            BearingDimensions {
-                inner_groove_radius: 1e-3,
-                ..good
-            },
+            BearingDimensions { inner_groove_radius: 1e-3, ..good },
             "inner_groove_radius = 0.001 must be greater than ball_radius",
         ),
         (
-            BearingDimensions {
-                outer_groove_radius: 0.5e-3,
-                ..good
-            },
+            BearingDimensions { outer_groove_radius: 0.5e-3, ..good },
             "outer_groove_radius = 0.0005 must be greater than ball_radius",
         ),
         (
@@ -112,23 +72,12 @@ fn every_rule_fires_with_key_value_and_rule() {
             "balls = 12 of radius 0.001 m do not fit on a pitch radius of 0.00375525 m: at most 11",
         ),
     ] {
-        assert_eq!(
-            BearingGeometry::new(dimensions).unwrap_err().to_string(),
-            message
-        );
+        assert_eq!(BearingGeometry::new(dimensions).unwrap_err().to_string(), message);
     }
-    let loose = BearingDimensions {
-        inner_race_radius: 2.5e-3,
-        ..good
-    };
-    assert!(
-        matches!(BearingGeometry::new(loose), Err(GeometryError::Play { play, .. }) if play > 2e-4)
-    );
+    let loose = BearingDimensions { inner_race_radius: 2.5e-3, ..good };
+    assert!(matches!(BearingGeometry::new(loose), Err(GeometryError::Play { play, .. }) if play > 2e-4));
     assert_eq!(
-        source_bearing()
-            .with_radial_play(2.5e-3)
-            .unwrap_err()
-            .to_string(),
+        source_bearing().with_radial_play(2.5e-3).unwrap_err().to_string(),
         "radial_play = 0.0025 m (outer_race_radius - inner_race_radius - 2 ball_radius unless given) \
          must be within +-0.0001 m, a tenth of the ball radius"
     );

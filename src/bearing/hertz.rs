@@ -36,17 +36,13 @@ pub enum HertzError {
         value: f64,
     },
     /// The curvature sum is zero or negative: the surfaces do not touch in one point.
-    #[error(
-        "curvature sum {sum} 1/m must be positive: the concave surface is tighter than the convex one"
-    )]
+    #[error("curvature sum {sum} 1/m must be positive: the concave surface is tighter than the convex one")]
     CurvatureSum {
         /// Σρ, 1/m.
         sum: f64,
     },
     /// F(ρ) is one or more: in one plane the concave surface is as tight as the convex one.
-    #[error(
-        "curvature difference F = {difference} must be below 1: the surfaces conform in one plane"
-    )]
+    #[error("curvature difference F = {difference} must be below 1: the surfaces conform in one plane")]
     CurvatureDifference {
         /// F(ρ), dimensionless.
         difference: f64,
@@ -81,19 +77,13 @@ impl PrincipalCurvatures {
     /// A sphere of the given radius (m): the same curvature in both planes.
     #[must_use]
     pub fn sphere(radius: f64) -> Self {
-        Self {
-            plane_1: 1.0 / radius,
-            plane_2: 1.0 / radius,
-        }
+        Self { plane_1: 1.0 / radius, plane_2: 1.0 / radius }
     }
 
     /// A flat surface: no curvature.
     #[must_use]
     pub fn flat() -> Self {
-        Self {
-            plane_1: 0.0,
-            plane_2: 0.0,
-        }
+        Self { plane_1: 0.0, plane_2: 0.0 }
     }
 }
 
@@ -139,11 +129,7 @@ impl HertzStiffness {
         let longer = self.half_axis * scale.cbrt();
         let shorter = longer / self.ellipticity;
         let area = std::f64::consts::PI * longer * shorter;
-        ContactPatch {
-            longer,
-            shorter,
-            peak_pressure: if area > 0.0 { 1.5 * force / area } else { 0.0 },
-        }
+        ContactPatch { longer, shorter, peak_pressure: if area > 0.0 { 1.5 * force / area } else { 0.0 } }
     }
 }
 
@@ -189,9 +175,7 @@ pub fn stiffness(
         finite(name, value)?;
     }
     if effective_modulus <= 0.0 {
-        return Err(HertzError::Young {
-            young: effective_modulus,
-        });
+        return Err(HertzError::Young { young: effective_modulus });
     }
     let relative_1 = first.plane_1 + second.plane_1;
     let relative_2 = first.plane_2 + second.plane_2;
@@ -203,15 +187,12 @@ pub fn stiffness(
     // 1 − F without cancellation: twice the smaller relative curvature over the sum.
     let complement = 2.0 * relative_1.min(relative_2) / curvature_sum;
     if complement <= 0.0 {
-        return Err(HertzError::CurvatureDifference {
-            difference: curvature_difference,
-        });
+        return Err(HertzError::CurvatureDifference { difference: curvature_difference });
     }
     let patch = solve_patch(curvature_difference, complement);
     let approach = patch.approach();
     let factor = 4.0 * std::f64::consts::SQRT_2 / 3.0;
-    let stiffness =
-        factor * effective_modulus / (approach * approach.sqrt() * curvature_sum.sqrt());
+    let stiffness = factor * effective_modulus / (approach * approach.sqrt() * curvature_sum.sqrt());
     Ok(HertzStiffness {
         stiffness,
         effective_modulus,
@@ -228,11 +209,7 @@ pub fn stiffness(
 /// # Errors
 /// As [`stiffness`]; a radius ≤ 0 gives [`HertzError::CurvatureSum`], a zero one [`HertzError::NotFinite`].
 pub fn sphere_on_flat(radius: f64, effective_modulus: f64) -> Result<HertzStiffness, HertzError> {
-    stiffness(
-        PrincipalCurvatures::sphere(radius),
-        PrincipalCurvatures::flat(),
-        effective_modulus,
-    )
+    stiffness(PrincipalCurvatures::sphere(radius), PrincipalCurvatures::flat(), effective_modulus)
 }
 
 /// The elliptical patch: its axis ratio and the integrals that belong to it.
@@ -245,10 +222,7 @@ impl Patch {
     fn at(log_ellipticity: f64) -> Self {
         let complement = (-2.0 * log_ellipticity).exp();
         let parameter = -(-2.0 * log_ellipticity).exp_m1();
-        Self {
-            ellipticity: log_ellipticity.exp(),
-            integrals: elliptic::from_complement(parameter, complement),
-        }
+        Self { ellipticity: log_ellipticity.exp(), integrals: elliptic::from_complement(parameter, complement) }
     }
 
     /// F and 1 − F, each without cancellation:
@@ -281,11 +255,7 @@ fn solve_patch(difference: f64, complement: f64) -> Patch {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         let (at_difference, at_complement) = Patch::at(middle).difference_and_complement();
-        let too_round = if difference < 0.5 {
-            at_difference < difference
-        } else {
-            at_complement > complement
-        };
+        let too_round = if difference < 0.5 { at_difference < difference } else { at_complement > complement };
         if too_round {
             low = middle;
         } else {
@@ -297,11 +267,7 @@ fn solve_patch(difference: f64, complement: f64) -> Patch {
 }
 
 fn finite(name: &'static str, value: f64) -> Result<(), HertzError> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(HertzError::NotFinite { name, value })
-    }
+    if value.is_finite() { Ok(()) } else { Err(HertzError::NotFinite { name, value }) }
 }
 
 #[cfg(test)]

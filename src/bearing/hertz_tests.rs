@@ -6,14 +6,8 @@ use proptest::prelude::*;
 
 /// The source's ball bearing (m): ball, race radii, groove radii.
 const BALL: f64 = 1e-3;
-const INNER: PrincipalCurvatures = PrincipalCurvatures {
-    plane_1: -1.0 / 1.04e-3,
-    plane_2: 1.0 / 2.754e-3,
-};
-const OUTER: PrincipalCurvatures = PrincipalCurvatures {
-    plane_1: -1.0 / 1.07e-3,
-    plane_2: -1.0 / 4.7565e-3,
-};
+const INNER: PrincipalCurvatures = PrincipalCurvatures { plane_1: -1.0 / 1.04e-3, plane_2: 1.0 / 2.754e-3 };
+const OUTER: PrincipalCurvatures = PrincipalCurvatures { plane_1: -1.0 / 1.07e-3, plane_2: -1.0 / 4.7565e-3 };
 
 fn steel() -> f64 {
     effective_modulus([206e9; 2], [0.3; 2]).unwrap()
@@ -35,13 +29,7 @@ fn source_bearing_has_the_documented_stiffnesses() {
 /// Two bodies with a given F: relative curvatures (1 ± F)/2.
 fn bodies(difference: f64) -> (PrincipalCurvatures, PrincipalCurvatures) {
     let low = 0.5 * (1.0 - difference);
-    (
-        PrincipalCurvatures {
-            plane_1: low,
-            plane_2: 1.0 - low,
-        },
-        PrincipalCurvatures::flat(),
-    )
+    (PrincipalCurvatures { plane_1: low, plane_2: 1.0 - low }, PrincipalCurvatures::flat())
 }
 
 #[test]
@@ -72,11 +60,7 @@ fn sphere_is_the_limit_of_no_curvature_difference() {
     let (first, second) = bodies(1e-9);
     let near = stiffness(first, second, 1.2e11).unwrap();
     // F = 3/4 (κ − 1) to first order, from the series of K and E at m = 0
-    assert_relative_eq!(
-        near.ellipticity - 1.0,
-        4.0 / 3.0 * 1e-9,
-        max_relative = 1e-6
-    );
+    assert_relative_eq!(near.ellipticity - 1.0, 4.0 / 3.0 * 1e-9, max_relative = 1e-6);
 }
 
 #[test]
@@ -95,9 +79,7 @@ fn near_line_contact_stays_finite() {
 #[test]
 fn every_error_fires_with_its_values() {
     let ball = PrincipalCurvatures::sphere(BALL);
-    let race = |plane_1: f64, plane_2: f64| {
-        stiffness(ball, PrincipalCurvatures { plane_1, plane_2 }, 1e11)
-    };
+    let race = |plane_1: f64, plane_2: f64| stiffness(ball, PrincipalCurvatures { plane_1, plane_2 }, 1e11);
     assert_eq!(
         race(-1000.0, -1000.0).unwrap_err().to_string(),
         "curvature sum 0 1/m must be positive: the concave surface is tighter than the convex one"
@@ -106,42 +88,23 @@ fn every_error_fires_with_its_values() {
         race(-1250.0, 0.0).unwrap_err().to_string(),
         "curvature difference F = 1.6666666666666667 must be below 1: the surfaces conform in one plane"
     );
-    assert!(matches!(
-        race(-1000.0, 0.0),
-        Err(HertzError::CurvatureDifference { .. })
-    ));
+    assert!(matches!(race(-1000.0, 0.0), Err(HertzError::CurvatureDifference { .. })));
     assert_eq!(
         race(f64::NAN, 0.0).unwrap_err().to_string(),
         "curvature of the second body in plane 1 = NaN is not a finite number"
     );
-    assert!(matches!(
-        sphere_on_flat(0.0, 1e11),
-        Err(HertzError::NotFinite { .. })
-    ));
-    assert!(matches!(
-        sphere_on_flat(-1.0, 1e11),
-        Err(HertzError::CurvatureSum { .. })
-    ));
-    assert!(matches!(
-        sphere_on_flat(1.0, 0.0),
-        Err(HertzError::Young { .. })
-    ));
+    assert!(matches!(sphere_on_flat(0.0, 1e11), Err(HertzError::NotFinite { .. })));
+    assert!(matches!(sphere_on_flat(-1.0, 1e11), Err(HertzError::CurvatureSum { .. })));
+    assert!(matches!(sphere_on_flat(1.0, 0.0), Err(HertzError::Young { .. })));
     assert_eq!(
-        effective_modulus([2e11, -1.0], [0.3; 2])
-            .unwrap_err()
-            .to_string(),
+        effective_modulus([2e11, -1.0], [0.3; 2]).unwrap_err().to_string(),
         "Young's modulus -1 Pa must be positive"
     );
     assert_eq!(
-        effective_modulus([2e11; 2], [0.3, 0.6])
-            .unwrap_err()
-            .to_string(),
+        effective_modulus([2e11; 2], [0.3, 0.6]).unwrap_err().to_string(),
         "Poisson's ratio 0.6 must be above -1 and at most 0.5"
     );
-    assert!(matches!(
-        effective_modulus([f64::INFINITY, 1.0], [0.3; 2]),
-        Err(HertzError::NotFinite { .. })
-    ));
+    assert!(matches!(effective_modulus([f64::INFINITY, 1.0], [0.3; 2]), Err(HertzError::NotFinite { .. })));
 }
 
 proptest! {
@@ -178,8 +141,7 @@ fn patch_of_a_sphere_on_a_flat() {
     let (radius, modulus, force) = (5e-3, 1.2e11, 30.0_f64);
     let patch = sphere_on_flat(radius, modulus).unwrap().patch(force);
     let a = (0.75 * force * radius / modulus).cbrt();
-    let pressure =
-        (6.0 * force * modulus * modulus / (std::f64::consts::PI.powi(3) * radius * radius)).cbrt();
+    let pressure = (6.0 * force * modulus * modulus / (std::f64::consts::PI.powi(3) * radius * radius)).cbrt();
     assert_relative_eq!(patch.longer, a, max_relative = 1e-14);
     assert_relative_eq!(patch.shorter, a, max_relative = 1e-14);
     assert_relative_eq!(patch.peak_pressure, pressure, max_relative = 1e-13);

@@ -103,11 +103,7 @@ mod tests {
     #[test]
     fn energy_at_the_peak_is_the_kinetic_energy() {
         let peak = impact(3e9, 0.02, 0.7).unwrap();
-        assert_relative_eq!(
-            0.4 * peak.force * peak.indentation,
-            0.5 * 0.02 * 0.49,
-            max_relative = 1e-14
-        );
+        assert_relative_eq!(0.4 * peak.force * peak.indentation, 0.5 * 0.02 * 0.49, max_relative = 1e-14);
     }
 
     #[test]

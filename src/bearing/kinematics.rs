@@ -78,21 +78,13 @@ impl BallRow {
     ///
     /// # Errors
     /// [`RaceError`], with the value that breaks its rule.
-    pub fn new(
-        balls: u32,
-        ball_diameter: f64,
-        pitch_diameter: f64,
-        contact_angle: f64,
-    ) -> Result<Self, RaceError> {
+    pub fn new(balls: u32, ball_diameter: f64, pitch_diameter: f64, contact_angle: f64) -> Result<Self, RaceError> {
         if balls == 0 {
             return Err(RaceError::Balls { balls });
         }
         let ordered = ball_diameter > 0.0 && ball_diameter < pitch_diameter;
         if !(ordered && pitch_diameter.is_finite()) {
-            return Err(RaceError::Diameters {
-                ball_diameter,
-                pitch_diameter,
-            });
+            return Err(RaceError::Diameters { ball_diameter, pitch_diameter });
         }
         if !(0.0..FRAC_PI_2).contains(&contact_angle) {
             return Err(RaceError::ContactAngle { contact_angle });
@@ -105,11 +97,7 @@ impl BallRow {
             return Err(RaceError::Overlap { balls, most });
         }
         let diameter_ratio = ball_diameter / pitch_diameter;
-        Ok(Self {
-            balls: f64::from(balls),
-            diameter_ratio,
-            projected_ratio: diameter_ratio * contact_angle.cos(),
-        })
+        Ok(Self { balls: f64::from(balls), diameter_ratio, projected_ratio: diameter_ratio * contact_angle.cos() })
     }
 
     /// Turns of the cage per turn of the shaft, `(1 − γ) / 2`; between 0 and 1/2.
@@ -142,9 +130,7 @@ mod tests {
     #[test]
     fn source_bearing_has_the_orders_of_its_table() {
         // Pitch diameter R_0 + r, ball diameter 2 mm.
-        let orders = BallRow::new(7, 2e-3, 4.7565e-3 + 2.754e-3, 0.0)
-            .unwrap()
-            .orders();
+        let orders = BallRow::new(7, 2e-3, 4.7565e-3 + 2.754e-3, 0.0).unwrap().orders();
         assert_relative_eq!(orders.outer, 2.568, epsilon = 5e-4);
         assert_relative_eq!(orders.inner, 4.432, epsilon = 5e-4);
         assert_relative_eq!(orders.ball_defect, 3.489, epsilon = 5e-4);
@@ -168,20 +154,13 @@ mod tests {
         let inner_radius = 0.5 * (pitch - ball * angle.cos());
         let surface = orders.ball_spin * 0.5 * ball;
         assert_relative_eq!(surface, orders.cage * outer_radius, max_relative = 1e-14);
-        assert_relative_eq!(
-            surface,
-            (1.0 - orders.cage) * inner_radius,
-            max_relative = 1e-14
-        );
+        assert_relative_eq!(surface, (1.0 - orders.cage) * inner_radius, max_relative = 1e-14);
         assert_relative_eq!(orders.outer + orders.inner, 9.0, max_relative = 1e-15);
     }
 
     #[test]
     fn every_rule_fires() {
-        assert_eq!(
-            BallRow::new(0, 1.0, 2.0, 0.0).unwrap_err().to_string(),
-            "balls = 0 must be at least 1"
-        );
+        assert_eq!(BallRow::new(0, 1.0, 2.0, 0.0).unwrap_err().to_string(), "balls = 0 must be at least 1");
         assert_eq!(
             BallRow::new(7, 2.0, 2.0, 0.0).unwrap_err().to_string(),
             "ball diameter 2 must be positive and below the pitch diameter 2, in the same unit"

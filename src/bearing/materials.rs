@@ -77,12 +77,9 @@ impl RaceContacts {
         outer_race: ContactMaterial,
     ) -> Result<Self, StiffnessError> {
         let contact = |race, material: ContactMaterial, curvatures| {
-            hertz::effective_modulus(
-                [ball.young, material.young],
-                [ball.poisson, material.poisson],
-            )
-            .and_then(|modulus| hertz::stiffness(bearing.ball_curvatures(), curvatures, modulus))
-            .map_err(|source| StiffnessError::Hertz { race, source })
+            hertz::effective_modulus([ball.young, material.young], [ball.poisson, material.poisson])
+                .and_then(|modulus| hertz::stiffness(bearing.ball_curvatures(), curvatures, modulus))
+                .map_err(|source| StiffnessError::Hertz { race, source })
         };
         Ok(Self {
             inner: contact(Race::Inner, inner_race, bearing.inner_curvatures())?,
@@ -93,10 +90,7 @@ impl RaceContacts {
     /// The two stiffnesses alone.
     #[must_use]
     pub fn stiffness(&self) -> ContactStiffness {
-        ContactStiffness {
-            inner: self.inner.stiffness,
-            outer: self.outer.stiffness,
-        }
+        ContactStiffness { inner: self.inner.stiffness, outer: self.outer.stiffness }
     }
 }
 
@@ -181,10 +175,7 @@ mod tests {
 
     #[test]
     fn a_softer_outer_race_softens_the_outer_contact_alone() {
-        let soft = ContactMaterial {
-            young: 103e9,
-            poisson: 0.3,
-        };
+        let soft = ContactMaterial { young: 103e9, poisson: 0.3 };
         let mixed = ContactStiffness::hertz(&source_bearing(), steel(), steel(), soft).unwrap();
         let all = source_stiffness();
         assert_relative_eq!(mixed.inner(), all.inner(), max_relative = 1e-15);
@@ -193,20 +184,11 @@ mod tests {
 
     #[test]
     fn errors_name_the_race() {
-        let bad = ContactMaterial {
-            young: -1.0,
-            poisson: 0.3,
-        };
+        let bad = ContactMaterial { young: -1.0, poisson: 0.3 };
         let error = ContactStiffness::hertz(&source_bearing(), steel(), steel(), bad).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "outer race: Young's modulus -1 Pa must be positive"
-        );
+        assert_eq!(error.to_string(), "outer race: Young's modulus -1 Pa must be positive");
         let error = ContactStiffness::given(0.0, 1.0).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "stiffness.inner = 0 N/m^1.5 must be positive and finite"
-        );
+        assert_eq!(error.to_string(), "stiffness.inner = 0 N/m^1.5 must be positive and finite");
         assert!(ContactStiffness::given(1.0, f64::NAN).is_err());
     }
 }

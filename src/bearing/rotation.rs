@@ -42,11 +42,7 @@ impl Piece {
         let acceleration = self.acceleration + self.jerk * dt;
         let gained = dt * (self.acceleration + 0.5 * self.jerk * dt);
         let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt * (1.0 / 6.0));
-        RotationState {
-            angle: self.angle + dt * (self.speed + gained_mean),
-            speed: self.speed + gained,
-            acceleration,
-        }
+        RotationState { angle: self.angle + dt * (self.speed + gained_mean), speed: self.speed + gained, acceleration }
     }
 }
 
@@ -88,13 +84,7 @@ impl Rotation {
             });
         }
         let mut rotation = Self {
-            before: Piece {
-                time: first.time,
-                angle: 0.0,
-                speed: first.speed,
-                acceleration: 0.0,
-                jerk: 0.0,
-            },
+            before: Piece { time: first.time, angle: 0.0, speed: first.speed, acceleration: 0.0, jerk: 0.0 },
             pieces,
         };
         let shift = angle_at_zero - rotation.at(0.0).angle;
@@ -113,9 +103,7 @@ impl Rotation {
     /// The first knot after `time` (s), s; infinity if there is none. O(log n).
     pub(super) fn next_knot(&self, time: f64) -> f64 {
         let started = self.pieces.partition_point(|piece| piece.time <= time);
-        self.pieces
-            .get(started)
-            .map_or(f64::INFINITY, |piece| piece.time)
+        self.pieces.get(started).map_or(f64::INFINITY, |piece| piece.time)
     }
 
     /// State at `time` (s); O(log n).
@@ -143,10 +131,6 @@ impl Rotation {
     /// The piece in force once `started` knots have passed.
     #[inline]
     fn piece(&self, started: usize) -> &Piece {
-        if started == 0 {
-            &self.before
-        } else {
-            &self.pieces[started - 1]
-        }
+        if started == 0 { &self.before } else { &self.pieces[started - 1] }
     }
 }

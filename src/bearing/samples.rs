@@ -22,10 +22,7 @@ pub fn source_bearing() -> BearingGeometry {
 
 /// Bearing steel, 206 GPa.
 pub fn steel() -> ContactMaterial {
-    ContactMaterial {
-        young: 206e9,
-        poisson: 0.3,
-    }
+    ContactMaterial { young: 206e9, poisson: 0.3 }
 }
 
 /// Hertz stiffness of the source's bearing in steel.

@@ -75,10 +75,7 @@ impl SlipProfile {
     /// [`SlipError`] naming the row.
     pub fn over_time(points: &[(f64, f64)]) -> Result<Self, SlipError> {
         check(points, "time", f64::NEG_INFINITY, "must be finite")?;
-        Ok(Self {
-            over: Over::Time,
-            points: points.to_vec(),
-        })
+        Ok(Self { over: Over::Time, points: points.to_vec() })
     }
 
     /// Slip over the magnitude of the shaft's frequency: (Hz, slip), frequencies zero or more, ascending.
@@ -87,19 +84,14 @@ impl SlipProfile {
     /// [`SlipError`] naming the row.
     pub fn over_speed(points: &[(f64, f64)]) -> Result<Self, SlipError> {
         check(points, "hz", 0.0, "must be finite and zero or more")?;
-        Ok(Self {
-            over: Over::Speed,
-            points: points.iter().map(|&(hz, slip)| (TAU * hz, slip)).collect(),
-        })
+        Ok(Self { over: Over::Speed, points: points.iter().map(|&(hz, slip)| (TAU * hz, slip)).collect() })
     }
 
     /// Smallest and largest slip of the table.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         let slips = self.points.iter().map(|point| point.1);
-        slips.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], slip| {
-            [low.min(slip), high.max(slip)]
-        })
+        slips.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], slip| [low.min(slip), high.max(slip)])
     }
 
     /// Slip at a `time` (s) when the shaft turns at `speed` (rad/s).
@@ -150,23 +142,13 @@ impl SlipProfile {
     }
 }
 
-fn check(
-    points: &[(f64, f64)],
-    name: &'static str,
-    least: f64,
-    rule: &'static str,
-) -> Result<(), SlipError> {
+fn check(points: &[(f64, f64)], name: &'static str, least: f64, rule: &'static str) -> Result<(), SlipError> {
     if points.is_empty() {
         return Err(SlipError::Empty);
     }
     for (row, &(value, slip)) in points.iter().enumerate() {
         if !(value.is_finite() && value >= least) {
-            return Err(SlipError::Place {
-                row,
-                name,
-                value,
-                rule,
-            });
+            return Err(SlipError::Place { row, name, value, rule });
         }
         if !(0.0..=1.0).contains(&slip) {
             return Err(SlipError::Slip { slip });
@@ -175,12 +157,7 @@ fn check(
     for (row, pair) in points.windows(2).enumerate() {
         let [(previous, _), (value, _)] = [pair[0], pair[1]];
         if value <= previous {
-            return Err(SlipError::NotIncreasing {
-                row: row + 1,
-                name,
-                value,
-                previous,
-            });
+            return Err(SlipError::NotIncreasing { row: row + 1, name, value, previous });
         }
     }
     Ok(())
@@ -194,13 +171,7 @@ mod tests {
     #[test]
     fn straight_between_points_and_constant_beyond() {
         let slip = SlipProfile::over_speed(&[(10.0, 0.4), (20.0, 0.0)]).unwrap();
-        for (hz, expected) in [
-            (0.0, 0.4),
-            (10.0, 0.4),
-            (-15.0, 0.2),
-            (20.0, 0.0),
-            (99.0, 0.0),
-        ] {
+        for (hz, expected) in [(0.0, 0.4), (10.0, 0.4), (-15.0, 0.2), (20.0, 0.0), (99.0, 0.0)] {
             assert_relative_eq!(slip.at(7.0, TAU * hz), expected, epsilon = 1e-15);
         }
         let slip = SlipProfile::over_time(&[(-1.0, 0.1), (1.0, 0.3)]).unwrap();
@@ -212,20 +183,11 @@ mod tests {
     fn each_rule_names_its_row() {
         let message = |error: SlipError| error.to_string();
         let error = SlipProfile::constant(-0.1).unwrap_err();
-        assert_eq!(
-            message(error),
-            "slip = -0.1 must be 0 (pure rolling) to 1 (cage at rest)"
-        );
+        assert_eq!(message(error), "slip = -0.1 must be 0 (pure rolling) to 1 (cage at rest)");
         let error = SlipProfile::over_speed(&[(0.0, 0.1), (-2.0, 0.1)]).unwrap_err();
-        assert_eq!(
-            message(error),
-            "slip profile row 1: hz = -2 must be finite and zero or more"
-        );
+        assert_eq!(message(error), "slip profile row 1: hz = -2 must be finite and zero or more");
         let error = SlipProfile::over_time(&[(1.0, 0.1), (1.0, 0.1)]).unwrap_err();
-        assert_eq!(
-            message(error),
-            "slip profile row 1: time 1 must be above 1 in the row before"
-        );
+        assert_eq!(message(error), "slip profile row 1: time 1 must be above 1 in the row before");
         assert_eq!(SlipProfile::over_time(&[]).unwrap_err(), SlipError::Empty);
         assert!(SlipProfile::constant(f64::NAN).is_err());
     }

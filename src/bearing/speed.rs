@@ -34,9 +34,7 @@ pub enum SpeedError {
         value: f64,
     },
     /// A time does not come after the one before.
-    #[error(
-        "speed profile row {row}: time {time} s must be later than {previous} s in the row before"
-    )]
+    #[error("speed profile row {row}: time {time} s must be later than {previous} s in the row before")]
     NotIncreasing {
         /// Row, from 0.
         row: usize,
@@ -81,29 +79,18 @@ impl SpeedProfile {
         for (row, pair) in knots.windows(2).enumerate() {
             let [previous, next] = [pair[0].time, pair[1].time];
             if next <= previous {
-                return Err(SpeedError::NotIncreasing {
-                    row: row + 1,
-                    time: next,
-                    previous,
-                });
+                return Err(SpeedError::NotIncreasing { row: row + 1, time: next, previous });
             }
         }
         let piece = |row: usize, knot: &SpeedKnot| {
-            let rise = knots.get(row + 1).map_or(0.0, |next| {
-                (next.frequency_hz - knot.frequency_hz) / (next.time - knot.time)
-            });
-            SpeedPiece {
-                time: knot.time,
-                speed: TAU * knot.frequency_hz,
-                acceleration: TAU * rise,
-                jerk: 0.0,
-            }
+            let rise = knots
+                .get(row + 1)
+                .map_or(0.0, |next| (next.frequency_hz - knot.frequency_hz) / (next.time - knot.time));
+            SpeedPiece { time: knot.time, speed: TAU * knot.frequency_hz, acceleration: TAU * rise, jerk: 0.0 }
         };
         let rest = knots.iter().enumerate().skip(1);
         let rest: Vec<SpeedPiece> = rest.map(|(row, knot)| piece(row, knot)).collect();
-        Ok(Self {
-            rotation: Rotation::new(piece(0, first), &rest, 0.0),
-        })
+        Ok(Self { rotation: Rotation::new(piece(0, first), &rest, 0.0) })
     }
 
     /// Constant speed (Hz).
@@ -111,10 +98,7 @@ impl SpeedProfile {
     /// # Errors
     /// [`SpeedError::NotFinite`].
     pub fn constant(frequency_hz: f64) -> Result<Self, SpeedError> {
-        Self::new(&[SpeedKnot {
-            time: 0.0,
-            frequency_hz,
-        }])
+        Self::new(&[SpeedKnot { time: 0.0, frequency_hz }])
     }
 
     /// Times (s) at which the acceleration jumps.

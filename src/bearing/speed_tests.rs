@@ -10,14 +10,7 @@ fn knot(time: f64, frequency_hz: f64) -> SpeedKnot {
 
 /// Speeds up, coasts, reverses.
 fn varied() -> SpeedProfile {
-    SpeedProfile::new(&[
-        knot(-0.5, 3.0),
-        knot(0.7, 12.0),
-        knot(1.0, 12.0),
-        knot(2.0, -8.0),
-        knot(2.001, 0.0),
-    ])
-    .unwrap()
+    SpeedProfile::new(&[knot(-0.5, 3.0), knot(0.7, 12.0), knot(1.0, 12.0), knot(2.0, -8.0), knot(2.001, 0.0)]).unwrap()
 }
 
 #[test]
@@ -43,10 +36,7 @@ fn angle_is_zero_at_time_zero_whatever_the_knots() {
     let late = SpeedProfile::new(&[knot(2.0, 10.0), knot(3.0, 20.0)]).unwrap();
     assert!(late.angle(0.0).abs() < 1e-13);
     assert_relative_eq!(late.angle(1.0), TAU * 10.0, max_relative = 1e-14);
-    assert_relative_eq!(
-        SpeedProfile::constant(-5.0).unwrap().angle(2.0),
-        -TAU * 10.0
-    );
+    assert_relative_eq!(SpeedProfile::constant(-5.0).unwrap().angle(2.0), -TAU * 10.0);
 }
 
 #[test]
@@ -61,12 +51,7 @@ fn knots_belong_to_the_interval_on_their_right() {
 fn the_fastest_is_at_a_knot_or_an_end() {
     let profile = varied();
     // up to 12 Hz, down through zero to -8 Hz at 20 Hz/s, and back to rest within a millisecond
-    for (start, end, hz) in [
-        (-1.0, 3.0, 12.0),
-        (1.3, 3.0, 8.0),
-        (1.8, 1.9, 6.0),
-        (2.5, 3.0, 0.0),
-    ] {
+    for (start, end, hz) in [(-1.0, 3.0, 12.0), (1.3, 3.0, 8.0), (1.8, 1.9, 6.0), (2.5, 3.0, 0.0)] {
         let fastest = profile.fastest(start, end);
         assert_relative_eq!(fastest, TAU * hz, max_relative = 1e-12, epsilon = 1e-9);
     }
@@ -113,18 +98,9 @@ fn cursor_of_another_profile_is_harmless() {
 #[test]
 fn every_rule_fires() {
     let message = |knots: &[SpeedKnot]| SpeedProfile::new(knots).unwrap_err().to_string();
-    assert_eq!(
-        message(&[]),
-        "speed profile is empty: give at least one { time, hz }"
-    );
-    assert_eq!(
-        message(&[knot(0.0, 1.0), knot(1.0, f64::NAN)]),
-        "speed profile row 1: hz = NaN must be finite"
-    );
-    assert_eq!(
-        message(&[knot(f64::INFINITY, 1.0)]),
-        "speed profile row 0: time = inf must be finite"
-    );
+    assert_eq!(message(&[]), "speed profile is empty: give at least one { time, hz }");
+    assert_eq!(message(&[knot(0.0, 1.0), knot(1.0, f64::NAN)]), "speed profile row 1: hz = NaN must be finite");
+    assert_eq!(message(&[knot(f64::INFINITY, 1.0)]), "speed profile row 0: time = inf must be finite");
     assert_eq!(
         message(&[knot(0.0, 1.0), knot(1.0, 2.0), knot(1.0, 3.0)]),
         "speed profile row 2: time 1 s must be later than 1 s in the row before"

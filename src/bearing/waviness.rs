@@ -69,32 +69,20 @@ impl Wave {
             return refused("order", 0.0, "must be at least 1");
         }
         if !(self.amplitude.is_finite() && self.amplitude >= 0.0) {
-            return refused(
-                "amplitude",
-                self.amplitude,
-                "must be finite and not below 0",
-            );
+            return refused("amplitude", self.amplitude, "must be finite and not below 0");
         }
         if !self.phase.is_finite() {
             return refused("phase_deg", self.phase.to_degrees(), "must be finite");
         }
         let (race, radius) = match self.race {
-            Race::Inner => (
-                bearing.inner_curvatures(),
-                bearing.effective_inner_race_radius(),
-            ),
+            Race::Inner => (bearing.inner_curvatures(), bearing.effective_inner_race_radius()),
             Race::Outer => (bearing.outer_curvatures(), bearing.outer_race_radius()),
         };
         let relative = bearing.ball_curvatures().plane_2 + race.plane_2;
         let limit = CURVATURE_LIMIT * relative;
         let curvature = self.amplitude * (f64::from(self.order) / radius).powi(2);
         if curvature > limit {
-            return Err(WaveError::TooSteep {
-                order: self.order,
-                amplitude: self.amplitude,
-                curvature,
-                limit,
-            });
+            return Err(WaveError::TooSteep { order: self.order, amplitude: self.amplitude, curvature, limit });
         }
         Ok(self)
     }
@@ -110,12 +98,8 @@ impl Waviness {
     /// Those of `waves` that are on `race`.
     #[must_use]
     pub fn of(race: Race, waves: &[Wave]) -> Self {
-        let own = waves
-            .iter()
-            .filter(|wave| wave.race == race && wave.amplitude > 0.0);
-        Self {
-            waves: own.copied().collect(),
-        }
+        let own = waves.iter().filter(|wave| wave.race == race && wave.amplitude > 0.0);
+        Self { waves: own.copied().collect() }
     }
 
     /// Whether there is none.
@@ -155,29 +139,18 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn wave(race: Race, order: u32, amplitude: f64, phase: f64) -> Wave {
-        Wave {
-            race,
-            order,
-            amplitude,
-            phase,
-        }
+        Wave { race, order, amplitude, phase }
     }
 
     #[test]
     fn derivatives_are_those_of_the_height() {
-        let waves = [
-            wave(Race::Outer, 3, 1e-6, 0.4),
-            wave(Race::Inner, 5, 9e-6, 0.0),
-            wave(Race::Outer, 17, 2e-7, -1.0),
-        ];
+        let waves =
+            [wave(Race::Outer, 3, 1e-6, 0.4), wave(Race::Inner, 5, 9e-6, 0.0), wave(Race::Outer, 17, 2e-7, -1.0)];
         let waviness = Waviness::of(Race::Outer, &waves);
         assert_relative_eq!(waviness.most(), 1.2e-6, max_relative = 1e-14);
         let (angle, step) = (2.3, 1e-4);
-        let [
-            [before, slope_before, _],
-            [height, slope, bend],
-            [after, slope_after, _],
-        ] = [angle - step, angle, angle + step].map(|angle| waviness.at(angle));
+        let [[before, slope_before, _], [height, slope, bend], [after, slope_after, _]] =
+            [angle - step, angle, angle + step].map(|angle| waviness.at(angle));
         let expected = 1e-6 * (3.0 * angle + 0.4_f64).cos() + 2e-7 * (17.0 * angle - 1.0_f64).cos();
         assert_relative_eq!(height, expected, max_relative = 1e-13);
         // differences: error (17 step)^2 / 6
@@ -191,26 +164,12 @@ mod tests {
     fn each_rule_fires_with_its_message() {
         let bearing = source_bearing();
         let message = |wave: Wave| wave.checked(&bearing).unwrap_err().to_string();
-        assert_eq!(
-            message(wave(Race::Outer, 0, 1e-6, 0.0)),
-            "order = 0 must be at least 1"
-        );
-        assert_eq!(
-            message(wave(Race::Outer, 2, -1e-6, 0.0)),
-            "amplitude = -0.000001 must be finite and not below 0"
-        );
+        assert_eq!(message(wave(Race::Outer, 0, 1e-6, 0.0)), "order = 0 must be at least 1");
+        assert_eq!(message(wave(Race::Outer, 2, -1e-6, 0.0)), "amplitude = -0.000001 must be finite and not below 0");
         let steep = message(wave(Race::Outer, 100, 1e-6, 0.0));
         assert!(steep.contains("more than 3.949e1"), "{steep}");
         assert!(wave(Race::Outer, 20, 1e-6, 0.0).checked(&bearing).is_ok());
-        assert!(
-            wave(Race::Inner, 2, f64::NAN, 0.0)
-                .checked(&bearing)
-                .is_err()
-        );
-        assert!(
-            wave(Race::Inner, 2, 0.0, f64::NAN)
-                .checked(&bearing)
-                .is_err()
-        );
+        assert!(wave(Race::Inner, 2, f64::NAN, 0.0).checked(&bearing).is_err());
+        assert!(wave(Race::Inner, 2, 0.0, f64::NAN).checked(&bearing).is_err());
     }
 }

@@ -33,11 +33,7 @@ impl AtomicFile {
             _ => {}
         }
         let file = File::create_new(&partial)?;
-        Ok(Self {
-            path: path.to_owned(),
-            partial,
-            file: Some(BufWriter::with_capacity(1 << 18, file)),
-        })
+        Ok(Self { path: path.to_owned(), partial, file: Some(BufWriter::with_capacity(1 << 18, file)) })
     }
 
     /// The temporary name of a file.
@@ -68,9 +64,7 @@ impl AtomicFile {
     }
 
     fn file(&mut self) -> io::Result<&mut BufWriter<File>> {
-        self.file
-            .as_mut()
-            .ok_or_else(|| io::ErrorKind::NotConnected.into())
+        self.file.as_mut().ok_or_else(|| io::ErrorKind::NotConnected.into())
     }
 }
 
@@ -121,10 +115,8 @@ mod tests {
     use super::*;
 
     fn names(folder: &Path) -> Vec<String> {
-        let mut names: Vec<String> = fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<String> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -140,9 +132,7 @@ mod tests {
             Err(io::ErrorKind::StorageFull.into())
         });
         let full = |error: &io::Error| error.kind() == io::ErrorKind::StorageFull;
-        assert!(
-            matches!(error, Err(FileError::Write { path: own, source }) if own == path && full(&source))
-        );
+        assert!(matches!(error, Err(FileError::Write { path: own, source }) if own == path && full(&source)));
         assert_eq!(names(folder.path()), ["a.txt"]);
         assert_eq!(fs::read(&path).unwrap(), b"first");
     }

@@ -36,10 +36,7 @@ impl FileDigest {
     }
 
     fn of_hash(path: &Path, hasher: Sha256) -> Self {
-        Self {
-            path: path.to_owned(),
-            sha256: hex(hasher),
-        }
+        Self { path: path.to_owned(), sha256: hex(hasher) }
     }
 }
 
@@ -63,9 +60,5 @@ pub fn sha256(reader: impl io::Read) -> io::Result<Sha256> {
 
 /// A digest as 64 hexadecimal digits, as `sha256sum` prints it.
 pub fn hex(hasher: Sha256) -> String {
-    hasher
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

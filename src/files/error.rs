@@ -85,11 +85,7 @@ pub enum Place {
 impl Fault {
     /// A fault of the whole.
     pub(crate) fn new(expected: impl Into<Cow<'static, str>>, found: impl fmt::Display) -> Self {
-        Self {
-            place: Place::Whole,
-            expected: expected.into(),
-            found: found.to_string(),
-        }
+        Self { place: Place::Whole, expected: expected.into(), found: found.to_string() }
     }
 
     /// The same fault in a line, counted from 1.
@@ -112,10 +108,7 @@ impl Fault {
 
     /// The same fault in a file.
     pub(crate) fn of(self, path: &Path) -> FileError {
-        FileError::Content {
-            path: path.to_owned(),
-            fault: self,
-        }
+        FileError::Content { path: path.to_owned(), fault: self }
     }
 }
 
@@ -153,11 +146,7 @@ mod tests {
             (fault(), "", ""),
             (fault().line(3), "line 3: ", ":3"),
             (fault().at("byte 24"), "byte 24: ", ", byte 24"),
-            (
-                fault().within("array \"k\""),
-                "array \"k\": ",
-                ": array \"k\"",
-            ),
+            (fault().within("array \"k\""), "array \"k\": ", ": array \"k\""),
         ];
         for (fault, before, after_path) in cases {
             let expected = "expected a number, found \"x\"";

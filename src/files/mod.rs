@@ -22,15 +22,8 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
     if kind.is_file() {
         return File::open(path);
     }
-    let found = if kind.is_dir() {
-        "a folder"
-    } else {
-        "a device or a pipe"
-    };
-    Err(io::Error::new(
-        io::ErrorKind::InvalidInput,
-        format!("expected a file, found {found}"),
-    ))
+    let found = if kind.is_dir() { "a folder" } else { "a device or a pipe" };
+    Err(io::Error::new(io::ErrorKind::InvalidInput, format!("expected a file, found {found}")))
 }
 
 /// The content of a regular file.

@@ -69,11 +69,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`].
-    pub(crate) fn create(
-        folder: &Path,
-        sensors: Vec<String>,
-        balls: usize,
-    ) -> Result<Self, ColumnError> {
+    pub(crate) fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, ColumnError> {
         Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
     }
 
@@ -81,12 +77,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`], [`ColumnError::Cut`] if a column has fewer.
-    pub(crate) fn resume(
-        folder: &Path,
-        sensors: Vec<String>,
-        balls: usize,
-        rows: usize,
-    ) -> Result<Self, ColumnError> {
+    pub(crate) fn resume(folder: &Path, sensors: Vec<String>, balls: usize, rows: usize) -> Result<Self, ColumnError> {
         Self::open(folder, sensors, balls, rows, &mut OpenOptions::new())
     }
 
@@ -100,36 +91,20 @@ impl ColumnFiles {
         let (mut files, mut hashers) = (Vec::new(), Vec::new());
         for column in Column::all(sensors.len()) {
             let path = path_of(folder, column);
-            let failed = |source| FileError::Open {
-                path: path.clone(),
-                source,
-            };
+            let failed = |source| FileError::Open { path: path.clone(), source };
             no_link(&path).map_err(failed)?;
             let mut file = options.read(true).write(true).open(&path).map_err(failed)?;
-            let (expected, found) = (
-                (rows * column.width(balls) * BYTES) as u64,
-                file.metadata().map_err(failed)?.len(),
-            );
+            let (expected, found) =
+                ((rows * column.width(balls) * BYTES) as u64, file.metadata().map_err(failed)?.len());
             if found < expected {
-                return Err(ColumnError::Cut {
-                    path,
-                    expected,
-                    found,
-                });
+                return Err(ColumnError::Cut { path, expected, found });
             }
             file.set_len(expected).map_err(failed)?;
             hashers.push(sha256(&file).map_err(failed)?);
             file.seek(SeekFrom::End(0)).map_err(failed)?;
             files.push((column, file));
         }
-        Ok(Self {
-            folder: folder.to_owned(),
-            sensors,
-            balls,
-            rows,
-            files,
-            hashers,
-        })
+        Ok(Self { folder: folder.to_owned(), sensors, balls, rows, files, hashers })
     }
 
     /// Names of the sensors.
@@ -234,11 +209,9 @@ mod tests {
             record.shaft_y.push(row + 0.2);
             record.sensors[0].1.push(row + 0.3);
             record.sensors[1].1.push(row + 0.4);
-            for (offset, table) in [
-                (0.5, &mut record.ball_radius),
-                (0.6, &mut record.outer_force),
-                (0.7, &mut record.inner_force),
-            ] {
+            for (offset, table) in
+                [(0.5, &mut record.ball_radius), (0.6, &mut record.outer_force), (0.7, &mut record.inner_force)]
+            {
                 table.extend([row + offset, -row - offset]);
             }
         }
@@ -285,10 +258,7 @@ mod tests {
         assert_eq!(read(&files, 5..9), rows(5..9));
         // goes on at the end after reading
         files.append(&rows(most..most + 3)).unwrap();
-        assert_eq!(
-            read(&files, most as usize - 2..most as usize + 9),
-            rows(most - 2..most + 3)
-        );
+        assert_eq!(read(&files, most as usize - 2..most as usize + 9), rows(most - 2..most + 3));
         // another run begins anew
         let anew = ColumnFiles::create(folder.path(), names(), 2).unwrap();
         assert_eq!(read(&anew, 0..10), rows(0..0));
@@ -325,9 +295,6 @@ mod tests {
         );
         std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
         let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
-        assert!(
-            matches!(error, ColumnError::File(FileError::Open { .. })),
-            "{error}"
-        );
+        assert!(matches!(error, ColumnError::File(FileError::Open { .. })), "{error}");
     }
 }

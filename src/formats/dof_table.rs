@@ -18,20 +18,8 @@ use super::npz::npz_label;
 use super::{FormatError, NpzWriter};
 use crate::files::{AtomicFile, Fault, FileError, write_atomic};
 
-const COLUMNS: [&str; 12] = [
-    "row",
-    "mtx_row",
-    "body",
-    "node",
-    "direction",
-    "unit",
-    "x_m",
-    "y_m",
-    "z_m",
-    "axis_x",
-    "axis_y",
-    "axis_z",
-];
+const COLUMNS: [&str; 12] =
+    ["row", "mtx_row", "body", "node", "direction", "unit", "x_m", "y_m", "z_m", "axis_x", "axis_y", "axis_z"];
 
 /// Where a node belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -153,10 +141,7 @@ impl DofLabel {
 
     /// An interface coordinate of which only the number, from 0, is known.
     pub fn interface(number: u64) -> Self {
-        Self {
-            body: DofBody::Interface,
-            ..Self::modal(number)
-        }
+        Self { body: DofBody::Interface, ..Self::modal(number) }
     }
 }
 
@@ -201,12 +186,7 @@ pub fn write_dofs_npz(path: &Path, rows: &[DofLabel]) -> Result<(), FormatError>
     npz.texts("direction", &texts(|row| row.direction.name()))?;
     let positions = vectors(|row| row.position);
     npz.matrix("position_m", rows.len(), 3, positions.as_flattened())?;
-    npz.matrix(
-        "axis",
-        rows.len(),
-        3,
-        vectors(|row| row.axis).as_flattened(),
-    )?;
+    npz.matrix("axis", rows.len(), 3, vectors(|row| row.axis).as_flattened())?;
     npz.finish()
 }
 
@@ -225,17 +205,8 @@ mod tests {
         };
         [
             label,
-            DofLabel {
-                direction: DofDirection::Along(2),
-                axis: [0.6, -0.8, 0.0],
-                ..label
-            },
-            DofLabel {
-                body: DofBody::Ring,
-                node: 0,
-                direction: DofDirection::About(0),
-                ..label
-            },
+            DofLabel { direction: DofDirection::Along(2), axis: [0.6, -0.8, 0.0], ..label },
+            DofLabel { body: DofBody::Ring, node: 0, direction: DofDirection::About(0), ..label },
         ]
     }
 
@@ -260,11 +231,8 @@ mod tests {
         write_dofs_csv(&path, &[DofLabel::modal(4), DofLabel::interface(7)]).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         let lines: Vec<&str> = text.split("\r\n").skip(1).collect();
-        let expected = [
-            "0,1,modal,4,generalised,generalised,,,,,,",
-            "1,2,interface,7,generalised,generalised,,,,,,",
-            "",
-        ];
+        let expected =
+            ["0,1,modal,4,generalised,generalised,,,,,,", "1,2,interface,7,generalised,generalised,,,,,,", ""];
         assert_eq!(lines, expected);
     }
 
@@ -296,10 +264,7 @@ mod tests {
         assert_eq!(axis.values[3..6], [0.6, -0.8, 0.0]);
         let position = npz.f64("position_m").unwrap().values;
         assert_eq!(position[..3], rows()[0].position);
-        let beyond = DofLabel {
-            node: u64::MAX,
-            ..rows()[0]
-        };
+        let beyond = DofLabel { node: u64::MAX, ..rows()[0] };
         let error = write_dofs_npz(&path, &[beyond]).unwrap_err();
         assert!(error.to_string().ends_with("found 18446744073709551615"));
     }

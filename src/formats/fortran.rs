@@ -9,10 +9,7 @@ pub(super) fn exponential(value: f64, width: usize, digits: usize, letter: char)
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if exponent < 0 { '-' } else { '+' };
     let magnitude = exponent.unsigned_abs();
-    format!(
-        "{:>width$}",
-        format!("{mantissa}{letter}{sign}{magnitude:02}")
-    )
+    format!("{:>width$}", format!("{mantissa}{letter}{sign}{magnitude:02}"))
 }
 
 /// Reads a real number with exponent E, D, Q or without its letter (`1.5+100`).
@@ -20,10 +17,7 @@ pub(super) fn real(text: &str) -> Option<f64> {
     let text = text.trim();
     let plain = |text: &str| text.parse::<f64>().ok().filter(|value| value.is_finite());
     // `parse` takes "inf" and "nan", whose letters are none of a number's.
-    if !text
-        .bytes()
-        .all(|byte| b"+-.0123456789eEdDqQ".contains(&byte))
-    {
+    if !text.bytes().all(|byte| b"+-.0123456789eEdDqQ".contains(&byte)) {
         return None;
     }
     if let Some(value) = plain(&text.replace(['d', 'D', 'q', 'Q'], "e")) {

@@ -17,11 +17,7 @@ use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
 ///
 /// # Errors
 /// [`FormatError::Data`] unless the matrix is square, [`FormatError::File`].
-pub fn write_matrix_market(
-    path: &Path,
-    matrix: &SparseMatrix,
-    comment: &str,
-) -> Result<(), FormatError> {
+pub fn write_matrix_market(path: &Path, matrix: &SparseMatrix, comment: &str) -> Result<(), FormatError> {
     check_square(path, matrix.shape())?;
     Ok(write_atomic(path, |to| write_lower(to, matrix, comment))?)
 }
@@ -30,11 +26,7 @@ pub fn write_matrix_market(
 ///
 /// # Errors
 /// As [`write_matrix_market`].
-pub fn write_dense_matrix_market(
-    path: &Path,
-    matrix: &DenseMatrix,
-    comment: &str,
-) -> Result<(), FormatError> {
+pub fn write_dense_matrix_market(path: &Path, matrix: &DenseMatrix, comment: &str) -> Result<(), FormatError> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     check_square(path, (rows, columns))?;
     let write = |to: &mut AtomicFile| {
@@ -73,8 +65,7 @@ fn lower(matrix: &SparseMatrix) -> impl Iterator<Item = (usize, usize, f64)> + '
     columns.flat_map(|(column, entries)| {
         let (rows, values) = entries.into_raw_storage();
         let own = rows.iter().zip(values);
-        own.filter(move |&(&row, _)| row >= column)
-            .map(move |(&row, &value)| (row, column, value))
+        own.filter(move |&(&row, _)| row >= column).map(move |(&row, &value)| (row, column, value))
     })
 }
 
@@ -101,12 +92,7 @@ mod tests {
     fn sample() -> SparseMatrix {
         // symmetric, with a stored zero, an empty column and values of every size
         let values = vec![4.0 / 3.0, -1e-300, 1e300, -1e-300, -0.0, 1e300, 0.1];
-        SparseMatrix::new_csc(
-            (4, 4),
-            vec![0, 3, 5, 7, 7],
-            vec![0, 1, 2, 0, 1, 0, 2],
-            values,
-        )
+        SparseMatrix::new_csc((4, 4), vec![0, 3, 5, 7, 7], vec![0, 1, 2, 0, 1, 0, 2], values)
     }
 
     /// Back through the reader of `nalgebra-sparse`.
@@ -123,8 +109,7 @@ mod tests {
             let (offsets, indices, values) = found.csc_data();
             assert_eq!(offsets, expected.indptr().raw_storage());
             assert_eq!(indices, expected.indices());
-            let bits =
-                |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
+            let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
             // a sum with 0 that the conversion may make has no sign
             let found = bits(&values.iter().map(|v| v + 0.0).collect::<Vec<_>>());
             let expected = bits(&expected.data().iter().map(|v| v + 0.0).collect::<Vec<_>>());
@@ -155,18 +140,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("k.mtx");
         let wide = SparseMatrix::zero((2, 3));
-        let error = write_matrix_market(&path, &wide, "")
-            .unwrap_err()
-            .to_string();
-        let expected = format!(
-            "expected a square matrix for {}, found 2 x 3",
-            path.display()
-        );
+        let error = write_matrix_market(&path, &wide, "").unwrap_err().to_string();
+        let expected = format!("expected a square matrix for {}, found 2 x 3", path.display());
         assert_eq!(error, expected);
         let nowhere = folder.path().join("no/k.mtx");
         let error = write_matrix_market(&nowhere, &sample(), "").unwrap_err();
-        assert!(
-            matches!(error, FormatError::File(FileError::Write { path, .. }) if path == nowhere)
-        );
+        assert!(matches!(error, FormatError::File(FileError::Write { path, .. }) if path == nowhere));
     }
 }

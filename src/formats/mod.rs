@@ -38,19 +38,15 @@ pub use error::FormatError;
 pub use matrix_market::{write_dense_matrix_market, write_matrix_market};
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::ModeShapes;
-pub use npz::{
-    NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, write_modes_npz,
-    write_sparse_npz,
-};
+pub use npz::{NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, write_modes_npz, write_sparse_npz};
 pub use op4::{Op4Format, Op4Matrix, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::read_mode_shapes;
 pub use superelement::{
-    FieldRecovery, InterfaceRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow,
-    SuperelementRecord, read_superelement_npz, read_superelement_op4, write_mbdyn_fem,
-    write_superelement_npz, write_superelement_op4,
+    FieldRecovery, InterfaceRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow, SuperelementRecord,
+    read_superelement_npz, read_superelement_op4, write_mbdyn_fem, write_superelement_npz, write_superelement_op4,
 };
 pub use uff::{
-    FrequencyResponse, ResponseKind, ResponsePoint, read_modes_uff, read_responses_uff,
-    write_modes_uff, write_responses_uff, write_uff,
+    FrequencyResponse, ResponseKind, ResponsePoint, read_modes_uff, read_responses_uff, write_modes_uff,
+    write_responses_uff, write_uff,
 };
 pub use vtu::{Field, FieldValues, write_vtu};

@@ -25,9 +25,7 @@ impl ModeShapes {
     pub fn count_points(&self) -> usize {
         let tags = self.node_tags.as_ref().map(Vec::len);
         let points = self.points.as_ref().map(Vec::len);
-        tags.or(points)
-            .or(self.shapes.first().map(|shape| shape.len() / 3))
-            .unwrap_or(0)
+        tags.or(points).or(self.shapes.first().map(|shape| shape.len() / 3)).unwrap_or(0)
     }
 
     /// Number of modes.
@@ -104,11 +102,7 @@ pub(super) mod samples {
         ModeShapes {
             frequencies_hz: vec![12.5, 1_234.567_890_123],
             node_tags: Some(vec![7, 3, 120_000]),
-            points: Some(vec![
-                [0.0, 0.1, 0.2],
-                [1.0 / 3.0, -2e-7, 0.0],
-                [1.0, 2.0, 3.0],
-            ]),
+            points: Some(vec![[0.0, 0.1, 0.2], [1.0 / 3.0, -2e-7, 0.0], [1.0, 2.0, 3.0]]),
             shapes: vec![
                 vec![1.0, 0.0, -0.5, 0.25, 1e-3, 0.0, -1.0, 2.0 / 3.0, 1e-30],
                 vec![0.1, 0.2, 0.3, -0.4, 0.5, 0.6, 0.7, -0.8, 0.9],
@@ -130,30 +124,15 @@ mod tests {
                 |modes| modes.frequencies_hz.clear(),
                 "expected at least one mode at one point, found 0 modes at 3 points",
             ),
-            (
-                |modes| modes.frequencies_hz.push(1.0),
-                "expected a shape for each of 3 frequencies, found 2 shapes",
-            ),
-            (
-                |modes| modes.shapes[1].push(1.0),
-                "expected 9 values in mode 2 (three a point), found 10",
-            ),
+            (|modes| modes.frequencies_hz.push(1.0), "expected a shape for each of 3 frequencies, found 2 shapes"),
+            (|modes| modes.shapes[1].push(1.0), "expected 9 values in mode 2 (three a point), found 10"),
             (
                 |modes| modes.points = Some(vec![[0.0; 3]; 2]),
                 "expected as many points as labels, found 2 points and 3 labels",
             ),
-            (
-                |modes| modes.node_tags = Some(vec![7, 3, 7]),
-                "expected each node once, found node 7 twice",
-            ),
-            (
-                |modes| modes.frequencies_hz[1] = -1.0,
-                "expected a frequency >= 0 Hz for mode 2, found -1",
-            ),
-            (
-                |modes| modes.frequencies_hz[0] = f64::NAN,
-                "expected a frequency >= 0 Hz for mode 1, found NaN",
-            ),
+            (|modes| modes.node_tags = Some(vec![7, 3, 7]), "expected each node once, found node 7 twice"),
+            (|modes| modes.frequencies_hz[1] = -1.0, "expected a frequency >= 0 Hz for mode 2, found -1"),
+            (|modes| modes.frequencies_hz[0] = f64::NAN, "expected a frequency >= 0 Hz for mode 1, found NaN"),
             (
                 |modes| modes.shapes[1][5] = f64::INFINITY,
                 "expected finite displacements in mode 2, found inf at point 2",

@@ -41,12 +41,7 @@ mod tests {
             let modes = read_mode_shapes(&at(name)).unwrap();
             assert_eq!(modes.node_tags, two_modes().node_tags, "{name}");
         }
-        let error = read_mode_shapes(Path::new("a.op2"))
-            .unwrap_err()
-            .to_string();
-        assert_eq!(
-            error,
-            "expected a file of mode shapes (.npz, .csv, .uff or .unv), found a.op2"
-        );
+        let error = read_mode_shapes(Path::new("a.op2")).unwrap_err().to_string();
+        assert_eq!(error, "expected a file of mode shapes (.npz, .csv, .uff or .unv), found a.op2");
     }
 }

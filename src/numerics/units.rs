@@ -37,13 +37,7 @@ pub enum UnitError {
 
 impl LengthUnit {
     /// Every unit, largest SI unit first, the inch last.
-    pub const ALL: [Self; 5] = [
-        Self::Metre,
-        Self::Centimetre,
-        Self::Millimetre,
-        Self::Micrometre,
-        Self::Inch,
-    ];
+    pub const ALL: [Self; 5] = [Self::Metre, Self::Centimetre, Self::Millimetre, Self::Micrometre, Self::Inch];
 
     /// The unit with this symbol: `m`, `cm`, `mm`, `um` or `in`; case matters, blanks around do not.
     ///
@@ -54,9 +48,7 @@ impl LengthUnit {
         Self::ALL
             .into_iter()
             .find(|unit| unit.symbol() == wanted)
-            .ok_or_else(|| UnitError::Length {
-                found: symbol.to_owned(),
-            })
+            .ok_or_else(|| UnitError::Length { found: symbol.to_owned() })
     }
 
     /// How the unit is written in a case file.
@@ -99,9 +91,6 @@ mod tests {
     #[test]
     fn unknown_unit_names_the_known_ones() {
         let message = LengthUnit::parse("MM").map_err(|error| error.to_string());
-        assert_eq!(
-            message,
-            Err("unknown length unit \"MM\": expected one of m, cm, mm, um, in".to_owned())
-        );
+        assert_eq!(message, Err("unknown length unit \"MM\": expected one of m, cm, mm, um, in".to_owned()));
     }
 }

@@ -69,10 +69,7 @@ impl Bars {
     /// The chart with a series more.
     #[must_use]
     pub fn series(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
-        self.series.push(BarSeries {
-            name: name.into(),
-            values,
-        });
+        self.series.push(BarSeries { name: name.into(), values });
         self
     }
 
@@ -149,14 +146,9 @@ mod tests {
 
     fn chart() -> Bars {
         let labels = (1..=3).map(|k| k.to_string());
-        Bars::new(
-            "Effective mass",
-            "Mode",
-            labels,
-            Axis::new("Part of mass", "%"),
-        )
-        .series("x & y", vec![62.0, 0.0, 3.5])
-        .series("z", vec![1.0, 40.0, 0.25])
+        Bars::new("Effective mass", "Mode", labels, Axis::new("Part of mass", "%"))
+            .series("x & y", vec![62.0, 0.0, 3.5])
+            .series("z", vec![1.0, 40.0, 0.25])
     }
 
     #[test]
@@ -167,9 +159,7 @@ mod tests {
         assert_eq!(svg.matches("<rect").count(), 6);
         // 62 % of an area 218 high ending at 230
         assert!(
-            svg.contains(
-                "y=\"94.8\" width=\"43.0\" height=\"135.2\"><title>1, x &amp; y: 62.00 %</title>"
-            ),
+            svg.contains("y=\"94.8\" width=\"43.0\" height=\"135.2\"><title>1, x &amp; y: 62.00 %</title>"),
             "{svg}"
         );
         assert!(svg.contains(">Part of mass [%]</text>") && svg.contains(">Mode</text>"));
@@ -178,8 +168,7 @@ mod tests {
     #[test]
     fn many_labels_are_thinned() {
         let labels = (1..=200).map(|k| k.to_string());
-        let many =
-            Bars::new("m", "Mode", labels, Axis::new("Mass", "kg")).series("x", vec![1.0; 200]);
+        let many = Bars::new("m", "Mode", labels, Axis::new("Mass", "kg")).series("x", vec![1.0; 200]);
         let svg = draw(&many).expect("a valid chart");
         assert!(svg.matches("<text").count() < 50);
     }
@@ -189,17 +178,11 @@ mod tests {
         let message = |b: &Bars| draw(b).expect_err("must fail").to_string();
         let mut bars = chart();
         bars.series[1].values.pop();
-        assert_eq!(
-            message(&bars),
-            "\"Effective mass\": row 2 has 2 values for 3 labels"
-        );
+        assert_eq!(message(&bars), "\"Effective mass\": row 2 has 2 values for 3 labels");
         let mut bars = chart();
         bars.series[1].values[2] = -1.0;
         assert_eq!(message(&bars), "\"Effective mass\": value 3 of row 2 is -1");
         bars.series.clear();
-        assert_eq!(
-            message(&bars),
-            "\"Effective mass\": row 1 has 0 values for 3 labels"
-        );
+        assert_eq!(message(&bars), "\"Effective mass\": row 1 has 0 values for 3 labels");
     }
 }

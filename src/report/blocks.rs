@@ -166,19 +166,9 @@ fn shows_modes(view: &ModeShapeView) -> bool {
     view.figures != ShapeFigures::Mesh && !view.modes.is_empty()
 }
 
-pub(super) fn section_view<'a>(
-    section: &'a Section,
-    numbers: &mut Numbers,
-) -> Result<SectionView<'a>, ReportError> {
-    let blocks = section
-        .blocks
-        .iter()
-        .map(|block| block_view(block, numbers))
-        .collect::<Result<_, _>>()?;
-    Ok(SectionView {
-        title: &section.title,
-        blocks,
-    })
+pub(super) fn section_view<'a>(section: &'a Section, numbers: &mut Numbers) -> Result<SectionView<'a>, ReportError> {
+    let blocks = section.blocks.iter().map(|block| block_view(block, numbers)).collect::<Result<_, _>>()?;
+    Ok(SectionView { title: &section.title, blocks })
 }
 
 fn block_view<'a>(block: &'a Block, numbers: &mut Numbers) -> Result<BlockView<'a>, ReportError> {
@@ -207,10 +197,7 @@ fn block_view<'a>(block: &'a Block, numbers: &mut Numbers) -> Result<BlockView<'
         title,
         caption: caption.as_deref(),
         svg,
-        legend: names
-            .zip((0..COLOURS).cycle())
-            .map(|(name, colour)| Name { name, colour })
-            .collect(),
+        legend: names.zip((0..COLOURS).cycle()).map(|(name, colour)| Name { name, colour }).collect(),
     })
 }
 
@@ -222,10 +209,8 @@ fn next(number: &mut usize) -> usize {
 fn table_view<'a>(table: &'a Table, numbers: &mut Numbers) -> Result<BlockView<'a>, ReportError> {
     table.check()?;
     let number = next(&mut numbers.table);
-    let rows = table.rows.iter().enumerate().map(|(k, cells)| Row {
-        cells,
-        mode: table.modes.get(k).copied().flatten(),
-    });
+    let rows =
+        table.rows.iter().enumerate().map(|(k, cells)| Row { cells, mode: table.modes.get(k).copied().flatten() });
     Ok(BlockView::Table {
         number,
         caption: &table.caption,
@@ -233,10 +218,7 @@ fn table_view<'a>(table: &'a Table, numbers: &mut Numbers) -> Result<BlockView<'
         rows: rows.collect(),
         footnotes: &table.footnotes,
         file: csv::file_name(numbers.table_files.as_ref(), number, table),
-        folder: numbers
-            .table_files
-            .as_ref()
-            .map(|files| files.folder.clone()),
+        folder: numbers.table_files.as_ref().map(|files| files.folder.clone()),
         address: csv::address(table),
     })
 }
@@ -263,44 +245,21 @@ fn plot_view<'a>(plot: &'a Plot, numbers: &mut Numbers) -> Result<BlockView<'a>,
     })
 }
 
-fn shapes_view<'a>(
-    view: &'a ModeShapeView,
-    numbers: &mut Numbers,
-) -> Result<ShapesView<'a>, ReportError> {
+fn shapes_view<'a>(view: &'a ModeShapeView, numbers: &mut Numbers) -> Result<ShapesView<'a>, ReportError> {
     view.check()?;
     let surface = Surface::of(view);
     let with_mesh = view.figures != ShapeFigures::Modes || view.modes.is_empty();
     let mesh = with_mesh.then(|| {
         let picture = shapes::mesh_picture(view, &surface);
-        MeshFigure {
-            number: next(&mut numbers.figure),
-            svg: picture.svg,
-            edges: picture.edges,
-        }
+        MeshFigure { number: next(&mut numbers.figure), svg: picture.svg, edges: picture.edges }
     });
-    let modes = shows_modes(view)
-        .then(|| modes_figure(view, &surface, numbers))
-        .transpose()?;
-    Ok(ShapesView {
-        title: &view.title,
-        caption: view.caption.as_deref(),
-        legend: shapes::legend(view),
-        mesh,
-        modes,
-    })
+    let modes = shows_modes(view).then(|| modes_figure(view, &surface, numbers)).transpose()?;
+    Ok(ShapesView { title: &view.title, caption: view.caption.as_deref(), legend: shapes::legend(view), mesh, modes })
 }
 
-fn modes_figure(
-    view: &ModeShapeView,
-    surface: &Surface,
-    numbers: &mut Numbers,
-) -> Result<ModesFigure, ReportError> {
+fn modes_figure(view: &ModeShapeView, surface: &Surface, numbers: &mut Numbers) -> Result<ModesFigure, ReportError> {
     let number = next(&mut numbers.figure);
-    let Packed {
-        json,
-        left_out,
-        modes,
-    } = shapes::pack(view, surface, numbers.shapes_share)?;
+    let Packed { json, left_out, modes } = shapes::pack(view, surface, numbers.shapes_share)?;
     let list = view.modes.iter().take(modes).map(|mode| ModeEntry {
         label: mode.label.clone(),
         frequency: mode.frequency(),

@@ -144,11 +144,7 @@ pub struct Fact {
 impl Fact {
     /// A property without a remark.
     pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            value: value.into(),
-            note: None,
-        }
+        Self { name: name.into(), value: value.into(), note: None }
     }
 
     /// The property with a remark or a source.
@@ -162,10 +158,7 @@ impl Fact {
 impl Section {
     /// An empty section.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            blocks: Vec::new(),
-        }
+        Self { title: title.into(), blocks: Vec::new() }
     }
 
     /// The section with a piece more.
@@ -238,11 +231,7 @@ impl Section {
 
 impl Report {
     /// A report without contents.
-    pub fn new(
-        title: impl Into<String>,
-        command: impl Into<String>,
-        version: impl Into<String>,
-    ) -> Self {
+    pub fn new(title: impl Into<String>, command: impl Into<String>, version: impl Into<String>) -> Self {
         Self {
             title: title.into(),
             subtitle: None,
@@ -270,10 +259,7 @@ impl Report {
     /// their contents.
     #[must_use]
     pub fn tables_in(mut self, folder: impl Into<String>, prefix: impl Into<String>) -> Self {
-        self.table_files = Some(TableFiles {
-            folder: folder.into(),
-            prefix: prefix.into(),
-        });
+        self.table_files = Some(TableFiles { folder: folder.into(), prefix: prefix.into() });
         self
     }
 
@@ -293,33 +279,15 @@ impl Report {
 
     /// The report with its result as a whole: what was judged, the outcome in a few words, and the verdict.
     #[must_use]
-    pub fn judgement(
-        mut self,
-        label: impl Into<String>,
-        value: impl Into<String>,
-        verdict: Verdict,
-    ) -> Self {
-        self.judgement = Some(Headline {
-            label: label.into(),
-            value: value.into(),
-            verdict,
-        });
+    pub fn judgement(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
+        self.judgement = Some(Headline { label: label.into(), value: value.into(), verdict });
         self
     }
 
     /// The report with a figure more on top.
     #[must_use]
-    pub(crate) fn headline(
-        mut self,
-        label: impl Into<String>,
-        value: impl Into<String>,
-        verdict: Verdict,
-    ) -> Self {
-        self.headlines.push(Headline {
-            label: label.into(),
-            value: value.into(),
-            verdict,
-        });
+    pub(crate) fn headline(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
+        self.headlines.push(Headline { label: label.into(), value: value.into(), verdict });
         self
     }
 
@@ -362,10 +330,7 @@ impl Document {
     /// The head with a mesh file more.
     #[must_use]
     pub fn mesh(mut self, path: impl Into<String>, hash: Option<String>) -> Self {
-        self.meshes.push(MeshFile {
-            path: path.into(),
-            hash,
-        });
+        self.meshes.push(MeshFile { path: path.into(), hash });
         self
     }
 

@@ -107,10 +107,7 @@ pub(super) fn file_name(files: Option<&TableFiles>, number: usize, table: &Table
 /// The table as an address that a browser saves; with a byte order mark, by which spreadsheets know UTF-8.
 pub(super) fn address(table: &Table) -> String {
     let text = format!("\u{feff}{}", table.to_csv());
-    format!(
-        "data:text/csv;charset=utf-8;base64,{}",
-        STANDARD.encode(text)
-    )
+    format!("data:text/csv;charset=utf-8;base64,{}", STANDARD.encode(text))
 }
 
 /// A badge is its own verdict.
@@ -135,21 +132,13 @@ fn field(cell: &Cell, column: &Column) -> String {
 
 /// The shortest text that reads back as the same number.
 fn number(value: f64) -> String {
-    if value.abs() > 0.0 && !(1e-5..1e15).contains(&value.abs()) {
-        format!("{value:e}")
-    } else {
-        format!("{value}")
-    }
+    if value.abs() > 0.0 && !(1e-5..1e15).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
 }
 
 /// Text with an apostrophe in front if a spreadsheet would compute it (OWASP, "CSV Injection"); plain numbers are left.
 fn guarded(text: &str) -> String {
     let starts = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
-    if starts && text.parse::<f64>().is_err() {
-        format!("'{text}")
-    } else {
-        text.to_owned()
-    }
+    if starts && text.parse::<f64>().is_err() { format!("'{text}") } else { text.to_owned() }
 }
 
 fn quoted(field: &str) -> String {
@@ -167,27 +156,15 @@ mod tests {
 
     #[test]
     fn numbers_are_whole_and_units_stand_in_the_header() {
-        let columns = [
-            Column::text("What"),
-            Column::number("Stiffness", "N/m^1.5"),
-            Column::number("Area", "m^2"),
-        ];
+        let columns = [Column::text("What"), Column::number("Stiffness", "N/m^1.5"), Column::number("Area", "m^2")];
         let table = Table::new("t", columns)
             .row([
                 Cell::text("a"),
                 Cell::number(3.828_123_456_789e9, 3),
                 Cell::number(5.37e-16, 2).judged(Verdict::Bad),
             ])
-            .row([
-                Cell::text("b"),
-                Cell::text("–"),
-                Cell::text("0.1 mm²").value(0.1 + 0.2),
-            ])
-            .row([
-                Cell::text("c"),
-                Cell::number(f64::NAN, 3),
-                Cell::number(-0.25, 2).judged(Verdict::Ok),
-            ]);
+            .row([Cell::text("b"), Cell::text("–"), Cell::text("0.1 mm²").value(0.1 + 0.2)])
+            .row([Cell::text("c"), Cell::number(f64::NAN, 3), Cell::number(-0.25, 2).judged(Verdict::Ok)]);
         assert_eq!(
             table.to_csv(),
             "What,Stiffness [N/m^1.5],Area [m²],Area: verdict\r\n\
@@ -200,11 +177,8 @@ mod tests {
     #[test]
     fn text_is_quoted_and_formulas_are_text() {
         let table = |text: &str| {
-            let csv = Table::new("t", [Column::text("x")])
-                .row([Cell::text(text)])
-                .to_csv();
-            csv.strip_prefix("x\r\n")
-                .map(|row| row.trim_end_matches("\r\n").to_owned())
+            let csv = Table::new("t", [Column::text("x")]).row([Cell::text(text)]).to_csv();
+            csv.strip_prefix("x\r\n").map(|row| row.trim_end_matches("\r\n").to_owned())
         };
         for (text, expected) in [
             ("=1+2", "'=1+2"),
@@ -212,10 +186,7 @@ mod tests {
             ("-cmd|' /C calc'!A0", "'-cmd|' /C calc'!A0"),
             ("@SUM(A1)", "'@SUM(A1)"),
             ("\t=1", "'\t=1"),
-            (
-                "=HYPERLINK(\"a\",\"b\")",
-                "\"'=HYPERLINK(\"\"a\"\",\"\"b\"\")\"",
-            ),
+            ("=HYPERLINK(\"a\",\"b\")", "\"'=HYPERLINK(\"\"a\"\",\"\"b\"\")\""),
             ("-5", "-5"),
             ("+0.5", "+0.5"),
             ("+0.5 %", "'+0.5 %"),
@@ -247,16 +218,11 @@ mod tests {
         let report = Report::new("t", "c", "v")
             .section(Section::new("a").table(table("Modes")).paragraph("p"))
             .section(Section::new("b").table(table("Modes")));
-        let names = |report: &Report| -> Vec<String> {
-            report.csv_files().into_iter().map(|file| file.0).collect()
-        };
+        let names = |report: &Report| -> Vec<String> { report.csv_files().into_iter().map(|file| file.0).collect() };
         assert_eq!(names(&report), ["table-1-modes.csv", "table-2-modes.csv"]);
         assert!(!report.to_html().unwrap().contains("beside this report"));
         let report = report.tables_in("tables", "run");
-        assert_eq!(
-            names(&report),
-            ["tables/run-1-modes.csv", "tables/run-2-modes.csv"]
-        );
+        assert_eq!(names(&report), ["tables/run-1-modes.csv", "tables/run-2-modes.csv"]);
         assert_eq!(report.csv_files()[1].1, "x\r\n1\r\n");
         let html = report.to_html().unwrap();
         for name in ["run-1-modes.csv", "run-2-modes.csv"] {

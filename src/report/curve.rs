@@ -80,42 +80,20 @@ pub struct Curve {
 impl Curve {
     /// A full line through points, in the axes' units.
     pub fn new(name: impl Into<String>, x: Abscissa, y: Vec<f64>) -> Self {
-        Self {
-            name: name.into(),
-            x,
-            y,
-            style: CurveStyle::Line,
-            symbol: Symbol::Dot,
-            colour: None,
-            labels: Vec::new(),
-        }
+        Self { name: name.into(), x, y, style: CurveStyle::Line, symbol: Symbol::Dot, colour: None, labels: Vec::new() }
     }
 
     /// A sampled signal from `start` on every `step`, thinned while it was read.
-    pub(crate) fn of_thinned(
-        name: impl Into<String>,
-        [start, step]: [f64; 2],
-        signal: Thinner,
-    ) -> Self {
+    pub(crate) fn of_thinned(name: impl Into<String>, [start, step]: [f64; 2], signal: Thinner) -> Self {
         let thinned = signal.finish();
-        let x = Abscissa::Even {
-            start,
-            step: step * thinned.stride,
-        };
+        let x = Abscissa::Even { start, step: step * thinned.stride };
         Self::new(name, x, thinned.values)
     }
 
     /// A spectrum over its evenly spaced frequencies in Hz.
-    pub(crate) fn of_spectrum(
-        name: impl Into<String>,
-        frequency_hz: &[f64],
-        amplitude: &[f64],
-    ) -> Self {
+    pub(crate) fn of_spectrum(name: impl Into<String>, frequency_hz: &[f64], amplitude: &[f64]) -> Self {
         let x = match frequency_hz {
-            [start, next, ..] => Abscissa::Even {
-                start: *start,
-                step: next - start,
-            },
+            [start, next, ..] => Abscissa::Even { start: *start, step: next - start },
             _ => Abscissa::Points(frequency_hz.to_vec()),
         };
         Self::new(name, x, amplitude.to_vec())
@@ -154,20 +132,15 @@ impl Curve {
     /// shown need not be embedded.
     #[must_use]
     pub(crate) fn within(mut self, from: f64, to: f64) -> Self {
-        let keep: Vec<usize> = (0..self.y.len())
-            .filter(|k| (from..=to).contains(&self.x_at(*k)))
-            .collect();
+        let keep: Vec<usize> = (0..self.y.len()).filter(|k| (from..=to).contains(&self.x_at(*k))).collect();
         self.y = keep.iter().map(|k| self.y[*k]).collect();
         let labels = keep.iter().map_while(|k| self.labels.get(*k).cloned());
         self.labels = labels.collect();
         self.x = match self.x {
-            Abscissa::Even { start, step } => Abscissa::Even {
-                start: start + keep.first().map_or(0.0, |k| *k as f64 * step),
-                step,
-            },
-            Abscissa::Points(x) => {
-                Abscissa::Points(keep.iter().filter_map(|k| x.get(*k).copied()).collect())
+            Abscissa::Even { start, step } => {
+                Abscissa::Even { start: start + keep.first().map_or(0.0, |k| *k as f64 * step), step }
             }
+            Abscissa::Points(x) => Abscissa::Points(keep.iter().filter_map(|k| x.get(*k).copied()).collect()),
         };
         self
     }
@@ -217,19 +190,10 @@ mod tests {
     #[test]
     fn within_keeps_abscissas_in_place() {
         let y: Vec<f64> = (0..10).map(f64::from).collect();
-        let even = Abscissa::Even {
-            start: 1.0,
-            step: 0.5,
-        };
+        let even = Abscissa::Even { start: 1.0, step: 0.5 };
         let cut = Curve::new("c", even, y.clone()).within(2.0, 3.2);
         assert_eq!(cut.y, [2.0, 3.0, 4.0]);
-        assert_eq!(
-            cut.x,
-            Abscissa::Even {
-                start: 2.0,
-                step: 0.5
-            }
-        );
+        assert_eq!(cut.x, Abscissa::Even { start: 2.0, step: 0.5 });
         let points = Abscissa::Points((0..10).map(|k| f64::from(k * k)).collect());
         let labels = ["0", "1", "2", "3"].map(str::to_owned).to_vec();
         let cut = Curve::new("c", points, y).labels(labels).within(3.0, 17.0);

@@ -33,16 +33,8 @@ impl Thinner {
     #[must_use]
     pub(crate) fn new(length: usize, most: usize) -> Self {
         let most = most.max(2);
-        let bucket = if length <= most {
-            0
-        } else {
-            length.div_ceil(most / 2)
-        };
-        Self {
-            bucket,
-            under_way: Vec::with_capacity(bucket),
-            kept: Vec::with_capacity(length.min(most)),
-        }
+        let bucket = if length <= most { 0 } else { length.div_ceil(most / 2) };
+        Self { bucket, under_way: Vec::with_capacity(bucket), kept: Vec::with_capacity(length.min(most)) }
     }
 
     /// Takes the next values.
@@ -77,14 +69,7 @@ impl Thinner {
         if !self.under_way.is_empty() {
             self.close();
         }
-        Thinned {
-            values: self.kept,
-            stride: if self.bucket == 0 {
-                1.0
-            } else {
-                0.5 * self.bucket as f64
-            },
-        }
+        Thinned { values: self.kept, stride: if self.bucket == 0 { 1.0 } else { 0.5 * self.bucket as f64 } }
     }
 }
 
@@ -135,11 +120,7 @@ mod tests {
         values[999] = 4.0;
         let thinned = even(&values, 40);
         assert_eq!(thinned.values.len(), 40);
-        let at = thinned
-            .values
-            .iter()
-            .position(|v| *v > 8.0)
-            .expect("the spike");
+        let at = thinned.values.iter().position(|v| *v > 8.0).expect("the spike");
         assert!(thinned.values[at + 1] < -6.0);
         assert!((at as f64 * thinned.stride - 333.0).abs() <= 2.0 * thinned.stride);
         assert!(thinned.values.iter().any(|v| (v - 4.0).abs() < 1e-15));

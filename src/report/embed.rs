@@ -170,9 +170,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
         character: MARKER_CHARACTER,
         x: axis_data(&plot.x, &layout.x),
         y: axis_data(&plot.y, &layout.y),
-        curves: curves
-            .map(|(k, c)| curve_data(c, layout, k, share))
-            .collect(),
+        curves: curves.map(|(k, c)| curve_data(c, layout, k, share)).collect(),
         markers: markers
             .map(|marker| MarkerData {
                 at: marker.at / layout.x.factor,
@@ -181,12 +179,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
             })
             .collect(),
         families: family_data(plot, &layout.x),
-        levels: levels
-            .map(|level| LevelData {
-                at: level.at / layout.y.factor,
-                label: &level.label,
-            })
-            .collect(),
+        levels: levels.map(|level| LevelData { at: level.at / layout.y.factor, label: &level.label }).collect(),
         raster: plot.raster.as_ref().map(|raster| RasterData {
             x: raster.x.map(|x| x / layout.x.factor),
             y: raster.y.map(|y| y / layout.y.factor),
@@ -197,10 +190,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
 
 /// Data as JSON that may stand inside a script element.
 pub(super) fn for_script(title: &str, data: &impl Serialize) -> Result<String, ReportError> {
-    let json = serde_json::to_string(data).map_err(|source| ReportError::Embed {
-        plot: title.to_owned(),
-        source,
-    })?;
+    let json = serde_json::to_string(data).map_err(|source| ReportError::Embed { plot: title.to_owned(), source })?;
     // "</script" or "<!--" in a name would end the element.
     Ok(json.replace('<', "\\u003c"))
 }
@@ -216,10 +206,7 @@ fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
     let shown = plot.families.iter().filter(|family| family.is_shown());
     let sides = |family: &'a Family| {
         let sides = family.sides.as_ref()?;
-        is_positive(sides.spacing).then(|| SidesData {
-            name: &sides.name,
-            spacing: sides.spacing / x.factor,
-        })
+        is_positive(sides.spacing).then(|| SidesData { name: &sides.name, spacing: sides.spacing / x.factor })
     };
     shown
         .map(|family| FamilyData {
@@ -241,10 +228,7 @@ fn axis_data<'a>(axis: &Axis, view: &'a AxisView) -> AxisData<'a> {
         low: view.low,
         high: view.high,
         unit: &view.unit,
-        reciprocal: unit.map(|unit| Reciprocal {
-            unit,
-            factor: 1.0 / view.factor,
-        }),
+        reciprocal: unit.map(|unit| Reciprocal { unit, factor: 1.0 / view.factor }),
     }
 }
 
@@ -254,19 +238,15 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
     let (x, y) = match &curve.x {
         Abscissa::Even { start, step } => {
             let thinned = decimate::even(&curve.y, most);
-            let x = AbscissaData::Even {
-                start: start / layout.x.factor,
-                step: step * thinned.stride / layout.x.factor,
-            };
+            let x =
+                AbscissaData::Even { start: start / layout.x.factor, step: step * thinned.stride / layout.x.factor };
             (x, thinned.values)
         }
         Abscissa::Points(x) => {
             let kept = decimate::indices(&curve.y, most);
             labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)));
             let shown = kept.iter().map(|k| x[*k] / layout.x.factor);
-            let x = AbscissaData::Points {
-                x: base64(shown.flat_map(f64::to_le_bytes)),
-            };
+            let x = AbscissaData::Points { x: base64(shown.flat_map(f64::to_le_bytes)) };
             (x, kept.iter().map(|k| curve.y[*k]).collect())
         }
     };
@@ -294,13 +274,9 @@ mod tests {
     use super::*;
 
     fn plot(points: usize) -> Plot {
-        let even = Abscissa::Even {
-            start: 2.0,
-            step: 1e-5,
-        };
+        let even = Abscissa::Even { start: 2.0, step: 1e-5 };
         let y = (0..points).map(|k| (k as f64 * 0.3).sin()).collect();
-        Plot::new("t", Axis::new("Time", "s"), Axis::new("a", "m/s^2"))
-            .curve(Curve::new("P1", even, y))
+        Plot::new("t", Axis::new("Time", "s"), Axis::new("a", "m/s^2")).curve(Curve::new("P1", even, y))
     }
 
     fn embedded(plot: &Plot, share: usize) -> serde_json::Value {
@@ -310,13 +286,8 @@ mod tests {
     }
 
     fn numbers(value: &serde_json::Value) -> Vec<f32> {
-        let bytes = STANDARD
-            .decode(value.as_str().expect("text"))
-            .expect("base64");
-        bytes
-            .chunks_exact(4)
-            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-            .collect()
+        let bytes = STANDARD.decode(value.as_str().expect("text")).expect("base64");
+        bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
     }
 
     #[test]
@@ -339,10 +310,7 @@ mod tests {
         // from 2 s on; in milliseconds below 0.1 s
         assert_eq!(reciprocal(&short)["factor"], 1.0);
         short.x = Axis::new("Frequency", "Hz");
-        short.curves[0].x = Abscissa::Even {
-            start: 0.0,
-            step: 40.0,
-        };
+        short.curves[0].x = Abscissa::Even { start: 0.0, step: 40.0 };
         let data = embedded(&short, BUDGET);
         assert_eq!(data["x"]["unit"], "kHz");
         assert_eq!(data["x"]["reciprocal"]["unit"], "s");
@@ -375,19 +343,12 @@ mod tests {
     }
 
     fn with_families() -> Plot {
-        let even = Abscissa::Even {
-            start: 0.0,
-            step: 100.0,
-        };
-        Plot::new(
-            "Envelope spectrum",
-            Axis::new("Frequency", "Hz"),
-            Axis::new("Amplitude", "m/s^2"),
-        )
-        .curve(Curve::new("P1", even, vec![1.0; 401]))
-        .family(Family::new("</script><b>race", 2500.0, 8).sides("shaft & co", 500.0))
-        .family(Family::new("nothing", 0.0, 1))
-        .family(Family::new("cage", 400.0, 1).sides("none", f64::NAN))
+        let even = Abscissa::Even { start: 0.0, step: 100.0 };
+        Plot::new("Envelope spectrum", Axis::new("Frequency", "Hz"), Axis::new("Amplitude", "m/s^2"))
+            .curve(Curve::new("P1", even, vec![1.0; 401]))
+            .family(Family::new("</script><b>race", 2500.0, 8).sides("shaft & co", 500.0))
+            .family(Family::new("nothing", 0.0, 1))
+            .family(Family::new("cage", 400.0, 1).sides("none", f64::NAN))
     }
 
     #[test]
@@ -398,10 +359,7 @@ mod tests {
         let data = serde_json::to_value(family_data(&plot, &layout.x)).expect("JSON");
         // 40 kHz are shown, in kHz; the eighth of six colours is the third
         let sides = serde_json::json!({"name": "shaft & co", "spacing": 0.5});
-        assert_eq!(
-            data,
-            serde_json::json!([{"at": 2.5, "colour": 2, "sides": sides}, {"at": 0.4, "colour": 1}])
-        );
+        assert_eq!(data, serde_json::json!([{"at": 2.5, "colour": 2, "sides": sides}, {"at": 0.4, "colour": 1}]));
     }
 
     #[test]

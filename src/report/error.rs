@@ -6,9 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// A picture whose values do not fill whole rows.
-    #[error(
-        "plot \"{plot}\": {values} values do not fill rows of {columns}, which must be at least one"
-    )]
+    #[error("plot \"{plot}\": {values} values do not fill rows of {columns}, which must be at least one")]
     Raster {
         /// Title of the plot.
         plot: String,
@@ -38,9 +36,7 @@ pub enum ReportError {
         expected: usize,
     },
     /// A cell that points to a footnote that the table lacks.
-    #[error(
-        "table \"{table}\": row {row} points to footnote {footnote}, the table has {footnotes}"
-    )]
+    #[error("table \"{table}\": row {row} points to footnote {footnote}, the table has {footnotes}")]
     Footnote {
         /// Caption of the table.
         table: String,
@@ -53,17 +49,13 @@ pub enum ReportError {
     },
     /// A plot in which nothing can be drawn: no curve has a finite point (positive, on a logarithmic axis) in the
     /// plot's range.
-    #[error(
-        "plot \"{plot}\" has nothing to draw: no finite point (positive on a logarithmic axis) in its range"
-    )]
+    #[error("plot \"{plot}\" has nothing to draw: no finite point (positive on a logarithmic axis) in its range")]
     EmptyPlot {
         /// Title of the plot.
         plot: String,
     },
     /// A curve with different numbers of abscissas and ordinates.
-    #[error(
-        "plot \"{plot}\": curve \"{curve}\" has {abscissas} abscissas for {ordinates} ordinates"
-    )]
+    #[error("plot \"{plot}\": curve \"{curve}\" has {abscissas} abscissas for {ordinates} ordinates")]
     CurveLength {
         /// Title of the plot.
         plot: String,
@@ -182,12 +174,7 @@ pub enum ReportError {
 impl ReportError {
     /// A row of a chart with another number of values than the chart has labels.
     pub(super) fn wrong_length(chart: &str, row: usize, [found, expected]: [usize; 2]) -> Self {
-        Self::ChartLength {
-            chart: chart.to_owned(),
-            row,
-            found,
-            expected,
-        }
+        Self::ChartLength { chart: chart.to_owned(), row, found, expected }
     }
 
     /// Checks the values of a row of a chart; the first that is not good is the error.
@@ -198,13 +185,6 @@ impl ReportError {
         good: impl Fn(f64) -> bool,
     ) -> Result<(), Self> {
         let bad = (1..).zip(values).find(|(_, value)| !good(*value));
-        bad.map_or(Ok(()), |(column, value)| {
-            Err(Self::ChartValue {
-                chart: chart.to_owned(),
-                row,
-                column,
-                value,
-            })
-        })
+        bad.map_or(Ok(()), |(column, value)| Err(Self::ChartValue { chart: chart.to_owned(), row, column, value }))
     }
 }

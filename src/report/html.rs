@@ -65,10 +65,7 @@ impl Report {
             .iter()
             .map(|section| blocks::section_view(section, &mut numbers))
             .collect::<Result<_, _>>()?;
-        let live = self
-            .sections
-            .iter()
-            .any(|section| section.blocks.iter().any(blocks::is_live));
+        let live = self.sections.iter().any(|section| section.blocks.iter().any(blocks::is_live));
         let page = Page {
             title: &self.title,
             subtitle: self.subtitle.as_deref(),
@@ -83,17 +80,8 @@ impl Report {
             assumptions: &self.assumptions,
             warnings: &self.warnings,
             style: format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),
-            script: [
-                PLOT_SCRIPT,
-                CURSORS_SCRIPT,
-                if live { SHAPES_SCRIPT } else { "" },
-            ]
-            .map(lean)
-            .concat(),
-            library: live.then(|| Library {
-                licence: LIBRARY_LICENCE,
-                packed: library(),
-            }),
+            script: [PLOT_SCRIPT, CURSORS_SCRIPT, if live { SHAPES_SCRIPT } else { "" }].map(lean).concat(),
+            library: live.then(|| Library { licence: LIBRARY_LICENCE, packed: library() }),
         };
         let mut environment = Environment::new();
         environment.add_filter("unit", |unit: String| pretty_unit(&unit));
@@ -105,9 +93,7 @@ impl Report {
         environment.add_template("report.html", TEMPLATE)?;
         environment.add_template("blocks.html", BLOCKS)?;
         environment.add_template("shapes.html", SHAPES)?;
-        Ok(environment
-            .get_template("report.html")?
-            .render(Serde(page))?)
+        Ok(environment.get_template("report.html")?.render(Serde(page))?)
     }
 }
 
@@ -154,53 +140,28 @@ fn library() -> String {
 mod tests {
     use super::css_string;
     use crate::report::{
-        Abscissa, Axis, Cell, Circle, Column, Curve, Drawing, Fact, Marker, Plot, Point, Report,
-        Section, Table, Verdict,
+        Abscissa, Axis, Cell, Circle, Column, Curve, Drawing, Fact, Marker, Plot, Point, Report, Section, Table,
+        Verdict,
     };
 
     fn plot(points: usize) -> Plot {
-        let even = Abscissa::Even {
-            start: 0.0,
-            step: 1e-5,
-        };
-        let y = (0..points)
-            .map(|k| (k as f64 * 0.37).sin() * 1234.5)
-            .collect();
-        Plot::new(
-            "Acceleration <P1>",
-            Axis::new("Time", "s"),
-            Axis::new("Acceleration", "m/s^2"),
-        )
-        .curve(Curve::new("P1 & P2", even, y))
-        .marker(Marker::new(1e-5, "\"1×\""))
+        let even = Abscissa::Even { start: 0.0, step: 1e-5 };
+        let y = (0..points).map(|k| (k as f64 * 0.37).sin() * 1234.5).collect();
+        Plot::new("Acceleration <P1>", Axis::new("Time", "s"), Axis::new("Acceleration", "m/s^2"))
+            .curve(Curve::new("P1 & P2", even, y))
+            .marker(Marker::new(1e-5, "\"1×\""))
     }
 
     fn table() -> Table {
-        Table::new(
-            "Lines",
-            [Column::text("Line"), Column::number("Found", "Hz")],
-        )
-        .row([
-            Cell::text("outer <1>"),
-            Cell::number(55.02, 4).judged(Verdict::Ok).footnote(1),
-        ])
-        .row([
-            Cell::text("inner"),
-            Cell::number(95.3, 4).judged(Verdict::Bad),
-        ])
-        .footnote("5 < 6")
+        Table::new("Lines", [Column::text("Line"), Column::number("Found", "Hz")])
+            .row([Cell::text("outer <1>"), Cell::number(55.02, 4).judged(Verdict::Ok).footnote(1)])
+            .row([Cell::text("inner"), Cell::number(95.3, 4).judged(Verdict::Bad)])
+            .footnote("5 < 6")
     }
 
     fn report() -> Report {
-        let ball = Circle {
-            centre: Point { x: 0.0, y: 0.0 },
-            radius: 1e-3,
-        };
-        let drawing = Drawing {
-            title: "Bearing".to_owned(),
-            balls: vec![ball],
-            ..Drawing::default()
-        };
+        let ball = Circle { centre: Point { x: 0.0, y: 0.0 }, radius: 1e-3 };
+        let drawing = Drawing { title: "Bearing".to_owned(), balls: vec![ball], ..Drawing::default() };
         Report::new("Dent & run-up", "plummer run \"a<b>.toml\"", "0.1.0")
             .subtitle("O'Neill")
             .headline("Kurtosis", "38", Verdict::Bad)
@@ -210,12 +171,7 @@ mod tests {
                     .facts([Fact::new("Balls", "7").note("R & r")])
                     .drawing(drawing),
             )
-            .section(
-                Section::new("Signal")
-                    .plot(plot(100))
-                    .table(table())
-                    .plot(plot(50)),
-            )
+            .section(Section::new("Signal").plot(plot(100)).table(table()).plot(plot(50)))
             .assumption("No slip <script>alert(1)</script>.")
             .warning("k > 1")
     }
@@ -253,16 +209,8 @@ mod tests {
     #[test]
     fn all_text_is_escaped() {
         let html = report().to_html().expect("a valid report");
-        for raw in [
-            "a < b",
-            "<P1>",
-            "outer <1>",
-            "R & r",
-            "<script>alert",
-            "a<b>.toml",
-            "P1 & P2</button>",
-            "O'Neill",
-        ] {
+        for raw in ["a < b", "<P1>", "outer <1>", "R & r", "<script>alert", "a<b>.toml", "P1 & P2</button>", "O'Neill"]
+        {
             assert!(!html.contains(raw), "{raw}");
         }
         assert!(html.contains("Dent &amp; run-up") && html.contains("No slip &lt;script&gt;"));
@@ -271,44 +219,22 @@ mod tests {
     #[test]
     fn nothing_is_fetched() {
         let html = report().to_html().expect("a valid report");
-        for fetch in [
-            " src=",
-            "<link",
-            "@import",
-            "url(http",
-            "href=\"http",
-            "fetch(",
-            "XMLHttpRequest",
-            "import(",
-        ] {
+        for fetch in [" src=", "<link", "@import", "url(http", "href=\"http", "fetch(", "XMLHttpRequest", "import("] {
             assert!(!html.contains(fetch), "{fetch}");
         }
         // The one address is a name: the SVG namespace.
         let addresses = html.matches("http").count();
-        assert_eq!(
-            addresses,
-            html.matches("http://www.w3.org/2000/svg").count()
-        );
+        assert_eq!(addresses, html.matches("http://www.w3.org/2000/svg").count());
     }
 
     #[test]
     fn long_signals_stay_below_five_megabytes() {
         let section = (0..4).fold(Section::new("Signals"), |s, _| s.plot(plot(300_000)));
-        let html = Report::new("t", "c", "0")
-            .section(section)
-            .to_html()
-            .expect("a valid report");
+        let html = Report::new("t", "c", "0").section(section).to_html().expect("a valid report");
         assert!(html.len() < 5_000_000, "{} bytes", html.len());
-        assert!(
-            html.len() > 3_000_000,
-            "the budget is used: {} bytes",
-            html.len()
-        );
+        assert!(html.len() > 3_000_000, "the budget is used: {} bytes", html.len());
         let again = Report::new("t", "c", "0").section(Section::new("S").plot(plot(300_000)));
-        assert!(
-            again.to_html().expect("a valid report").len() > 1_600_000,
-            "one signal stays whole"
-        );
+        assert!(again.to_html().expect("a valid report").len() > 1_600_000, "one signal stays whole");
     }
 
     #[test]
@@ -323,9 +249,6 @@ mod tests {
     #[test]
     fn css_strings_hold_what_is_in_them() {
         assert_eq!(css_string("Fan 2"), "\"Fan 2\"");
-        assert_eq!(
-            css_string("a\"}</style>"),
-            "\"a\\22 \\7d \\3c \\2f style\\3e \""
-        );
+        assert_eq!(css_string("a\"}</style>"), "\"a\\22 \\7d \\3c \\2f style\\3e \"");
     }
 }

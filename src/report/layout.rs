@@ -78,11 +78,7 @@ impl AxisView {
 
     /// Lines and numbers of the axis, about `wanted`.
     pub(super) fn ticks(&self, wanted: usize) -> Vec<Tick> {
-        if self.log {
-            ticks::log(self.low, self.high, wanted)
-        } else {
-            ticks::linear(self.low, self.high, wanted)
-        }
+        if self.log { ticks::log(self.low, self.high, wanted) } else { ticks::linear(self.low, self.high, wanted) }
     }
 
     /// The view of a range given by the caller.
@@ -94,20 +90,9 @@ impl AxisView {
         let log = axis.scale == Scale::Log;
         // powers of ten need no prefix; a logarithmic axis of less than a decade has none
         let powers = log && high >= 10.0 * low;
-        let largest = if powers {
-            1.0
-        } else {
-            low.abs().max(high.abs())
-        };
+        let largest = if powers { 1.0 } else { low.abs().max(high.abs()) };
         let DisplayUnit { factor, text } = display_unit(&axis.unit, largest);
-        Self {
-            log,
-            low: low / factor,
-            high: high / factor,
-            factor,
-            title: with_unit(&axis.label, &text),
-            unit: text,
-        }
+        Self { log, low: low / factor, high: high / factor, factor, title: with_unit(&axis.label, &text), unit: text }
     }
 }
 
@@ -127,14 +112,10 @@ impl<'a> Layout<'a> {
                 snapped(&plot.x, widened(&plot.x, found, room))
             }
         };
-        let shown = |level: &&Level| {
-            level.at.is_finite() && (plot.y.scale == Scale::Linear || level.at > 0.0)
-        };
+        let shown = |level: &&Level| level.at.is_finite() && (plot.y.scale == Scale::Linear || level.at > 0.0);
         let levels = plot.levels.iter().filter(shown).map(|level| level.at);
-        let found = levels.fold(
-            extent(plot, &plot.y, x_range, |p| p.1)?,
-            |[low, high], at| [low.min(at), high.max(at)],
-        );
+        let found =
+            levels.fold(extent(plot, &plot.y, x_range, |p| p.1)?, |[low, high], at| [low.min(at), high.max(at)]);
         let y_range = match plot.y.range.or(of_raster(|raster| raster.y)) {
             Some(range) => checked(plot, &plot.y, range)?,
             None => widened(&plot.y, found, HEADROOM),
@@ -143,11 +124,7 @@ impl<'a> Layout<'a> {
         let y = AxisView::new(&plot.y, y_range);
         let (markers, rows) = place_markers(plot, &x);
         let top = TOP + MARKER_ROW * rows as f64;
-        let area = if plot.tall {
-            TALL_AREA_HEIGHT
-        } else {
-            AREA_HEIGHT
-        };
+        let area = if plot.tall { TALL_AREA_HEIGHT } else { AREA_HEIGHT };
         Ok(Self {
             x,
             y,
@@ -190,12 +167,7 @@ fn checked(plot: &Plot, axis: &Axis, [from, to]: [f64; 2]) -> Result<[f64; 2], R
     if from.is_finite() && to.is_finite() && from < to && positive {
         Ok([from, to])
     } else {
-        Err(ReportError::Range {
-            plot: plot.title.clone(),
-            axis: axis.label.clone(),
-            from,
-            to,
-        })
+        Err(ReportError::Range { plot: plot.title.clone(), axis: axis.label.clone(), from, to })
     }
 }
 
@@ -214,17 +186,13 @@ fn extent(
         .filter(|(x, y)| can_show(&plot.x, *x) && can_show(&plot.y, *y))
         .filter(|(x, _)| (x_range[0]..=x_range[1]).contains(x))
         .map(coordinate)
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-            [low.min(v), high.max(v)]
-        });
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
     // A range set by the caller needs no data of its own, but a plot of nothing is a mistake.
     let fixed = axis.range.is_some() || plot.raster.is_some();
     if found[0] <= found[1] || fixed && plot.curves.is_empty() {
         Ok(found)
     } else {
-        Err(ReportError::EmptyPlot {
-            plot: plot.title.clone(),
-        })
+        Err(ReportError::EmptyPlot { plot: plot.title.clone() })
     }
 }
 
@@ -238,18 +206,11 @@ fn widened(axis: &Axis, [low, high]: [f64; 2], headroom: f64) -> [f64; 2] {
         } else {
             2.0
         };
-        return [
-            (low / room).max(f64::MIN_POSITIVE),
-            (high * room).min(f64::MAX),
-        ];
+        return [(low / room).max(f64::MIN_POSITIVE), (high * room).min(f64::MAX)];
     }
     let width = (high - low).min(f64::MAX);
     if width <= 1e-9 * low.abs().max(high.abs()) {
-        let half = if high.abs() > 0.0 {
-            0.1 * high.abs()
-        } else {
-            1.0
-        };
+        let half = if high.abs() > 0.0 { 0.1 * high.abs() } else { 1.0 };
         return [(low - half).max(-f64::MAX), (high + half).min(f64::MAX)];
     }
     let room = headroom * width;
@@ -264,10 +225,7 @@ fn snapped(axis: &Axis, [low, high]: [f64; 2]) -> [f64; 2] {
     let near = SNAP * (high - low);
     let round = |from: f64, to: f64| {
         let ticks = ticks::linear(from, to, TICKS[0]);
-        ticks
-            .first()
-            .map(|first| first.at)
-            .zip(ticks.last().map(|last| last.at))
+        ticks.first().map(|first| first.at).zip(ticks.last().map(|last| last.at))
     };
     match (axis.scale, round(low - near, high + near)) {
         (Scale::Linear, Some((first, last))) => [low.min(first), high.max(last)],
@@ -301,11 +259,7 @@ fn place_markers<'a>(plot: &'a Plot, x: &AxisView) -> (Vec<PlacedMarker<'a>>, us
         if let Some(row) = row {
             row_ends[row] = centre + half;
         }
-        placed.push(PlacedMarker {
-            marker,
-            x: at,
-            label: row.map(|row| (row, centre)),
-        });
+        placed.push(PlacedMarker { marker, x: at, label: row.map(|row| (row, centre)) });
     }
     (placed, row_ends.len())
 }
@@ -315,10 +269,7 @@ mod tests {
     use super::*;
 
     fn plot(x: Axis, y: Axis, ordinates: &[f64]) -> Plot {
-        let even = Abscissa::Even {
-            start: 0.0,
-            step: 100.0,
-        };
+        let even = Abscissa::Even { start: 0.0, step: 100.0 };
         Plot::new("Spectrum", x, y).curve(Curve::new("P1", even, ordinates.to_vec()))
     }
 
@@ -329,11 +280,7 @@ mod tests {
     #[test]
     fn ranges_fit_the_data_and_units_get_prefixes() {
         let ordinates: Vec<f64> = (0..401).map(|k| 2e-6 * f64::from(k % 50)).collect();
-        let plot = plot(
-            Axis::new("Frequency", "Hz"),
-            Axis::new("Displacement", "m"),
-            &ordinates,
-        );
+        let plot = plot(Axis::new("Frequency", "Hz"), Axis::new("Displacement", "m"), &ordinates);
         let layout = Layout::of(&plot).expect("a valid plot");
         assert_eq!(layout.x.title, "Frequency [kHz]");
         assert!((layout.x.high - 40.0).abs() < 1e-9);
@@ -345,10 +292,7 @@ mod tests {
 
     #[test]
     fn a_signal_that_ends_a_sample_early_is_shown_to_the_round_number() {
-        let even = Abscissa::Even {
-            start: 2.2,
-            step: 1e-3,
-        };
+        let even = Abscissa::Even { start: 2.2, step: 1e-3 };
         let curve = Curve::new("P1", even, (0..600).map(f64::from).collect());
         let plot = Plot::new("Signal", Axis::new("Time", "s"), Axis::new("a", "")).curve(curve);
         let layout = Layout::of(&plot).expect("a valid plot");
@@ -357,11 +301,7 @@ mod tests {
 
     #[test]
     fn ordinates_outside_the_shown_abscissas_do_not_count() {
-        let plot = plot(
-            Axis::new("f", "Hz").range(100.0, 300.0),
-            Axis::new("a", ""),
-            &[99.0, 1.0, 2.0, 1.5, 50.0],
-        );
+        let plot = plot(Axis::new("f", "Hz").range(100.0, 300.0), Axis::new("a", ""), &[99.0, 1.0, 2.0, 1.5, 50.0]);
         let layout = Layout::of(&plot).expect("a valid plot");
         assert!(layout.y.high < 3.0);
     }
@@ -382,19 +322,10 @@ mod tests {
 
     #[test]
     fn log_axes_leave_out_what_is_not_positive() {
-        let plot = plot(
-            Axis::new("f", "Hz").log(),
-            Axis::new("a", "").log(),
-            &[1e6, 1e-3, 0.0, -4.0, 10.0],
-        );
+        let plot = plot(Axis::new("f", "Hz").log(), Axis::new("a", "").log(), &[1e6, 1e-3, 0.0, -4.0, 10.0]);
         let layout = Layout::of(&plot).expect("a valid plot");
         assert!((layout.x.low - 100.0).abs() < 1e-9 && (layout.x.high - 400.0).abs() < 1e-9);
-        assert!(
-            layout.y.low < 1e-3
-                && layout.y.low > 1e-4
-                && layout.y.high > 10.0
-                && layout.y.high < 100.0
-        );
+        assert!(layout.y.low < 1e-3 && layout.y.low > 1e-4 && layout.y.high > 10.0 && layout.y.high < 100.0);
     }
 
     #[test]
@@ -410,11 +341,7 @@ mod tests {
             plot = plot.marker(Marker::new(at, label));
         }
         let layout = Layout::of(&plot).expect("a valid plot");
-        let rows: Vec<_> = layout
-            .markers
-            .iter()
-            .map(|m| m.label.map(|l| l.0))
-            .collect();
+        let rows: Vec<_> = layout.markers.iter().map(|m| m.label.map(|l| l.0)).collect();
         assert_eq!(rows, [Some(0), Some(1), Some(2), Some(0)]);
         assert_eq!(layout.rows, 3);
         let last = layout.markers[3].label.map_or(0.0, |l| l.1);
@@ -430,10 +357,7 @@ mod tests {
             "plot \"Spectrum\" has nothing to draw: no finite point (positive on a logarithmic axis) in its range"
         );
         let (x, y) = axes();
-        assert_eq!(
-            message(&plot(x.range(3.0, 1.0), y, &[1.0])),
-            "plot \"Spectrum\": axis \"f\" cannot show 3 to 1"
-        );
+        assert_eq!(message(&plot(x.range(3.0, 1.0), y, &[1.0])), "plot \"Spectrum\": axis \"f\" cannot show 3 to 1");
         let (x, y) = axes();
         assert_eq!(
             message(&plot(x, y.log().range(0.0, 1.0), &[1.0, 2.0])),

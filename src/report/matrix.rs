@@ -53,13 +53,7 @@ impl Matrix {
 
     fn check(&self) -> Result<(), ReportError> {
         let (rows, columns) = (self.rows.1.len(), self.columns.1.len());
-        let length = |row, found| {
-            Err(ReportError::wrong_length(
-                &self.title,
-                row,
-                [found, columns],
-            ))
-        };
+        let length = |row, found| Err(ReportError::wrong_length(&self.title, row, [found, columns]));
         if self.values.len() != rows {
             return length(self.values.len().min(rows) + 1, 0);
         }
@@ -90,12 +84,7 @@ pub(super) fn draw(matrix: &Matrix) -> Result<String, ReportError> {
     // Labels of columns are turned where they are wider than their column.
     let turned = longest(columns) > cell - 4.0;
     let left = TITLE + longest(rows) + 12.0;
-    let top = TITLE
-        + if turned {
-            longest(columns) + 10.0
-        } else {
-            20.0
-        };
+    let top = TITLE + if turned { longest(columns) + 10.0 } else { 20.0 };
     let (width, height) = (cell * columns.len() as f64, cell * rows.len() as f64);
     let full_width = (left + width + 90.0).round();
     let full_height = (top + height.max(150.0) + 12.0).round();
@@ -187,12 +176,7 @@ mod tests {
     #[test]
     fn values_are_numbers_and_colours() {
         let svg = draw(&matrix(&[[1.0, 0.001], [0.25, 0.5]])).expect("a valid matrix");
-        for text in [
-            "<title>MAC</title>",
-            ">0.25</text>",
-            "class=\"light\"",
-            "class=\"dark\"",
-        ] {
+        for text in ["<title>MAC</title>", ">0.25</text>", "class=\"light\"", "class=\"dark\""] {
             assert!(svg.contains(text), "{text}");
         }
         let dark = |cell: &str| {
@@ -216,18 +200,12 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let message = |m: &Matrix| draw(m).expect_err("must fail").to_string();
-        assert_eq!(
-            message(&matrix(&[[0.0, 1.2]])),
-            "\"MAC\": value 2 of row 1 is 1.2"
-        );
+        assert_eq!(message(&matrix(&[[0.0, 1.2]])), "\"MAC\": value 2 of row 1 is 1.2");
         let mut ragged = matrix(&[[0.0, 1.0], [0.0, 1.0]]);
         ragged.values[1].pop();
         assert_eq!(message(&ragged), "\"MAC\": row 2 has 1 values for 2 labels");
         ragged.values.pop();
         assert_eq!(message(&ragged), "\"MAC\": row 2 has 0 values for 2 labels");
-        assert_eq!(
-            message(&matrix(&[])),
-            "\"MAC\": row 1 has 0 values for 2 labels"
-        );
+        assert_eq!(message(&matrix(&[])), "\"MAC\": row 1 has 0 values for 2 labels");
     }
 }

@@ -48,9 +48,7 @@ pub(crate) use number::pretty_unit;
 pub use number::{fixed, significant};
 pub(crate) use plot::Raster;
 pub use plot::{Axis, Family, Level, Marker, Plot, Scale, Sides};
-pub use shapes::{
-    ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
-};
+pub use shapes::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis};
 pub use spans::{SpanPoint, SpanRow, Spans};
 pub use step_map::{StepMap, StepPanel, StepState};
 pub use table::{Align, Cell, CellLook, Column, Table, Verdict};

@@ -88,11 +88,7 @@ pub(crate) fn pretty_unit(unit: &str) -> String {
 
 /// A name with its unit in brackets: "Frequency \[Hz\]"; the name alone without a unit.
 pub(super) fn with_unit(name: &str, unit: &str) -> String {
-    if unit.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{name} [{unit}]")
-    }
+    if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
 /// Text with its powers as they are printed: "340 m/s^2" becomes "340 m/s²"; those with a decimal point stay.
@@ -100,9 +96,7 @@ pub(super) fn raised_powers(text: &str) -> String {
     let mut parts = text.split('^');
     let mut out = parts.next().unwrap_or("").to_owned();
     for part in parts {
-        let end = part
-            .find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '.'))
-            .unwrap_or(part.len());
+        let end = part.find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '.')).unwrap_or(part.len());
         let (power, rest) = part.split_at(end);
         if power.is_empty() || power.contains('.') {
             out.push('^');
@@ -127,24 +121,10 @@ pub(super) struct DisplayUnit {
 /// Chooses a prefix such that a largest absolute value reads from 0.1 to below 10 000; for units that take no prefix a
 /// power of ten outside 0.001 .. 1 000 000.
 pub(super) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
-    const PREFIXES: [(i32, &str); 8] = [
-        (-12, "p"),
-        (-9, "n"),
-        (-6, "µ"),
-        (-3, "m"),
-        (3, "k"),
-        (6, "M"),
-        (9, "G"),
-        (12, "T"),
-    ];
-    let takes_prefix = matches!(
-        unit,
-        "Hz" | "s" | "m" | "N" | "Pa" | "W" | "J" | "V" | "N/m"
-    );
-    let plain = DisplayUnit {
-        factor: 1.0,
-        text: pretty_unit(unit),
-    };
+    const PREFIXES: [(i32, &str); 8] =
+        [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
+    let takes_prefix = matches!(unit, "Hz" | "s" | "m" | "N" | "Pa" | "W" | "J" | "V" | "N/m");
+    let plain = DisplayUnit { factor: 1.0, text: pretty_unit(unit) };
     if !(largest.is_finite() && largest > 0.0) {
         return plain;
     }
@@ -154,19 +134,13 @@ pub(super) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
         let wanted = !(0.1..1e4).contains(&largest) && (unit != "s" || exponent < 0);
         let prefix = PREFIXES.iter().find(|(e, _)| *e == exponent);
         if let (true, Some((e, prefix))) = (wanted, prefix) {
-            return DisplayUnit {
-                factor: 10_f64.powi(*e),
-                text: format!("{prefix}{unit}"),
-            };
+            return DisplayUnit { factor: 10_f64.powi(*e), text: format!("{prefix}{unit}") };
         }
     } else if !(1e-3..1e6).contains(&largest) {
         let power = format!("10{}", superscript(exponent));
         let unit = pretty_unit(unit);
         let text = format!("{power} {unit}").trim_end().to_owned();
-        return DisplayUnit {
-            factor: 10_f64.powi(exponent),
-            text,
-        };
+        return DisplayUnit { factor: 10_f64.powi(exponent), text };
     }
     plain
 }

@@ -25,18 +25,10 @@ pub(super) const VIRIDIS: [Rgb; 16] = [
 ];
 
 /// White to dark blue, by even steps of lightness.
-const BLUES: [Rgb; 5] = [
-    [255, 255, 255],
-    [206, 221, 236],
-    [142, 178, 212],
-    [75, 125, 175],
-    [20, 61, 110],
-];
+const BLUES: [Rgb; 5] = [[255, 255, 255], [206, 221, 236], [142, 178, 212], [75, 125, 175], [20, 61, 110]];
 
 /// Colours of curves, bars and markers as the style sheet has them on white; the next one begins again.
-pub(super) const SERIES: [&str; 6] = [
-    "#1f5a99", "#c8511b", "#2e7d4f", "#7b4ea3", "#8c6d1f", "#4d5761",
-];
+pub(super) const SERIES: [&str; 6] = ["#1f5a99", "#c8511b", "#2e7d4f", "#7b4ea3", "#8c6d1f", "#4d5761"];
 
 /// How many colours curves, bars and markers have.
 pub(super) const COLOURS: usize = SERIES.len();
@@ -103,9 +95,7 @@ mod tests {
             let linear = |c: u8| (f64::from(c) / 255.0).powf(2.2);
             0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b)
         };
-        let steps: Vec<f64> = (0..=60)
-            .map(|k| luminance(viridis(f64::from(k) / 60.0)))
-            .collect();
+        let steps: Vec<f64> = (0..=60).map(|k| luminance(viridis(f64::from(k) / 60.0))).collect();
         assert!(steps.windows(2).all(|w| w[1] > w[0]), "{steps:?}");
         assert_eq!(hex(viridis(-1.0)), "#440154");
         assert_eq!(hex(viridis(2.0)), "#fde725");

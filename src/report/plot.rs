@@ -97,12 +97,7 @@ pub struct Sides {
 impl Family {
     /// A family with its fundamental in the x axis' unit, in the colour of a marker's family.
     pub fn new(name: impl Into<String>, fundamental: f64, family: usize) -> Self {
-        Self {
-            name: name.into(),
-            fundamental,
-            sides: None,
-            family,
-        }
+        Self { name: name.into(), fundamental, sides: None, family }
     }
 
     /// The family with side lines, `spacing` in the x axis' unit.
@@ -141,12 +136,7 @@ pub(crate) struct Raster {
 impl Axis {
     /// A linear axis that shows all data, in an SI unit ("" for none).
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            unit: unit.into(),
-            scale: Scale::Linear,
-            range: None,
-        }
+        Self { label: label.into(), unit: unit.into(), scale: Scale::Linear, range: None }
     }
 
     /// The axis on a logarithmic scale.
@@ -174,11 +164,7 @@ impl Axis {
 impl Marker {
     /// A vertical line at `at`, in the x axis' unit.
     pub fn new(at: f64, label: impl Into<String>) -> Self {
-        Self {
-            at,
-            label: label.into(),
-            family: 0,
-        }
+        Self { at, label: label.into(), family: 0 }
     }
 
     /// The line in the colour of a family.

@@ -45,10 +45,8 @@ impl Raster {
             })
             .collect();
         let height = self.values.len() / self.columns;
-        let png = png(&pixels, [self.columns, height]).map_err(|source| ReportError::Picture {
-            plot: plot.title.clone(),
-            source,
-        })?;
+        let png = png(&pixels, [self.columns, height])
+            .map_err(|source| ReportError::Picture { plot: plot.title.clone(), source })?;
         Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
     }
 }
@@ -60,9 +58,7 @@ fn png(pixels: &[u8], [width, height]: [usize; 2]) -> Result<Vec<u8>, png::Encod
     let mut encoder = png::Encoder::new(&mut out, size(width)?, size(height)?);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
-    let palette: Vec<u8> = (0..=255)
-        .flat_map(|k| viridis(f64::from(k) / 255.0))
-        .collect();
+    let palette: Vec<u8> = (0..=255).flat_map(|k| viridis(f64::from(k) / 255.0)).collect();
     encoder.set_palette(palette);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
@@ -71,12 +67,7 @@ fn png(pixels: &[u8], [width, height]: [usize; 2]) -> Result<Vec<u8>, png::Encod
 }
 
 /// The picture of a plot that has one, inside its clip path.
-pub(super) fn picture(
-    raster: &Raster,
-    plot: &Plot,
-    layout: &Layout,
-    id: &str,
-) -> Result<String, ReportError> {
+pub(super) fn picture(raster: &Raster, plot: &Plot, layout: &Layout, id: &str) -> Result<String, ReportError> {
     let view = raster.view(plot)?;
     let [left, right] = raster.x.map(|x| layout.x_px(x / layout.x.factor));
     let [bottom, top] = raster.y.map(|y| layout.y_px(y / layout.y.factor));
@@ -100,17 +91,10 @@ pub(super) fn bar(
     let [gap, width] = BAR;
     let (left, top, height) = (layout.right + gap, layout.top, layout.bottom - layout.top);
     // Writing to a string cannot fail, here and below.
-    let _ = write!(
-        out,
-        "<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">"
-    );
+    let _ = write!(out, "<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
     for (k, colour) in VIRIDIS.into_iter().enumerate() {
         let offset = k as f64 / (VIRIDIS.len() - 1) as f64;
-        let _ = write!(
-            out,
-            "<stop offset=\"{offset:.4}\" stop-color=\"{}\"/>",
-            hex(colour)
-        );
+        let _ = write!(out, "<stop offset=\"{offset:.4}\" stop-color=\"{}\"/>", hex(colour));
     }
     out.push_str("</linearGradient>");
     let look = format!("class=\"frame\" style=\"fill:url(#{id}-bar)\"");
@@ -136,12 +120,7 @@ mod tests {
     /// Two rows of three, from 1 to 100 on a logarithmic scale.
     fn plot() -> Plot {
         let colours = Axis::new("Level", "m/s^2").decades_below(100.0, 2.0);
-        Plot::new(
-            "s",
-            Axis::new("Time", "s"),
-            Axis::new("Frequency", "Hz").log(),
-        )
-        .raster(Raster {
+        Plot::new("s", Axis::new("Time", "s"), Axis::new("Frequency", "Hz").log()).raster(Raster {
             x: [2.0, 2.3],
             y: [500.0, 40e3],
             columns: 3,

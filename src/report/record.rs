@@ -19,8 +19,7 @@ impl Report {
     pub fn to_record(&self) -> Result<Vec<u8>, ReportError> {
         let failed = |reason: String| ReportError::Unrecorded { reason };
         let mut packed = GzEncoder::new(Vec::new(), Compression::default());
-        ciborium::into_writer(self, BufWriter::new(&mut packed))
-            .map_err(|error| failed(error.to_string()))?;
+        ciborium::into_writer(self, BufWriter::new(&mut packed)).map_err(|error| failed(error.to_string()))?;
         packed.finish().map_err(|error| failed(error.to_string()))
     }
 
@@ -31,8 +30,7 @@ impl Report {
     pub fn from_record(bytes: &[u8]) -> Result<Self, ReportError> {
         let failed = |reason: String| ReportError::Record { reason };
         let mut unpacked = BufReader::new(GzDecoder::new(bytes).take(LARGEST));
-        let report =
-            ciborium::from_reader(&mut unpacked).map_err(|error| failed(error.to_string()))?;
+        let report = ciborium::from_reader(&mut unpacked).map_err(|error| failed(error.to_string()))?;
         // the checksum stands at the end
         match unpacked.read(&mut [0]) {
             Ok(0) => Ok(report),
@@ -45,32 +43,25 @@ impl Report {
 #[cfg(test)]
 mod tests {
     use super::super::shapes::samples::cube;
-    use super::super::{
-        Abscissa, Axis, Bars, Cell, Column, Curve, Fact, Plot, Section, Table, Verdict,
-    };
+    use super::super::{Abscissa, Axis, Bars, Cell, Column, Curve, Fact, Plot, Section, Table, Verdict};
     use super::*;
 
     fn report() -> Report {
         // no value where nothing was measured, a number without a short decimal form, a zero with a sign
-        let curve = Curve::new(
-            "P1",
-            Abscissa::Points(vec![1.0, f64::MIN_POSITIVE, 3.0]),
-            vec![f64::NAN, 0.1 + 0.2, -0.0],
-        );
+        let curve =
+            Curve::new("P1", Abscissa::Points(vec![1.0, f64::MIN_POSITIVE, 3.0]), vec![f64::NAN, 0.1 + 0.2, -0.0]);
         let mut plot = Plot::new("Signal", Axis::new("t", "s"), Axis::new("a", "m/s^2"));
         plot.curves.push(curve);
         let bars = Bars::new("Mass", "mode", ["1".to_owned()], Axis::new("m", "kg"));
         let table = Table::new("Lines", [Column::text("Part")]).row([Cell::number(0.1, 3)]);
-        Report::new("Dent", "plummer run a.toml", "0.1.0")
-            .headline("Kurtosis", "38", Verdict::Bad)
-            .section(
-                Section::new("S")
-                    .facts([Fact::new("Balls", "7")])
-                    .plot(plot)
-                    .bars(bars.series("x", vec![0.5]))
-                    .table(table)
-                    .shapes(cube(3, 2)),
-            )
+        Report::new("Dent", "plummer run a.toml", "0.1.0").headline("Kurtosis", "38", Verdict::Bad).section(
+            Section::new("S")
+                .facts([Fact::new("Balls", "7")])
+                .plot(plot)
+                .bars(bars.series("x", vec![0.5]))
+                .table(table)
+                .shapes(cube(3, 2)),
+        )
     }
 
     #[test]
@@ -88,10 +79,7 @@ mod tests {
         let bytes = report().to_record().expect("a record");
         for cut in [0, 1, 10, bytes.len() / 2, bytes.len() - 1] {
             let error = Report::from_record(&bytes[..cut]).expect_err("cut off");
-            assert!(
-                matches!(error, ReportError::Record { .. }),
-                "{cut}: {error}"
-            );
+            assert!(matches!(error, ReportError::Record { .. }), "{cut}: {error}");
         }
         assert!(Report::from_record(b"<!DOCTYPE html>").is_err());
         // a bit anywhere: by the packing or by the checksum

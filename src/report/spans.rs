@@ -143,24 +143,15 @@ mod tests {
     use super::*;
 
     fn chart() -> Spans {
-        let point = |label: &str, at| SpanPoint {
-            label: label.to_owned(),
-            at,
-        };
+        let point = |label: &str, at| SpanPoint { label: label.to_owned(), at };
         Spans {
             title: "What moves it".to_owned(),
             caption: None,
             axis: "Frequency [kHz]".to_owned(),
             base: 8.0,
             rows: vec![
-                SpanRow {
-                    name: "Width".to_owned(),
-                    points: vec![point("3 mm", 9.0), point("5 mm", 7.0)],
-                },
-                SpanRow {
-                    name: "Shear & more".to_owned(),
-                    points: vec![point("on", 7.9)],
-                },
+                SpanRow { name: "Width".to_owned(), points: vec![point("3 mm", 9.0), point("5 mm", 7.0)] },
+                SpanRow { name: "Shear & more".to_owned(), points: vec![point("on", 7.9)] },
             ],
         }
     }
@@ -169,14 +160,8 @@ mod tests {
     fn bars_reach_from_the_lowest_to_the_highest_and_to_the_base() {
         let svg = draw(&chart()).expect("a valid chart");
         // 6.88 to 9.12 on 712 pixels from 190: 7 at 228.1, 8 at 546.0, 9 at 863.9, 7.9 at 514.2
-        assert!(
-            svg.contains("x=\"228.1\" y=\"27.0\" width=\"635.7\""),
-            "{svg}"
-        );
-        assert!(
-            svg.contains("x=\"514.2\" y=\"57.0\" width=\"31.8\""),
-            "{svg}"
-        );
+        assert!(svg.contains("x=\"228.1\" y=\"27.0\" width=\"635.7\""), "{svg}");
+        assert!(svg.contains("x=\"514.2\" y=\"57.0\" width=\"31.8\""), "{svg}");
         assert!(svg.contains("M546.0 12V72"), "{svg}");
         assert!(svg.contains(">Shear &amp; more</text>") && svg.contains(">5 mm</text>"));
     }
@@ -197,9 +182,6 @@ mod tests {
         let message = |spans: &Spans| draw(spans).expect_err("must fail").to_string();
         assert_eq!(message(&bad), "\"What moves it\": value 1 of row 2 is NaN");
         bad.rows.clear();
-        assert_eq!(
-            message(&bad),
-            "\"What moves it\": row 1 has 0 values for 1 labels"
-        );
+        assert_eq!(message(&bad), "\"What moves it\": row 1 has 0 values for 1 labels");
     }
 }

@@ -87,17 +87,12 @@ impl<'a> Entry<'a> {
         let (look, data) = match curve.style {
             CurveStyle::Line => (stroke, "M0 0H18".to_owned()),
             CurveStyle::Dashed => (format!("{stroke} {dashes}"), "M0 0H18".to_owned()),
-            CurveStyle::Points if curve.symbol.is_open() => {
-                (format!("{at} scale(.8)\" {stroke}"), curve.symbol.path())
-            }
+            CurveStyle::Points if curve.symbol.is_open() => (format!("{at} scale(.8)\" {stroke}"), curve.symbol.path()),
             CurveStyle::Points => (format!("{at}\" fill=\"{colour}\""), curve.symbol.path()),
         };
         let mut sign = String::new();
         svg::path(&mut sign, &look, &data, "");
-        Self {
-            name: &curve.name,
-            sign,
-        }
+        Self { name: &curve.name, sign }
     }
 
     /// Width with its sign, pixels; generous, for the fonts that a reader may have.
@@ -117,10 +112,7 @@ fn file(title: &str, names: &[Entry], inner: &str, height: f64) -> String {
         let y = HEAD[0] + HEAD[1] * (rows - 1.0);
         let (sign, below) = (&entry.sign, y + 8.0);
         // Writing to a string cannot fail, here and below.
-        let _ = write!(
-            legend,
-            "<g transform=\"translate({x:.0} {below:.0})\">{sign}</g>"
-        );
+        let _ = write!(legend, "<g transform=\"translate({x:.0} {below:.0})\">{sign}</g>");
         svg::text(&mut legend, "", [x + 24.0, y + 12.0], entry.name);
         legend.push('\n');
         x += entry.width();
@@ -133,11 +125,7 @@ fn file(title: &str, names: &[Entry], inner: &str, height: f64) -> String {
         style(),
         escape(title)
     );
-    let placed = inner.replacen(
-        "<svg ",
-        &format!("<svg y=\"{head}\" width=\"{WIDTH}\" height=\"{height}\" "),
-        1,
-    );
+    let placed = inner.replacen("<svg ", &format!("<svg y=\"{head}\" width=\"{WIDTH}\" height=\"{height}\" "), 1);
     let _ = writeln!(out, "{placed}\n</svg>");
     out
 }
@@ -179,10 +167,7 @@ mod tests {
         assert!(svg.contains(">A &lt; B</text>") && svg.contains(">one &amp; all</text>"));
         assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
         assert!(!svg.contains("var(") && !svg.contains("href"));
-        let wide = Curve {
-            name: "a".repeat(120),
-            ..plot.curves[0].clone()
-        };
+        let wide = Curve { name: "a".repeat(120), ..plot.curves[0].clone() };
         // a name that does not fit beside the first one goes below it: 22 more
         let two = plot.clone().curve(wide).to_svg().expect("a valid plot");
         let height = |svg: &str| -> f64 {
@@ -196,13 +181,7 @@ mod tests {
             caption: None,
             axis: "x".to_owned(),
             base: 1.0,
-            rows: vec![SpanRow {
-                name: "a".to_owned(),
-                points: vec![SpanPoint {
-                    label: "b".to_owned(),
-                    at: 2.0,
-                }],
-            }],
+            rows: vec![SpanRow { name: "a".to_owned(), points: vec![SpanPoint { label: "b".to_owned(), at: 2.0 }] }],
         };
         // one row of 30 between 12 and 50, under a title of 30
         let svg = spans.to_svg().expect("a valid chart");

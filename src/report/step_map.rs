@@ -91,13 +91,7 @@ pub struct StepMap {
 
 impl StepMap {
     fn check(&self) -> Result<(), ReportError> {
-        let length = |row, found, expected| {
-            Err(ReportError::wrong_length(
-                &self.title,
-                row,
-                [found, expected],
-            ))
-        };
+        let length = |row, found, expected| Err(ReportError::wrong_length(&self.title, row, [found, expected]));
         let good = |step: f64| step > 0.0 && step.is_finite();
         ReportError::check_row(&self.title, 1, self.steps.iter().copied(), good)?;
         if self.steps.len() < 2 || self.panels.is_empty() || self.rows.is_empty() {
@@ -223,11 +217,7 @@ mod tests {
             rows: vec!["load <1>".to_owned()],
             panels: vec![StepPanel {
                 name: "splitting".to_owned(),
-                cells: vec![vec![
-                    Some(StepState::Stable),
-                    None,
-                    Some(StepState::Unstable),
-                ]],
+                cells: vec![vec![Some(StepState::Stable), None, Some(StepState::Unstable)]],
                 limits: vec![[Some(1.0), None]],
             }],
         }
@@ -238,10 +228,7 @@ mod tests {
         let svg = draw(&map()).expect("a valid map");
         // three decades of 736 pixels from 172 on: the middle of the second is the middle of the panel
         assert!(svg.contains("M540.0 24.0v14"), "{svg}");
-        assert!(
-            svg.contains("x=\"172.0\" y=\"24.0\" width=\"245.5\""),
-            "{svg}"
-        );
+        assert!(svg.contains("x=\"172.0\" y=\"24.0\" width=\"245.5\""), "{svg}");
         assert_eq!(svg.matches("splitting, load &lt;1&gt;").count(), 2);
         assert!(svg.contains(": 10.0 µs unstable"), "{svg}");
         assert!(!svg.contains("<title>measured limit"));

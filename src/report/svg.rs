@@ -30,9 +30,7 @@ pub(super) fn escape(text: &str) -> String {
 /// The start of a picture with its title, which screen readers tell and browsers show under the pointer.
 pub(super) fn opening(look: &str, [width, height]: [f64; 2], title: &str) -> String {
     let title = escape(title);
-    format!(
-        "<svg {look} viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>"
-    )
+    format!("<svg {look} viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>")
 }
 
 /// A text; `look` are its attributes, here and below.
@@ -47,10 +45,7 @@ pub(super) fn text(out: &mut String, look: &str, [x, y]: [f64; 2], text: &str) {
 pub(super) fn upward(out: &mut String, look: &str, [x, y]: [f64; 2], text: &str) {
     let text = escape(text);
     begin(out, "text", look);
-    let _ = write!(
-        out,
-        " transform=\"translate({x:.1} {y:.1}) rotate(-90)\">{text}</text>"
-    );
+    let _ = write!(out, " transform=\"translate({x:.1} {y:.1}) rotate(-90)\">{text}</text>");
 }
 
 /// The title of a horizontal axis.
@@ -66,20 +61,14 @@ pub(super) fn title_upward(out: &mut String, middle: [f64; 2], title: &str) {
 /// A line from one point to another.
 pub(super) fn line(out: &mut String, look: &str, [x1, y1, x2, y2]: [f64; 4]) {
     begin(out, "line", look);
-    let _ = write!(
-        out,
-        " x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
-    );
+    let _ = write!(out, " x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
 }
 
 /// A rectangle by its upper left corner, width and height; `tip` is what the reader is told who points at it, if it is
 /// not empty.
 pub(super) fn rect(out: &mut String, look: &str, [x, y, width, height]: [f64; 4], tip: &str) {
     begin(out, "rect", look);
-    let _ = write!(
-        out,
-        " x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\""
-    );
+    let _ = write!(out, " x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"");
     close(out, "rect", tip);
 }
 
@@ -140,9 +129,7 @@ impl ScaleBar {
 fn round_length(wanted: f64) -> f64 {
     let power = 10_f64.powf(wanted.log10().floor());
     let far = |nice: f64| (nice * power / wanted).ln().abs();
-    let nearest = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .min_by(|a, b| far(*a).total_cmp(&far(*b)));
+    let nearest = [1.0, 2.0, 5.0, 10.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b)));
     nearest.unwrap_or(1.0) * power
 }
 
@@ -192,10 +179,7 @@ mod tests {
 
     #[test]
     fn everything_that_means_something_is_escaped() {
-        assert_eq!(
-            escape("<b a='1'>\"x\" & y</b>"),
-            "&lt;b a=&#39;1&#39;&gt;&quot;x&quot; &amp; y&lt;/b&gt;"
-        );
+        assert_eq!(escape("<b a='1'>\"x\" & y</b>"), "&lt;b a=&#39;1&#39;&gt;&quot;x&quot; &amp; y&lt;/b&gt;");
     }
 
     #[test]

@@ -55,9 +55,7 @@ impl View {
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
         // Not "<= 0": an empty drawing has an extent of minus infinity, a wrong one NaN.
         if !(finite && width.max(height) > 0.0) {
-            return Err(ReportError::Extent {
-                drawing: drawing.title.clone(),
-            });
+            return Err(ReportError::Extent { drawing: drawing.title.clone() });
         }
         let scale = f64::min(MODEL[0] / width, MODEL[1] / height);
         Ok(Self {
@@ -71,10 +69,7 @@ impl View {
     }
 
     fn px(&self, point: Point) -> [f64; 2] {
-        [
-            self.left + (point.x - self.low_x) * self.scale,
-            self.top + (self.high_y - point.y) * self.scale,
-        ]
+        [self.left + (point.x - self.low_x) * self.scale, self.top + (self.high_y - point.y) * self.scale]
     }
 }
 
@@ -140,8 +135,7 @@ fn circle(out: &mut String, look: &str, view: &View, circle: &Circle) {
 fn draw_spring(out: &mut String, [x, y]: [f64; 2], spring: &Spring) {
     let (s, c) = spring.towards_rad.sin_cos();
     // Pixels count downwards.
-    let place =
-        |[along, across]: [f64; 2]| [x + c * along - s * across, y - s * along - c * across];
+    let place = |[along, across]: [f64; 2]| [x + c * along - s * across, y - s * along - c * across];
     let turn = |k: usize| {
         let side = if k.is_multiple_of(2) { 3.4 } else { -3.4 };
         [COIL * (0.25 + 0.1 * k as f64), side]
@@ -189,12 +183,10 @@ fn draw_sensor(out: &mut String, [x, y]: [f64; 2], sensor: &Sensor) {
         let tip = [x + ARROW * c, y - ARROW * s];
         svg::line(out, "", [x, y, tip[0] - 6.0 * c, tip[1] + 6.0 * s]);
         let mut head = Path::default();
-        head.line(
-            [(0.85 * PI, 11.0), (0.0, 0.0), (-0.85 * PI, 11.0)].map(|(turn, length)| {
-                let (s, c) = (angle + turn).sin_cos();
-                [tip[0] + length * c, tip[1] - length * s]
-            }),
-        );
+        head.line([(0.85 * PI, 11.0), (0.0, 0.0), (-0.85 * PI, 11.0)].map(|(turn, length)| {
+            let (s, c) = (angle + turn).sin_cos();
+            [tip[0] + length * c, tip[1] - length * s]
+        }));
         svg::path(out, "", &(head.data() + "Z"), "");
         let look = match c {
             c if c > 0.5 => "",
@@ -271,10 +263,7 @@ fn key(out: &mut String, drawing: &Drawing) {
         entry(&sign, count(drawing.balls.len(), "ball"));
     }
     if !drawing.springs.is_empty() {
-        let down = Spring {
-            at: origin,
-            towards_rad: -FRAC_PI_2,
-        };
+        let down = Spring { at: origin, towards_rad: -FRAC_PI_2 };
         let sign = |out: &mut String, [x, y]: [f64; 2]| draw_spring(out, [x, y - 11.0], &down);
         entry(&sign, count(drawing.springs.len(), "support spring"));
     }
@@ -282,11 +271,7 @@ fn key(out: &mut String, drawing: &Drawing) {
         entry(&stroke(DENTED), count(drawing.dents.len(), "dent"));
     }
     if !drawing.sensors.is_empty() {
-        let right = Sensor {
-            name: String::new(),
-            at: origin,
-            direction_rad: Some(0.0),
-        };
+        let right = Sensor { name: String::new(), at: origin, direction_rad: Some(0.0) };
         let sign = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], &right);
         entry(&sign, count(drawing.sensors.len(), "sensor"));
     }
@@ -300,41 +285,20 @@ mod tests {
     const CENTRE: Point = Point { x: 0.0, y: 0.0 };
 
     fn drawing() -> Drawing {
-        let race = Circle {
-            centre: CENTRE,
-            radius: 4e-3,
-        };
+        let race = Circle { centre: CENTRE, radius: 4e-3 };
         Drawing {
             title: "Bearing <1>".to_owned(),
             mesh_edges: vec![vec![CENTRE.polar(6e-3, 0.0), CENTRE.polar(9e-3, 0.0)]],
             ring: Some(Ring {
-                circle: Circle {
-                    centre: CENTRE,
-                    radius: 5e-3,
-                },
-                nodes: (0..72)
-                    .map(|k| CENTRE.polar(5e-3, f64::from(k) * PI / 36.0))
-                    .collect(),
+                circle: Circle { centre: CENTRE, radius: 5e-3 },
+                nodes: (0..72).map(|k| CENTRE.polar(5e-3, f64::from(k) * PI / 36.0)).collect(),
             }),
             races: vec![race],
-            balls: (0..7)
-                .map(|k| Circle {
-                    centre: CENTRE.polar(3e-3, f64::from(k)),
-                    radius: 1e-3,
-                })
-                .collect(),
+            balls: (0..7).map(|k| Circle { centre: CENTRE.polar(3e-3, f64::from(k)), radius: 1e-3 }).collect(),
             springs: (0..36)
-                .map(|k| Spring {
-                    at: CENTRE.polar(9e-3, -f64::from(k) * 0.08),
-                    towards_rad: -FRAC_PI_2,
-                })
+                .map(|k| Spring { at: CENTRE.polar(9e-3, -f64::from(k) * 0.08), towards_rad: -FRAC_PI_2 })
                 .collect(),
-            dents: vec![Dent {
-                race,
-                angle_rad: -FRAC_PI_2,
-                length: 0.75e-3,
-                label: "dent & rim".to_owned(),
-            }],
+            dents: vec![Dent { race, angle_rad: -FRAC_PI_2, length: 0.75e-3, label: "dent & rim".to_owned() }],
             sensors: vec![Sensor {
                 name: "P1".to_owned(),
                 at: CENTRE.polar(9e-3, FRAC_PI_2),
@@ -364,11 +328,7 @@ mod tests {
         ] {
             assert!(svg.contains(text), "{text}");
         }
-        let bare = Drawing {
-            balls: vec![],
-            springs: vec![],
-            ..drawing()
-        };
+        let bare = Drawing { balls: vec![], springs: vec![], ..drawing() };
         let svg = draw(&bare).expect("a valid drawing");
         assert!(!svg.contains("balls") && !svg.contains("spring"));
     }
@@ -383,15 +343,8 @@ mod tests {
 
     #[test]
     fn nothing_and_nonsense_are_refused() {
-        let error = draw(&Drawing {
-            title: "d".to_owned(),
-            ..Drawing::default()
-        })
-        .expect_err("must fail");
-        assert_eq!(
-            error.to_string(),
-            "drawing \"d\" has no extent or a coordinate that is not finite"
-        );
+        let error = draw(&Drawing { title: "d".to_owned(), ..Drawing::default() }).expect_err("must fail");
+        assert_eq!(error.to_string(), "drawing \"d\" has no extent or a coordinate that is not finite");
         let mut wrong = drawing();
         wrong.balls[0].radius = f64::NAN;
         assert!(draw(&wrong).is_err());

@@ -85,9 +85,7 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
 
 /// Lines first, labels after: a label covers the lines behind it.
 fn markers(out: &mut String, layout: &Layout) {
-    let top = |placed: &PlacedMarker| {
-        layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64
-    };
+    let top = |placed: &PlacedMarker| layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64;
     let begin = |out: &mut String, placed: &PlacedMarker| {
         let family = placed.marker.family % COLOURS;
         let _ = write!(out, "<g class=\"marker m{family}\">");
@@ -128,12 +126,7 @@ fn levels(out: &mut String, plot: &Plot, layout: &Layout) {
 
 fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
     let class = colour(curve, number);
-    let shown = |k: usize| {
-        (
-            layout.x_px(curve.x_at(k) / layout.x.factor),
-            layout.y_px(curve.y[k] / layout.y.factor),
-        )
-    };
+    let shown = |k: usize| (layout.x_px(curve.x_at(k) / layout.x.factor), layout.y_px(curve.y[k] / layout.y.factor));
     // Far outside is as good as at the edge of the page, and keeps the numbers short.
     let near = |(x, y): (f64, f64)| (x, y.clamp(-2000.0, 3000.0));
     let points = in_view(curve, layout);
@@ -159,11 +152,7 @@ fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
             _ => path.gap(),
         }
     }
-    let dashed = if curve.style == CurveStyle::Dashed {
-        " dashed"
-    } else {
-        ""
-    };
+    let dashed = if curve.style == CurveStyle::Dashed { " dashed" } else { "" };
     let look = format!("class=\"curve c{class}{dashed}\"");
     svg::path(out, &look, &path.data(), "");
 }
@@ -229,16 +218,9 @@ mod tests {
     }
 
     fn plot(y: Vec<f64>) -> Plot {
-        let even = Abscissa::Even {
-            start: 0.0,
-            step: 1e-5,
-        };
-        Plot::new(
-            "P1 <top>",
-            Axis::new("Time", "s"),
-            Axis::new("Acceleration", "m/s^2"),
-        )
-        .curve(Curve::new("P1", even, y))
+        let even = Abscissa::Even { start: 0.0, step: 1e-5 };
+        Plot::new("P1 <top>", Axis::new("Time", "s"), Axis::new("Acceleration", "m/s^2"))
+            .curve(Curve::new("P1", even, y))
     }
 
     #[test]
@@ -256,10 +238,7 @@ mod tests {
     #[test]
     fn gaps_break_the_line() {
         let svg = svg(&plot(vec![1.0, 2.0, f64::NAN, 3.0, 1.0]));
-        let path = svg
-            .split("<path class=\"curve c0\" d=\"")
-            .nth(1)
-            .expect("a path");
+        let path = svg.split("<path class=\"curve c0\" d=\"").nth(1).expect("a path");
         let data = path.split('"').next().expect("its data");
         assert_eq!(data.matches('M').count(), 2, "{data}");
         assert_eq!(data.matches('L').count(), 2, "{data}");
@@ -292,10 +271,7 @@ mod tests {
         assert!(drawn.contains("<g class=\"dots c3 open\">"));
         assert!(drawn.contains(">floor</text></g>"));
         // the range reaches the level, which lies inside the area of 430 from 14 on
-        let level = drawn
-            .split("<g class=\"level\"><line ")
-            .nth(1)
-            .expect("a level");
+        let level = drawn.split("<g class=\"level\"><line ").nth(1).expect("a level");
         let y: f64 = level
             .split("y1=\"")
             .nth(1)
@@ -310,16 +286,8 @@ mod tests {
         let mut part = plot((0..1000).map(f64::from).collect());
         part.x = part.x.range(0.002, 0.003);
         let svg = svg(&part);
-        let path = svg
-            .split(" d=\"M")
-            .nth(1)
-            .and_then(|s| s.split('"').next())
-            .expect("a path");
-        assert!(
-            (100..105).contains(&path.matches('L').count()),
-            "{}",
-            path.matches('L').count()
-        );
+        let path = svg.split(" d=\"M").nth(1).and_then(|s| s.split('"').next()).expect("a path");
+        assert!((100..105).contains(&path.matches('L').count()), "{}", path.matches('L').count());
     }
 
     /// Whatever the values, a drawing is small and soon made.
@@ -336,10 +304,7 @@ mod tests {
                 // numbers with fewer digits than others may fall on the frame
                 let normal = low.is_normal() && high.is_normal();
                 assert!(!normal || linear.contains(line), "{values:?}");
-                assert!(
-                    !normal || values[0] < 0.0 || log.contains(line),
-                    "{values:?}"
-                );
+                assert!(!normal || values[0] < 0.0 || log.contains(line), "{values:?}");
                 for text in [linear, log] {
                     assert!(text.len() < 20_000, "{values:?}: {}", text.len());
                     assert!(!text.contains("NaN") && !text.contains("inf"), "{values:?}");

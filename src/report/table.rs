@@ -100,33 +100,19 @@ pub struct Table {
 impl Column {
     /// A column of text.
     pub fn text(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            unit: None,
-            align: Align::Left,
-        }
+        Self { title: title.into(), unit: None, align: Align::Left }
     }
 
     /// A column of numbers in a unit ("" for none).
     pub fn number(title: impl Into<String>, unit: &str) -> Self {
-        Self {
-            title: title.into(),
-            unit: (!unit.is_empty()).then(|| unit.to_owned()),
-            align: Align::Right,
-        }
+        Self { title: title.into(), unit: (!unit.is_empty()).then(|| unit.to_owned()), align: Align::Right }
     }
 }
 
 impl Cell {
     /// A cell with text, not judged.
     pub fn text(text: impl Into<String>) -> Self {
-        Self {
-            text: text.into(),
-            verdict: Verdict::None,
-            footnote: None,
-            value: None,
-            look: CellLook::Plain,
-        }
+        Self { text: text.into(), verdict: Verdict::None, footnote: None, value: None, look: CellLook::Plain }
     }
 
     /// A cell with a number, written with so many significant digits (1 to 17), not judged. Files get it whole.
@@ -140,11 +126,7 @@ impl Cell {
             Verdict::None => "–",
             judged => judged.word(),
         };
-        Self {
-            verdict,
-            look: CellLook::Badge,
-            ..Self::text(text)
-        }
+        Self { verdict, look: CellLook::Badge, ..Self::text(text) }
     }
 
     /// The cell with the number that its text shows, in the column's unit, as files get it.
@@ -213,8 +195,7 @@ impl Table {
         lines.extend(self.rows.iter().map(texts));
         let widths: Vec<usize> = (0..self.columns.len())
             .map(|place| {
-                let width =
-                    |line: &Vec<String>| line.get(place).map_or(0, |text| text.chars().count());
+                let width = |line: &Vec<String>| line.get(place).map_or(0, |text| text.chars().count());
                 lines.iter().map(width).max().unwrap_or(0)
             })
             .collect();
@@ -264,32 +245,14 @@ mod tests {
 
     #[test]
     fn rows_and_footnotes_are_checked() {
-        let table = Table::new(
-            "Lines",
-            [Column::text("Line"), Column::number("Found", "Hz")],
-        );
+        let table = Table::new("Lines", [Column::text("Line"), Column::number("Found", "Hz")]);
         let row = |n: usize| vec![Cell::text("outer"); n];
         assert!(table.clone().row(row(2)).check().is_ok());
-        let error = table
-            .clone()
-            .row(row(2))
-            .row(row(3))
-            .check()
-            .expect_err("must fail");
-        assert_eq!(
-            error.to_string(),
-            "table \"Lines\": row 2 has 3 cells, the table has 2 columns"
-        );
+        let error = table.clone().row(row(2)).row(row(3)).check().expect_err("must fail");
+        assert_eq!(error.to_string(), "table \"Lines\": row 2 has 3 cells, the table has 2 columns");
         let noted = table.row([Cell::text("outer"), Cell::number(55.0, 3).footnote(2)]);
-        let error = noted
-            .clone()
-            .footnote("one")
-            .check()
-            .expect_err("must fail");
-        assert_eq!(
-            error.to_string(),
-            "table \"Lines\": row 1 points to footnote 2, the table has 1"
-        );
+        let error = noted.clone().footnote("one").check().expect_err("must fail");
+        assert_eq!(error.to_string(), "table \"Lines\": row 1 points to footnote 2, the table has 1");
         assert!(noted.footnote("one").footnote("two").check().is_ok());
     }
 
@@ -299,8 +262,7 @@ mod tests {
         let table = Table::new("Sizes", columns)
             .row([Cell::text("play"), Cell::number(2.5, 3)])
             .row([Cell::text("a longer name"), Cell::text("")]);
-        let expected =
-            "Sizes\n  What           Value [\u{b5}m]\n  play                 2.50\n  a longer name";
+        let expected = "Sizes\n  What           Value [\u{b5}m]\n  play                 2.50\n  a longer name";
         assert_eq!(table.plain(), expected);
     }
 }

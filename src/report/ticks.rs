@@ -42,10 +42,7 @@ pub(super) fn linear(low: f64, high: f64, wanted: usize) -> Vec<Tick> {
     (0..count)
         .map(|k| {
             let at = (first + k as f64) * step;
-            Tick {
-                at,
-                label: Some(linear_label(at, exponent as i32)),
-            }
+            Tick { at, label: Some(linear_label(at, exponent as i32)) }
         })
         .collect()
 }
@@ -88,10 +85,7 @@ pub(super) fn log(low: f64, high: f64, wanted: usize) -> Vec<Tick> {
                 2 | 5 => decades < 3.0,
                 _ => false,
             };
-            Tick {
-                at: f64::from(digit) * 10_f64.powi(exponent),
-                label: numbered.then(|| log_label(digit, exponent)),
-            }
+            Tick { at: f64::from(digit) * 10_f64.powi(exponent), label: numbered.then(|| log_label(digit, exponent)) }
         })
         .filter(|tick| {
             let at = tick.at;
@@ -103,10 +97,7 @@ pub(super) fn log(low: f64, high: f64, wanted: usize) -> Vec<Tick> {
 /// A number of a logarithmic axis: plain from 0.001 to 50 000, a power of ten beyond.
 fn log_label(digit: i32, exponent: i32) -> String {
     match (digit, exponent) {
-        (_, -3..=4) => fixed(
-            f64::from(digit) * 10_f64.powi(exponent),
-            (-exponent).max(0) as usize,
-        ),
+        (_, -3..=4) => fixed(f64::from(digit) * 10_f64.powi(exponent), (-exponent).max(0) as usize),
         (1, _) => format!("10{}", superscript(exponent)),
         _ => format!("{digit}·10{}", superscript(exponent)),
     }
@@ -122,41 +113,17 @@ mod tests {
 
     #[test]
     fn linear_ticks_are_round() {
-        assert_eq!(
-            labels(&linear(2.2, 2.8, 7)),
-            ["2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"]
-        );
+        assert_eq!(labels(&linear(2.2, 2.8, 7)), ["2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"]);
         assert_eq!(labels(&linear(-820.0, 810.0, 4)), ["−500", "0", "500"]);
-        assert_eq!(
-            labels(&linear(0.0, 20_000.0, 4)),
-            [
-                "0",
-                "5000",
-                "10\u{202f}000",
-                "15\u{202f}000",
-                "20\u{202f}000"
-            ]
-        );
-        assert_eq!(
-            labels(&linear(2.300_01, 2.300_05, 4)),
-            ["2.30001", "2.30002", "2.30003", "2.30004", "2.30005"]
-        );
+        assert_eq!(labels(&linear(0.0, 20_000.0, 4)), ["0", "5000", "10\u{202f}000", "15\u{202f}000", "20\u{202f}000"]);
+        assert_eq!(labels(&linear(2.300_01, 2.300_05, 4)), ["2.30001", "2.30002", "2.30003", "2.30004", "2.30005"]);
     }
 
     #[test]
     fn log_ticks_are_decades() {
-        assert_eq!(
-            labels(&log(0.5, 2e6, 8)),
-            ["1", "10", "100", "1000", "10\u{202f}000", "10⁵", "10⁶"]
-        );
-        assert_eq!(
-            labels(&log(0.8, 60.0, 8)),
-            ["1", "2", "5", "10", "20", "50"]
-        );
-        assert_eq!(
-            labels(&log(1e-12, 1.0, 6)),
-            ["10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "0.01", "1"]
-        );
+        assert_eq!(labels(&log(0.5, 2e6, 8)), ["1", "10", "100", "1000", "10\u{202f}000", "10⁵", "10⁶"]);
+        assert_eq!(labels(&log(0.8, 60.0, 8)), ["1", "2", "5", "10", "20", "50"]);
+        assert_eq!(labels(&log(1e-12, 1.0, 6)), ["10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "0.01", "1"]);
         assert_eq!(labels(&log(3.0, 8.0, 8)), ["3", "4", "5", "6", "7", "8"]);
         let fine = log(1.0, 1e4, 8);
         assert_eq!(fine.len(), 37);
@@ -180,11 +147,7 @@ mod tests {
             for wanted in [1, 4, 8] {
                 for ticks in [log(low, high, wanted), linear(low, high, wanted)] {
                     // nine lines a decade while every decade has its number
-                    assert!(
-                        ticks.len() <= 10 * wanted.max(10),
-                        "{low:e} {high:e} {}",
-                        ticks.len()
-                    );
+                    assert!(ticks.len() <= 10 * wanted.max(10), "{low:e} {high:e} {}", ticks.len());
                     for tick in ticks {
                         assert!(tick.at.is_finite() && tick.at >= 0.0, "{low:e} {high:e}");
                         let label = tick.label.unwrap_or_default();
@@ -196,19 +159,9 @@ mod tests {
         for (low, high) in [(-f64::MAX, f64::MAX), (-1e-300, 1e-300), (f64::NAN, 1.0)] {
             let ticks = linear(low, high, 8);
             assert!(ticks.len() <= 20);
-            assert!(
-                ticks
-                    .iter()
-                    .all(|tick| tick.label.as_ref().unwrap().chars().count() <= 30)
-            );
+            assert!(ticks.iter().all(|tick| tick.label.as_ref().unwrap().chars().count() <= 30));
         }
-        assert_eq!(
-            labels(&log(1e-300, 1e300, 4)),
-            ["10⁻³⁰⁰", "10⁻¹⁵⁰", "1", "10¹⁵⁰", "10³⁰⁰"]
-        );
-        assert_eq!(
-            labels(&linear(-1e-300, 1e-300, 2)),
-            ["−1·10⁻³⁰⁰", "0", "1·10⁻³⁰⁰"]
-        );
+        assert_eq!(labels(&log(1e-300, 1e300, 4)), ["10⁻³⁰⁰", "10⁻¹⁵⁰", "1", "10¹⁵⁰", "10³⁰⁰"]);
+        assert_eq!(labels(&linear(-1e-300, 1e-300, 2)), ["−1·10⁻³⁰⁰", "0", "1·10⁻³⁰⁰"]);
     }
 }

@@ -65,17 +65,10 @@ impl AngleSeries {
     /// # Errors
     /// [`SignalError::SamplesPerTurn`] unless 2 to 2^20; [`SignalError::FewTurns`] if less than a turn is left;
     /// [`SignalError::TooLong`] above 2^28 steps.
-    pub fn resampled(
-        series: &TimeSeries,
-        angle: &ShaftAngle,
-        samples_per_turn: usize,
-    ) -> Result<Self, SignalError> {
+    pub fn resampled(series: &TimeSeries, angle: &ShaftAngle, samples_per_turn: usize) -> Result<Self, SignalError> {
         const MOST: usize = 1 << 20;
         if !(2..=MOST).contains(&samples_per_turn) {
-            return Err(SignalError::SamplesPerTurn {
-                samples_per_turn,
-                most: MOST,
-            });
+            return Err(SignalError::SamplesPerTurn { samples_per_turn, most: MOST });
         }
         let (x, step_s) = (series.values(), series.step_s());
         let per_turn = samples_per_turn as f64;
@@ -87,16 +80,9 @@ impl AngleSeries {
         let mut start = None;
         let first = (angle.at(begins).0 * per_turn).ceil();
         let last = (angle.at(ends).0 * per_turn).floor();
-        let steps = if last >= first {
-            (last - first) as usize + 1
-        } else {
-            0
-        };
+        let steps = if last >= first { (last - first) as usize + 1 } else { 0 };
         if steps > MOST_POINTS {
-            return Err(SignalError::TooLong {
-                points: steps,
-                most: MOST_POINTS,
-            });
+            return Err(SignalError::TooLong { points: steps, most: MOST_POINTS });
         }
         for k in 0..steps {
             let turns = (first + k as f64) / per_turn;
@@ -114,20 +100,14 @@ impl AngleSeries {
             let from = (place - reach).ceil() as usize;
             let to = (place + reach).floor() as usize;
             let taps = x[from..=to].iter().zip(from..);
-            let sum: f64 = taps
-                .map(|(x, n)| x * kernel.value(rate * (place - n as f64)))
-                .sum();
+            let sum: f64 = taps.map(|(x, n)| x * kernel.value(rate * (place - n as f64))).sum();
             values.push(rate * sum);
         }
         match start {
-            Some(turns) if values.len() >= samples_per_turn => Ok(Self {
-                samples: TimeSeries::new(turns, 1.0 / per_turn, series.unit(), values)?,
-                samples_per_turn,
-            }),
-            _ => Err(SignalError::FewTurns {
-                turns: values.len() as f64 / per_turn,
-                needed: 1,
-            }),
+            Some(turns) if values.len() >= samples_per_turn => {
+                Ok(Self { samples: TimeSeries::new(turns, 1.0 / per_turn, series.unit(), values)?, samples_per_turn })
+            }
+            _ => Err(SignalError::FewTurns { turns: values.len() as f64 / per_turn, needed: 1 }),
         }
     }
 
@@ -150,10 +130,7 @@ impl AngleSeries {
     ///
     /// # Errors
     /// [`SignalError::Transform`], which no valid series causes.
-    pub fn order_spectrum(
-        &self,
-        window_function: WindowFunction,
-    ) -> Result<OrderSpectrum, SignalError> {
+    pub fn order_spectrum(&self, window_function: WindowFunction) -> Result<OrderSpectrum, SignalError> {
         let turns = self.samples.duration_s();
         let spectrum = amplitude_spectrum(&self.samples, window_function, 1.0 / turns)?;
         Ok(OrderSpectrum {
@@ -192,9 +169,7 @@ impl AngleSeries {
             (squares / (count - 1.0) / count).sqrt()
         };
         Ok(SynchronousAverage {
-            angle_turns: (0..length)
-                .map(|p| self.samples.step_s() * p as f64)
-                .collect(),
+            angle_turns: (0..length).map(|p| self.samples.step_s() * p as f64).collect(),
             standard_error: (0..length).map(error).collect(),
             average,
             periods,
@@ -233,10 +208,7 @@ mod tests {
             assert!(found.values().len() > 64 * 77);
             for (k, y) in found.values().iter().enumerate() {
                 let expected = size * wave(found.start_turns() + k as f64 / 64.0);
-                assert!(
-                    (y - expected).abs() < 3e-8,
-                    "order {order}, {k}: {y} {expected}"
-                );
+                assert!((y - expected).abs() < 3e-8, "order {order}, {k}: {y} {expected}");
             }
         }
     }
@@ -244,10 +216,7 @@ mod tests {
     #[test]
     fn finer_than_the_series_the_sampling_rate_is_the_limit() {
         // 1024 samples a turn at 20 Hz are 20 kHz, twice the rate: 0.4 of it are 200 orders
-        let points = [0.0, 2.0].map(|time_s| SpeedPoint {
-            time_s,
-            speed_hz: 20.0,
-        });
+        let points = [0.0, 2.0].map(|time_s| SpeedPoint { time_s, speed_hz: 20.0 });
         let angle = ShaftAngle::from_points(points.to_vec()).expect("a valid speed");
         let wave = |turns: f64| (2.0 * PI * 199.0 * turns).sin() + 3.0;
         let values = (0..20_000).map(|k| wave(20.0 * f64::from(k) * 1e-4));
@@ -263,9 +232,7 @@ mod tests {
     fn order_lines_of_a_run_up_are_sharp() {
         let series = over_angle(|turns| 2.0 * (2.0 * PI * 3.57 * turns).cos() + 5.0);
         let found = AngleSeries::resampled(&series, &run_up(), 32).expect("turns");
-        let spectrum = found
-            .order_spectrum(WindowFunction::Hann)
-            .expect("spectrum");
+        let spectrum = found.order_spectrum(WindowFunction::Hann).expect("spectrum");
         let peak = peak_near(&spectrum.order, &spectrum.amplitude, 3.5, 0.05).expect("a line");
         assert!((peak.frequency_hz - 3.57).abs() < 1e-3, "{peak:?}");
         assert!((peak.amplitude - 2.0).abs() < 5e-3, "{peak:?}");
@@ -278,9 +245,7 @@ mod tests {
         let noise = gaussian(20_000, 2);
         let locked = over_angle(|turns| (2.0 * PI * 4.0 * turns).cos());
         let values = locked.values().iter().zip(&noise).map(|(a, b)| a + b);
-        let series = locked
-            .with_values(values.collect())
-            .expect("a valid series");
+        let series = locked.with_values(values.collect()).expect("a valid series");
         let found = AngleSeries::resampled(&series, &run_up(), 32).expect("turns");
         let average = found.synchronous_average(1).expect("turns");
         assert!(average.periods >= 77);
@@ -293,10 +258,7 @@ mod tests {
         let stated = average.standard_error.iter().map(|e| e * e).sum::<f64>();
         let stated = (stated / 32.0).sqrt();
         // 32 values that hardly correlate: their scatter is known to 1 / sqrt(64)
-        assert!(
-            (found_error / stated - 1.0).abs() < 0.4,
-            "{found_error} {stated}"
-        );
+        assert!((found_error / stated - 1.0).abs() < 0.4, "{found_error} {stated}");
         // noise below order 16 of 20 to 60 Hz, about a tenth of its power, over sqrt(77)
         assert!(stated < 0.06, "{stated}");
         let two = found.synchronous_average(2).expect("turns");
@@ -311,30 +273,17 @@ mod tests {
             found.expect_err("must fail").to_string()
         };
         assert_eq!(message(1), "samples per turn must be 2 to 1048576, found 1");
-        let fast = [0.0, 2.0].map(|time_s| SpeedPoint {
-            time_s,
-            speed_hz: 1e9,
-        });
+        let fast = [0.0, 2.0].map(|time_s| SpeedPoint { time_s, speed_hz: 1e9 });
         let fast = ShaftAngle::from_points(fast.to_vec()).expect("a valid speed");
         let found = AngleSeries::resampled(&series, &fast, 64).expect_err("must fail");
-        assert!(
-            found
-                .to_string()
-                .ends_with("at most 268435456 are offered: take a shorter stretch")
-        );
+        assert!(found.to_string().ends_with("at most 268435456 are offered: take a shorter stretch"));
         let short = series.window(0.0, 0.02).expect("inside");
         let found = AngleSeries::resampled(&short, &run_up(), 64).expect_err("must fail");
         assert_eq!(found.to_string(), "0 turns are known, at least 1 needed");
         let few = series.window(0.0, 0.3).expect("inside");
         let few = AngleSeries::resampled(&few, &run_up(), 64).expect("turns");
-        let error = few
-            .synchronous_average(9)
-            .expect_err("must fail")
-            .to_string();
-        assert!(
-            error.ends_with("turns are known, at least 18 needed"),
-            "{error}"
-        );
+        let error = few.synchronous_average(9).expect_err("must fail").to_string();
+        assert!(error.ends_with("turns are known, at least 18 needed"), "{error}");
         assert!(few.synchronous_average(0).is_err());
         assert!(few.synchronous_average(usize::MAX).is_err());
     }

@@ -46,16 +46,10 @@ fn limited(
     let (x, half) = (series.values(), filter.half_length());
     let samples = x.len();
     if samples <= half {
-        return Err(SignalError::TooShort {
-            samples,
-            needed: half + 1,
-        });
+        return Err(SignalError::TooShort { samples, needed: half + 1 });
     }
     let before = x[1..=half].iter().rev().map(|v| before(*v));
-    let after = x[samples - 1 - half..samples - 1]
-        .iter()
-        .rev()
-        .map(|v| after(*v));
+    let after = x[samples - 1 - half..samples - 1].iter().rev().map(|v| after(*v));
     let extended: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();
     // Circular convolution: the middle part reaches `half` to each side, never round the end.
     let points = fast_length(extended.len());
@@ -83,18 +77,10 @@ pub fn band_limit_edge_s(step_s: f64, up_to_hz: f64) -> Result<f64, SignalError>
 fn filter(step_s: f64, up_to_hz: f64) -> Result<KaiserLowPass, SignalError> {
     let nyquist_hz = 0.5 / step_s;
     if !(up_to_hz > 0.0 && up_to_hz < nyquist_hz) {
-        return Err(SignalError::CutOff {
-            cut_off_hz: up_to_hz,
-            nyquist_hz,
-        });
+        return Err(SignalError::CutOff { cut_off_hz: up_to_hz, nyquist_hz });
     }
     let stop_hz = f64::min(STOP_OVER_PASS * up_to_hz, nyquist_hz);
-    Ok(KaiserLowPass::new(
-        step_s,
-        up_to_hz,
-        stop_hz,
-        ATTENUATION_DB,
-    )?)
+    Ok(KaiserLowPass::new(step_s, up_to_hz, stop_hz, ATTENUATION_DB)?)
 }
 
 #[cfg(test)]
@@ -103,9 +89,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn tone(f: f64, samples: usize) -> TimeSeries {
-        let values = (0..samples)
-            .map(|k| (2.0 * PI * f * k as f64 * 1e-5 + 0.3).sin())
-            .collect();
+        let values = (0..samples).map(|k| (2.0 * PI * f * k as f64 * 1e-5 + 0.3).sin()).collect();
         TimeSeries::new(0.0, 1e-5, "m/s^2", values).expect("a valid series")
     }
 
@@ -129,19 +113,14 @@ mod tests {
             let stop = f64::min(1.1 * up_to, 50e3);
             for f in [stop, 0.5 * (stop + 50e3)] {
                 let y = band_limit(&tone(f, samples), up_to).expect("filter");
-                assert!(
-                    worst(&y, &vec![0.0; samples], edge) < 1.1e-4,
-                    "{f} Hz of {up_to}"
-                );
+                assert!(worst(&y, &vec![0.0; samples], edge) < 1.1e-4, "{f} Hz of {up_to}");
             }
         }
     }
 
     #[test]
     fn agrees_with_direct_convolution() {
-        let values: Vec<f64> = (0..300_u64)
-            .map(|k| ((k * k * 31) % 97) as f64 - 48.0)
-            .collect();
+        let values: Vec<f64> = (0..300_u64).map(|k| ((k * k * 31) % 97) as f64 - 48.0).collect();
         let x = TimeSeries::new(0.0, 1e-5, "N", values.clone()).expect("a valid series");
         let y = band_limit(&x, 30e3).expect("filter");
         let filter = filter(1e-5, 30e3).expect("filter");
@@ -157,13 +136,8 @@ mod tests {
             }
         };
         for n in [0, 1, 17, 150, 298, 299] {
-            let direct: f64 = (-(half as isize)..=half as isize)
-                .map(|m| filter.tap(m) * at(n - m))
-                .sum();
-            assert!(
-                (y.values()[n as usize] - direct).abs() < 1e-11,
-                "sample {n}"
-            );
+            let direct: f64 = (-(half as isize)..=half as isize).map(|m| filter.tap(m) * at(n - m)).sum();
+            assert!((y.values()[n as usize] - direct).abs() < 1e-11, "sample {n}");
         }
         assert_eq!(y, band_limit(&x, 30e3).expect("filter"));
     }
@@ -195,16 +169,9 @@ mod tests {
 
     #[test]
     fn errors_fire_with_their_exact_messages() {
-        let message =
-            |series: &TimeSeries, f| band_limit(series, f).expect_err("must fail").to_string();
+        let message = |series: &TimeSeries, f| band_limit(series, f).expect_err("must fail").to_string();
         let series = TimeSeries::new(0.0, 0.25, "m", vec![0.0; 30]).expect("a valid series");
-        assert_eq!(
-            message(&series, 2.0),
-            "cut-off must lie between 0 and 2 Hz (half the sampling rate), found 2 Hz"
-        );
-        assert_eq!(
-            message(&series, 0.5),
-            "series has 30 samples, the filter or transform needs at least 202"
-        );
+        assert_eq!(message(&series, 2.0), "cut-off must lie between 0 and 2 Hz (half the sampling rate), found 2 Hz");
+        assert_eq!(message(&series, 0.5), "series has 30 samples, the filter or transform needs at least 202");
     }
 }

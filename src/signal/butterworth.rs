@@ -1,8 +1,6 @@
 //! Butterworth filters: low-, high- and band-pass, without phase shift or causal.
 
-use sci_rs::signal::filter::design::{
-    DigitalFilter, FilterBandType, FilterOutputType, Sos, butter_dyn,
-};
+use sci_rs::signal::filter::design::{DigitalFilter, FilterBandType, FilterOutputType, Sos, butter_dyn};
 use sci_rs::signal::filter::{sosfilt_dyn, sosfiltfilt_dyn};
 
 use super::SignalError;
@@ -65,10 +63,7 @@ pub struct Butterworth {
 impl Butterworth {
     /// Filter of [`DEFAULT_ORDER`].
     pub fn new(band: FilterBand) -> Self {
-        Self {
-            band,
-            order: DEFAULT_ORDER,
-        }
+        Self { band, order: DEFAULT_ORDER }
     }
 
     /// The series (unit and instants unchanged) filtered forward and backward: no phase shift, gain |H|^2.
@@ -88,10 +83,7 @@ impl Butterworth {
         let extension = 3 * (poles + 1);
         let samples = series.values().len();
         if samples <= extension {
-            return Err(SignalError::TooShort {
-                samples,
-                needed: extension + 1,
-            });
+            return Err(SignalError::TooShort { samples, needed: extension + 1 });
         }
         let filtered = sosfiltfilt_dyn(series.values().iter(), &sections);
         Ok(series.with_values(filtered)?)
@@ -114,9 +106,7 @@ impl Butterworth {
         let (edges_hz, kind) = match self.band {
             FilterBand::LowPass { cut_off_hz } => (vec![cut_off_hz], FilterBandType::Lowpass),
             FilterBand::HighPass { cut_off_hz } => (vec![cut_off_hz], FilterBandType::Highpass),
-            FilterBand::BandPass { from_hz, to_hz } => {
-                (vec![from_hz, to_hz], FilterBandType::Bandpass)
-            }
+            FilterBand::BandPass { from_hz, to_hz } => (vec![from_hz, to_hz], FilterBandType::Bandpass),
         };
         let design = butter_dyn::<f64>(
             self.order,
@@ -128,37 +118,25 @@ impl Butterworth {
         );
         match design {
             DigitalFilter::Sos(filter) => Ok(filter.sos),
-            DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => {
-                Err(SignalError::Design { order: self.order })
-            }
+            DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Err(SignalError::Design { order: self.order }),
         }
     }
 
     fn check(&self, step_s: f64) -> Result<(), SignalError> {
         if self.order == 0 || self.order > LARGEST_ORDER {
-            return Err(SignalError::Order {
-                order: self.order,
-                largest: LARGEST_ORDER,
-            });
+            return Err(SignalError::Order { order: self.order, largest: LARGEST_ORDER });
         }
         let nyquist_hz = 0.5 / step_s;
         let (lowest_hz, width_hz) = match self.band {
             FilterBand::LowPass { cut_off_hz } | FilterBand::HighPass { cut_off_hz } => {
                 if !(cut_off_hz > 0.0 && cut_off_hz < nyquist_hz) {
-                    return Err(SignalError::CutOff {
-                        cut_off_hz,
-                        nyquist_hz,
-                    });
+                    return Err(SignalError::CutOff { cut_off_hz, nyquist_hz });
                 }
                 (cut_off_hz, cut_off_hz)
             }
             FilterBand::BandPass { from_hz, to_hz } => {
                 if !(from_hz > 0.0 && from_hz < to_hz && to_hz < nyquist_hz) {
-                    return Err(SignalError::Band {
-                        from_hz,
-                        to_hz,
-                        nyquist_hz,
-                    });
+                    return Err(SignalError::Band { from_hz, to_hz, nyquist_hz });
                 }
                 (from_hz, to_hz - from_hz)
             }
@@ -192,33 +170,20 @@ mod tests {
         let x = numbers(&reference["x"]);
         let size = x.iter().fold(0.0, |w: f64, v| w.max(v.abs()));
         let series = TimeSeries::new(0.0, 1.0, "m/s^2", x).expect("a valid series");
-        let at: Vec<usize> = numbers(&reference["at"])
-            .iter()
-            .map(|k| *k as usize)
-            .collect();
+        let at: Vec<usize> = numbers(&reference["at"]).iter().map(|k| *k as usize).collect();
         let cases = items(&reference["cases"]);
         assert_eq!(cases.len(), 68);
         for case in cases {
             let edges = numbers(&case["edges"]);
             let band = match case["kind"].as_str().expect("a kind") {
-                "lowpass" => FilterBand::LowPass {
-                    cut_off_hz: edges[0],
-                },
-                "highpass" => FilterBand::HighPass {
-                    cut_off_hz: edges[0],
-                },
-                _ => FilterBand::BandPass {
-                    from_hz: edges[0],
-                    to_hz: edges[1],
-                },
+                "lowpass" => FilterBand::LowPass { cut_off_hz: edges[0] },
+                "highpass" => FilterBand::HighPass { cut_off_hz: edges[0] },
+                _ => FilterBand::BandPass { from_hz: edges[0], to_hz: edges[1] },
             };
             let order = case["order"].as_u64().expect("an order") as usize;
             let filter = Butterworth { band, order };
             for (name, y) in [
-                (
-                    "zero_phase",
-                    filter.zero_phase(&series).expect("a valid filter"),
-                ),
+                ("zero_phase", filter.zero_phase(&series).expect("a valid filter")),
                 ("causal", filter.causal(&series).expect("a valid filter")),
             ] {
                 let found: Vec<f64> = at.iter().map(|k| y.values()[*k]).collect();
@@ -235,10 +200,7 @@ mod tests {
     fn gain(sections: &[Sos<f64>], f: f64) -> f64 {
         let delay = Complex::from_polar(1.0, -2.0 * PI * f);
         let at = |c: &[f64; 3]| (delay * c[2] + c[1]) * delay + c[0];
-        sections
-            .iter()
-            .map(|s| (at(&s.b) / at(&s.a)).norm())
-            .product()
+        sections.iter().map(|s| (at(&s.b) / at(&s.a)).norm()).product()
     }
 
     /// Butterworth gain after the bilinear transform, from the definition.
@@ -259,35 +221,19 @@ mod tests {
         let bands = [
             FilterBand::LowPass { cut_off_hz: 0.1 },
             FilterBand::HighPass { cut_off_hz: 0.1 },
-            FilterBand::BandPass {
-                from_hz: 1e-4,
-                to_hz: 0.45,
-            },
-            FilterBand::BandPass {
-                from_hz: 0.1,
-                to_hz: 0.2,
-            },
-            FilterBand::BandPass {
-                from_hz: 0.15,
-                to_hz: 0.1501,
-            },
+            FilterBand::BandPass { from_hz: 1e-4, to_hz: 0.45 },
+            FilterBand::BandPass { from_hz: 0.1, to_hz: 0.2 },
+            FilterBand::BandPass { from_hz: 0.15, to_hz: 0.1501 },
         ];
         for band in bands {
             for order in 1..=12 {
-                let sections = Butterworth { band, order }
-                    .sections(1.0)
-                    .expect("a valid filter");
-                for f in [
-                    1.1e-4, 0.02, 0.1, 0.14, 0.15, 0.15003, 0.1501, 0.2, 0.4, 0.47,
-                ] {
+                let sections = Butterworth { band, order }.sections(1.0).expect("a valid filter");
+                for f in [1.1e-4, 0.02, 0.1, 0.14, 0.15, 0.15003, 0.1501, 0.2, 0.4, 0.47] {
                     let (found, wanted) = (gain(&sections, f), expected(band, order, f));
                     // rounding of the coefficients, 1e-16, over the square of the lowest edge, (pi 1e-4)^2 = 1e-7,
                     // and of the expectation
                     let allowed = 1e-8 * wanted + 1e-15;
-                    assert!(
-                        (found - wanted).abs() < allowed,
-                        "{band:?} order {order} at {f}: {found:e}, {wanted:e}"
-                    );
+                    assert!((found - wanted).abs() < allowed, "{band:?} order {order} at {f}: {found:e}, {wanted:e}");
                 }
             }
         }
@@ -297,13 +243,8 @@ mod tests {
     fn poles_stay_inside_the_circle_in_the_narrowest_band() {
         for order in 1..=12 {
             for from_hz in [1e-3, 0.123, 0.49] {
-                let band = FilterBand::BandPass {
-                    from_hz,
-                    to_hz: from_hz + 1.01e-9,
-                };
-                let sections = Butterworth { band, order }
-                    .sections(1.0)
-                    .expect("a valid filter");
+                let band = FilterBand::BandPass { from_hz, to_hz: from_hz + 1.01e-9 };
+                let sections = Butterworth { band, order }.sections(1.0).expect("a valid filter");
                 assert_eq!(sections.len(), order);
                 // z^2 + a1 z + a2: inside for a2 < 1 and |a1| < 1 + a2
                 for s in &sections {
@@ -316,9 +257,7 @@ mod tests {
     #[test]
     fn passes_high_frequencies_without_phase_and_stops_low_ones() {
         let tone = |f: f64| {
-            let values = (0..20_000)
-                .map(|k| (2.0 * PI * f * k as f64 * 1e-5).cos())
-                .collect();
+            let values = (0..20_000).map(|k| (2.0 * PI * f * k as f64 * 1e-5).cos()).collect();
             TimeSeries::new(0.0, 1e-5, "m/s^2", values).expect("a valid series")
         };
         let middle = |s: &TimeSeries| s.window(0.05, 0.15).expect("inside");
@@ -331,10 +270,7 @@ mod tests {
     #[test]
     fn a_narrow_band_keeps_its_line_and_dies_out() {
         // 1e-4 of its centre, order 12: a burst of noise rings and decays, with no growth from rounding.
-        let band = FilterBand::BandPass {
-            from_hz: 0.2,
-            to_hz: 0.20002,
-        };
+        let band = FilterBand::BandPass { from_hz: 0.2, to_hz: 0.20002 };
         let filter = Butterworth { band, order: 12 };
         let mut values = vec![0.0; 2_000_000];
         values[0] = 1.0;
@@ -351,10 +287,7 @@ mod tests {
         let series = TimeSeries::new(0.0, 0.25, "m", vec![0.0; 15]).expect("a valid series");
         let message = |band, order| {
             let filter = Butterworth { band, order };
-            let error = filter
-                .zero_phase(&series)
-                .expect_err("must fail")
-                .to_string();
+            let error = filter.zero_phase(&series).expect_err("must fail").to_string();
             if !error.starts_with("series") {
                 let causal = filter.causal(&series).expect_err("must fail");
                 assert_eq!(error, causal.to_string());
@@ -369,40 +302,19 @@ mod tests {
         assert_eq!(message(low(f64::NAN), 4), format!("{cut_off} NaN Hz"));
         assert_eq!(message(low(-1.0), 4), format!("{cut_off} -1 Hz"));
         let edges = "band must satisfy 0 < from < to < 2 Hz (half the sampling rate), found";
-        assert_eq!(
-            message(between(1.0, 1.0), 4),
-            format!("{edges} 1 Hz to 1 Hz")
-        );
-        assert_eq!(
-            message(between(0.0, 1.0), 4),
-            format!("{edges} 0 Hz to 1 Hz")
-        );
-        assert_eq!(
-            message(between(1.0, 2.0), 4),
-            format!("{edges} 1 Hz to 2 Hz")
-        );
+        assert_eq!(message(between(1.0, 1.0), 4), format!("{edges} 1 Hz to 1 Hz"));
+        assert_eq!(message(between(0.0, 1.0), 4), format!("{edges} 0 Hz to 1 Hz"));
+        assert_eq!(message(between(1.0, 2.0), 4), format!("{edges} 1 Hz to 2 Hz"));
         assert_eq!(
             message(between(1.0, 1.000000001), 4),
             "filter edges from 1 Hz, 0.000000001000000082740371 Hz wide, leave no digits at this sampling rate: lowest \
              edge 0.000004 Hz, narrowest band 0.000000004 Hz; decimate first"
         );
         assert!(message(high(1e-6), 4).starts_with("filter edges from 0.000001 Hz"));
-        assert_eq!(
-            message(high(1.0), 0),
-            "filter order must be 1 to 12, found 0"
-        );
-        assert_eq!(
-            message(high(1.0), 13),
-            "filter order must be 1 to 12, found 13"
-        );
-        assert_eq!(
-            message(high(1.0), 4),
-            "series has 15 samples, the filter or transform needs at least 16"
-        );
-        assert_eq!(
-            message(between(0.5, 1.0), 2),
-            "series has 15 samples, the filter or transform needs at least 16"
-        );
+        assert_eq!(message(high(1.0), 0), "filter order must be 1 to 12, found 0");
+        assert_eq!(message(high(1.0), 13), "filter order must be 1 to 12, found 13");
+        assert_eq!(message(high(1.0), 4), "series has 15 samples, the filter or transform needs at least 16");
+        assert_eq!(message(between(0.5, 1.0), 2), "series has 15 samples, the filter or transform needs at least 16");
         let longer = TimeSeries::new(0.0, 0.25, "m", vec![0.0; 16]).expect("a valid series");
         assert!(high_pass(1.0).zero_phase(&longer).is_ok());
     }

@@ -13,9 +13,7 @@ const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
 /// # Errors
 /// [`SignalError::Instants`], [`SignalError::Units`], [`SignalError::ZeroReference`].
 pub fn relative_difference(a: &TimeSeries, b: &TimeSeries) -> Result<f64, SignalError> {
-    let apart = (a.start_s() - b.start_s())
-        .abs()
-        .max((a.end_s() - b.end_s()).abs());
+    let apart = (a.start_s() - b.start_s()).abs().max((a.end_s() - b.end_s()).abs());
     // round-off counts where time has its origin far away
     let most = INSTANT_TOLERANCE_STEPS * b.step_s() + 4.0 * f64::EPSILON * b.end_s().abs();
     if a.values().len() != b.values().len() || apart > most {
@@ -29,21 +27,13 @@ pub fn relative_difference(a: &TimeSeries, b: &TimeSeries) -> Result<f64, Signal
         });
     }
     if a.unit() != b.unit() {
-        return Err(SignalError::Units {
-            first: a.unit().to_owned(),
-            second: b.unit().to_owned(),
-        });
+        return Err(SignalError::Units { first: a.unit().to_owned(), second: b.unit().to_owned() });
     }
     let reference = b.rms();
     if reference <= 0.0 {
         return Err(SignalError::ZeroReference);
     }
-    let difference: Vec<f64> = a
-        .values()
-        .iter()
-        .zip(b.values())
-        .map(|(a, b)| a - b)
-        .collect();
+    let difference: Vec<f64> = a.values().iter().zip(b.values()).map(|(a, b)| a - b).collect();
     Ok(root_mean_square(&difference) / reference)
 }
 
@@ -67,11 +57,7 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let a = series(0.0, 0.5, "m", &[3.0, 5.0]);
-        let message = |b| {
-            relative_difference(&a, &b)
-                .expect_err("must fail")
-                .to_string()
-        };
+        let message = |b| relative_difference(&a, &b).expect_err("must fail").to_string();
         assert_eq!(
             message(series(0.25, 0.5, "m", &[1.0, 2.0])),
             "series are not sampled at the same instants: 2 samples from 0 s every 0.5 s against \
@@ -79,10 +65,7 @@ mod tests {
         );
         assert!(message(series(0.0, 0.25, "m", &[1.0, 2.0])).starts_with("series are not sampled"));
         assert!(message(series(0.0, 0.5, "m", &[1.0])).starts_with("series are not sampled"));
-        assert_eq!(
-            message(series(0.0, 0.5, "N", &[1.0, 2.0])),
-            "series have different units: \"m\" against \"N\""
-        );
+        assert_eq!(message(series(0.0, 0.5, "N", &[1.0, 2.0])), "series have different units: \"m\" against \"N\"");
         assert_eq!(
             message(series(0.0, 0.5, "m", &[0.0, 0.0])),
             "relative difference needs a reference that is not zero throughout"

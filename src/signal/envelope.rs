@@ -62,11 +62,7 @@ mod tests {
         // Periodic in the window: exact.
         let modulation = |k: f64| 1.0 + 0.6 * (2.0 * PI * 5.0 * k / 2000.0).cos();
         let x = series(
-            (0..2000)
-                .map(|k| {
-                    modulation(f64::from(k)) * (2.0 * PI * 300.0 * f64::from(k) / 2000.0).sin()
-                })
-                .collect(),
+            (0..2000).map(|k| modulation(f64::from(k)) * (2.0 * PI * 300.0 * f64::from(k) / 2000.0).sin()).collect(),
         );
         for (k, e) in envelope(&x).expect("envelope").values().iter().enumerate() {
             assert!((e - modulation(k as f64)).abs() < 1e-12, "sample {k}");

@@ -111,10 +111,7 @@ impl EnvelopeAnalysis {
     pub fn envelope(&self, series: &TimeSeries) -> Result<TimeSeries, SignalError> {
         match self.high_pass_hz {
             Some(cut_off_hz) => {
-                let filter = Butterworth {
-                    band: FilterBand::HighPass { cut_off_hz },
-                    order: self.order,
-                };
+                let filter = Butterworth { band: FilterBand::HighPass { cut_off_hz }, order: self.order };
                 envelope(&filter.zero_phase(series)?)
             }
             None => envelope(series),
@@ -126,31 +123,16 @@ impl EnvelopeAnalysis {
     ///
     /// # Errors
     /// As [`TimeSeries::window`] and [`amplitude_spectrum`].
-    pub fn window_of(
-        &self,
-        envelope: &TimeSeries,
-        from_s: f64,
-        to_s: f64,
-    ) -> Result<EnvelopeSpectrum, SignalError> {
+    pub fn window_of(&self, envelope: &TimeSeries, from_s: f64, to_s: f64) -> Result<EnvelopeSpectrum, SignalError> {
         let window = envelope.window(from_s, to_s)?;
-        envelope_spectrum(
-            &window,
-            self.high_pass_hz,
-            self.window_function,
-            self.widest_bin_hz,
-        )
+        envelope_spectrum(&window, self.high_pass_hz, self.window_function, self.widest_bin_hz)
     }
 
     /// Envelope spectrum of `from_s` <= t < `to_s` of a signal.
     ///
     /// # Errors
     /// As [`envelope`](Self::envelope) and [`window_of`](Self::window_of).
-    pub fn spectrum(
-        &self,
-        series: &TimeSeries,
-        from_s: f64,
-        to_s: f64,
-    ) -> Result<EnvelopeSpectrum, SignalError> {
+    pub fn spectrum(&self, series: &TimeSeries, from_s: f64, to_s: f64) -> Result<EnvelopeSpectrum, SignalError> {
         self.window_of(&self.envelope(series)?, from_s, to_s)
     }
 }
@@ -167,8 +149,7 @@ mod tests {
         let values = (0..60_000).map(|k| {
             let t = f64::from(k) * 1e-5;
             let since = t - (t * 55.0).floor() / 55.0;
-            30.0 * (2.0 * PI * 300.0 * t).sin()
-                + 100.0 * (-decay * since).exp() * (2.0 * PI * 8200.0 * since).sin()
+            30.0 * (2.0 * PI * 300.0 * t).sin() + 100.0 * (-decay * since).exp() * (2.0 * PI * 8200.0 * since).sin()
         });
         TimeSeries::new(2.0, 1e-5, "m/s^2", values.collect()).expect("a valid series")
     }
@@ -182,17 +163,11 @@ mod tests {
         assert!((spectrum.window.from - 2.2).abs() < 1e-9);
         let lines = [("shaft", 21.0, 3), ("outer", 55.0, 5), ("inner", 95.0, 3)]
             .map(|(name, f, n)| NamedLine::new(name, f, n).expect("a valid line"));
-        let search = PeakSearch {
-            count: 3,
-            ..PeakSearch::default()
-        };
+        let search = PeakSearch { count: 3, ..PeakSearch::default() };
         let peaks = envelope_peaks(&spectrum, &lines, &search);
         for (k, peak) in peaks.iter().enumerate() {
             let line = peak.line.as_ref().expect("lines were given");
-            assert_eq!(
-                (line.nearest.as_str(), line.harmonic),
-                ("outer", k as u32 + 1)
-            );
+            assert_eq!((line.nearest.as_str(), line.harmonic), ("outer", k as u32 + 1));
             // Eleven periods: leakage of the neighbours and of the images shifts a peak a little.
             assert!(line.deviation.abs() < 5e-3, "{peak:?}");
         }
@@ -201,10 +176,7 @@ mod tests {
 
     #[test]
     fn json_states_bins_and_resolution() {
-        let analysis = EnvelopeAnalysis {
-            window_function: WindowFunction::FlatTop,
-            ..EnvelopeAnalysis::default()
-        };
+        let analysis = EnvelopeAnalysis { window_function: WindowFunction::FlatTop, ..EnvelopeAnalysis::default() };
         let spectrum = analysis.spectrum(&dented(), 2.2, 2.4).expect("spectrum");
         let json = serde_json::to_value(&spectrum).expect("serialises");
         assert_eq!(json["window_function"], "flat-top");
@@ -219,10 +191,7 @@ mod tests {
     fn without_the_high_pass_the_slow_vibration_rules() {
         // Mean envelope: 30 of the slow vibration without the filter; 100 x 55 / (0.01 x 2 pi x 8200) = 10.7 with it.
         let mean = |high_pass_hz| {
-            let analysis = EnvelopeAnalysis {
-                high_pass_hz,
-                ..EnvelopeAnalysis::default()
-            };
+            let analysis = EnvelopeAnalysis { high_pass_hz, ..EnvelopeAnalysis::default() };
             analysis.envelope(&dented()).expect("envelope").mean()
         };
         assert!(mean(None) > 29.0);
@@ -234,16 +203,8 @@ mod tests {
         let analysis = EnvelopeAnalysis::default();
         let envelope = analysis.envelope(&dented()).expect("envelope");
         let first = analysis.window_of(&envelope, 2.1, 2.2).expect("spectrum");
-        assert_eq!(
-            first,
-            analysis.spectrum(&dented(), 2.1, 2.2).expect("spectrum")
-        );
-        let outside = analysis
-            .window_of(&envelope, 2.5, 2.9)
-            .expect_err("beyond the end");
-        assert_eq!(
-            outside.to_string(),
-            "window 2.5 s to 2.9 s is not inside the series, which covers 2 s to 2.6 s"
-        );
+        assert_eq!(first, analysis.spectrum(&dented(), 2.1, 2.2).expect("spectrum"));
+        let outside = analysis.window_of(&envelope, 2.5, 2.9).expect_err("beyond the end");
+        assert_eq!(outside.to_string(), "window 2.5 s to 2.9 s is not inside the series, which covers 2 s to 2.6 s");
     }
 }

@@ -11,9 +11,7 @@ pub enum SignalError {
     #[error(transparent)]
     Series(#[from] SeriesError),
     /// A cut-off that does not lie between zero and half the sampling rate.
-    #[error(
-        "cut-off must lie between 0 and {nyquist_hz} Hz (half the sampling rate), found {cut_off_hz} Hz"
-    )]
+    #[error("cut-off must lie between 0 and {nyquist_hz} Hz (half the sampling rate), found {cut_off_hz} Hz")]
     CutOff {
         /// Cut-off as given, Hz.
         cut_off_hz: f64,
@@ -70,9 +68,7 @@ pub enum SignalError {
         needed: usize,
     },
     /// A bin width that is not positive, or needs more than 2^28 points.
-    #[error(
-        "bin width must be positive and at least {finest_hz} Hz for this sampling rate, found {bin_hz} Hz"
-    )]
+    #[error("bin width must be positive and at least {finest_hz} Hz for this sampling rate, found {bin_hz} Hz")]
     BinWidth {
         /// Bin width as given, Hz.
         bin_hz: f64,
@@ -142,9 +138,7 @@ pub enum SignalError {
         most: usize,
     },
     /// Instants of a speed that are too few or out of order.
-    #[error(
-        "speed must be known at two instants at least, finite and in order of time, found {points} instants"
-    )]
+    #[error("speed must be known at two instants at least, finite and in order of time, found {points} instants")]
     SpeedPoints {
         /// Instants given.
         points: usize,

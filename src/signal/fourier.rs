@@ -21,19 +21,14 @@ impl Forward {
 
     /// Spectrum X_m = sum_n x_n exp(-2 pi i m n / N), m = 0 ..= N/2, of x padded with zeros to N (cut if longer). Not
     /// scaled.
-    pub(crate) fn transform(
-        &self,
-        values: impl IntoIterator<Item = f64>,
-    ) -> Result<Vec<Complex<f64>>, SignalError> {
+    pub(crate) fn transform(&self, values: impl IntoIterator<Item = f64>) -> Result<Vec<Complex<f64>>, SignalError> {
         let mut input = self.0.make_input_vec();
         for (slot, value) in input.iter_mut().zip(values) {
             *slot = value;
         }
         let mut output = self.0.make_output_vec();
         let points = self.0.len();
-        self.0
-            .process(&mut input, &mut output)
-            .map_err(|source| SignalError::Transform { points, source })?;
+        self.0.process(&mut input, &mut output).map_err(|source| SignalError::Transform { points, source })?;
         Ok(output)
     }
 }
@@ -56,8 +51,7 @@ pub(super) fn inverse(mut bins: Vec<Complex<f64>>, points: usize) -> Result<Vec<
     }
     let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
     let mut output = plan.make_output_vec();
-    plan.process(&mut bins, &mut output)
-        .map_err(|source| SignalError::Transform { points, source })?;
+    plan.process(&mut bins, &mut output).map_err(|source| SignalError::Transform { points, source })?;
     let scale = 1.0 / points as f64;
     output.iter_mut().for_each(|v| *v *= scale);
     Ok(output)
@@ -86,15 +80,7 @@ mod tests {
     #[test]
     fn fast_lengths_are_the_smallest() {
         // Against a search by hand of even 5-smooth numbers.
-        for (needed, expected) in [
-            (1, 2),
-            (7, 8),
-            (11, 12),
-            (13, 16),
-            (17, 18),
-            (97, 100),
-            (401, 432),
-        ] {
+        for (needed, expected) in [(1, 2), (7, 8), (11, 12), (13, 16), (17, 18), (97, 100), (401, 432)] {
             assert_eq!(fast_length(needed), expected, "needed {needed}");
         }
         let smooth = |mut n: usize| {

@@ -85,10 +85,7 @@ impl Kurtogram {
     #[must_use]
     pub(crate) fn of_those(&self, wanted: impl Fn(&KurtogramBand) -> bool) -> Self {
         let bands = self.bands.iter().copied();
-        Self {
-            bands: bands.filter(wanted).collect(),
-            confidence: self.confidence,
-        }
+        Self { bands: bands.filter(wanted).collect(), confidence: self.confidence }
     }
 }
 
@@ -103,21 +100,14 @@ impl Kurtogram {
 ///
 /// # Errors
 /// [`SignalError::TooShort`] below 344 samples; [`SignalError::Levels`]; [`SignalError::Confidence`].
-pub fn kurtogram(
-    series: &TimeSeries,
-    levels: usize,
-    confidence: f64,
-) -> Result<Kurtogram, SignalError> {
+pub fn kurtogram(series: &TimeSeries, levels: usize, confidence: f64) -> Result<Kurtogram, SignalError> {
     let samples = series.values().len();
     let needed = 2 * (EDGE + FEWEST_IN_BAND) + ORDERS.0;
     if samples < needed {
         return Err(SignalError::TooShort { samples, needed });
     }
     if levels == 0 || levels > MOST_LEVELS {
-        return Err(SignalError::Levels {
-            levels,
-            most: MOST_LEVELS,
-        });
+        return Err(SignalError::Levels { levels, most: MOST_LEVELS });
     }
     let halves = [1.0, 3.0].map(|part| filter(ORDERS.0, CUT_OFF, part / 4.0));
     let thirds = [1.0, 3.0, 5.0].map(|part| filter(ORDERS.1, CUT_OFF * 2.0 / 3.0, part / 6.0));
@@ -168,17 +158,11 @@ fn filter(order: usize, cut_off: f64, middle: f64) -> Vec<Complex<f64>> {
     let tap = |n: usize| {
         let from_centre = n as f64 - 0.5 * order as f64;
         let angle = PI * cut_off * from_centre;
-        let sinc = if n * 2 == order {
-            1.0
-        } else {
-            angle.sin() / angle
-        };
+        let sinc = if n * 2 == order { 1.0 } else { angle.sin() / angle };
         sinc * (0.54 - 0.46 * (2.0 * PI * n as f64 / order as f64).cos())
     };
     let sum: f64 = (0..=order).map(tap).sum();
-    (0..=order)
-        .map(|n| Complex::from_polar(tap(n) / sum, PI * middle * n as f64))
-        .collect()
+    (0..=order).map(|n| Complex::from_polar(tap(n) / sum, PI * middle * n as f64)).collect()
 }
 
 /// Each signal of a level through each filter, as many times slower as there are filters; the bands rise in frequency.
@@ -191,17 +175,11 @@ fn split(level: &[Vec<Complex<f64>>], filters: &[Vec<Complex<f64>>]) -> Vec<Vec<
         let values = windows.map(|(k, window)| {
             let products = window.iter().rev().zip(taps).map(|(x, h)| x * h);
             let sum: Complex<f64> = products.sum();
-            if place % 2 == 1 && k % 2 == 1 {
-                -sum
-            } else {
-                sum
-            }
+            if place % 2 == 1 && k % 2 == 1 { -sum } else { sum }
         });
         values.collect()
     };
-    let pairs = level
-        .iter()
-        .flat_map(|signal| (0..ratio).map(move |place| (signal, place)));
+    let pairs = level.iter().flat_map(|signal| (0..ratio).map(move |place| (signal, place)));
     pairs.map(|(signal, place)| one(signal, place)).collect()
 }
 
@@ -222,11 +200,7 @@ fn figures(level: &[Vec<Complex<f64>>]) -> Vec<Figures> {
         let second: f64 = signal.iter().map(Complex::norm_sqr).sum();
         let fourth: f64 = signal.iter().map(|c| c.norm_sqr() * c.norm_sqr()).sum();
         if second <= 0.0 {
-            return Figures {
-                kurtosis: 0.0,
-                values: signal.len(),
-                independent: count,
-            };
+            return Figures { kurtosis: 0.0, values: signal.len(), independent: count };
         }
         let correlation = |lag: usize| {
             let pairs = signal[lag..].iter().zip(signal);
@@ -259,16 +233,11 @@ mod tests {
         let rows = items(&reference["rows"]);
         let expected: Vec<f64> = rows.iter().flat_map(numbers).collect();
         let counts: Vec<usize> = found.bands.iter().map(|band| band.bands).collect();
-        let wanted = rows
-            .iter()
-            .flat_map(|row| vec![items(row).len(); items(row).len()]);
+        let wanted = rows.iter().flat_map(|row| vec![items(row).len(); items(row).len()]);
         assert_eq!(counts, wanted.collect::<Vec<_>>());
         for (band, expected) in found.bands.iter().zip(expected) {
             // rounding
-            assert!(
-                (band.kurtosis - expected).abs() < 1e-10,
-                "{band:?}: {expected}"
-            );
+            assert!((band.kurtosis - expected).abs() < 1e-10, "{band:?}: {expected}");
         }
     }
 
@@ -298,10 +267,7 @@ mod tests {
         let found = kurtogram(&series(values), 5, 0.99).expect("kurtogram");
         let best = found.most_impulsive().expect("impacts");
         assert_eq!(Some(best), found.largest());
-        assert!(
-            (best.centre_hz - 12e3).abs() <= 0.5 * best.width_hz,
-            "{best:?}"
-        );
+        assert!((best.centre_hz - 12e3).abs() <= 0.5 * best.width_hz, "{best:?}");
         assert!(best.kurtosis > 5.0 * best.limit, "{best:?}");
     }
 
@@ -344,10 +310,7 @@ mod tests {
             let found = kurtogram(&series(vec![0.0; samples]), levels, confidence);
             found.expect_err("must fail").to_string()
         };
-        assert_eq!(
-            message(343, 1, 0.9),
-            "series has 343 samples, the filter or transform needs at least 344"
-        );
+        assert_eq!(message(343, 1, 0.9), "series has 343 samples, the filter or transform needs at least 344");
         assert_eq!(message(344, 0, 0.9), "levels must be 1 to 20, found 0");
         assert_eq!(message(344, 21, 0.9), "levels must be 1 to 20, found 21");
         assert!(message(344, 1, 0.0).starts_with("confidence must lie"));

@@ -16,18 +16,14 @@ pub(super) const FEWEST_VALUES: f64 = 8.0;
 ///
 /// # Errors
 /// [`SignalError::Confidence`] unless 0 < confidence < 1.
-pub(super) fn kurtosis_limit(
-    values: f64,
-    trials: usize,
-    confidence: f64,
-) -> Result<f64, SignalError> {
+pub(super) fn kurtosis_limit(values: f64, trials: usize, confidence: f64) -> Result<f64, SignalError> {
     if !(confidence > 0.0 && confidence < 1.0) {
         return Err(SignalError::Confidence { confidence });
     }
     let m = values;
     let variance = 4.0 * m * m / ((m - 1.0) * (m + 2.0) * (m + 3.0));
-    let skewness_squared = 4.0 * (m + 2.0) * (m + 3.0) * (5.0 * m - 7.0).powi(2)
-        / ((m - 1.0) * (m + 4.0).powi(2) * (m + 5.0).powi(2));
+    let skewness_squared =
+        4.0 * (m + 2.0) * (m + 3.0) * (5.0 * m - 7.0).powi(2) / ((m - 1.0) * (m + 4.0).powi(2) * (m + 5.0).powi(2));
     let fourth = 3.0 * (m + 2.0) * (m + 3.0) * (m.powi(3) + 98.0 * m * m - 185.0 * m + 78.0)
         / ((m - 1.0) * (m + 4.0) * (m + 5.0) * (m + 6.0) * (m + 7.0));
     let (skewness, excess) = (skewness_squared.sqrt(), fourth - 3.0);
@@ -53,12 +49,7 @@ mod tests {
 
     #[test]
     fn normal_quantiles_are_those_of_tables() {
-        for (p, z) in [
-            (0.5, 0.0),
-            (0.05, 1.644_854),
-            (0.99, -2.326_348),
-            (1e-6, 4.753_424),
-        ] {
+        for (p, z) in [(0.5, 0.0), (0.05, 1.644_854), (0.99, -2.326_348), (1e-6, 4.753_424)] {
             assert!((normal_excess(p) - z).abs() < 4.5e-4, "{p}");
         }
     }
@@ -68,9 +59,7 @@ mod tests {
         // |x|^2 of complex Gaussian noise is exponential
         let mut state = 5_u64;
         let mut exponential = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             -(((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64).ln()
         };
         for (values, limit_at) in [(64, 0.01), (500, 0.01)] {
@@ -93,11 +82,7 @@ mod tests {
 
     #[test]
     fn confidence_outside_zero_to_one_is_refused() {
-        let message = |c| {
-            kurtosis_limit(100.0, 1, c)
-                .expect_err("must fail")
-                .to_string()
-        };
+        let message = |c| kurtosis_limit(100.0, 1, c).expect_err("must fail").to_string();
         assert_eq!(message(1.0), "confidence must lie between 0 and 1, found 1");
         assert!(message(f64::NAN).ends_with("found NaN"));
     }

@@ -36,24 +36,12 @@ impl NamedLine {
     ///
     /// # Errors
     /// [`SignalError::Line`].
-    pub fn new(
-        name: impl Into<String>,
-        frequency_hz: f64,
-        harmonics: u32,
-    ) -> Result<Self, SignalError> {
+    pub fn new(name: impl Into<String>, frequency_hz: f64, harmonics: u32) -> Result<Self, SignalError> {
         let name = name.into();
         if !(frequency_hz.is_finite() && frequency_hz > 0.0 && harmonics > 0) {
-            return Err(SignalError::Line {
-                name,
-                frequency_hz,
-                harmonics,
-            });
+            return Err(SignalError::Line { name, frequency_hz, harmonics });
         }
-        Ok(Self {
-            name,
-            frequency_hz,
-            harmonics,
-        })
+        Ok(Self { name, frequency_hz, harmonics })
     }
 
     /// Name ("shaft", "outer").
@@ -134,11 +122,7 @@ pub struct PeakSearch {
 impl Default for PeakSearch {
     /// The six strongest peaks of the whole spectrum.
     fn default() -> Self {
-        Self {
-            count: 6,
-            from_hz: None,
-            to_hz: None,
-        }
+        Self { count: 6, from_hz: None, to_hz: None }
     }
 }
 
@@ -150,19 +134,14 @@ impl Default for PeakSearch {
 /// or below 1 % of the strongest. So a weak line close beside a
 /// strong one is not listed either: the window cannot tell them apart; look with [`EnvelopeSpectrum::peak_near`] and
 /// take a longer window.
-pub fn envelope_peaks(
-    spectrum: &EnvelopeSpectrum,
-    lines: &[NamedLine],
-    search: &PeakSearch,
-) -> Vec<EnvelopePeak> {
+pub fn envelope_peaks(spectrum: &EnvelopeSpectrum, lines: &[NamedLine], search: &PeakSearch) -> Vec<EnvelopePeak> {
     let duration_s = spectrum.window.to - spectrum.window.from;
     let from_hz = search.from_hz.unwrap_or(spectrum.resolution_hz);
     let mut candidates = local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
     candidates.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     let mut peaks: Vec<Peak> = Vec::new();
     for candidate in candidates {
-        let in_band = candidate.frequency_hz >= from_hz
-            && search.to_hz.is_none_or(|to| candidate.frequency_hz <= to);
+        let in_band = candidate.frequency_hz >= from_hz && search.to_hz.is_none_or(|to| candidate.frequency_hz <= to);
         if peaks.len() == search.count {
             break;
         }
@@ -177,10 +156,7 @@ pub fn envelope_peaks(
             amplitude: peak.amplitude,
             above_median_db: above_median_db(spectrum, &peak, FLOOR_BINS / duration_s),
             line: match_line(peak.frequency_hz, lines),
-            labels: lines_at(peak.frequency_hz, lines, spectrum.resolution_hz)
-                .iter()
-                .map(LineMatch::label)
-                .collect(),
+            labels: lines_at(peak.frequency_hz, lines, spectrum.resolution_hz).iter().map(LineMatch::label).collect(),
         })
         .collect()
 }
@@ -199,20 +175,15 @@ fn above_median_db(spectrum: &EnvelopeSpectrum, peak: &Peak, reach_hz: f64) -> f
 /// [`LINE_TOLERANCE`] of their frequency and half of `resolution_hz` (what the window separates, whatever the padding) the
 /// nearest, and those nearer to it than `resolution_hz`, which nothing tells from it. Empty if the peak is none of `lines`.
 pub fn lines_at(frequency_hz: f64, lines: &[NamedLine], resolution_hz: f64) -> Vec<LineMatch> {
-    let harmonics = lines
-        .iter()
-        .flat_map(|line| (1..=line.harmonics).map(move |harmonic| line.at(harmonic, frequency_hz)));
+    let harmonics =
+        lines.iter().flat_map(|line| (1..=line.harmonics).map(move |harmonic| line.at(harmonic, frequency_hz)));
     let distance = |line: &LineMatch| (frequency_hz - line.expected_hz).abs();
     let mut near: Vec<LineMatch> = harmonics
-        .filter(|line| {
-            distance(line) <= (LINE_TOLERANCE * line.expected_hz).max(0.5 * resolution_hz)
-        })
+        .filter(|line| distance(line) <= (LINE_TOLERANCE * line.expected_hz).max(0.5 * resolution_hz))
         .collect();
     near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
     if let Some(nearest) = near.first().map(|line| line.expected_hz) {
-        near.retain(|line| {
-            (line.expected_hz - nearest).abs() < resolution_hz.max(f64::MIN_POSITIVE)
-        });
+        near.retain(|line| (line.expected_hz - nearest).abs() < resolution_hz.max(f64::MIN_POSITIVE));
     }
     near
 }
@@ -233,19 +204,13 @@ pub fn match_line(frequency_hz: f64, lines: &[NamedLine]) -> Option<LineMatch> {
 }
 
 /// Whether a peak is more than the leakage of the stronger ones.
-fn stands_out(
-    candidate: &Peak,
-    stronger: &[Peak],
-    window_function: WindowFunction,
-    duration_s: f64,
-) -> bool {
+fn stands_out(candidate: &Peak, stronger: &[Peak], window_function: WindowFunction, duration_s: f64) -> bool {
     let widths = |peak: &Peak| (candidate.frequency_hz - peak.frequency_hz).abs() * duration_s;
     let leakage: f64 = stronger
         .iter()
         .map(|peak| {
             let image = (candidate.frequency_hz + peak.frequency_hz) * duration_s;
-            peak.amplitude
-                * (window_function.leakage(widths(peak)) + window_function.leakage(image))
+            peak.amplitude * (window_function.leakage(widths(peak)) + window_function.leakage(image))
         })
         .sum();
     let floor = stronger.first().map_or(0.0, |peak| FLOOR * peak.amplitude);
@@ -265,10 +230,7 @@ mod tests {
     fn spectrum(window_function: WindowFunction) -> EnvelopeSpectrum {
         let values = (0..5000).map(|k| {
             let t = f64::from(k) * 1e-4;
-            [(21.0, 2.0), (55.0, 5.0), (110.5, 3.0)]
-                .iter()
-                .map(|(f, a)| a * (2.0 * PI * f * t).cos())
-                .sum::<f64>()
+            [(21.0, 2.0), (55.0, 5.0), (110.5, 3.0)].iter().map(|(f, a)| a * (2.0 * PI * f * t).cos()).sum::<f64>()
         });
         let series = TimeSeries::new(0.0, 1e-4, "m/s^2", values.collect()).expect("a valid series");
         envelope_spectrum(&series, None, window_function, 0.25).expect("spectrum")
@@ -282,18 +244,10 @@ mod tests {
 
     #[test]
     fn three_lines_give_three_peaks_with_their_names() {
-        let peaks = envelope_peaks(
-            &spectrum(WindowFunction::Boxcar),
-            &lines(),
-            &PeakSearch::default(),
-        );
+        let peaks = envelope_peaks(&spectrum(WindowFunction::Boxcar), &lines(), &PeakSearch::default());
         // Side lobes of the 55 Hz line are a fifth of it, as high as half the 21 Hz line; none is listed.
         assert_eq!(peaks.len(), 3, "{peaks:?}");
-        let expected = [
-            (55.0, 5.0, "outer", 1, 54.7),
-            (110.5, 3.0, "outer", 2, 109.4),
-            (21.0, 2.0, "shaft", 1, 21.3),
-        ];
+        let expected = [(55.0, 5.0, "outer", 1, 54.7), (110.5, 3.0, "outer", 2, 109.4), (21.0, 2.0, "shaft", 1, 21.3)];
         for (peak, (f, a, name, harmonic, line_hz)) in peaks.iter().zip(expected) {
             assert!((peak.frequency_hz - f).abs() < 0.2, "{peak:?}");
             assert!((peak.amplitude / a - 1.0).abs() < 0.05, "{peak:?}");
@@ -307,12 +261,9 @@ mod tests {
 
     #[test]
     fn every_window_function_lists_the_three_lines_alone() {
-        for window_function in [
-            WindowFunction::Hann,
-            WindowFunction::Hamming,
-            WindowFunction::Blackman,
-            WindowFunction::FlatTop,
-        ] {
+        for window_function in
+            [WindowFunction::Hann, WindowFunction::Hamming, WindowFunction::Blackman, WindowFunction::FlatTop]
+        {
             let found = envelope_peaks(&spectrum(window_function), &[], &PeakSearch::default());
             let mut found: Vec<f64> = found.iter().map(|p| p.frequency_hz.round()).collect();
             found.sort_by(f64::total_cmp);
@@ -325,25 +276,12 @@ mod tests {
     #[test]
     fn search_obeys_count_and_band() {
         let search = |search| envelope_peaks(&spectrum(WindowFunction::Boxcar), &[], &search);
-        let one = search(PeakSearch {
-            count: 1,
-            ..Default::default()
-        });
+        let one = search(PeakSearch { count: 1, ..Default::default() });
         assert_eq!(one.len(), 1);
         assert_eq!(one[0].line, None);
-        let band = search(PeakSearch {
-            count: 9,
-            from_hz: Some(80.0),
-            to_hz: Some(120.0),
-        });
+        let band = search(PeakSearch { count: 9, from_hz: Some(80.0), to_hz: Some(120.0) });
         assert!((band[0].frequency_hz - 110.5).abs() < 0.2);
-        assert!(
-            search(PeakSearch {
-                count: 0,
-                ..Default::default()
-            })
-            .is_empty()
-        );
+        assert!(search(PeakSearch { count: 0, ..Default::default() }).is_empty());
     }
 
     #[test]
@@ -431,11 +369,7 @@ mod tests {
 
     #[test]
     fn lines_without_frequency_or_harmonics_are_refused() {
-        let message = |f, harmonics| {
-            NamedLine::new("outer", f, harmonics)
-                .expect_err("must fail")
-                .to_string()
-        };
+        let message = |f, harmonics| NamedLine::new("outer", f, harmonics).expect_err("must fail").to_string();
         assert_eq!(
             message(0.0, 2),
             "line \"outer\" must have a positive frequency and at least one harmonic, found 0 Hz and 2"

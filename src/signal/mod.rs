@@ -53,10 +53,7 @@ pub use error::SignalError;
 pub(crate) use fourier::{Forward, fast_length};
 pub use frequency_axis::FrequencyAxis;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
-pub use lines::{
-    EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at,
-    match_line,
-};
+pub use lines::{EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at, match_line};
 pub use moving::{MovingFigures, moving_figures};
 pub use peaks::{Peak, local_maxima, peak_near};
 pub(crate) use raw_spectrum::RawSpectrum;

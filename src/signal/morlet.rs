@@ -30,11 +30,7 @@ impl Morlet {
     pub(super) fn new(cycles: f64) -> Self {
         // contracts by w0^2 exp(-w0^2), 0.07 at two cycles
         let peak = (0..20).fold(cycles, |w, _| cycles / (1.0 - (-cycles * w).exp()));
-        let mut wavelet = Self {
-            cycles,
-            peak,
-            scale: 1.0,
-        };
+        let mut wavelet = Self { cycles, peak, scale: 1.0 };
         wavelet.scale = 2.0 / wavelet.shape(peak);
         wavelet
     }

@@ -35,10 +35,7 @@ pub fn moving_figures(
 ) -> Result<MovingFigures, SignalError> {
     let samples = series.values().len();
     if window_samples < 2 || samples < window_samples {
-        return Err(SignalError::TooShort {
-            samples: samples.min(window_samples),
-            needed: window_samples.max(2),
-        });
+        return Err(SignalError::TooShort { samples: samples.min(window_samples), needed: window_samples.max(2) });
     }
     if hop_samples == 0 {
         return Err(SignalError::Hop);
@@ -60,9 +57,7 @@ pub fn moving_figures(
         let middle_s = 0.5 * (window_s - series.step_s());
         figures.time_s.push(series.time_s(first) + middle_s);
         figures.rms.push(rms);
-        figures
-            .crest_factor
-            .push(if rms > 0.0 { part.peak() / rms } else { 0.0 });
+        figures.crest_factor.push(if rms > 0.0 { part.peak() / rms } else { 0.0 });
         figures.kurtosis.push(part.kurtosis());
     }
     Ok(figures)
@@ -89,10 +84,7 @@ mod tests {
         assert!((found.rms[2] - 2_f64.sqrt()).abs() < 1e-12);
         assert!((found.crest_factor[2] - 2_f64.sqrt()).abs() < 1e-12);
         assert!((found.kurtosis[2].expect("moves") - 1.5).abs() < 1e-12);
-        assert_eq!(
-            (found.rms[0], found.crest_factor[0], found.kurtosis[0]),
-            (0.0, 0.0, None)
-        );
+        assert_eq!((found.rms[0], found.crest_factor[0], found.kurtosis[0]), (0.0, 0.0, None));
         // one click in 100: peak 5, root mean square 0.5, kurtosis about 100
         assert!((found.crest_factor[4] - 10.0).abs() < 1e-12);
         assert!(found.kurtosis[4].expect("moves") > 90.0);
@@ -101,19 +93,9 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let series = TimeSeries::new(0.0, 1.0, "N", vec![1.0; 10]).expect("a valid series");
-        let message = |window, hop| {
-            moving_figures(&series, window, hop)
-                .expect_err("must fail")
-                .to_string()
-        };
-        assert_eq!(
-            message(11, 1),
-            "series has 10 samples, the filter or transform needs at least 11"
-        );
+        let message = |window, hop| moving_figures(&series, window, hop).expect_err("must fail").to_string();
+        assert_eq!(message(11, 1), "series has 10 samples, the filter or transform needs at least 11");
         assert!(message(1, 1).ends_with("needs at least 2"));
-        assert_eq!(
-            message(5, 0),
-            "windows must move by at least one sample, found 0"
-        );
+        assert_eq!(message(5, 0), "windows must move by at least one sample, found 0");
     }
 }

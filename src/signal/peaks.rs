@@ -23,35 +23,24 @@ pub fn local_maxima(frequency_hz: &[f64], amplitude: &[f64]) -> Vec<Peak> {
         .map(|(f, a)| {
             let slope = a[0] - a[2];
             let shift = 0.5 * slope / (a[0] - 2.0 * a[1] + a[2]);
-            Peak {
-                frequency_hz: f[1] + shift * 0.5 * (f[2] - f[0]),
-                amplitude: a[1] - 0.25 * slope * shift,
-            }
+            Peak { frequency_hz: f[1] + shift * 0.5 * (f[2] - f[0]), amplitude: a[1] - 0.25 * slope * shift }
         })
         .collect()
 }
 
 /// The highest local maximum with |f - `wanted_hz`| <= `within` `wanted_hz` (relative: 0.03 for 3 %), or `None` if
 /// the spectrum has no maximum there: a slope towards a line outside is not a peak.
-pub fn peak_near(
-    frequency_hz: &[f64],
-    amplitude: &[f64],
-    wanted_hz: f64,
-    within: f64,
-) -> Option<Peak> {
+pub fn peak_near(frequency_hz: &[f64], amplitude: &[f64], wanted_hz: f64, within: f64) -> Option<Peak> {
     let reach = within * wanted_hz.abs();
     let is_near = |f: f64| (f - wanted_hz).abs() <= reach;
     // One bin more on each side, for a maximum whose highest bin lies just outside.
     let bin = frequency_hz.get(1)? - frequency_hz.first()?;
     let first = frequency_hz.partition_point(|f| *f < wanted_hz - reach - 2.0 * bin);
     let end = frequency_hz.partition_point(|f| *f <= wanted_hz + reach + 2.0 * bin);
-    local_maxima(
-        frequency_hz.get(first..end)?,
-        amplitude.get(first..end.min(amplitude.len()))?,
-    )
-    .into_iter()
-    .filter(|p| is_near(p.frequency_hz))
-    .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
+    local_maxima(frequency_hz.get(first..end)?, amplitude.get(first..end.min(amplitude.len()))?)
+        .into_iter()
+        .filter(|p| is_near(p.frequency_hz))
+        .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
 }
 
 #[cfg(test)]
@@ -65,10 +54,7 @@ mod tests {
     /// Two parabolic humps, at 20.1 (height 3) and 55.06 Hz (height 5), zero elsewhere.
     fn humps() -> Vec<f64> {
         let hump = |f: f64, at: f64, height: f64| (height - (f - at).powi(2)).max(0.0);
-        axis()
-            .iter()
-            .map(|f| hump(*f, 20.1, 3.0) + hump(*f, 55.06, 5.0))
-            .collect()
+        axis().iter().map(|f| hump(*f, 20.1, 3.0) + hump(*f, 55.06, 5.0)).collect()
     }
 
     #[test]

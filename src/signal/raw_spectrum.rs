@@ -34,12 +34,7 @@ impl RawSpectrum {
         for bin in &mut bins {
             *bin *= scale;
         }
-        Ok(Self {
-            bins,
-            points,
-            start_s: series.start_s(),
-            step_s: series.step_s(),
-        })
+        Ok(Self { bins, points, start_s: series.start_s(), step_s: series.step_s() })
     }
 
     /// Squared envelope |x + i H x|^2 of the band between two frequencies (Hz, 0 to half the sampling rate), in the square of the series'
@@ -66,11 +61,7 @@ mod tests {
         });
         let series = TimeSeries::new(0.0, 1e-3, "g", values.collect()).unwrap();
         let spectrum = RawSpectrum::of(&series).unwrap();
-        for (band, expected) in [
-            ([250.0, 350.0], 0.49),
-            ([50.0, 150.0], 25.0),
-            ([400.0, 500.0], 0.0),
-        ] {
+        for (band, expected) in [([250.0, 350.0], 0.49), ([50.0, 150.0], 25.0), ([400.0, 500.0], 0.0)] {
             let envelope = spectrum.envelope(band);
             for squared in envelope.squared {
                 assert!((squared - expected).abs() < 1e-9, "{band:?}: {squared}");

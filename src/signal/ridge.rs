@@ -17,15 +17,9 @@ impl Scalogram {
                 rows[k - 1][instant] < middle && middle >= rows[k + 1][instant]
             };
             let last = rows.len().saturating_sub(1);
-            let highest = (1..last)
-                .filter(is_top)
-                .max_by(|a, b| rows[*a][instant].total_cmp(&rows[*b][instant]))?;
+            let highest = (1..last).filter(is_top).max_by(|a, b| rows[*a][instant].total_cmp(&rows[*b][instant]))?;
             let around = |k: usize| (1.0 / hz[k], rows[k][instant]);
-            Some(top(
-                around(highest - 1),
-                around(highest),
-                around(highest + 1),
-            ))
+            Some(top(around(highest - 1), around(highest), around(highest + 1)))
         };
         (0..self.time_s.len()).map(at).collect()
     }
@@ -39,15 +33,9 @@ fn top(left: (f64, f64), middle: (f64, f64), right: (f64, f64)) -> Peak {
     // slope at u is before + curvature (2 u - u_left - u_middle)
     let shift = 0.5 * (left.0 + middle.0 - before / curvature) - middle.0;
     if !shift.is_finite() {
-        return Peak {
-            frequency_hz: 1.0 / middle.0,
-            amplitude: middle.1,
-        };
+        return Peak { frequency_hz: 1.0 / middle.0, amplitude: middle.1 };
     }
-    Peak {
-        frequency_hz: 1.0 / (middle.0 + shift),
-        amplitude: middle.1 * (-curvature * shift * shift).exp(),
-    }
+    Peak { frequency_hz: 1.0 / (middle.0 + shift), amplitude: middle.1 * (-curvature * shift * shift).exp() }
 }
 
 #[cfg(test)]

@@ -39,9 +39,6 @@ pub(super) fn items(value: &Value) -> &[Value] {
 pub(super) fn worst(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len(), "lengths");
     let size = b.iter().fold(0.0, |w: f64, b| w.max(b.abs()));
-    let apart = a
-        .iter()
-        .zip(b)
-        .fold(0.0, |w: f64, (a, b)| w.max((a - b).abs()));
+    let apart = a.iter().zip(b).fold(0.0, |w: f64, (a, b)| w.max((a - b).abs()));
     apart / size
 }

@@ -99,11 +99,7 @@ impl WaveletTransform {
     pub fn scalogram(&self, series: &TimeSeries) -> Result<Scalogram, SignalError> {
         let (fewest, most) = CYCLES;
         if !(self.cycles >= fewest && self.cycles <= most) {
-            return Err(SignalError::Cycles {
-                cycles: self.cycles,
-                fewest,
-                most,
-            });
+            return Err(SignalError::Cycles { cycles: self.cycles, fewest, most });
         }
         let samples = series.values().len();
         let ratio = self.decimation;
@@ -111,9 +107,7 @@ impl WaveletTransform {
             return Err(SignalError::Decimation { ratio, samples });
         }
         let nyquist_hz = 0.5 * series.rate_hz();
-        let frequency_hz = self
-            .frequencies
-            .frequencies_hz(1.0 / series.duration_s(), nyquist_hz)?;
+        let frequency_hz = self.frequencies.frequencies_hz(1.0 / series.duration_s(), nyquist_hz)?;
         let wavelet = Morlet::new(self.cycles);
         let longest = REACH * wavelet.deviation_s(frequency_hz[0]) / series.step_s();
         let padding = (longest.ceil() as usize).min(MOST_PADDING * samples);
@@ -122,10 +116,7 @@ impl WaveletTransform {
         let instants = samples.div_ceil(ratio);
         let largest = points.max(instants.saturating_mul(frequency_hz.len()));
         if largest > MOST_POINTS {
-            return Err(SignalError::TooLong {
-                points: largest,
-                most: MOST_POINTS,
-            });
+            return Err(SignalError::TooLong { points: largest, most: MOST_POINTS });
         }
         let mean = series.mean();
         let centred: Vec<f64> = series.values().iter().map(|v| v - mean).collect();
@@ -133,22 +124,12 @@ impl WaveletTransform {
         let mut planner = FftPlanner::new();
         let bands: Vec<Band> = frequency_hz
             .iter()
-            .map(|hz| {
-                self.band(
-                    wavelet,
-                    hz * points as f64 * series.step_s(),
-                    points,
-                    &mut planner,
-                )
-            })
+            .map(|hz| self.band(wavelet, hz * points as f64 * series.step_s(), points, &mut planner))
             .collect();
         let to_outputs = planner.plan_fft_inverse(outputs);
         let rows = bands.par_iter().map(|band| {
-            let mut row = if ratio == 1 {
-                magnitudes(band, &spectrum)
-            } else {
-                decimated(band, &spectrum, to_outputs.as_ref())
-            };
+            let mut row =
+                if ratio == 1 { magnitudes(band, &spectrum) } else { decimated(band, &spectrum, to_outputs.as_ref()) };
             row.truncate(instants);
             row
         });
@@ -167,13 +148,7 @@ impl WaveletTransform {
     }
 
     /// The wavelet at bin number `centre` (not whole) of a transform over so many points.
-    fn band(
-        &self,
-        wavelet: Morlet,
-        centre: f64,
-        points: usize,
-        planner: &mut FftPlanner<f64>,
-    ) -> Band {
+    fn band(&self, wavelet: Morlet, centre: f64, points: usize, planner: &mut FftPlanner<f64>) -> Band {
         let (low, high) = wavelet.band();
         let first = ((low * centre).ceil() as usize).max(1);
         let last = ((high * centre).floor() as usize).min(points / 2);
@@ -184,19 +159,9 @@ impl WaveletTransform {
             // the power of K bins has 2 K - 1; lengths of few kinds, so that plans are shared
             let needed = 2 * bins.len().max(1);
             let power = needed.next_power_of_two();
-            if 3 * power / 4 >= needed {
-                3 * power / 4
-            } else {
-                power
-            }
+            if 3 * power / 4 >= needed { 3 * power / 4 } else { power }
         };
-        Band {
-            wavelet,
-            centre,
-            bins,
-            scale: 1.0 / points as f64,
-            back: planner.plan_fft_inverse(length),
-        }
+        Band { wavelet, centre, bins, scale: 1.0 / points as f64, back: planner.plan_fft_inverse(length) }
     }
 }
 

@@ -35,30 +35,15 @@ impl ShaftAngle {
     ///
     /// # Errors
     /// As [`from_points`](Self::from_points).
-    pub fn from_function(
-        speed_hz: impl Fn(f64) -> f64,
-        window: TimeWindow,
-        step_s: f64,
-    ) -> Result<Self, SignalError> {
+    pub fn from_function(speed_hz: impl Fn(f64) -> f64, window: TimeWindow, step_s: f64) -> Result<Self, SignalError> {
         let intervals = ((window.to - window.from) / step_s).ceil();
         // what is no number of intervals gives no points, and is refused as such
-        let intervals = if intervals < 1e8 {
-            intervals as usize
-        } else {
-            0
-        };
+        let intervals = if intervals < 1e8 { intervals as usize } else { 0 };
         let at = |k: usize| {
             let time_s = window.from + (window.to - window.from) * k as f64 / intervals as f64;
-            SpeedPoint {
-                time_s,
-                speed_hz: speed_hz(time_s),
-            }
+            SpeedPoint { time_s, speed_hz: speed_hz(time_s) }
         };
-        let points = if intervals == 0 {
-            Vec::new()
-        } else {
-            (0..=intervals).map(at).collect()
-        };
+        let points = if intervals == 0 { Vec::new() } else { (0..=intervals).map(at).collect() };
         Self::integrated(points, |from, to| {
             let middle = speed_hz(0.5 * (from.time_s + to.time_s));
             (from.speed_hz + 4.0 * middle + to.speed_hz) / 6.0
@@ -71,16 +56,11 @@ impl ShaftAngle {
     ) -> Result<Self, SignalError> {
         let is_ordered = points.windows(2).all(|p| p[0].time_s < p[1].time_s);
         if points.len() < 2 || !is_ordered || points.iter().any(|p| !p.time_s.is_finite()) {
-            return Err(SignalError::SpeedPoints {
-                points: points.len(),
-            });
+            return Err(SignalError::SpeedPoints { points: points.len() });
         }
         let is_speed = |p: &&SpeedPoint| !(p.speed_hz.is_finite() && p.speed_hz > 0.0);
         if let Some(point) = points.iter().find(is_speed) {
-            return Err(SignalError::Speed {
-                time_s: point.time_s,
-                speed_hz: point.speed_hz,
-            });
+            return Err(SignalError::Speed { time_s: point.time_s, speed_hz: point.speed_hz });
         }
         let mut turns = vec![0.0];
         let mut angle = 0.0;
@@ -99,10 +79,7 @@ impl ShaftAngle {
     /// Window of time in which the speed is known.
     pub fn window(&self) -> TimeWindow {
         let at = |point: Option<&SpeedPoint>| point.map_or(0.0, |p| p.time_s);
-        TimeWindow {
-            from: at(self.points.first()),
-            to: at(self.points.last()),
-        }
+        TimeWindow { from: at(self.points.first()), to: at(self.points.last()) }
     }
 
     /// Angle (turns) and speed (Hz) at an instant; outside the window by the speed at its end.
@@ -149,11 +126,7 @@ impl ShaftAngle {
                 high = time;
             }
             let newton = time + (turns - found) / speed;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if (next - time).abs() <= f64::EPSILON * next.abs() {
                 return next;
             }
@@ -181,10 +154,7 @@ mod tests {
         let (turns, speed) = angle.at(2.5);
         assert!((turns - 20.625).abs() < 1e-12 && (speed - 17.5).abs() < 1e-12);
         for turns in [-3.0, 0.0, 0.1, 20.625, 30.0, 41.7, 50.0, 57.0] {
-            assert!(
-                (angle.at(angle.time_at(turns)).0 - turns).abs() < 1e-11,
-                "{turns}"
-            );
+            assert!((angle.at(angle.time_at(turns)).0 - turns).abs() < 1e-11, "{turns}");
         }
         assert!((angle.time_at(20.625) - 2.5).abs() < 1e-14);
     }
@@ -206,11 +176,7 @@ mod tests {
 
     #[test]
     fn errors_fire_with_their_exact_messages() {
-        let message = |pairs: &[(f64, f64)]| {
-            ShaftAngle::from_points(points(pairs))
-                .expect_err("must fail")
-                .to_string()
-        };
+        let message = |pairs: &[(f64, f64)]| ShaftAngle::from_points(points(pairs)).expect_err("must fail").to_string();
         let order = "speed must be known at two instants at least, finite and in order of time";
         assert_eq!(message(&[(0.0, 1.0)]), format!("{order}, found 1 instants"));
         assert!(message(&[(0.0, 1.0), (0.0, 1.0)]).starts_with(order));

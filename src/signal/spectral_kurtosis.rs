@@ -50,21 +50,14 @@ pub fn spectral_kurtosis(
     let n = segment_samples;
     let samples = series.values().len();
     if n < 4 || n > samples || overlap_samples >= n {
-        return Err(SignalError::Segments {
-            segment: n,
-            overlap: overlap_samples,
-            samples,
-        });
+        return Err(SignalError::Segments { segment: n, overlap: overlap_samples, samples });
     }
     let hop = n - overlap_samples;
     let window = window_function.samples(n);
     let segments = (samples - n) / hop + 1;
     let worth = segment_worth(&window, hop);
     if segments as f64 * worth < FEWEST_VALUES {
-        return Err(SignalError::TooShort {
-            samples,
-            needed: n + hop * ((FEWEST_VALUES / worth).ceil() as usize - 1),
-        });
+        return Err(SignalError::TooShort { samples, needed: n + hop * ((FEWEST_VALUES / worth).ceil() as usize - 1) });
     }
     let plan = Forward::new(n);
     let inner = (n - 1) / 2;
@@ -79,13 +72,10 @@ pub fn spectral_kurtosis(
             *fourth += power * power;
         }
     }
-    let kurtosis = second.iter().zip(&fourth).map(|(second, fourth)| {
-        if *second > 0.0 {
-            segments as f64 * fourth / (second * second) - 2.0
-        } else {
-            0.0
-        }
-    });
+    let kurtosis = second
+        .iter()
+        .zip(&fourth)
+        .map(|(second, fourth)| if *second > 0.0 { segments as f64 * fourth / (second * second) - 2.0 } else { 0.0 });
     let bin_hz = 1.0 / (n as f64 * series.step_s());
     let independent_segments = segments as f64 * worth;
     Ok(SpectralKurtosis {
@@ -101,13 +91,10 @@ pub fn spectral_kurtosis(
 
 /// 1 / sum_i |rho(i hop)|^4.
 fn segment_worth(window: &[f64], hop: usize) -> f64 {
-    let correlation =
-        |shift: usize| -> f64 { window[shift..].iter().zip(window).map(|(a, b)| a * b).sum() };
+    let correlation = |shift: usize| -> f64 { window[shift..].iter().zip(window).map(|(a, b)| a * b).sum() };
     let whole = correlation(0);
     let shifts = (hop..window.len()).step_by(hop);
-    let sum: f64 = shifts
-        .map(|shift| (correlation(shift) / whole).powi(4))
-        .sum();
+    let sum: f64 = shifts.map(|shift| (correlation(shift) / whole).powi(4)).sum();
     1.0 / (1.0 + 2.0 * sum)
 }
 
@@ -143,15 +130,11 @@ mod tests {
             *v += 10.0 * (0.8 * PI * k as f64).cos();
         }
         let found = kurtosis(values, 0.99);
-        let top = (0..found.kurtosis.len())
-            .max_by(|a, b| found.kurtosis[*a].total_cmp(&found.kurtosis[*b]));
+        let top = (0..found.kurtosis.len()).max_by(|a, b| found.kurtosis[*a].total_cmp(&found.kurtosis[*b]));
         let top_hz = found.frequency_hz[top.expect("bins")];
         assert!((top_hz - 2000.0).abs() <= found.resolution_hz, "{top_hz}");
         assert!(found.kurtosis[top.expect("bins")] > 5.0 * found.limit);
-        let at_4000 = found
-            .frequency_hz
-            .iter()
-            .position(|f| (f - 4000.0).abs() < 80.0);
+        let at_4000 = found.frequency_hz.iter().position(|f| (f - 4000.0).abs() < 80.0);
         assert!((found.kurtosis[at_4000.expect("a bin")] + 1.0).abs() < 0.05);
         assert!((found.resolution_hz - 312.5).abs() < 1e-9);
     }
@@ -182,14 +165,8 @@ mod tests {
         assert!(message(3, 0, 0.9).starts_with("segments must have 2 to 300 samples"));
         assert!(message(8, 8, 0.9).starts_with("segments must have"));
         assert!(message(301, 8, 0.9).starts_with("segments must have"));
-        assert_eq!(
-            message(40, 0, 0.9),
-            "series has 300 samples, the filter or transform needs at least 320"
-        );
-        assert_eq!(
-            message(4, 0, 1.0),
-            "confidence must lie between 0 and 1, found 1"
-        );
+        assert_eq!(message(40, 0, 0.9), "series has 300 samples, the filter or transform needs at least 320");
+        assert_eq!(message(4, 0, 1.0), "confidence must lie between 0 and 1, found 1");
         let silent = spectral_kurtosis(&series, WindowFunction::Hann, 4, 2, 0.9).expect("zeros");
         assert!(silent.kurtosis.iter().all(|k| k.abs() <= 0.0));
     }

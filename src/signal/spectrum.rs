@@ -108,9 +108,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn tone(amplitude: f64, f: f64, samples: usize) -> TimeSeries {
-        let values = (0..samples)
-            .map(|k| 40.0 + amplitude * (2.0 * PI * f * k as f64 * 1e-4 + 0.4).cos())
-            .collect();
+        let values = (0..samples).map(|k| 40.0 + amplitude * (2.0 * PI * f * k as f64 * 1e-4 + 0.4).cos()).collect();
         TimeSeries::new(1.0, 1e-4, "m/s^2", values).expect("a valid series")
     }
 
@@ -118,30 +116,19 @@ mod tests {
     fn a_sinusoid_of_amplitude_a_reads_a() {
         // 1 s, lines on and between natural bins. The image at -f leaks 1 / (2 pi f T) at most: 1e-3 at 150 Hz.
         for f in [150.0, 333.3, 1234.56] {
-            let spectrum = amplitude_spectrum(&tone(7.0, f, 10_000), WindowFunction::Boxcar, 0.25)
-                .expect("spectrum");
+            let spectrum = amplitude_spectrum(&tone(7.0, f, 10_000), WindowFunction::Boxcar, 0.25).expect("spectrum");
             let peak = spectrum.peak_near(f, 0.01).expect("a peak");
-            assert!(
-                (peak.amplitude / 7.0 - 1.0).abs() < 1.1e-3,
-                "{f}: {}",
-                peak.amplitude
-            );
-            assert!(
-                (peak.frequency_hz - f).abs() < 0.01,
-                "{f}: {}",
-                peak.frequency_hz
-            );
+            assert!((peak.amplitude / 7.0 - 1.0).abs() < 1.1e-3, "{f}: {}", peak.amplitude);
+            assert!((peak.frequency_hz - f).abs() < 0.01, "{f}: {}", peak.frequency_hz);
         }
     }
 
     #[test]
     fn bins_are_as_fine_as_asked_and_the_mean_is_gone() {
-        let short = amplitude_spectrum(&tone(1.0, 100.0, 1000), WindowFunction::Boxcar, 0.25)
-            .expect("spectrum");
+        let short = amplitude_spectrum(&tone(1.0, 100.0, 1000), WindowFunction::Boxcar, 0.25).expect("spectrum");
         assert!(short.frequency_hz[1] <= 0.25);
         assert!(short.zero_padding >= 40.0);
-        let long = amplitude_spectrum(&tone(1.0, 100.0, 200_000), WindowFunction::Boxcar, 0.25)
-            .expect("spectrum");
+        let long = amplitude_spectrum(&tone(1.0, 100.0, 200_000), WindowFunction::Boxcar, 0.25).expect("spectrum");
         assert!(long.frequency_hz[1] <= 0.25 / 20.0);
         assert!(long.zero_padding >= 4.0);
         assert!(long.amplitude[0] < 1e-10);
@@ -154,21 +141,11 @@ mod tests {
     fn agrees_with_numpy() {
         // x_k = sin(0.9 k) + 0.02 k^2, k = 0 .. 11, step 1 s, resolution 1/64 Hz:
         // 2/12 * abs(numpy.fft.rfft(x - x.mean(), 64))[[1, 9, 32]], the last one halved; NumPy 2.4.6
-        let values = (0..12)
-            .map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k))
-            .collect();
+        let values = (0..12).map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k)).collect();
         let series = TimeSeries::new(0.0, 1.0, "m", values).expect("a valid series");
-        let spectrum =
-            amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / 64.0).expect("spectrum");
-        for (bin, expected) in [
-            (1, 0.46074397057919403),
-            (9, 0.9148740075462658),
-            (32, 0.0931662867193388),
-        ] {
-            assert!(
-                (spectrum.amplitude[bin] - expected).abs() < 1e-14,
-                "bin {bin}"
-            );
+        let spectrum = amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / 64.0).expect("spectrum");
+        for (bin, expected) in [(1, 0.46074397057919403), (9, 0.9148740075462658), (32, 0.0931662867193388)] {
+            assert!((spectrum.amplitude[bin] - expected).abs() < 1e-14, "bin {bin}");
         }
     }
 
@@ -176,17 +153,12 @@ mod tests {
     fn a_window_agrees_with_scipy_and_states_what_it_separates() {
         // x_k = sin(0.9 k) + 0.02 k^2, k = 0 .. 11, step 1 s: w = scipy.signal.get_window("hann", 12),
         // 2 / w.sum() * abs(numpy.fft.rfft((x - x.mean()) * w, 64))[[1, 9]]
-        let values = (0..12)
-            .map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k))
-            .collect();
+        let values = (0..12).map(|k| (0.9 * f64::from(k)).sin() + 0.02 * f64::from(k * k)).collect();
         let series = TimeSeries::new(0.0, 1.0, "m", values).expect("a valid series");
         let hann = WindowFunction::Hann;
         let spectrum = amplitude_spectrum(&series, hann, 1.0 / 64.0).expect("spectrum");
         for (bin, expected) in [(1, 0.5656296276571483), (9, 1.3530887128800948)] {
-            assert!(
-                (spectrum.amplitude[bin] - expected).abs() < 1e-14,
-                "bin {bin}"
-            );
+            assert!((spectrum.amplitude[bin] - expected).abs() < 1e-14, "bin {bin}");
         }
         assert!((spectrum.bin_hz - 1.0 / 64.0).abs() < 1e-15);
         assert!((spectrum.resolution_hz - 2.0 / 12.0).abs() < 1e-15);
@@ -202,8 +174,7 @@ mod tests {
                 line(100.0, t).cos() + line(100.0 + apart, t).sin()
             });
             let series = TimeSeries::new(0.0, 1e-3, "m", values.collect()).expect("a valid series");
-            let spectrum =
-                amplitude_spectrum(&series, WindowFunction::Boxcar, bin_hz).expect("spectrum");
+            let spectrum = amplitude_spectrum(&series, WindowFunction::Boxcar, bin_hz).expect("spectrum");
             assert!((spectrum.resolution_hz - 1.0).abs() < 1e-12);
             let peaks = crate::signal::local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
             peaks.iter().filter(|p| p.amplitude > 0.5).count()
@@ -216,9 +187,7 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let message = |series: &TimeSeries, bin_hz| {
-            amplitude_spectrum(series, WindowFunction::Boxcar, bin_hz)
-                .expect_err("must fail")
-                .to_string()
+            amplitude_spectrum(series, WindowFunction::Boxcar, bin_hz).expect_err("must fail").to_string()
         };
         let series = TimeSeries::new(0.0, 0.25, "m", vec![1.0; 4]).expect("a valid series");
         assert_eq!(
@@ -229,9 +198,6 @@ mod tests {
         assert!(message(&series, 1e-9).starts_with("bin width"));
         assert!(message(&series, f64::NAN).starts_with("bin width"));
         let one = TimeSeries::new(0.0, 0.25, "m", vec![1.0]).expect("a valid series");
-        assert_eq!(
-            message(&one, 0.25),
-            "series has 1 samples, the filter or transform needs at least 2"
-        );
+        assert_eq!(message(&one, 0.25), "series has 1 samples, the filter or transform needs at least 2");
     }
 }

@@ -65,11 +65,7 @@ impl SpeedSearch {
         let step = deviation_s / READINGS_A_DEVIATION / series.step_s();
         let half = series.values().len() / 2;
         let transform = WaveletTransform {
-            frequencies: FrequencyAxis::Logarithmic {
-                from_hz: self.from_hz,
-                to_hz: self.to_hz,
-                count,
-            },
+            frequencies: FrequencyAxis::Logarithmic { from_hz: self.from_hz, to_hz: self.to_hz, count },
             cycles: self.cycles,
             decimation: (step as usize).clamp(1, half.max(1)),
         };
@@ -79,33 +75,18 @@ impl SpeedSearch {
         let ridge = scalogram.ridge(self.from_hz, self.to_hz);
         let read = |(t, peak): (&f64, Option<Peak>)| {
             let speed_hz = peak?.frequency_hz / self.order;
-            inside(*t).then_some(SpeedPoint {
-                time_s: *t,
-                speed_hz,
-            })
+            inside(*t).then_some(SpeedPoint { time_s: *t, speed_hz })
         };
-        let points: Vec<SpeedPoint> = scalogram
-            .time_s
-            .iter()
-            .zip(ridge)
-            .filter_map(read)
-            .collect();
+        let points: Vec<SpeedPoint> = scalogram.time_s.iter().zip(ridge).filter_map(read).collect();
         let needed = STRIDE * (FITTED - 1) + 1;
         if points.len() < needed {
-            return Err(SignalError::FewReadings {
-                readings: points.len(),
-                needed,
-            });
+            return Err(SignalError::FewReadings { readings: points.len(), needed });
         }
         let reach = STRIDE * (FITTED - 1) / 2;
         let reading = |(k, point): (usize, &SpeedPoint)| {
             let first = k.saturating_sub(reach).min(points.len() - needed);
             let around = points[first..first + needed].iter().step_by(STRIDE);
-            SpeedReading {
-                time_s: point.time_s,
-                speed_hz: point.speed_hz,
-                uncertainty_hz: scatter(around.copied()),
-            }
+            SpeedReading { time_s: point.time_s, speed_hz: point.speed_hz, uncertainty_hz: scatter(around.copied()) }
         };
         Ok(points.iter().enumerate().map(reading).collect())
     }
@@ -116,10 +97,7 @@ impl SpeedSearch {
 /// # Errors
 /// As [`ShaftAngle::from_points`].
 pub fn angle_from_readings(readings: &[SpeedReading]) -> Result<ShaftAngle, SignalError> {
-    let point = |reading: &SpeedReading| SpeedPoint {
-        time_s: reading.time_s,
-        speed_hz: reading.speed_hz,
-    };
+    let point = |reading: &SpeedReading| SpeedPoint { time_s: reading.time_s, speed_hz: reading.speed_hz };
     ShaftAngle::from_points(readings.iter().map(point).collect())
 }
 
@@ -159,12 +137,7 @@ mod tests {
     use crate::signal::{AngleSeries, WindowFunction};
     use std::f64::consts::PI;
 
-    const SEARCH: SpeedSearch = SpeedSearch {
-        order: 3.0,
-        from_hz: 60.0,
-        to_hz: 200.0,
-        cycles: 12.0,
-    };
+    const SEARCH: SpeedSearch = SpeedSearch { order: 3.0, from_hz: 60.0, to_hz: 200.0, cycles: 12.0 };
 
     /// 30 to 50 Hz over 4 s at 2 kHz, third order of amplitude 1 in noise.
     fn run_up(noise: f64, seed: u64) -> TimeSeries {
@@ -183,10 +156,7 @@ mod tests {
         for reading in &readings {
             let expected = 30.0 + 5.0 * reading.time_s;
             // the chirp's own bias
-            assert!(
-                (reading.speed_hz / expected - 1.0).abs() < 1e-3,
-                "{reading:?}"
-            );
+            assert!((reading.speed_hz / expected - 1.0).abs() < 1e-3, "{reading:?}");
             assert!(reading.uncertainty_hz < 0.03, "{reading:?}");
         }
         let span = readings[readings.len() - 1].time_s - readings[0].time_s;
@@ -216,9 +186,7 @@ mod tests {
         let readings = SEARCH.readings(&signal).expect("readings");
         let angle = angle_from_readings(&readings).expect("a valid speed");
         let turns = AngleSeries::resampled(&signal, &angle, 16).expect("turns");
-        let spectrum = turns
-            .order_spectrum(WindowFunction::Hann)
-            .expect("spectrum");
+        let spectrum = turns.order_spectrum(WindowFunction::Hann).expect("spectrum");
         let peak = super::super::peak_near(&spectrum.order, &spectrum.amplitude, 3.0, 0.05);
         let peak = peak.expect("a line");
         assert!((peak.frequency_hz - 3.0).abs() < 0.01, "{peak:?}");
@@ -229,54 +197,14 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let signal = run_up(0.0, 0);
-        let message = |search: SpeedSearch, signal: &TimeSeries| {
-            search.readings(signal).expect_err("must fail").to_string()
-        };
-        assert_eq!(
-            message(
-                SpeedSearch {
-                    order: 0.0,
-                    ..SEARCH
-                },
-                &signal
-            ),
-            "order of a line must be positive, found 0"
-        );
-        assert!(
-            message(
-                SpeedSearch {
-                    from_hz: f64::NAN,
-                    ..SEARCH
-                },
-                &signal
-            )
-            .contains("frequencies")
-        );
-        assert!(
-            message(
-                SpeedSearch {
-                    from_hz: 0.0,
-                    ..SEARCH
-                },
-                &signal
-            )
-            .contains("frequencies")
-        );
-        assert!(
-            message(
-                SpeedSearch {
-                    cycles: 1e9,
-                    ..SEARCH
-                },
-                &signal
-            )
-            .contains("cycles")
-        );
+        let message =
+            |search: SpeedSearch, signal: &TimeSeries| search.readings(signal).expect_err("must fail").to_string();
+        assert_eq!(message(SpeedSearch { order: 0.0, ..SEARCH }, &signal), "order of a line must be positive, found 0");
+        assert!(message(SpeedSearch { from_hz: f64::NAN, ..SEARCH }, &signal).contains("frequencies"));
+        assert!(message(SpeedSearch { from_hz: 0.0, ..SEARCH }, &signal).contains("frequencies"));
+        assert!(message(SpeedSearch { cycles: 1e9, ..SEARCH }, &signal).contains("cycles"));
         let short = signal.window(0.0, 0.3).expect("inside");
         let found = message(SEARCH, &short);
-        assert!(
-            found.ends_with("readings of the speed, at least 33 needed: take a longer stretch"),
-            "{found}"
-        );
+        assert!(found.ends_with("readings of the speed, at least 33 needed: take a longer stretch"), "{found}");
     }
 }

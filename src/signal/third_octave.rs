@@ -30,11 +30,7 @@ pub struct BandLevel {
 ///
 /// # Errors
 /// As [`amplitude_spectrum`].
-pub fn third_octaves(
-    series: &TimeSeries,
-    from_hz: f64,
-    to_hz: f64,
-) -> Result<Vec<BandLevel>, SignalError> {
+pub fn third_octaves(series: &TimeSeries, from_hz: f64, to_hz: f64) -> Result<Vec<BandLevel>, SignalError> {
     let natural_hz = 1.0 / series.duration_s();
     let spectrum = amplitude_spectrum(series, WindowFunction::Boxcar, natural_hz)?;
     let half = 10_f64.powf(0.5 / BANDS_A_DECADE);
@@ -43,24 +39,15 @@ pub fn third_octaves(
     let number = |hz: f64| BANDS_A_DECADE * (hz / CENTRE_HZ).log10();
     let first = number(narrowest.max(from_hz * half)).ceil();
     let last = number((to_hz / half).min(0.5 * series.rate_hz() / half)).floor();
-    let count = if last >= first {
-        (last - first) as usize + 1
-    } else {
-        0
-    };
+    let count = if last >= first { (last - first) as usize + 1 } else { 0 };
     let bands = (0..count).map(|place| {
         let centre_hz = CENTRE_HZ * 10_f64.powf((first + place as f64) / BANDS_A_DECADE);
         let (low, high) = (centre_hz / half, centre_hz * half);
         let bins = spectrum.frequency_hz.iter().zip(&spectrum.amplitude);
         // Parseval: each bin has half its squared amplitude, and `zero_padding` bins stand for one
-        let squares: f64 = bins
-            .filter(|(hz, _)| (low..high).contains(*hz))
-            .map(|(_, amplitude)| 0.5 * amplitude * amplitude)
-            .sum();
-        BandLevel {
-            centre_hz,
-            rms: (squares / spectrum.zero_padding).sqrt(),
-        }
+        let squares: f64 =
+            bins.filter(|(hz, _)| (low..high).contains(*hz)).map(|(_, amplitude)| 0.5 * amplitude * amplitude).sum();
+        BandLevel { centre_hz, rms: (squares / spectrum.zero_padding).sqrt() }
     });
     Ok(bands.collect())
 }
@@ -84,9 +71,7 @@ mod tests {
         let series = tones(&[(1000.0, 4.0), (5000.0, 2.0)]);
         let bands = third_octaves(&series, 0.0, 40e3).expect("bands");
         let at = |hz: f64| {
-            let found = bands
-                .iter()
-                .find(|band| (band.centre_hz / hz - 1.0).abs() < 0.01);
+            let found = bands.iter().find(|band| (band.centre_hz / hz - 1.0).abs() < 0.01);
             found.expect("a band").rms
         };
         // leakage of a line of 100 periods: 1 / (pi 11) of it beyond a band's edge 11 bins away, 1e-2 in the mean square

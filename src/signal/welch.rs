@@ -70,11 +70,7 @@ impl Welch {
         let (n, overlap) = (self.segment_samples, self.overlap_samples);
         let samples = series.values().len();
         if n < 2 || n > samples || overlap >= n {
-            return Err(SignalError::Segments {
-                segment: n,
-                overlap,
-                samples,
-            });
+            return Err(SignalError::Segments { segment: n, overlap, samples });
         }
         let window = self.window_function.samples(n);
         let (sum, squares): (f64, f64) = (window.iter().sum(), window.iter().map(|w| w * w).sum());
@@ -111,10 +107,7 @@ impl Welch {
             },
             scaling: self.scaling,
             window_function: self.window_function,
-            span: TimeWindow {
-                from: series.start_s(),
-                to: series.time_s(covered),
-            },
+            span: TimeWindow { from: series.start_s(), to: series.time_s(covered) },
             segments,
             bin_hz,
             noise_bandwidth_hz: squares / (step_s * sum * sum),
@@ -161,10 +154,7 @@ mod tests {
             };
             let found = welch.power(&series).expect("spectrum");
             // rounding of the transforms
-            assert!(
-                worst(&found.power, &numbers(&case["power"])) < 1e-13,
-                "{welch:?}"
-            );
+            assert!(worst(&found.power, &numbers(&case["power"])) < 1e-13, "{welch:?}");
             assert!(worst(&found.frequency_hz, &numbers(&case["frequency"])) < 1e-15);
         }
     }
@@ -191,11 +181,7 @@ mod tests {
     fn errors_fire_with_their_exact_messages() {
         let series = TimeSeries::new(0.0, 0.25, "m", vec![0.0; 15]).expect("a valid series");
         let message = |segment_samples, overlap_samples| {
-            let welch = Welch {
-                segment_samples,
-                overlap_samples,
-                ..HANN
-            };
+            let welch = Welch { segment_samples, overlap_samples, ..HANN };
             welch.power(&series).expect_err("must fail").to_string()
         };
         assert_eq!(

@@ -62,24 +62,13 @@ impl WhiteSpectrum {
         // bins of nothing but rounding stay as small as they are
         let least = 1e-12 * amplitudes.iter().fold(0.0_f64, |most, &a| most.max(a));
         let pairs = amplitudes.iter().zip(&medians);
-        let over_median: Vec<f64> = pairs
-            .map(|(amplitude, median)| amplitude / median.max(least).max(f64::MIN_POSITIVE))
-            .collect();
+        let over_median: Vec<f64> =
+            pairs.map(|(amplitude, median)| amplitude / median.max(least).max(f64::MIN_POSITIVE)).collect();
         for ((bin, amplitude), over_median) in bins.iter_mut().zip(&amplitudes).zip(&over_median) {
             let wanted = over_median.min(LIMIT);
-            *bin = if *amplitude > 0.0 {
-                *bin * (wanted / amplitude)
-            } else {
-                Complex::new(0.0, 0.0)
-            };
+            *bin = if *amplitude > 0.0 { *bin * (wanted / amplitude) } else { Complex::new(0.0, 0.0) };
         }
-        Ok(Self {
-            bins,
-            over_median,
-            points,
-            start_s: series.start_s(),
-            step_s: series.step_s(),
-        })
+        Ok(Self { bins, over_median, points, start_s: series.start_s(), step_s: series.step_s() })
     }
 
     /// The same with the impulsive frequencies of the series emphasised, by the root of their spectral kurtosis.
@@ -132,9 +121,7 @@ pub(super) fn band_envelope(
     let length = fast_length(2 * (end - first));
     let mut band = vec![Complex::new(0.0, 0.0); length];
     band[..end - first].copy_from_slice(&bins[first..end]);
-    FftPlanner::new()
-        .plan_fft_inverse(length)
-        .process(&mut band);
+    FftPlanner::new().plan_fft_inverse(length).process(&mut band);
     BandEnvelope {
         start_s,
         step_s: step_s * points as f64 / length as f64,
@@ -186,10 +173,7 @@ mod tests {
         for place in [0_usize, 20, 500, 980, 999] {
             let mut about = values[place.saturating_sub(40)..(place + 41).min(1000)].to_vec();
             about.sort_by(f64::total_cmp);
-            assert!(
-                (found[place] - about[about.len() / 2]).abs() < 1e-12,
-                "{place}"
-            );
+            assert!((found[place] - about[about.len() / 2]).abs() < 1e-12, "{place}");
         }
         assert_eq!(running_median(&[3.0], 12), [3.0]);
     }
@@ -227,10 +211,8 @@ mod tests {
     fn a_band_has_the_modulation_of_what_is_in_it() {
         let rate = 16e3;
         let noise = gaussian(160_000, 5);
-        let values = noise
-            .iter()
-            .enumerate()
-            .map(|(k, noise)| noise * (1.0 + 0.8 * (TAU * 40.0 * k as f64 / rate).cos()));
+        let values =
+            noise.iter().enumerate().map(|(k, noise)| noise * (1.0 + 0.8 * (TAU * 40.0 * k as f64 / rate).cos()));
         let series = TimeSeries::new(2.0, 1.0 / rate, "g", values.collect()).unwrap();
         let white = WhiteSpectrum::of(&series).unwrap();
         let found = white.envelope([2e3, 6e3]);

@@ -43,12 +43,7 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
     let segment_samples = segment_samples(series);
     let overlap_samples = overlap(segment_samples);
     let window_function = WindowFunction::Hann;
-    let welch = Welch {
-        window_function,
-        segment_samples,
-        overlap_samples,
-        scaling: PowerScaling::Density,
-    };
+    let welch = Welch { window_function, segment_samples, overlap_samples, scaling: PowerScaling::Density };
     let spectrum = welch.power(series)?;
     let half_rate = 0.5 * series.rate_hz();
     let mut gains: Vec<f64> = spectrum
@@ -89,13 +84,7 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
 /// Kurtosis of the bins from zero to half the rate, averaged over five; at least a thousandth.
 fn smoothed_kurtosis(series: &TimeSeries) -> Result<Vec<f64>, SignalError> {
     let segment = segment_samples(series);
-    let found = spectral_kurtosis(
-        series,
-        WindowFunction::Hann,
-        segment,
-        overlap(segment),
-        0.99,
-    )?;
+    let found = spectral_kurtosis(series, WindowFunction::Hann, segment, overlap(segment), 0.99)?;
     // without the bins at zero and at half the rate
     let kurtosis = found.kurtosis;
     let mean = |bin: usize| {
@@ -150,10 +139,7 @@ mod tests {
         let power = welch.power(series).expect("a spectrum").power;
         let inner = &power[2..power.len() - 2];
         let size = inner.len() / count;
-        inner
-            .chunks_exact(size)
-            .map(|band| band.iter().sum::<f64>() / size as f64)
-            .collect()
+        inner.chunks_exact(size).map(|band| band.iter().sum::<f64>() / size as f64).collect()
     }
 
     /// Noise through a resonance of 3 % damping at 20 kHz, on a floor of white noise, about a mean of 7.
@@ -223,11 +209,7 @@ mod tests {
             bands[0] / bands[1..].iter().sum::<f64>()
         };
         assert!((share(Emphasis::Even) - 0.2).abs() < 0.02);
-        assert!(
-            share(Emphasis::Impulsive) > 0.5,
-            "{}",
-            share(Emphasis::Impulsive)
-        );
+        assert!(share(Emphasis::Impulsive) > 0.5, "{}", share(Emphasis::Impulsive));
     }
 
     #[test]
@@ -235,9 +217,6 @@ mod tests {
         let silent = whiten(&series(vec![2.0; 5000]), Emphasis::Impulsive).expect("zeros");
         assert!(silent.values().iter().all(|value| value.abs() < 1e-12));
         let short = whiten(&series(vec![1.0; 100]), Emphasis::Even).expect_err("too short");
-        assert!(
-            short.to_string().starts_with("segments must have"),
-            "{short}"
-        );
+        assert!(short.to_string().starts_with("segments must have"), "{short}");
     }
 }

@@ -40,13 +40,7 @@ impl WindowFunction {
             Self::Hann => &[0.5, 0.5],
             Self::Hamming => &[0.54, 0.46],
             Self::Blackman => &[0.42, 0.5, 0.08],
-            Self::FlatTop => &[
-                0.215_578_95,
-                0.416_631_58,
-                0.277_263_158,
-                0.083_578_947,
-                0.006_947_368,
-            ],
+            Self::FlatTop => &[0.215_578_95, 0.416_631_58, 0.277_263_158, 0.083_578_947, 0.006_947_368],
         }
     }
 
@@ -148,10 +142,7 @@ mod tests {
                 let d = window.main_lobe_bins() + 0.673 * f64::from(k);
                 let found = response(window, 20_000, d);
                 // the sums over 20 000 samples differ from the integrals by (d / n)^2 of them
-                assert!(
-                    found < window.leakage(d) * (1.0 + 1e-4) + 1e-8,
-                    "{window:?} {d}"
-                );
+                assert!(found < window.leakage(d) * (1.0 + 1e-4) + 1e-8, "{window:?} {d}");
             }
             let half = 20.5;
             let reached = response(window, 20_000, half) / window.leakage(half);

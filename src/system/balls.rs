@@ -91,9 +91,7 @@ impl Balls {
                     ..BallGroup::default()
                 })
                 .collect(),
-            flat: (0..count)
-                .map(|ball| setup.spin(ball, 0.0).map(|(flat, _)| flat))
-                .collect(),
+            flat: (0..count).map(|ball| setup.spin(ball, 0.0).map(|(flat, _)| flat)).collect(),
             mode_bounds: Vec::new(),
             weight_bound: 0.0,
             count,

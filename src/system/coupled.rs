@@ -49,10 +49,7 @@ impl ModeDamping {
     pub fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
         let (w1, w2) = (TAU * first.0, TAU * second.0);
         let beta = 2.0 * (second.1 * w2 - first.1 * w1) / (w2 * w2 - w1 * w1);
-        Self::Rayleigh {
-            alpha: 2.0 * first.1 * w1 - beta * w1 * w1,
-            beta,
-        }
+        Self::Rayleigh { alpha: 2.0 * first.1 * w1 - beta * w1 * w1, beta }
     }
 
     /// 2 zeta omega of a mode, 1/s.
@@ -70,9 +67,7 @@ impl ModeSelection {
         match *self {
             Self::All => modes.count(),
             Self::Count(count) => count.min(modes.count()),
-            Self::UpTo(hz) => (0..modes.count())
-                .take_while(|&mode| modes.frequency_hz(mode) <= hz)
-                .count(),
+            Self::UpTo(hz) => (0..modes.count()).take_while(|&mode| modes.frequency_hz(mode) <= hz).count(),
         }
     }
 }
@@ -159,9 +154,7 @@ impl CoupledSystem {
         let count = selection.count(modes);
         let complete = count == modes.count() && !modes.has_more;
         if count == 0 {
-            return Err(SystemError::NoModesKept {
-                lowest_hz: modes.frequency_hz(0),
-            });
+            return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) });
         }
         if setup.formulation == Formulation::Printed && !complete {
             return Err(SystemError::PrintedNeedsAllModes);
@@ -180,26 +173,12 @@ impl CoupledSystem {
         };
         let structural = kept.iter().map(|&mode| {
             let squared_frequency = modes.squared_frequencies[mode].max(0.0);
-            LinearCoordinate {
-                squared_frequency,
-                damping: damping.coefficient(squared_frequency),
-            }
+            LinearCoordinate { squared_frequency, damping: damping.coefficient(squared_frequency) }
         });
-        let free = LinearCoordinate {
-            squared_frequency: 0.0,
-            damping: 0.0,
-        };
-        let linear = structural
-            .chain(std::iter::repeat_n(
-                free,
-                if dynamic { 2 + balls } else { 2 },
-            ))
-            .collect();
-        let over_modes = |row: &[f64]| -> Vec<f64> {
-            kept.iter()
-                .map(|&mode| modes.participation(mode, row))
-                .collect()
-        };
+        let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
+        let linear = structural.chain(std::iter::repeat_n(free, if dynamic { 2 + balls } else { 2 })).collect();
+        let over_modes =
+            |row: &[f64]| -> Vec<f64> { kept.iter().map(|&mode| modes.participation(mode, row)).collect() };
         let outer = RaceContact::new(&setup, Race::Outer);
         let ring = structure.ring();
         let arm = setup.raceway_arm(ring.section().radius);
@@ -227,11 +206,7 @@ impl CoupledSystem {
             tangential: RacewayTable::new(ring, modes, &kept, |rows| rows.tangential_at(arm)),
             residual,
             centre: [0, 1].map(|component| over_modes(&mean_row(structure, component))),
-            sensors: structure
-                .sensors()
-                .iter()
-                .map(|sensor| (sensor.name.clone(), over_modes(&sensor.row)))
-                .collect(),
+            sensors: structure.sensors().iter().map(|sensor| (sensor.name.clone(), over_modes(&sensor.row))).collect(),
             cursors: [RotationCursor::default(); 2],
             work: Work::new(balls, count),
             setup,
@@ -245,10 +220,7 @@ impl CoupledSystem {
 
     /// Largest omega^2 among the kept modes, 1/s^2.
     pub fn highest_squared_frequency(&self) -> f64 {
-        self.linear
-            .iter()
-            .map(|coordinate| coordinate.squared_frequency)
-            .fold(0.0, f64::max)
+        self.linear.iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max)
     }
 
     /// Whether the static residual of the modes left out is in use.
@@ -280,22 +252,15 @@ impl CoupledSystem {
 
     /// State at rest in an equilibrium, the cage held at its angle at `t` (s).
     pub fn state_at(&self, t: f64, equilibrium: &Equilibrium, modes: &StructureModes) -> State {
-        let amplitudes = (0..self.modes).map(|mode| {
-            modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]
-        });
+        let amplitudes = (0..self.modes)
+            .map(|mode| modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]);
         let balls = match self.setup.balls_inertia {
             BallsInertia::Dynamic => equilibrium.balls.as_slice(),
             BallsInertia::QuasiStatic => &[],
         };
-        let y: Vec<f64> = amplitudes
-            .chain(equilibrium.shaft)
-            .chain(balls.iter().map(|ball| ball.displacement))
-            .collect();
-        State {
-            t,
-            v: vec![0.0; y.len()],
-            y,
-        }
+        let y: Vec<f64> =
+            amplitudes.chain(equilibrium.shaft).chain(balls.iter().map(|ball| ball.displacement)).collect();
+        State { t, v: vec![0.0; y.len()], y }
     }
 }
 

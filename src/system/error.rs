@@ -61,8 +61,6 @@ pub enum SystemError {
         residual_n: f64,
     },
     /// Nothing holds the shaft.
-    #[error(
-        "the shaft is not held in the loaded direction: without load on it, it can move in the clearance"
-    )]
+    #[error("the shaft is not held in the loaded direction: without load on it, it can move in the clearance")]
     NothingHoldsTheShaft,
 }

@@ -35,10 +35,7 @@ pub(super) struct InnerGaps {
 
 impl InnerRace {
     pub(super) fn new(geometry: &BearingGeometry) -> Self {
-        Self {
-            touching_radius: geometry.outer_race_radius() - geometry.ball_radius(),
-            play: geometry.radial_play(),
-        }
+        Self { touching_radius: geometry.outer_race_radius() - geometry.ball_radius(), play: geometry.radial_play() }
     }
 
     /// Gap for a ball in direction `e` at outward displacement `s`, the inner race at `centre`.
@@ -55,12 +52,7 @@ impl InnerRace {
     /// Not less than the penetration of balls in directions (`cos`, `sin`) at outward displacements `s`: what it would be in
     /// front of a plane.
     #[inline(always)]
-    pub(super) fn penetration_bounds(
-        &self,
-        [cos, sin]: [&Lanes; 2],
-        s: &Lanes,
-        [x, y]: [f64; 2],
-    ) -> Lanes {
+    pub(super) fn penetration_bounds(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, [x, y]: [f64; 2]) -> Lanes {
         each(|l| (cos[l] * x + sin[l] * y) - (self.play + s[l]))
     }
 
@@ -94,10 +86,7 @@ mod tests {
 
     #[test]
     fn the_gap_is_the_plain_difference() {
-        let race = InnerRace {
-            touching_radius: 3.7565e-3,
-            play: 2.5e-6,
-        };
+        let race = InnerRace { touching_radius: 3.7565e-3, play: 2.5e-6 };
         let angle: f64 = 4.1;
         let e = [angle.cos(), angle.sin()];
         let (s, centre) = (3.2e-7, [1.1e-6, -2.9e-6]);

@@ -10,9 +10,7 @@ pub struct LoadProfile {
 impl LoadProfile {
     /// The same force always.
     pub fn constant(force: [f64; 2]) -> Self {
-        Self {
-            points: vec![(0.0, force)],
-        }
+        Self { points: vec![(0.0, force)] }
     }
 
     /// Through points (s, N); those that do not come after the one before are left out. Without points there is no force.
@@ -29,9 +27,7 @@ impl LoadProfile {
     /// The first time (s) after `time` at which the slope jumps; infinity if there is none.
     pub(crate) fn next_knot(&self, time: f64) -> f64 {
         let after = self.points.partition_point(|point| point.0 <= time);
-        self.points
-            .get(after)
-            .map_or(f64::INFINITY, |point| point.0)
+        self.points.get(after).map_or(f64::INFINITY, |point| point.0)
     }
 
     /// Force at `time` (s), N.
@@ -59,12 +55,7 @@ mod tests {
     #[test]
     fn straight_between_points_and_constant_beyond() {
         let load = LoadProfile::through(&[(1.0, [0.0, -2.0]), (3.0, [4.0, 0.0])]);
-        for (time, force) in [
-            (0.0, [0.0, -2.0]),
-            (1.5, [1.0, -1.5]),
-            (3.0, [4.0, 0.0]),
-            (9.0, [4.0, 0.0]),
-        ] {
+        for (time, force) in [(0.0, [0.0, -2.0]), (1.5, [1.0, -1.5]), (3.0, [4.0, 0.0]), (9.0, [4.0, 0.0])] {
             for (found, expected) in load.at(time).into_iter().zip(force) {
                 assert_relative_eq!(found, expected, epsilon = 1e-15);
             }

@@ -78,10 +78,7 @@ impl LoadedModes {
     /// The mode nearest to a frequency (Hz) among those that are not the balls' own.
     pub fn nearest(&self, hz: f64) -> Option<&LoadedMode> {
         let distance = |mode: &&LoadedMode| (mode.frequency_hz - hz).abs();
-        self.modes
-            .iter()
-            .filter(|mode| !mode.is_ball_mode())
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        self.modes.iter().filter(|mode| !mode.is_ball_mode()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
 
@@ -116,14 +113,7 @@ impl LoadedShapes {
         }
         found.sort_by(|(a, _), (b, _)| a.frequency_hz.total_cmp(&b.frequency_hz));
         let (modes, amplitudes) = found.into_iter().unzip();
-        Ok(Self {
-            modes: LoadedModes {
-                modes,
-                without_stiffness,
-                unstable,
-            },
-            amplitudes,
-        })
+        Ok(Self { modes: LoadedModes { modes, without_stiffness, unstable }, amplitudes })
     }
 }
 
@@ -143,12 +133,7 @@ struct Pair {
 }
 
 impl Linearised {
-    fn new(
-        structure: &Structure,
-        modes: &StructureModes,
-        setup: &BearingSetup,
-        equilibrium: &Equilibrium,
-    ) -> Self {
+    fn new(structure: &Structure, modes: &StructureModes, setup: &BearingSetup, equilibrium: &Equilibrium) -> Self {
         let (count, balls) = (modes.count(), setup.balls());
         let order = count + 2 + balls;
         let printed = setup.formulation == Formulation::Printed;
@@ -169,9 +154,7 @@ impl Linearised {
         if printed {
             // s'' + e . centre'' = ...: take the centre's acceleration to the right-hand side
             let accelerations = DenseMatrix::from_fn(2, order, |component, column| {
-                (0..count)
-                    .map(|mode| centre[(component, mode)] * matrix[(mode, column)])
-                    .sum()
+                (0..count).map(|mode| centre[(component, mode)] * matrix[(mode, column)]).sum()
             });
             for (j, angle) in angles.iter().enumerate() {
                 let (sin, cos) = angle.sin_cos();
@@ -181,28 +164,21 @@ impl Linearised {
                 }
             }
         }
-        Self {
-            matrix,
-            modes: count,
-            masses,
-        }
+        Self { matrix, modes: count, masses }
     }
 
     fn symmetric_pairs(&self) -> Result<Vec<Pair>, SystemError> {
         let order = self.masses.len();
         let root = |i: usize| self.masses[i].sqrt();
         let scaled = DenseMatrix::from_fn(order, order, |i, j| {
-            0.5 * (self.matrix[(i, j)] * root(i) / root(j)
-                + self.matrix[(j, i)] * root(j) / root(i))
+            0.5 * (self.matrix[(i, j)] * root(i) / root(j) + self.matrix[(j, i)] * root(j) / root(i))
         });
         let spectrum = symmetric_eigen(&scaled)?;
         Ok((0..order)
             .map(|pair| Pair {
                 value: spectrum.values[pair],
                 imaginary: 0.0,
-                amplitudes: (0..order)
-                    .map(|i| spectrum.vectors[(i, pair)] / root(i))
-                    .collect(),
+                amplitudes: (0..order).map(|i| spectrum.vectors[(i, pair)] / root(i)).collect(),
             })
             .collect())
     }
@@ -211,28 +187,20 @@ impl Linearised {
         let order = self.masses.len();
         let root = |i: usize| self.masses[i].sqrt();
         // scaled as the symmetric problem is, so that rows and columns have one size
-        let scaled =
-            DenseMatrix::from_fn(order, order, |i, j| self.matrix[(i, j)] * root(i) / root(j));
+        let scaled = DenseMatrix::from_fn(order, order, |i, j| self.matrix[(i, j)] * root(i) / root(j));
         let spectrum = general_spectrum(&scaled)?;
         Ok((0..order)
             .map(|pair| Pair {
                 value: spectrum.values[pair].re,
                 imaginary: spectrum.values[pair].im,
-                amplitudes: real_part(&spectrum, pair)
-                    .iter()
-                    .enumerate()
-                    .map(|(i, entry)| entry / root(i))
-                    .collect(),
+                amplitudes: real_part(&spectrum, pair).iter().enumerate().map(|(i, entry)| entry / root(i)).collect(),
             })
             .collect())
     }
 
     fn describe(&self, pair: &Pair) -> LoadedMode {
-        let energy = |range: std::ops::Range<usize>| -> f64 {
-            range
-                .map(|i| pair.amplitudes[i].powi(2) * self.masses[i])
-                .sum()
-        };
+        let energy =
+            |range: std::ops::Range<usize>| -> f64 { range.map(|i| pair.amplitudes[i].powi(2) * self.masses[i]).sum() };
         let (n, order) = (self.modes, self.masses.len());
         let total = energy(0..order);
         LoadedMode {
@@ -247,10 +215,7 @@ impl Linearised {
 /// The vector of an eigenvalue, turned so that its largest entry is real: all of it where the eigenvalue is real.
 fn real_part(spectrum: &GeneralSpectrum, pair: usize) -> Vec<f64> {
     let vector = spectrum.vectors.col(pair);
-    let largest = vector
-        .iter()
-        .copied()
-        .max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    let largest = vector.iter().copied().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
     let Some(largest) = largest.filter(|entry| entry.norm_sqr() > 0.0) else {
         return vec![0.0; vector.nrows()];
     };
@@ -265,9 +230,7 @@ fn centre_rows(structure: &Structure, modes: &StructureModes, printed: bool) -> 
         if !printed {
             return 0.0;
         }
-        let sum: f64 = (0..nodes)
-            .map(|node| modes.shapes[(3 * node + component, mode)])
-            .sum();
+        let sum: f64 = (0..nodes).map(|node| modes.shapes[(3 * node + component, mode)]).sum();
         sum / nodes as f64
     })
 }
@@ -304,11 +267,7 @@ fn add_outer(
 }
 
 /// Displacement of the race under every ball in the equilibrium [2 balls], m.
-fn race_displacement(
-    structure: &Structure,
-    equilibrium: &Equilibrium,
-    setup: &BearingSetup,
-) -> Vec<f64> {
+fn race_displacement(structure: &Structure, equilibrium: &Equilibrium, setup: &BearingSetup) -> Vec<f64> {
     let load = &equilibrium.structure_load;
     let column = DenseMatrix::from_fn(load.len(), 1, |row, _| load[row]);
     let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
@@ -336,9 +295,7 @@ fn add_inner(
     for (j, ball) in equilibrium.balls.iter().enumerate() {
         let (sin, cos) = ball.angle.sin_cos();
         k[(modes + 2 + j, modes + 2 + j)] -= setup.geometry.ball_mass() * spin;
-        let gap = races
-            .inner_race
-            .gap([cos, sin], ball.displacement, relative);
+        let gap = races.inner_race.gap([cos, sin], ball.displacement, relative);
         let force = races.inner_force(j, ball.angle, &gap);
         if force.magnitude <= 0.0 {
             continue;

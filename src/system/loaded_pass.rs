@@ -1,8 +1,6 @@
 //! Loaded eigenfrequencies as the balls go round, and under more or less load.
 
-use super::{
-    BearingSetup, Equilibrium, LoadedModes, StaticCondition, Structure, StructureModes, SystemError,
-};
+use super::{BearingSetup, Equilibrium, LoadedModes, StaticCondition, Structure, StructureModes, SystemError};
 use crate::numerics::Watch;
 use rayon::prelude::*;
 
@@ -51,10 +49,7 @@ impl LoadedPass {
                 found => found?,
             };
             let modes = LoadedModes::at(structure, modes, setup, &rest)?;
-            Ok(LoadedPoint {
-                at,
-                modes: Some(modes),
-            })
+            Ok(LoadedPoint { at, modes: Some(modes) })
         };
         let angle = |place: usize| {
             let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
@@ -64,16 +59,9 @@ impl LoadedPass {
             let factor = 10_f64.powf(2.0 * place as f64 / (LOADS - 1) as f64 - 1.0);
             point(factor, condition.loaded(factor))
         };
-        let all =
-            |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, SystemError> + Sync)| {
-                (0..points)
-                    .into_par_iter()
-                    .map(at)
-                    .collect::<Result<Vec<_>, _>>()
-            };
-        Ok(Self {
-            over_angle: all(ANGLES, &angle)?,
-            over_load: all(LOADS, &load)?,
-        })
+        let all = |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, SystemError> + Sync)| {
+            (0..points).into_par_iter().map(at).collect::<Result<Vec<_>, _>>()
+        };
+        Ok(Self { over_angle: all(ANGLES, &angle)?, over_load: all(LOADS, &load)? })
     }
 }

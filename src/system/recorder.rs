@@ -36,12 +36,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`SeriesError`] for a ratio of zero or a step that is not positive.
-    pub fn new(
-        system: &CoupledSystem,
-        ratio: u32,
-        step: f64,
-        wanted: usize,
-    ) -> Result<Self, SeriesError> {
+    pub fn new(system: &CoupledSystem, ratio: u32, step: f64, wanted: usize) -> Result<Self, SeriesError> {
         let filter = Decimator::second_derivative(ratio as usize, step)?;
         let names = system.sensors.iter().map(|(name, _)| name.clone());
         Ok(Self {
@@ -56,9 +51,7 @@ impl Recorder {
 
     /// Output intervals to go on past the last wanted instant, until its low-pass is complete.
     pub fn intervals_past_the_end(&self) -> u64 {
-        self.filters
-            .first()
-            .map_or(0, |filter| filter.half_length_outputs() as u64)
+        self.filters.first().map_or(0, |filter| filter.half_length_outputs() as u64)
     }
 
     /// Declares everything observed so far good: rows that are complete may leave. To be called between intervals; what a run
@@ -114,11 +107,8 @@ impl Recorder {
                 accumulators: snapshot.numbers()?,
                 first_value: snapshot.option()?,
             };
-            let other = SnapshotError::Other {
-                what: "steps an output",
-                expected: self.ratio,
-                found: state.phase as u64,
-            };
+            let other =
+                SnapshotError::Other { what: "steps an output", expected: self.ratio, found: state.phase as u64 };
             *filter = filter.clone().with_state(&state).map_err(|_| other)?;
         }
         for column in Column::all(self.filters.len()) {
@@ -145,9 +135,10 @@ impl Observer<CoupledSystem> for Recorder {
         let modes = system.modes;
         for (sensor, filter) in self.filters.iter_mut().enumerate() {
             let modal = scalar_product(&system.sensors[sensor].1, &now.y[..modes]);
-            let residual = system.residual.as_ref().map_or(0.0, |residual| {
-                residual.at_sensor(sensor, system.balls.all(|ball| &ball.outer_radial))
-            });
+            let residual = system
+                .residual
+                .as_ref()
+                .map_or(0.0, |residual| residual.at_sensor(sensor, system.balls.all(|ball| &ball.outer_radial)));
             if let Some(acceleration) = filter.push(modal + residual) {
                 self.queue.sensors[sensor].1.push(acceleration);
             }
@@ -161,15 +152,9 @@ impl Observer<CoupledSystem> for Recorder {
             let touching = system.inner_race.touching_radius;
             let balls = &system.balls;
             let displacements = balls.all(|ball| &ball.displacement);
-            record
-                .ball_radius
-                .extend(displacements.map(|s| touching + s));
-            record
-                .outer_force
-                .extend(balls.all(|ball| &ball.outer_magnitude));
-            record
-                .inner_force
-                .extend(balls.all(|ball| &ball.inner_force));
+            record.ball_radius.extend(displacements.map(|s| touching + s));
+            record.outer_force.extend(balls.all(|ball| &ball.outer_magnitude));
+            record.inner_force.extend(balls.all(|ball| &ball.inner_force));
         }
     }
 }

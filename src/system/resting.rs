@@ -27,11 +27,7 @@ pub(super) struct RestingRaces {
 /// (along the radius, mixed, across it). Across the radius a force turns with it.
 pub(super) fn in_the_plane(force: &RaceForce, distance: f64) -> [f64; 3] {
     let [rr, rt, tt] = force.tangent;
-    [
-        rr,
-        rt - force.tangential / distance,
-        tt + force.radial / distance,
-    ]
+    [rr, rt - force.tangential / distance, tt + force.radial / distance]
 }
 
 impl RestingRaces {
@@ -41,24 +37,14 @@ impl RestingRaces {
             inner: RaceContact::new(setup, Race::Inner).undamped(),
             outer: RaceContact::new(setup, Race::Outer).undamped(),
             shaft_angle,
-            spins: (0..setup.balls())
-                .map(|ball| setup.spin(ball, shaft_angle))
-                .collect(),
-            oversizes: (0..setup.balls())
-                .map(|ball| setup.oversize(ball))
-                .collect(),
+            spins: (0..setup.balls()).map(|ball| setup.spin(ball, shaft_angle)).collect(),
+            oversizes: (0..setup.balls()).map(|ball| setup.oversize(ball)).collect(),
         }
     }
 
     /// Force of `ball` at the angle `angle` (rad) on the outer race that is displaced along increasing angle by `shift`
     /// (rad); derivatives by the ball's position relative to the race.
-    pub(super) fn outer_force(
-        &self,
-        ball: usize,
-        angle: f64,
-        shift: f64,
-        penetration: f64,
-    ) -> RaceForce {
+    pub(super) fn outer_force(&self, ball: usize, angle: f64, shift: f64, penetration: f64) -> RaceForce {
         self.force(&self.outer, ball, angle - shift, shift, penetration)
     }
 
@@ -72,14 +58,7 @@ impl RestingRaces {
     }
 
     /// Force on a race at `angle` in its own frame; `spun` is what the ball's flat is turned by as seen from there.
-    fn force(
-        &self,
-        race: &RaceContact,
-        ball: usize,
-        angle: f64,
-        spun: f64,
-        nominal: f64,
-    ) -> RaceForce {
+    fn force(&self, race: &RaceContact, ball: usize, angle: f64, spun: f64, nominal: f64) -> RaceForce {
         let penetration = nominal + self.oversizes[ball];
         let (sin, cos) = angle.sin_cos();
         let flat = self.spins[ball].filter(|(flat, spin)| race.feels(*flat, spin + spun));
@@ -108,8 +87,7 @@ impl RestingRaces {
             let [before, after] = [-step, step].map(|step| at(0.0, step / radius));
             let slope = |a: f64, b: f64| (b - a) / (2.0 * step);
             let radial_by_turning = slope(before.radial, after.radial);
-            let tangential_by_pressing =
-                slope(less.tangential, more.tangential) + force.tangential / radius;
+            let tangential_by_pressing = slope(less.tangential, more.tangential) + force.tangential / radius;
             force.tangent = [
                 slope(less.radial, more.radial),
                 0.5 * (radial_by_turning + tangential_by_pressing),

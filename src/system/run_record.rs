@@ -46,10 +46,11 @@ pub enum Column {
 impl Column {
     /// All columns of a record with so many sensors, in the order in which they are stored.
     pub fn all(sensors: usize) -> impl Iterator<Item = Self> {
-        [Self::Time, Self::ShaftX, Self::ShaftY]
-            .into_iter()
-            .chain((0..sensors).map(Self::Sensor))
-            .chain([Self::BallRadius, Self::OuterForce, Self::InnerForce])
+        [Self::Time, Self::ShaftX, Self::ShaftY].into_iter().chain((0..sensors).map(Self::Sensor)).chain([
+            Self::BallRadius,
+            Self::OuterForce,
+            Self::InnerForce,
+        ])
     }
 
     /// Numbers a row, with so many balls.
@@ -70,11 +71,7 @@ impl Column {
 impl RunRecord {
     /// A record without rows.
     pub(crate) fn blank(sensors: impl IntoIterator<Item = String>, balls: usize) -> Self {
-        Self {
-            sensors: sensors.into_iter().map(|name| (name, Vec::new())).collect(),
-            balls,
-            ..Self::default()
-        }
+        Self { sensors: sensors.into_iter().map(|name| (name, Vec::new())).collect(), balls, ..Self::default() }
     }
 
     /// Number of rows: instants that are complete.
@@ -111,8 +108,7 @@ impl RunRecord {
     /// Appends rows of the same sensors and balls.
     pub fn append(&mut self, rows: &Self) {
         for column in Column::all(self.sensors.len()) {
-            self.column_mut(column)
-                .extend_from_slice(rows.column(column));
+            self.column_mut(column).extend_from_slice(rows.column(column));
         }
     }
 

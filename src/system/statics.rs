@@ -29,34 +29,22 @@ impl Statics {
     ///
     /// # Errors
     /// [`SystemError`] if there is no equilibrium.
-    pub fn compute(
-        structure: &Structure,
-        setup: &BearingSetup,
-        time: f64,
-    ) -> Result<Self, SystemError> {
+    pub fn compute(structure: &Structure, setup: &BearingSetup, time: f64) -> Result<Self, SystemError> {
         let condition = StaticCondition::at(setup, time);
         let equilibria = Equilibrium::find_all(structure, setup, condition)?;
         let point = |place: usize| {
             let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
             let condition = condition.turned_by(setup, turned);
-            PassPoint {
-                turned,
-                equilibrium: Equilibrium::find(structure, setup, condition).ok(),
-            }
+            PassPoint { turned, equilibrium: Equilibrium::find(structure, setup, condition).ok() }
         };
-        Ok(Self {
-            equilibria,
-            ball_pass: (0..ANGLES).into_par_iter().map(point).collect(),
-        })
+        Ok(Self { equilibria, ball_pass: (0..ANGLES).into_par_iter().map(point).collect() })
     }
 
     /// Smallest and largest value over the ball pass; `None` where nothing was found.
     pub fn range(&self, value: impl Fn(&Equilibrium) -> f64) -> Option<[f64; 2]> {
         let found = self.ball_pass.iter();
         let values = found.filter_map(|point| point.equilibrium.as_ref().map(&value));
-        values
-            .map(|value| [value; 2])
-            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        values.map(|value| [value; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 }
 

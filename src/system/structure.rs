@@ -83,17 +83,10 @@ impl Structure {
     ///
     /// # Errors
     /// [`SystemError::InterfaceSize`] if the superelement has another interface.
-    pub fn with_housing(
-        ring: Ring,
-        housing: &Superelement,
-        gravity: [f64; 2],
-    ) -> Result<Self, SystemError> {
+    pub fn with_housing(ring: Ring, housing: &Superelement, gravity: [f64; 2]) -> Result<Self, SystemError> {
         let interface = ring.dof();
         if housing.interface_dof != interface {
-            return Err(SystemError::InterfaceSize {
-                expected: interface,
-                found: housing.interface_dof,
-            });
+            return Err(SystemError::InterfaceSize { expected: interface, found: housing.interface_dof });
         }
         let add_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
             let mut sum = housing.clone();
@@ -127,11 +120,7 @@ impl Structure {
             self.sensors.push(sensor);
             Ok(())
         } else {
-            Err(SystemError::SensorSize {
-                name: sensor.name,
-                expected: self.dof(),
-                found: sensor.row.len(),
-            })
+            Err(SystemError::SensorSize { name: sensor.name, expected: self.dof(), found: sensor.row.len() })
         }
     }
 
@@ -141,10 +130,7 @@ impl Structure {
         for (dof, factor) in self.ring.displacement_row(angle, [x, y, 0.0]) {
             row[dof] += factor;
         }
-        Sensor {
-            name: name.to_owned(),
-            row,
-        }
+        Sensor { name: name.to_owned(), row }
     }
 
     /// Number of coordinates.
@@ -183,11 +169,7 @@ impl Structure {
     /// What the eigenvalue computation reports.
     pub fn modes(&self) -> Result<StructureModes, SystemError> {
         let spectrum = symmetric_generalised_eigen(&self.stiffness, &self.mass)?;
-        Ok(StructureModes {
-            squared_frequencies: spectrum.values,
-            shapes: spectrum.vectors,
-            has_more: false,
-        })
+        Ok(StructureModes { squared_frequencies: spectrum.values, shapes: spectrum.vectors, has_more: false })
     }
 
     /// The lowest `count` modes of a large structure, by the solver for sparse problems; all of one with few coordinates.
@@ -201,11 +183,7 @@ impl Structure {
         }
         let [k, m] = [&self.stiffness, &self.mass].map(|matrix| placed(matrix, 0, order));
         let pairs = EigenProblem::new(&k, &m)?.lowest(count)?;
-        Ok(StructureModes {
-            squared_frequencies: pairs.values,
-            shapes: pairs.vectors,
-            has_more: true,
-        })
+        Ok(StructureModes { squared_frequencies: pairs.values, shapes: pairs.vectors, has_more: true })
     }
 
     /// Static responses `K^-1 B`.
@@ -231,9 +209,7 @@ impl Structure {
             let sparse = placed(&self.stiffness, 0, order);
             if sparse.nnz() < order * order / SPARSE {
                 let factor = SparseCholesky::new(&sparse).ok();
-                return factor
-                    .filter(|factor| factor.contraction() <= LARGEST_CONTRACTION)
-                    .map(StaticFactor::Sparse);
+                return factor.filter(|factor| factor.contraction() <= LARGEST_CONTRACTION).map(StaticFactor::Sparse);
             }
         }
         DenseCholesky::new(&self.stiffness)
@@ -261,9 +237,7 @@ impl StructureModes {
         loads: &DenseMatrix,
     ) -> Result<Self, SystemError> {
         let limit = (TAU * hz).powi(2);
-        let kept = self
-            .squared_frequencies
-            .partition_point(|&square| square < limit);
+        let kept = self.squared_frequencies.partition_point(|&square| square < limit);
         let lowest = self.shapes.subcols(0, kept);
         let parts = lowest.transpose() * loads;
         let amplitudes = DenseMatrix::from_fn(kept, loads.ncols(), |mode, load| {
@@ -296,12 +270,7 @@ impl StructureModes {
 
     /// `phi_mode . row`.
     pub fn participation(&self, mode: usize, row: &[f64]) -> f64 {
-        self.shapes
-            .col(mode)
-            .iter()
-            .zip(row)
-            .map(|(shape, factor)| shape * factor)
-            .sum()
+        self.shapes.col(mode).iter().zip(row).map(|(shape, factor)| shape * factor).sum()
     }
 }
 
@@ -322,10 +291,7 @@ mod tests {
         let structure = structure_of(LARGEST_DENSE / 3 + 1);
         let modes = structure.lowest_modes(20).unwrap();
         assert!(modes.has_more && modes.count() == 20);
-        let (stiff, heavy) = (
-            structure.stiffness() * &modes.shapes,
-            structure.mass() * &modes.shapes,
-        );
+        let (stiff, heavy) = (structure.stiffness() * &modes.shapes, structure.mass() * &modes.shapes);
         for mode in 0..20 {
             let square = modes.squared_frequencies[mode];
             let rest = stiff.col(mode) - heavy.col(mode) * faer::Scale(square);
@@ -334,10 +300,7 @@ mod tests {
         }
         let load = DenseMatrix::from_fn(structure.dof(), 1, |row, _| f64::from(u8::from(row == 7)));
         let response = structure.static_response(&load).unwrap();
-        assert!(matches!(
-            structure.factor.get(),
-            Some(Some(StaticFactor::Sparse(_)))
-        ));
+        assert!(matches!(structure.factor.get(), Some(Some(StaticFactor::Sparse(_)))));
         let rest = structure.stiffness() * &response - &load;
         // stiffness of an element times the displacement, 1e9 N/m and 1e-6 m, in the last digits
         assert!(rest.norm_max() < 1e-9, "{:e}", rest.norm_max());

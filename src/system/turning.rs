@@ -21,12 +21,7 @@ const QUARTERS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0
 pub(super) fn directions(turns: [f64; 2]) -> [[f64; 2]; 2] {
     let quarters = turns.map(|turn| nearest_whole(4.0 * turn));
     let [first, second] = [0, 1].map(|i| TAU * (turns[i] - 0.25 * quarters[i]));
-    let squares = [
-        first * first,
-        first * first,
-        second * second,
-        second * second,
-    ];
+    let squares = [first * first, first * first, second * second, second * second];
     let mut sums = COEFFICIENTS[0];
     for row in &COEFFICIENTS[1..] {
         sums = each(|l| sums[l] * squares[l] + row[l]);
@@ -69,10 +64,7 @@ mod tests {
             for (turn, [c, s]) in turns.into_iter().zip(directions(turns)) {
                 let (sin, cos) = (TAU * turn).sin_cos();
                 // the library's argument is rounded by up to 4e-16, and 2 pi in it by 2e-16
-                assert!(
-                    (c - cos).abs() < 1.1e-15 && (s - sin).abs() < 1.1e-15,
-                    "{turn}"
-                );
+                assert!((c - cos).abs() < 1.1e-15 && (s - sin).abs() < 1.1e-15, "{turn}");
                 assert!((c * c + s * s - 1.0).abs() < 5e-16, "{turn}");
             }
         }

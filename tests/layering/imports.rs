@@ -39,10 +39,7 @@ struct Named {
 /// Every arrow of the crate.
 pub fn arrows(sources: &[Source]) -> Vec<Arrow> {
     let named: Vec<Vec<Named>> = sources.iter().map(named_paths).collect();
-    let mut modules = Modules {
-        files: BTreeMap::new(),
-        names: BTreeMap::new(),
-    };
+    let mut modules = Modules { files: BTreeMap::new(), names: BTreeMap::new() };
     for (source, named) in sources.iter().zip(&named) {
         let module = module_of(&source.path);
         for named in named.iter().filter(|named| named.used) {
@@ -59,12 +56,7 @@ pub fn arrows(sources: &[Source]) -> Vec<Arrow> {
                 continue;
             };
             if to != source.path {
-                found.push(Arrow {
-                    from: source.path.clone(),
-                    line: named.line,
-                    to: to.to_owned(),
-                    name,
-                });
+                found.push(Arrow { from: source.path.clone(), line: named.line, to: to.to_owned(), name });
             }
         }
     }
@@ -74,9 +66,7 @@ pub fn arrows(sources: &[Source]) -> Vec<Arrow> {
 impl Modules<'_> {
     /// The file that defines what a path names, and the name; none for what is no module of the crate.
     fn definition(&self, path: &[String], depth: usize) -> Option<(&str, String)> {
-        let long = (1..=path.len())
-            .rev()
-            .find(|&k| self.files.contains_key(&path[..k]))?;
+        let long = (1..=path.len()).rev().find(|&k| self.files.contains_key(&path[..k]))?;
         let Some(name) = path.get(long) else {
             return Some((self.files[path], "the module".to_owned()));
         };
@@ -85,8 +75,7 @@ impl Modules<'_> {
             // a name handed on; ten steps end a circle of them
             Some(next) if depth < 10 && next[..] != path[..=long] => {
                 let whole: Vec<String> = next.iter().chain(&path[long + 1..]).cloned().collect();
-                self.definition(&whole, depth + 1)
-                    .or_else(|| Some((self.files[&path[..long]], name.clone())))
+                self.definition(&whole, depth + 1).or_else(|| Some((self.files[&path[..long]], name.clone())))
             }
             _ => Some((self.files[&path[..long]], name.clone())),
         }
@@ -123,21 +112,11 @@ fn named_paths(source: &Source) -> Vec<Named> {
         let used = head.ends_with("use") && !head.ends_with("_use");
         let before = head.trim_end_matches("use").trim_end();
         let handed_on = used && (before.ends_with("pub") || before.ends_with(')'));
-        let end = if used {
-            place + text[place..].find(';').unwrap_or(0)
-        } else {
-            place
-        };
+        let end = if used { place + text[place..].find(';').unwrap_or(0) } else { place };
         covered = end;
         for (path, called) in paths(&text[place..], used) {
             if let Some(path) = whole(&module, &path) {
-                found.push(Named {
-                    line: line_at(place),
-                    path,
-                    called,
-                    handed_on,
-                    used,
-                });
+                found.push(Named { line: line_at(place), path, called, handed_on, used });
             }
         }
     }
@@ -156,11 +135,7 @@ fn path_starts(text: &str) -> Vec<usize> {
         found.extend(places.filter(|&place| begins(place)));
     }
     let uses = text.match_indices("use ").filter(|&(place, _)| {
-        begins(place)
-            && text[..place]
-                .rsplit('\n')
-                .next()
-                .is_some_and(|line| !line.contains('"'))
+        begins(place) && text[..place].rsplit('\n').next().is_some_and(|line| !line.contains('"'))
     });
     found.extend(uses.map(|(place, word)| place + word.len()));
     found.sort_unstable();
@@ -198,10 +173,7 @@ fn tree(text: &str, above: &[String], used: bool, found: &mut Vec<(Vec<String>, 
                 }
             }
         }
-        let name: String = text[at..]
-            .chars()
-            .take_while(|c| c.is_alphanumeric() || *c == '_' || *c == '*')
-            .collect();
+        let name: String = text[at..].chars().take_while(|c| c.is_alphanumeric() || *c == '_' || *c == '*').collect();
         at += name.len();
         if name.is_empty() {
             break;
@@ -217,10 +189,7 @@ fn tree(text: &str, above: &[String], used: bool, found: &mut Vec<(Vec<String>, 
     }
     let mut called = path.last().cloned().unwrap_or_default();
     if let Some(rest) = text[at..].strip_prefix(" as ").filter(|_| used) {
-        called = rest
-            .chars()
-            .take_while(|c| c.is_alphanumeric() || *c == '_')
-            .collect();
+        called = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
         at += " as ".len() + called.len();
     }
     if path.len() > above.len() || !above.is_empty() {

@@ -30,12 +30,7 @@ const WINGS: &[(&str, &[&str])] = &[
     ("system", &["fe", "bearing", "numerics"]),
     ("formats", &["fe", "signal", "system", "numerics", "files"]),
     ("report", &["numerics"]),
-    (
-        "app",
-        &[
-            "report", "formats", "system", "signal", "bearing", "fe", "numerics", "files",
-        ],
-    ),
+    ("app", &["report", "formats", "system", "signal", "bearing", "fe", "numerics", "files"]),
 ];
 
 /// The files with `unsafe` in them: a foreign library each.
@@ -65,21 +60,14 @@ fn violations(sources: &[Source], arrows: &[Arrow]) -> Vec<String> {
         }
         for (line, text) in &source.code {
             if has_word(text, "unsafe") {
-                found.push(format!(
-                    "{}:{line}: `unsafe` outside {}",
-                    source.path,
-                    UNSAFE_FILES.join(", ")
-                ));
+                found.push(format!("{}:{line}: `unsafe` outside {}", source.path, UNSAFE_FILES.join(", ")));
             }
         }
     }
     for arrow in arrows {
         let (from, to) = (wing(&arrow.from), wing(&arrow.to));
         let Some((_, below)) = WINGS.iter().find(|(name, _)| *name == from) else {
-            found.push(format!(
-                "{}: `{from}` is not in the table of wings",
-                arrow.from
-            ));
+            found.push(format!("{}: `{from}` is not in the table of wings", arrow.from));
             continue;
         };
         if from != to && !below.contains(&to) {
@@ -107,8 +95,7 @@ fn circles_in_words(arrows: &[Arrow], name: impl Fn(&str) -> String) -> Vec<Stri
             let (from, to) = (name(&arrow.from), name(&arrow.to));
             from != to && members.contains(&from) && members.contains(&to)
         });
-        let ties =
-            ties.map(|tie| format!("  {}:{} -> {} ({})", tie.from, tie.line, tie.to, tie.name));
+        let ties = ties.map(|tie| format!("  {}:{} -> {} ({})", tie.from, tie.line, tie.to, tie.name));
         let ties: BTreeSet<String> = ties.collect();
         let ties: Vec<String> = ties.into_iter().collect();
         format!("circle of {members:?}:\n{}", ties.join("\n"))
@@ -131,10 +118,7 @@ fn wings_import_downwards_and_unsafe_stays_where_it_is() {
     assert!(found.is_empty(), "{}", found.join("\n"));
     for file in UNSAFE_FILES {
         let source = sources.iter().find(|source| source.path == file).unwrap();
-        assert!(
-            source.code.iter().any(|(_, line)| has_word(line, "unsafe")),
-            "{file}"
-        );
+        assert!(source.code.iter().any(|(_, line)| has_word(line, "unsafe")), "{file}");
     }
 }
 
@@ -157,11 +141,7 @@ fn the_picture_is_that_of_the_code() {
         std::fs::write(&file, &made).unwrap();
     }
     let kept = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(
-        kept == made,
-        "{} is not that of the code: PLUMMER_WRITE=1 cargo test --test layering",
-        file.display()
-    );
+    assert!(kept == made, "{} is not that of the code: PLUMMER_WRITE=1 cargo test --test layering", file.display());
 }
 
 /// A small house of files, each path with its text.
@@ -174,15 +154,9 @@ fn house(files: &[(&str, &str)]) -> Vec<Source> {
 fn the_checker_fires() {
     let base = [
         ("numerics/mod.rs", "pub mod linalg;\n"),
-        (
-            "numerics/linalg/mod.rs",
-            "mod sparse;\npub use sparse::{SparseMatrix, other};\n",
-        ),
+        ("numerics/linalg/mod.rs", "mod sparse;\npub use sparse::{SparseMatrix, other};\n"),
         ("numerics/linalg/sparse.rs", "pub struct SparseMatrix;\n"),
-        (
-            "system/mod.rs",
-            "mod structure;\npub use structure::Structure;\n",
-        ),
+        ("system/mod.rs", "mod structure;\npub use structure::Structure;\n"),
         ("system/structure.rs", "pub struct Structure;\n"),
     ];
     let cases = [
@@ -234,15 +208,9 @@ fn the_checker_fires() {
 fn circles_of_files_are_found_through_re_exports() {
     let sources = house(&[
         ("fe/mod.rs", "pub mod mesh;\n"),
-        (
-            "fe/mesh/mod.rs",
-            "mod a;\nmod b;\npub use a::A;\npub use b::B;\n",
-        ),
+        ("fe/mesh/mod.rs", "mod a;\nmod b;\npub use a::A;\npub use b::B;\n"),
         ("fe/mesh/a.rs", "use super::B;\npub struct A(B);\n"),
-        (
-            "fe/mesh/b.rs",
-            "fn f() -> crate::fe::mesh::A { todo!() }\npub struct B;\n",
-        ),
+        ("fe/mesh/b.rs", "fn f() -> crate::fe::mesh::A { todo!() }\npub struct B;\n"),
         ("fe/mesh/c.rs", "use super::{A, B};\n"),
     ]);
     let found = circles_in_words(&arrows(&sources), |path| path.to_owned());
@@ -258,19 +226,10 @@ fn circles_of_files_are_found_through_re_exports() {
 #[test]
 fn the_checker_lets_pass_what_is_right() {
     let cases = [
-        (
-            "fe/mesh/mod.rs",
-            "//! See [`crate::app::cli`].\nuse crate::numerics::units::LengthUnit;",
-        ),
+        ("fe/mesh/mod.rs", "//! See [`crate::app::cli`].\nuse crate::numerics::units::LengthUnit;"),
         ("fe/mesh/tests.rs", "use crate::app::cli::run;"),
-        (
-            "system/force.rs",
-            "use super::coupled::CoupledSystem;\nconst URL: &str = \"http://x\"; // crate::app::cli",
-        ),
-        (
-            "numerics/linalg/mod.rs",
-            "#[allow(unsafe_code)]\nmod arpack;\nconst SAY: &str = \"unsafe\";",
-        ),
+        ("system/force.rs", "use super::coupled::CoupledSystem;\nconst URL: &str = \"http://x\"; // crate::app::cli"),
+        ("numerics/linalg/mod.rs", "#[allow(unsafe_code)]\nmod arpack;\nconst SAY: &str = \"unsafe\";"),
         ("numerics/linalg/arpack.rs", "unsafe extern \"C\" {}"),
         ("main.rs", "fn main() { plummer::app::cli::main() }"),
     ];

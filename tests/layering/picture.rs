@@ -43,12 +43,7 @@ pub fn svg(wings: &[(&str, &[&str])], sources: &[Source], arrows: &[Arrow]) -> S
     draw_arrows(&mut out, wings, arrows, &tops);
     for (name, (top, height)) in &tops {
         let x = LEFT;
-        let lines: usize = rooms
-            .get(name)
-            .into_iter()
-            .flatten()
-            .map(|(_, room)| room.0)
-            .sum();
+        let lines: usize = rooms.get(name).into_iter().flatten().map(|(_, room)| room.0).sum();
         let _ = writeln!(
             out,
             "<rect x=\"{x}\" y=\"{top}\" width=\"{}\" height=\"{height}\" rx=\"5\" fill=\"#eef3fa\" stroke=\"#33557f\"/>\n<text x=\"{}\" y=\"{}\" fill=\"#1b2a3d\" font-size=\"14\" font-weight=\"bold\">{name}/</text><text x=\"{}\" y=\"{}\" fill=\"#5b6b80\">{} lines</text>",
@@ -83,18 +78,11 @@ pub fn svg(wings: &[(&str, &[&str])], sources: &[Source], arrows: &[Arrow]) -> S
 fn shown(rooms: &BTreeMap<String, (usize, String)>, wing: &str) -> Vec<(String, (usize, String))> {
     let below = |name: &String| name.strip_prefix(&format!("{wing}/")).map(str::to_owned);
     let rooms = rooms.iter().filter(|(name, _)| !name.ends_with("/mod"));
-    rooms
-        .filter_map(|(name, room)| Some((below(name)?, room.clone())))
-        .collect()
+    rooms.filter_map(|(name, room)| Some((below(name)?, room.clone()))).collect()
 }
 
 /// Arrows between wings that are not already those of a wing below.
-fn draw_arrows(
-    out: &mut String,
-    wings: &[(&str, &[&str])],
-    arrows: &[Arrow],
-    tops: &BTreeMap<&str, (f64, f64)>,
-) {
+fn draw_arrows(out: &mut String, wings: &[(&str, &[&str])], arrows: &[Arrow], tops: &BTreeMap<&str, (f64, f64)>) {
     let mut pairs = BTreeSet::new();
     for arrow in arrows {
         let (from, to) = (wing(&arrow.from), wing(&arrow.to));

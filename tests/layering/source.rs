@@ -16,16 +16,8 @@ pub struct Source {
 impl Source {
     /// A file by its path below `src` and its text; a file of tests has no code.
     pub fn new(path: &str, text: &str) -> Self {
-        let code = if is_test_file(path) {
-            Vec::new()
-        } else {
-            code_lines(text)
-        };
-        Self {
-            path: path.to_owned(),
-            code,
-            says: first_sentence(text),
-        }
+        let code = if is_test_file(path) { Vec::new() } else { code_lines(text) };
+        Self { path: path.to_owned(), code, says: first_sentence(text) }
     }
 }
 
@@ -67,10 +59,7 @@ fn is_test_file(path: &str) -> bool {
 /// What the first lines of `//!` say, to the first full stop.
 fn first_sentence(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix("//!"));
-    let lines: Vec<&str> = lines
-        .map(str::trim)
-        .take_while(|line| !line.is_empty())
-        .collect();
+    let lines: Vec<&str> = lines.map(str::trim).take_while(|line| !line.is_empty()).collect();
     let whole = lines.join(" ").replace(['`', '[', ']'], "");
     let end = whole.find(". ").unwrap_or(whole.len());
     whole[..end].trim_end_matches('.').to_owned()
@@ -130,7 +119,5 @@ fn without_comment(line: &str) -> &str {
 /// Whether `word` stands in `text` by itself, outside strings.
 pub fn has_word(text: &str, word: &str) -> bool {
     let outside: String = text.split('"').step_by(2).collect::<Vec<_>>().join(" ");
-    outside
-        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
-        .any(|found| found == word)
+    outside.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|found| found == word)
 }

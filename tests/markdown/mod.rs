@@ -26,11 +26,7 @@ pub fn split(text: &str) -> (Vec<Block>, Vec<(usize, &str)>) {
         match (line.trim_start().strip_prefix("```"), open) {
             (Some(info), false) => {
                 open = true;
-                blocks.push(Block {
-                    info: info.trim().to_owned(),
-                    lines: Vec::new(),
-                    line: index + 1,
-                });
+                blocks.push(Block { info: info.trim().to_owned(), lines: Vec::new(), line: index + 1 });
             }
             (Some(_), true) => open = false,
             (None, true) => blocks.last_mut().unwrap().lines.push(line.to_owned()),
@@ -47,8 +43,5 @@ fn fences_part_blocks_from_prose() {
     assert_eq!(prose, [(1, "a"), (5, "c")]);
     let found: Vec<_> = blocks.iter().map(|block| block.info.as_str()).collect();
     assert_eq!(found, ["sh exit=1", "text"]);
-    assert_eq!(
-        (blocks[1].lines.as_slice(), blocks[1].line),
-        (&["d".to_owned(), "e".to_owned()][..], 6)
-    );
+    assert_eq!((blocks[1].lines.as_slice(), blocks[1].line), (&["d".to_owned(), "e".to_owned()][..], 6));
 }

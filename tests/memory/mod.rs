@@ -16,20 +16,12 @@ pub struct Random(pub u64);
 impl Random {
     /// The next number.
     pub fn next(&mut self) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize
     }
 
     /// A file with one to four bytes changed, to one of two or to any; `place` chooses where.
-    pub fn damaged(
-        &mut self,
-        whole: &[u8],
-        likely: [u8; 2],
-        mut place: impl FnMut(&mut Self) -> usize,
-    ) -> Vec<u8> {
+    pub fn damaged(&mut self, whole: &[u8], likely: [u8; 2], mut place: impl FnMut(&mut Self) -> usize) -> Vec<u8> {
         let mut bytes = whole.to_vec();
         for _ in 0..1 + self.next() % 4 {
             let place = place(self);

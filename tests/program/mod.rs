@@ -14,11 +14,7 @@ pub fn scratch(name: &str) -> PathBuf {
 
 /// The program with these arguments in a folder, to its end.
 pub fn plummer(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .unwrap()
+    Command::new(env!("CARGO_BIN_EXE_plummer")).current_dir(folder).args(words).output().unwrap()
 }
 
 /// What it wrote to standard error.

@@ -99,10 +99,7 @@ fn ran(program: &str, folder: &Path, signals: &Path, command: &str) -> (Option<i
         .output()
         .unwrap();
     let text = [output.stdout, output.stderr].concat();
-    (
-        output.status.code(),
-        String::from_utf8_lossy(&text).into_owned(),
-    )
+    (output.status.code(), String::from_utf8_lossy(&text).into_owned())
 }
 
 fn hold(heading: &str) {
@@ -114,11 +111,7 @@ fn hold(heading: &str) {
         let program = env!("CARGO_BIN_EXE_plummer");
         let (code, text) = ran(program, &folder, &signals, command);
         if code != Some(expected) || !text.contains(words) {
-            writeln!(
-                wrong,
-                "{command}: {code:?}, expected {expected} and \"{words}\":\n{text}"
-            )
-            .unwrap();
+            writeln!(wrong, "{command}: {code:?}, expected {expected} and \"{words}\":\n{text}").unwrap();
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
@@ -175,18 +168,14 @@ fn attacks_as_a_table() {
     let program = std::env::var("PLUMMER_PROGRAM");
     let program = program.unwrap_or_else(|_| env!("CARGO_BIN_EXE_plummer").to_owned());
     let signals = signals(&scratch("attacks-table-signals"));
-    println!(
-        "| command | wanted | exit code | as wanted | first line of the message |\n|---|---|---|---|---|"
-    );
+    println!("| command | wanted | exit code | as wanted | first line of the message |\n|---|---|---|---|---|");
     let headings = LIST.split("\n## ").skip(1);
     for heading in headings.filter_map(|section| section.lines().next()) {
         let (mut held, mut all) = (0, 0);
         for (expected, command, words) in lines(heading) {
             let (code, text) = ran(&program, &scratch("attacks-table"), &signals, command);
             let as_wanted = code == Some(expected) && text.contains(words);
-            let message = text
-                .lines()
-                .find(|line| line.starts_with("error") || line.starts_with("warning"));
+            let message = text.lines().find(|line| line.starts_with("error") || line.starts_with("warning"));
             let code = code.map_or("signal".to_owned(), |code| code.to_string());
             let command = command.replace('|', "\\|");
             println!(

@@ -14,9 +14,7 @@ use std::process::{Command, Output, Stdio};
 use super::program::{errors, scratch};
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("examples")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name)
 }
 
 /// Whether this is root: the owner of a file that was just made.
@@ -36,9 +34,7 @@ impl SmallDisk {
             .arg(&folder)
             .stderr(Stdio::null())
             .status();
-        status
-            .is_ok_and(|status| status.success())
-            .then_some(Self(folder))
+        status.is_ok_and(|status| status.success()).then_some(Self(folder))
     }
 }
 
@@ -85,10 +81,7 @@ fn a_full_disk_is_an_error_that_names_the_file() {
         let said = errors(&output);
         assert_eq!(code(&output), Some(1), "{name}: {said}");
         assert!(said.contains("No space left on device"), "{name}: {said}");
-        assert!(
-            said.contains(&disk.0.display().to_string()),
-            "{name}: {said}"
-        );
+        assert!(said.contains(&disk.0.display().to_string()), "{name}: {said}");
         let result = disk.0.join("out").join(format!("{name}.json"));
         assert!(!result.exists(), "{name}: a result without its files");
     }
@@ -113,21 +106,13 @@ fn a_folder_that_cannot_be_written_is_an_error_before_anything_is_computed() {
     let nobody = |words: &[&str]| {
         let mut command = Command::new(&program);
         // nobody and nogroup on Debian
-        command
-            .uid(65534)
-            .gid(65534)
-            .current_dir(&folder)
-            .args(words);
+        command.uid(65534).gid(65534).current_dir(&folder).args(words);
         command.output().unwrap()
     };
     let words = ["modes", "case.toml", "--quiet", "--out"];
     let output = nobody(&[&words[..], &["closed/out"]].concat());
     assert_eq!(code(&output), Some(2), "{}", errors(&output));
-    assert!(
-        errors(&output).contains("cannot make the folder closed/out"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("cannot make the folder closed/out"), "{}", errors(&output));
     let output = nobody(&[&words[..], &["closed"]].concat());
     assert!(matches!(code(&output), Some(1 | 2)), "{}", errors(&output));
     assert!(errors(&output).contains("closed"), "{}", errors(&output));
@@ -135,21 +120,14 @@ fn a_folder_that_cannot_be_written_is_an_error_before_anything_is_computed() {
     fs::set_permissions(&case, fs::Permissions::from_mode(0o000)).unwrap();
     let output = nobody(&[&words[..], &["/tmp"]].concat());
     assert_eq!(code(&output), Some(2));
-    assert!(
-        errors(&output).contains("cannot read the case file case.toml: Permission denied"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("cannot read the case file case.toml: Permission denied"), "{}", errors(&output));
     fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_full_standard_output_is_an_error_and_a_closed_one_is_none() {
     let beam = example("tadina2011/beam.toml");
-    for (name, target, expected) in [
-        ("full", "/dev/full", Some(1)),
-        ("null", "/dev/null", Some(0)),
-    ] {
+    for (name, target, expected) in [("full", "/dev/full", Some(1)), ("null", "/dev/null", Some(0))] {
         let out = scratch(&format!("stdout-{name}"));
         let status = Command::new(env!("CARGO_BIN_EXE_plummer"))
             .arg("modes")
@@ -181,18 +159,11 @@ fn decimal_commas_of_a_locale_change_nothing() {
     let words = ["modes", &beam, "--set", "modes.variants=[]"];
     let frequencies = |name: &str, locale: &str| {
         let out = scratch(name);
-        let status = plummer(&words, &out)
-            .env("LC_ALL", locale)
-            .env("LANG", locale)
-            .status()
-            .unwrap();
+        let status = plummer(&words, &out).env("LC_ALL", locale).env("LANG", locale).status().unwrap();
         assert!(status.success());
         let text = fs::read(out.join("modes.json")).unwrap();
         let json: serde_json::Value = serde_json::from_slice(&text).unwrap();
         json["frequencies_hz"].clone()
     };
-    assert_eq!(
-        frequencies("locale-c", "C"),
-        frequencies("locale-de", "de_DE.UTF-8")
-    );
+    assert_eq!(frequencies("locale-c", "C"), frequencies("locale-de", "de_DE.UTF-8"));
 }

@@ -29,17 +29,12 @@ impl Blocks {
             for y in 0..side {
                 for x in 0..side {
                     let at = [x, y, z].map(|i| 0.1 * i as f64 / cells as f64);
-                    self.nodes
-                        .push([0, 1, 2].map(|axis| corner[axis] + at[axis]));
+                    self.nodes.push([0, 1, 2].map(|axis| corner[axis] + at[axis]));
                 }
             }
         }
         let node = |x: usize, y: usize, z: usize| first + x + side * (y + side * z);
-        let _ = writeln!(
-            self.names,
-            "3 {group} \"{name}\"\n2 {} \"{name}_bottom\"",
-            group + 10
-        );
+        let _ = writeln!(self.names, "3 {group} \"{name}\"\n2 {} \"{name}_bottom\"", group + 10);
         let mut volumes = Vec::new();
         for z in 0..cells {
             for y in 0..cells {
@@ -55,8 +50,7 @@ impl Blocks {
                     };
                     if z == 0 {
                         let bottom = group + 10;
-                        self.elements
-                            .push(format!("3 2 {bottom} {bottom} {}", ring(0)));
+                        self.elements.push(format!("3 2 {bottom} {bottom} {}", ring(0)));
                     }
                     volumes.push(format!("{} {}", ring(z), ring(z + 1)));
                 }
@@ -94,12 +88,9 @@ impl Blocks {
             let all = parts.iter().map(|part| form.replace("PART", part));
             all.collect::<Vec<_>>().join(", ")
         };
-        let bottoms = parts
-            .iter()
-            .filter(|part| self.names.contains(&format!("\"{part}_bottom\"")));
-        let bottoms = bottoms.map(|part| {
-            format!("{{ group = '{part}_bottom', spring = {{ x = 1e9, y = 1e9, z = 1e9 }} }}")
-        });
+        let bottoms = parts.iter().filter(|part| self.names.contains(&format!("\"{part}_bottom\"")));
+        let bottoms =
+            bottoms.map(|part| format!("{{ group = '{part}_bottom', spring = {{ x = 1e9, y = 1e9, z = 1e9 }} }}"));
         let case = format!(
             "[housing]\nmesh = 'blocks.msh'\nlength_unit = 'm'\nparts = [{}]\nsupports = [{}]\n{more}\n[modes]\ncount = 4\n",
             each("{ group = 'PART', material = 'aluminium' }"),
@@ -144,10 +135,7 @@ fn an_element_of_two_parts_is_refused() {
     let turned = [&turned[1..4], &turned[..1], &turned[5..], &turned[4..5]].concat();
     blocks.volume(2, 7, &turned.join(" "));
     blocks.write(&folder, &["a", "b"], "");
-    refused(
-        &folder,
-        &["1 element stands", "elements 23 and 37", "\"a\" and \"b\""],
-    );
+    refused(&folder, &["1 element stands", "elements 23 and 37", "\"a\" and \"b\""]);
 }
 
 #[test]
@@ -180,14 +168,7 @@ fn a_body_in_another_is_refused_unless_allowed() {
         blocks.cube(1, "a", [0.0; 3], 3);
         blocks.cube(2, "b", [0.0; 3], cells);
         blocks.write(&folder, &["a", "b"], "");
-        refused(
-            &folder,
-            &[
-                "the parts \"a\" and \"b\" lie in one another",
-                "1.000e-3 m^3",
-                "housing.overlap",
-            ],
-        );
+        refused(&folder, &["the parts \"a\" and \"b\" lie in one another", "1.000e-3 m^3", "housing.overlap"]);
         blocks.write(&folder, &["a", "b"], "overlap = 'allow'");
         let output = modes(&folder);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
@@ -226,11 +207,7 @@ fn parts_that_touch_without_a_link_are_said() {
         }
         assert!(page.contains("touch without common nodes"));
         for link in ["tie = true", "spring = { x = 1e9 }"] {
-            blocks.write(
-                &folder,
-                &["a", "b"],
-                &format!("links = [{{ between = ['a', 'b'], {link} }}]"),
-            );
+            blocks.write(&folder, &["a", "b"], &format!("links = [{{ between = ['a', 'b'], {link} }}]"));
             let output = modes(&folder);
             assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
             assert!(!text(&output).contains("warning"), "{}", text(&output));
@@ -247,10 +224,9 @@ fn export_and_sweep_say_what_modes_say() {
     blocks.cube(2, "b", [0.1, 0.0, 0.0], 2);
     blocks.write(&folder, &["a", "b"], "");
     let vary = ["--vary", "modes.count=4,5"];
-    for (command, words) in [
-        ("export", &["--to", "mtx"][..]),
-        ("sweep", &[&["--command", "modes"], &vary[..]].concat()),
-    ] {
+    for (command, words) in
+        [("export", &["--to", "mtx"][..]), ("sweep", &[&["--command", "modes"], &vary[..]].concat())]
+    {
         let line = [&[command, "case.toml", "--out", command], words].concat();
         let output = plummer(&folder, &line);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));

@@ -35,8 +35,7 @@ impl Grids {
     pub fn element(&mut self, kind: usize, dimension: usize, name: &str, nodes: &[usize]) {
         let group = self.group(dimension, name);
         let nodes: Vec<String> = nodes.iter().map(usize::to_string).collect();
-        self.elements
-            .push(format!("{kind} 2 {group} {group} {}", nodes.join(" ")));
+        self.elements.push(format!("{kind} 2 {group} {group} {}", nodes.join(" ")));
     }
 
     /// The node at a place, an old one if `merge` and there is one.
@@ -65,14 +64,7 @@ impl Grids {
         for z in 0..zs.len() - 1 {
             for y in 0..ys.len() - 1 {
                 for x in 0..xs.len() - 1 {
-                    let face = |z| {
-                        [
-                            of(x, y, z),
-                            of(x + 1, y, z),
-                            of(x + 1, y + 1, z),
-                            of(x, y + 1, z),
-                        ]
-                    };
+                    let face = |z| [of(x, y, z), of(x + 1, y, z), of(x + 1, y + 1, z), of(x, y + 1, z)];
                     let cell = [face(z), face(z + 1)].concat();
                     self.element(5, 3, name, &cell);
                     cells.push(cell);
@@ -90,10 +82,7 @@ impl Grids {
 
     /// Writes the mesh as `grid.msh`.
     pub fn write(&self, folder: &Path) {
-        let mut text = format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
-            self.groups.len()
-        );
+        let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", self.groups.len());
         for (tag, (dimension, name)) in (1..).zip(&self.groups) {
             let _ = writeln!(text, "{dimension} {tag} \"{name}\"");
         }
@@ -121,12 +110,7 @@ pub fn modes(folder: &Path, housing: &str) -> Output {
 
 /// The warnings and the lowest frequency, Hz, of a run of `modes` that went well.
 pub fn result(folder: &Path, output: &Output) -> (String, f64) {
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}",
-        super::program::errors(output)
-    );
+    assert_eq!(output.status.code(), Some(0), "{}", super::program::errors(output));
     let json = fs::read_to_string(folder.join("out/modes.json")).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let warnings = json["warnings"].to_string();

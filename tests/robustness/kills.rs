@@ -26,10 +26,7 @@ struct Killed {
 fn commands(folder: &Path) -> Vec<Killed> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR"));
     let path = |name: &str| project.join(name).display().to_string();
-    let (beam, smooth) = (
-        path("examples/tadina2011/beam.toml"),
-        path("examples/scenes/smooth.toml"),
-    );
+    let (beam, smooth) = (path("examples/tadina2011/beam.toml"), path("examples/scenes/smooth.toml"));
     let pedestal = path("examples/scenes/pedestal.toml");
     let transfer = path("examples/transfer/pedestal.toml");
     let run = folder.join("of-run").display().to_string();
@@ -39,26 +36,9 @@ fn commands(folder: &Path) -> Vec<Killed> {
         resumes,
     };
     vec![
-        command(
-            "init",
-            false,
-            &["init", &path("meshes/pedestal.msh"), "--length-unit", "mm"],
-        ),
-        command(
-            "inspect",
-            false,
-            &[
-                "inspect",
-                &path("meshes/pedestal.msh"),
-                "--length-unit",
-                "mm",
-            ],
-        ),
-        command(
-            "modes",
-            false,
-            &["modes", &beam, "--set", "modes.variants=[]"],
-        ),
+        command("init", false, &["init", &path("meshes/pedestal.msh"), "--length-unit", "mm"]),
+        command("inspect", false, &["inspect", &path("meshes/pedestal.msh"), "--length-unit", "mm"]),
+        command("modes", false, &["modes", &beam, "--set", "modes.variants=[]"]),
         command("modes-mesh", false, &["modes", &pedestal]),
         command("condense", false, &["condense", &transfer]),
         command("frf", false, &["frf", &transfer]),
@@ -76,11 +56,7 @@ fn commands(folder: &Path) -> Vec<Killed> {
                 "0",
             ],
         ),
-        command(
-            "analyze",
-            false,
-            &["analyze", &run, "--window", "2.05:2.75"],
-        ),
+        command("analyze", false, &["analyze", &run, "--window", "2.05:2.75"]),
         command("report", false, &["report", &run]),
         command(
             "chart",
@@ -187,14 +163,7 @@ fn fault(whole: &Path, killed: &Path, name: &Path) -> Option<String> {
         Some("uff" | "vtu" | "npz" | "mtx" | "op4" | "toml") => found == expected,
         _ => true,
     };
-    (!sound).then(|| {
-        format!(
-            "{} is half written ({} of {} bytes)",
-            name.display(),
-            found.len(),
-            expected.len()
-        )
-    })
+    (!sound).then(|| format!("{} is half written ({} of {} bytes)", name.display(), found.len(), expected.len()))
 }
 
 /// Below these names files are written piece by piece: a run that is not done, the log of a point.
@@ -209,14 +178,7 @@ fn run_to_analyze(folder: &Path) {
     let made = Command::new(env!("CARGO_BIN_EXE_plummer"))
         .arg("run")
         .arg(project.join("examples/tadina2011/outer-dent.toml"))
-        .args([
-            "--set",
-            "transient.start=2.0",
-            "--set",
-            "transient.end=2.8",
-            "--set",
-            "analysis.envelope=[]",
-        ])
+        .args(["--set", "transient.start=2.0", "--set", "transient.end=2.8", "--set", "analysis.envelope=[]"])
         .args(["--set", "analysis.energy=false", "--quiet", "--out"])
         .arg(folder.join("of-run"))
         .status()
@@ -232,10 +194,7 @@ fn torture(name: &str, kills: usize, seed: u64, wanted: impl Fn(&str) -> bool) -
     }
     let mut dice = Dice(seed);
     let mut killed = 0;
-    for command in commands(&folder)
-        .into_iter()
-        .filter(|command| wanted(command.name))
-    {
+    for command in commands(&folder).into_iter().filter(|command| wanted(command.name)) {
         let whole = folder.join(format!("{}-whole", command.name));
         let begun = Instant::now();
         let output = start(&command, &whole, "").wait_with_output().unwrap();
@@ -259,27 +218,16 @@ fn torture(name: &str, kills: usize, seed: u64, wanted: impl Fn(&str) -> bool) -
             }
             go_on(&command, &out);
             for file in files(&whole).into_iter().filter(|name| !unfinished(name)) {
-                assert!(
-                    out.join(&file).exists(),
-                    "{}: {} is missing",
-                    command.name,
-                    file.display()
-                );
+                assert!(out.join(&file).exists(), "{}: {} is missing", command.name, file.display());
                 if let Some(fault) = fault(&whole, &out, &file) {
                     panic!("{} run again after a kill: {fault}", command.name);
                 }
             }
-            let left = files(&out)
-                .into_iter()
-                .find(|name| unfinished(name) && !name.ends_with("log.txt"));
+            let left = files(&out).into_iter().find(|name| unfinished(name) && !name.ends_with("log.txt"));
             assert!(left.is_none(), "{}: {left:?} is left", command.name);
             fs::remove_dir_all(&out).unwrap();
         }
-        println!(
-            "{:10} {:6.2} s, {early} of {kills} kills before its end",
-            command.name,
-            took.as_secs_f64()
-        );
+        println!("{:10} {:6.2} s, {early} of {kills} kills before its end", command.name, took.as_secs_f64());
         killed += early;
     }
     killed
@@ -288,21 +236,13 @@ fn torture(name: &str, kills: usize, seed: u64, wanted: impl Fn(&str) -> bool) -
 /// Runs a killed command again: goes on where it can, and begins anew where there is nothing to go on with.
 fn go_on(command: &Killed, out: &Path) {
     // processes of a sweep outlive it for a moment
-    sleep(Duration::from_millis(if command.name == "sweep" {
-        400
-    } else {
-        0
-    }));
-    let resumable = command.resumes
-        && (out.join(".run.partial/checkpoint").exists() || out.join("sweep/plan.json").exists());
+    sleep(Duration::from_millis(if command.name == "sweep" { 400 } else { 0 }));
+    let resumable =
+        command.resumes && (out.join(".run.partial/checkpoint").exists() || out.join("sweep/plan.json").exists());
     let more = if resumable { "--resume" } else { "--force" };
     let output = start(command, out, more).wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        output.status.success(),
-        "{} {more} after a kill: {said}",
-        command.name
-    );
+    assert!(output.status.success(), "{} {more} after a kill: {said}", command.name);
 }
 
 #[test]
@@ -317,8 +257,7 @@ fn a_kill_leaves_no_half_written_file() {
 fn two_hundred_kills_of_each_command() {
     // some of the commands, by their names here
     let only = std::env::var("PLUMMER_ONLY").unwrap_or_default();
-    let killed = torture("kills-long", rounds(200), 99, |name| {
-        only.is_empty() || only.split(',').any(|one| one == name)
-    });
+    let killed =
+        torture("kills-long", rounds(200), 99, |name| only.is_empty() || only.split(',').any(|one| one == name));
     println!("{killed} kills before the end");
 }

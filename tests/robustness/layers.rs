@@ -38,34 +38,10 @@ fn flat_layers_are_said_where_they_are_too_soft() {
     let block: Stack = &[("a", 0.1, 1, false), ("b", 0.01, 1, true)];
     for (name, stack, materials, more, told) in [
         ("held", plate, ["steel", ""], fixed.to_owned(), true),
-        (
-            "on stiff springs",
-            plate,
-            ["steel", ""],
-            springs("1e15"),
-            true,
-        ),
-        (
-            "on soft springs",
-            plate,
-            ["steel", ""],
-            springs("1e5"),
-            false,
-        ),
-        (
-            "on a stiffer block",
-            block,
-            ["steel", "rubber"],
-            fixed.to_owned(),
-            true,
-        ),
-        (
-            "on a block of its own",
-            block,
-            ["steel", "steel"],
-            fixed.to_owned(),
-            false,
-        ),
+        ("on stiff springs", plate, ["steel", ""], springs("1e15"), true),
+        ("on soft springs", plate, ["steel", ""], springs("1e5"), false),
+        ("on a stiffer block", block, ["steel", "rubber"], fixed.to_owned(), true),
+        ("on a block of its own", block, ["steel", "steel"], fixed.to_owned(), false),
         (
             "tied to a stiffer block",
             &[("a", 0.1, 1, false), ("b", 0.01, 1, false)],
@@ -75,51 +51,29 @@ fn flat_layers_are_said_where_they_are_too_soft() {
         ),
         (
             "between stiffer blocks, in two elements",
-            &[
-                ("a", 0.1, 1, false),
-                ("b", 0.01, 2, true),
-                ("a", 0.002, 1, true),
-            ],
+            &[("a", 0.1, 1, false), ("b", 0.01, 2, true), ("a", 0.002, 1, true)],
             ["steel", "rubber"],
             fixed.to_owned(),
             true,
         ),
         (
             "between stiffer blocks, in one element",
-            &[
-                ("a", 0.1, 1, false),
-                ("b", 0.01, 1, true),
-                ("a", 0.1, 1, true),
-            ],
+            &[("a", 0.1, 1, false), ("b", 0.01, 1, true), ("a", 0.1, 1, true)],
             ["steel", "rubber"],
             fixed.to_owned(),
             false,
         ),
-        (
-            "as high as its edges",
-            &[("a", 0.1, 1, false)],
-            ["steel", ""],
-            fixed.to_owned(),
-            false,
-        ),
+        ("as high as its edges", &[("a", 0.1, 1, false)], ["steel", ""], fixed.to_owned(), false),
     ] as [(&str, Stack, [&str; 2], String, bool); 9]
     {
         write(&folder, stack);
-        let parts = ["a", "b"]
-            .into_iter()
-            .zip(materials)
-            .filter(|(_, material)| !material.is_empty());
-        let parts = parts
-            .map(|(part, material)| format!("{{ group = '{part}', material = '{material}' }},"));
+        let parts = ["a", "b"].into_iter().zip(materials).filter(|(_, material)| !material.is_empty());
+        let parts = parts.map(|(part, material)| format!("{{ group = '{part}', material = '{material}' }},"));
         let housing = format!("parts = [{}]\n{more}", parts.collect::<String>());
         let (warnings, own) = result(&folder, &modes(&folder, &housing));
         let plain = format!("linear = 'plain'\n{housing}");
         let (_, plain) = result(&folder, &modes(&folder, &plain));
         assert_eq!(warnings.contains("flat layers"), told, "{name}: {warnings}");
-        assert_eq!(
-            own < FAR_TOO_LOW * plain,
-            told,
-            "{name}: {own} Hz, plain {plain} Hz"
-        );
+        assert_eq!(own < FAR_TOO_LOW * plain, told, "{name}: {own} Hz, plain {plain} Hz");
     }
 }

@@ -11,11 +11,7 @@ use super::program::{errors, scratch};
 
 /// The healthy scene's run under limits of the shell.
 fn limited(name: &str, limit: &str, set: &str) -> Output {
-    limited_to(
-        name,
-        limit,
-        &format!("run CASE --set transient.end=0.1 {set}"),
-    )
+    limited_to(name, limit, &format!("run CASE --set transient.end=0.1 {set}"))
 }
 
 /// Any command on the case `CASE`.
@@ -26,24 +22,14 @@ fn limited_to(name: &str, limit: &str, command: &str) -> Output {
         env!("CARGO_BIN_EXE_plummer"),
         command.replace("CASE", &scene.display().to_string())
     );
-    Command::new("sh")
-        .arg("-c")
-        .arg(line)
-        .env("RUST_BACKTRACE", "0")
-        .current_dir(scratch(name))
-        .output()
-        .unwrap()
+    Command::new("sh").arg("-c").arg(line).env("RUST_BACKTRACE", "0").current_dir(scratch(name)).output().unwrap()
 }
 
 #[test]
 fn a_file_that_may_not_grow_is_an_error() {
     let output = limited("file-size", "-f 100", "");
     assert_eq!(output.status.code(), Some(1), "{:?}", output.status);
-    assert!(
-        errors(&output).contains("File too large"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("File too large"), "{}", errors(&output));
 }
 
 #[test]
@@ -52,12 +38,7 @@ fn memory_that_does_not_suffice_is_an_error() {
     for megabytes in [60, 100, 150, 200, 300, 400] {
         let output = limited("memory", &format!("-v {}", 1000 * megabytes), "--threads 2");
         let code = output.status.code();
-        assert!(
-            matches!(code, Some(0..=2)),
-            "{megabytes} MB: {:?}: {}",
-            output.status,
-            errors(&output)
-        );
+        assert!(matches!(code, Some(0..=2)), "{megabytes} MB: {:?}: {}", output.status, errors(&output));
         failures += usize::from(code != Some(0));
     }
     assert!(failures > 0, "no limit was too low");
@@ -74,17 +55,11 @@ fn memory_that_does_not_suffice_for_a_matrix_is_an_error() {
 
 #[test]
 fn steps_beyond_measure_are_refused() {
-    for set in [
-        "--set bearing.contact_damping=1e9",
-        "--set transient.step=1e-14",
-    ] {
+    for set in ["--set bearing.contact_damping=1e9", "--set transient.step=1e-14"] {
         let output = limited("steps", "-v 4000000", set);
         assert_eq!(output.status.code(), Some(2), "{set}: {:?}", output.status);
         let text = errors(&output);
-        assert!(
-            text.starts_with("error: step must be at least a millionth of the output interval"),
-            "{set}: {text}"
-        );
+        assert!(text.starts_with("error: step must be at least a millionth of the output interval"), "{set}: {text}");
     }
 }
 
@@ -93,9 +68,5 @@ fn threads_that_cannot_be_started_are_an_error() {
     // each thread has a stack of 2 MB
     let output = limited("threads", "-v 200000", "--threads 500");
     assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
-    assert!(
-        errors(&output).contains("error: the threads that compute cannot be started"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("error: the threads that compute cannot be started"), "{}", errors(&output));
 }

@@ -34,10 +34,7 @@ pub struct Motion {
 
 impl Motion {
     pub fn none() -> Self {
-        Self {
-            rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            shift: [0.0; 3],
-        }
+        Self { rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], shift: [0.0; 3] }
     }
 
     /// By odd angles, within the plane of a plane mesh.
@@ -57,18 +54,12 @@ impl Motion {
         let about_z = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]];
         if !solid {
             shift[2] = 0.0;
-            return Self {
-                rows: about_z,
-                shift,
-            };
+            return Self { rows: about_z, shift };
         }
         let (sin, cos) = second.sin_cos();
         let about_x = [[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]];
         let entry = |i: usize, j: usize| (0..3).map(|k| about_x[i][k] * about_z[k][j]).sum();
-        Self {
-            rows: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
-            shift,
-        }
+        Self { rows: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))), shift }
     }
 
     pub fn direction(&self, along: [f64; 3]) -> [f64; 3] {
@@ -90,9 +81,7 @@ const HEIGHTS: [f64; 3] = [-2e-3, 0.3e-3, 2e-3];
 pub fn annulus(solid: bool) -> Mesh {
     let heights = if solid { &HEIGHTS[..] } else { &[0.0] };
     let layers = heights.len();
-    let number = |around: usize, radius: usize, layer: usize| {
-        around % AROUND + AROUND * (radius + RADII.len() * layer)
-    };
+    let number = |around: usize, radius: usize, layer: usize| around % AROUND + AROUND * (radius + RADII.len() * layer);
     let mut nodes = Vec::new();
     for &z in heights {
         for radius in RADII {
@@ -142,14 +131,7 @@ pub fn annulus(solid: bool) -> Mesh {
             }
         }
     }
-    Mesh {
-        solid,
-        metre: 1.0,
-        tags: (1..=nodes.len()).collect(),
-        nodes,
-        elements,
-        groups: groups.to_vec(),
-    }
+    Mesh { solid, metre: 1.0, tags: (1..=nodes.len()).collect(), nodes, elements, groups: groups.to_vec() }
 }
 
 /// The same element begun at another corner.
@@ -183,10 +165,7 @@ impl Mesh {
         for (place, &old) in order.iter().enumerate() {
             new[old] = place;
         }
-        let nodes = self
-            .elements
-            .iter_mut()
-            .flat_map(|element| &mut element.nodes);
+        let nodes = self.elements.iter_mut().flat_map(|element| &mut element.nodes);
         nodes.for_each(|node| *node = new[*node]);
     }
 
@@ -221,10 +200,7 @@ impl Mesh {
         let place = self.groups.iter().position(|(_, name)| name == group);
         let place = place.unwrap();
         self.groups.push((self.groups[place].0, rest.to_owned()));
-        let own = self
-            .elements
-            .iter_mut()
-            .filter(|element| element.group == place);
+        let own = self.elements.iter_mut().filter(|element| element.group == place);
         for element in own.skip(1).step_by(2) {
             element.group = self.groups.len() - 1;
         }
@@ -232,10 +208,7 @@ impl Mesh {
 
     /// MSH 2.2, with nodes at other places.
     pub fn text(&self, place: &dyn Fn([f64; 3]) -> [f64; 3]) -> String {
-        let mut text = format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
-            self.groups.len()
-        );
+        let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", self.groups.len());
         for (group, (dimension, name)) in (1..).zip(&self.groups) {
             writeln!(text, "{dimension} {group} \"{name}\"").unwrap();
         }

@@ -24,9 +24,7 @@ fn cube(folder: &Path) {
         nodes.pow(3)
     );
     let number = |[i, j, k]: [usize; 3]| 1 + i + nodes * (j + nodes * k);
-    let all = |count: usize| {
-        (0..count.pow(3)).map(move |n| [n % count, n / count % count, n / count.pow(2)])
-    };
+    let all = |count: usize| (0..count.pow(3)).map(move |n| [n % count, n / count % count, n / count.pow(2)]);
     for at in all(nodes) {
         let [x, y, z] = at.map(place);
         writeln!(text, "{} {x} {y} {z}", number(at)).unwrap();
@@ -53,16 +51,7 @@ fn cube(folder: &Path) {
 fn modes(folder: &Path, asked: &str) -> Result<Value, (Option<i32>, String)> {
     let output = plummer(
         folder,
-        &[
-            "modes",
-            "case.toml",
-            "--json",
-            "--force",
-            "--out",
-            "out",
-            "--set",
-            &format!("modes={{{asked}}}"),
-        ],
+        &["modes", "case.toml", "--json", "--force", "--out", "out", "--set", &format!("modes={{{asked}}}")],
     );
     if output.status.success() {
         Ok(serde_json::from_slice(&output.stdout).unwrap())
@@ -72,12 +61,7 @@ fn modes(folder: &Path, asked: &str) -> Result<Value, (Option<i32>, String)> {
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|number| number.as_f64().unwrap())
-        .collect()
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
 /// These modes of all, and the count agrees.
@@ -89,20 +73,11 @@ fn assert_found(found: &Value, expected: &[f64], what: &str) {
         if *expected < 1.0 {
             assert!(*hz < 1e-3, "{what}: {hz} Hz");
         } else {
-            assert!(
-                (hz / expected - 1.0).abs() < 1e-8,
-                "{what}: {hz} {expected}"
-            );
+            assert!((hz / expected - 1.0).abs() < 1e-8, "{what}: {hz} {expected}");
         }
     }
-    assert_eq!(
-        found["count_check"]["counted"], found["count_check"]["found"],
-        "{what}"
-    );
-    assert!(
-        found["count_check"]["found"].as_u64().unwrap() >= expected.len() as u64,
-        "{what}"
-    );
+    assert_eq!(found["count_check"]["counted"], found["count_check"]["found"], "{what}");
+    assert!(found["count_check"]["found"].as_u64().unwrap() >= expected.len() as u64, "{what}");
     assert!(found["orthogonality"].as_f64().unwrap() < 1e-10, "{what}");
 }
 
@@ -119,10 +94,7 @@ fn any_number_of_modes_of_a_free_cube() {
     }
     let (code, text) = modes(&folder, "count=1030").unwrap_err();
     assert_eq!(code, Some(2), "{text}");
-    assert!(
-        text.contains("1030 modes asked for, but the model has only 1029"),
-        "{text}"
-    );
+    assert!(text.contains("1030 modes asked for, but the model has only 1029"), "{text}");
 
     let up_to = |hz: f64| all.iter().filter(|&&mode| mode <= hz).count();
     let found = modes(&folder, "up_to_hz=70000").unwrap();
@@ -153,10 +125,9 @@ fn any_number_of_modes_of_a_free_cube() {
     let found = modes(&folder, &format!("band_hz=[{},{}]", all[6], all[8])).unwrap();
     assert_found(&found, &all[6..11], "ends on modes");
     assert!(found["count_check"]["above_hz"].as_f64().unwrap() <= all[6]);
-    for (none, place) in [
-        ("[15000,19000]", "from 15000 to 19000 Hz"),
-        ("[1e9,2e9]", "from 1000000000 to 2000000000 Hz"),
-    ] {
+    for (none, place) in
+        [("[15000,19000]", "from 15000 to 19000 Hz"), ("[1e9,2e9]", "from 1000000000 to 2000000000 Hz")]
+    {
         let (code, text) = modes(&folder, &format!("band_hz={none}")).unwrap_err();
         assert_eq!(code, Some(2), "{text}");
         assert!(text.contains(place) && text.contains("help:"), "{text}");
@@ -178,10 +149,7 @@ fn a_part_of_the_modes_near_zero_is_a_part() {
     // the cube moves as a rigid one of 2.7 kg on 343 springs an axis: translations in closed form
     let closed = [1e-8, 2e-8, 3e-8].map(|k: f64| (343.0 * k / 2.7).sqrt() / std::f64::consts::TAU);
     for hz in closed {
-        assert!(
-            all[..6].iter().any(|mode| (mode / hz - 1.0).abs() < 1e-3),
-            "{hz} {all:?}"
-        );
+        assert!(all[..6].iter().any(|mode| (mode / hz - 1.0).abs() < 1e-3), "{hz} {all:?}");
     }
     let between = |low: usize| 0.5 * (all[low] + all[low + 1]);
     let asked = [
@@ -200,10 +168,7 @@ fn a_part_of_the_modes_near_zero_is_a_part() {
         assert_eq!(hz.len(), expected.len(), "{asked}: {hz:?} of {all:?}");
         for (hz, expected) in hz.iter().zip(&all[expected]) {
             // what rounding mixes in from the first elastic mode is far below
-            assert!(
-                (hz / expected - 1.0).abs() < 1e-6,
-                "{asked}: {hz} {expected}"
-            );
+            assert!((hz / expected - 1.0).abs() < 1e-6, "{asked}: {hz} {expected}");
         }
     }
 }
@@ -213,29 +178,11 @@ fn a_part_of_the_modes_near_zero_is_a_part() {
 fn rigid_modes_that_were_not_asked_for_are_said() {
     let folder = scratch("rigid_modes_not_asked");
     cube(&folder);
-    let output = plummer(
-        &folder,
-        &[
-            "modes",
-            "case.toml",
-            "--out",
-            "out",
-            "--set",
-            "modes={count=1}",
-        ],
-    );
+    let output = plummer(&folder, &["modes", "case.toml", "--out", "out", "--set", "modes={count=1}"]);
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        text.contains(
-            "1 of the 6 modes without strain were asked for and computed: `modes.count = 7`"
-        ),
-        "{text}"
-    );
+    assert!(text.contains("1 of the 6 modes without strain were asked for and computed: `modes.count = 7`"), "{text}");
     let found = modes(&folder, "count=1").unwrap();
-    assert_eq!(
-        (&found["rigid_modes"], &found["count_check"]["counted"]),
-        (&1.into(), &6.into())
-    );
+    assert_eq!((&found["rigid_modes"], &found["count_check"]["counted"]), (&1.into(), &6.into()));
 }
 
 /// A short stack, as some batch systems give, is enough for the whole way.
@@ -246,17 +193,9 @@ fn a_short_stack_is_enough() {
     cube(&folder);
     let program = env!("CARGO_BIN_EXE_plummer");
     let line = format!("ulimit -s 100 && exec {program} modes case.toml --out out --quiet");
-    let output = std::process::Command::new("sh")
-        .current_dir(&folder)
-        .args(["-c", &line])
-        .output()
-        .unwrap();
+    let output = std::process::Command::new("sh").current_dir(&folder).args(["-c", &line]).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let output = plummer(&folder, &["modes", "case.toml", "--threads", "100000"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        errors(&output).contains("expected a whole number from 1 to 1024"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("expected a whole number from 1 to 1024"), "{}", errors(&output));
 }

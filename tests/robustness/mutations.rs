@@ -42,8 +42,7 @@ fn read(name: &str) -> String {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let text = fs::read_to_string(examples.join(name)).unwrap();
     let modal = examples.join("modal").display().to_string();
-    text.replace("../../meshes", &meshes())
-        .replace("\nfile = \"", &format!("\nfile = \"{modal}/"))
+    text.replace("../../meshes", &meshes()).replace("\nfile = \"", &format!("\nfile = \"{modal}/"))
 }
 
 /// The examples of the documents, runs of them a millisecond long.
@@ -74,9 +73,7 @@ fn examples() -> impl Iterator<Item = Base> {
 fn bases() -> Vec<Base> {
     let beam = read("tadina2011/beam.toml");
     let beam = beam[..beam.find("expected = [").unwrap()].replace("nodes = 72", "nodes = 24");
-    let smooth = read("scenes/smooth.toml")
-        .replace("end = 10e-3", "end = 0.5e-3")
-        .replace("nodes = 72", "nodes = 24");
+    let smooth = read("scenes/smooth.toml").replace("end = 10e-3", "end = 0.5e-3").replace("nodes = 72", "nodes = 24");
     let meshed = "title = \"Ring\"\n\
         [housing]\nmesh = \"MESHES/ring_6_9_24.msh\"\nlength_unit = \"mm\"\n\
         plane = { assumption = \"stress\", thickness = 4e-3 }\n\
@@ -92,18 +89,9 @@ fn bases() -> Vec<Base> {
         [modes]\ncount = 6\n"
         .replace("MESHES", &meshes());
     vec![
-        Base {
-            text: beam,
-            commands: &["modes"],
-        },
-        Base {
-            text: smooth,
-            commands: &["run", "modes"],
-        },
-        Base {
-            text: meshed,
-            commands: &["modes", "condense", "frf"],
-        },
+        Base { text: beam, commands: &["modes"] },
+        Base { text: smooth, commands: &["run", "modes"] },
+        Base { text: meshed, commands: &["modes", "condense", "frf"] },
     ]
 }
 
@@ -240,11 +228,7 @@ fn change(bytes: &mut Vec<u8>, dice: &mut Dice) {
             let start = *dice.of(&signs) + 1;
             let length = bytes[start..].iter().position(|b| b",}]\n#".contains(b));
             let end = length.map_or(bytes.len(), |length| start + length);
-            let value = if kind < 9 {
-                dice.of(NUMBERS)
-            } else {
-                dice.of(WORDS)
-            };
+            let value = if kind < 9 { dice.of(NUMBERS) } else { dice.of(WORDS) };
             bytes.splice(start..end, format!(" {value}").into_bytes());
         }
     }
@@ -266,10 +250,7 @@ fn attempt(folder: &Path, bases: &[Base], round: u64, meshes_too: bool) -> usize
     let mut dice = Dice(round);
     let base = dice.of(bases);
     let command = *dice.of(base.commands);
-    let own = base
-        .text
-        .find(&meshes())
-        .filter(|_| meshes_too && dice.below(3) == 0);
+    let own = base.text.find(&meshes()).filter(|_| meshes_too && dice.below(3) == 0);
     let text = match own {
         None => mutated(&base.text, &mut dice),
         Some(start) => {
@@ -284,10 +265,7 @@ fn attempt(folder: &Path, bases: &[Base], round: u64, meshes_too: bool) -> usize
     match code {
         Some(code @ 0..=2) if !said.contains("panicked") => {
             let silent = code != 0 && !said.contains("error: ");
-            assert!(
-                !silent,
-                "round {round}: {command} gave {code} without a reason"
-            );
+            assert!(!silent, "round {round}: {command} gave {code} without a reason");
             if code == 0 {
                 check_digests(folder, command);
             }
@@ -297,10 +275,7 @@ fn attempt(folder: &Path, bases: &[Base], round: u64, meshes_too: bool) -> usize
         code => {
             let kept = folder.join(format!("fault-{round}.toml"));
             fs::write(&kept, &text).unwrap();
-            panic!(
-                "round {round}: {command} {} gave {code:?}: {said}",
-                kept.display()
-            );
+            panic!("round {round}: {command} {} gave {code:?}: {said}", kept.display());
         }
     }
 }
@@ -337,21 +312,9 @@ fn run(folder: &Path, text: &[u8], command: &str) -> (Option<i32>, String) {
     let errors = fs::File::create(folder.join("errors.txt")).unwrap();
     let mut child = Command::new("sh")
         .current_dir(folder)
-        .args([
-            "-c",
-            &format!("ulimit -v {}; exec \"$0\" \"$@\"", memory_kib()),
-        ])
+        .args(["-c", &format!("ulimit -v {}; exec \"$0\" \"$@\"", memory_kib())])
         .arg(env!("CARGO_BIN_EXE_plummer"))
-        .args([
-            command,
-            "case.toml",
-            "--out",
-            "out",
-            "--force",
-            "--quiet",
-            "--threads",
-            "1",
-        ])
+        .args([command, "case.toml", "--out", "out", "--force", "--quiet", "--threads", "1"])
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(errors)

@@ -32,11 +32,7 @@ const RUN: &str = "run case.toml --set transient.end=0.01 --quiet --out out";
 fn refused(folder: &Path, line: &str, said: &str) {
     let output = plummer(folder, &words(line));
     assert_eq!(output.status.code(), Some(2), "{line}: {}", errors(&output));
-    assert!(
-        errors(&output).contains(said),
-        "{line}: {}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains(said), "{line}: {}", errors(&output));
 }
 
 #[test]
@@ -69,9 +65,7 @@ fn of_two_runs_in_a_folder_one_is_refused_while_the_other_lasts() {
     let folder = folder("two-runs");
     let mut first = Command::new(env!("CARGO_BIN_EXE_plummer"))
         .current_dir(&folder)
-        .args(words(
-            "run case.toml --set transient.end=5 --quiet --out out",
-        ))
+        .args(words("run case.toml --set transient.end=5 --quiet --out out"))
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
@@ -105,34 +99,19 @@ fn signals_are_not_read_beside_the_result_of_another_run() {
     let case = fs::read_to_string(folder.join(CASE)).unwrap();
     let changed = case.replace("[bearing]", "[bearing]\nradial_play = 1e-6");
     fs::write(folder.join(CASE), changed).unwrap();
-    refused(
-        &folder,
-        analyze,
-        "out/run.json is the result of other values than case.toml has now\n",
-    );
+    refused(&folder, analyze, "out/run.json is the result of other values than case.toml has now\n");
     // what is analysed may change, and words
     let viewed = format!("# a remark\n{case}");
     fs::write(folder.join(CASE), viewed).unwrap();
-    let output = plummer(
-        &folder,
-        &words(&format!("{analyze} --set analysis.whiten=true")),
-    );
+    let output = plummer(&folder, &words(&format!("{analyze} --set analysis.whiten=true")));
     assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
     refused(
         &folder,
         &format!("{analyze} --set bearing.balls=8"),
         "out/run.json is the result of other values than --set gives",
     );
-    fs::copy(
-        folder.join("other/signals.npz"),
-        folder.join("out/signals.npz"),
-    )
-    .unwrap();
-    refused(
-        &folder,
-        analyze,
-        "out/signals.npz is not the file that out/run.json speaks of: expected SHA-256 ",
-    );
+    fs::copy(folder.join("other/signals.npz"), folder.join("out/signals.npz")).unwrap();
+    refused(&folder, analyze, "out/signals.npz is not the file that out/run.json speaks of: expected SHA-256 ");
 }
 
 #[test]
@@ -185,12 +164,9 @@ fn a_run_does_not_go_on_with_other_rows_than_it_had() {
 fn links_in_a_folder_for_results_lead_nowhere() {
     let folder = folder("links");
     let elsewhere = folder.join("elsewhere");
-    for (name, flag) in [
-        ("figures", "--force"),
-        ("tables", "--force"),
-        (".run.partial", "--force"),
-        (".run.partial", "--resume"),
-    ] {
+    for (name, flag) in
+        [("figures", "--force"), ("tables", "--force"), (".run.partial", "--force"), (".run.partial", "--resume")]
+    {
         let _ = fs::remove_dir_all(folder.join("out"));
         fs::create_dir_all(folder.join("out")).unwrap();
         fs::create_dir_all(&elsewhere).unwrap();
@@ -201,21 +177,10 @@ fn links_in_a_folder_for_results_lead_nowhere() {
         symlink(&elsewhere, folder.join("out").join(name)).unwrap();
         let output = plummer(&folder, &words(&format!("{RUN} {flag}")));
         assert_ne!(output.status.code(), Some(0), "{name} {flag}");
-        assert!(
-            errors(&output).contains("expected no symbolic link"),
-            "{name}: {}",
-            errors(&output)
-        );
-        let mut names: Vec<_> = fs::read_dir(&elsewhere)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name())
-            .collect();
+        assert!(errors(&output).contains("expected no symbolic link"), "{name}: {}", errors(&output));
+        let mut names: Vec<_> = fs::read_dir(&elsewhere).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
-        assert_eq!(
-            names,
-            ["checkpoint", "run-1-a.csv", "run-1-a.svg"],
-            "{name}"
-        );
+        assert_eq!(names, ["checkpoint", "run-1-a.csv", "run-1-a.svg"], "{name}");
     }
     // nor is a file written through one
     let _ = fs::remove_dir_all(folder.join("out"));
@@ -225,10 +190,7 @@ fn links_in_a_folder_for_results_lead_nowhere() {
     }
     let output = plummer(&folder, &words(&format!("{RUN} --force")));
     assert!(output.status.success(), "{}", errors(&output));
-    assert_eq!(
-        fs::read_to_string(elsewhere.join("checkpoint")).unwrap(),
-        "kept"
-    );
+    assert_eq!(fs::read_to_string(elsewhere.join("checkpoint")).unwrap(), "kept");
     assert!(!folder.join("out/signals.npz").is_symlink());
 }
 
@@ -236,11 +198,7 @@ fn links_in_a_folder_for_results_lead_nowhere() {
 #[test]
 fn results_of_another_mesh_are_not_exported() {
     let folder = scratch("other-mesh");
-    let of = |name: &str| {
-        Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("meshes")
-            .join(name)
-    };
+    let of = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(name);
     fs::copy(of("pedestal.msh"), folder.join("a.msh")).unwrap();
     fs::write(
         folder.join(CASE),
@@ -249,18 +207,11 @@ fn results_of_another_mesh_are_not_exported() {
     .unwrap();
     let output = plummer(&folder, &words("modes case.toml --quiet --out out"));
     assert!(output.status.success(), "{}", errors(&output));
-    let mut mesh = fs::OpenOptions::new()
-        .append(true)
-        .open(folder.join("a.msh"))
-        .unwrap();
+    let mut mesh = fs::OpenOptions::new().append(true).open(folder.join("a.msh")).unwrap();
     std::io::Write::write_all(&mut mesh, b"$Comments\nother\n$EndComments\n").unwrap();
     for format in ["mtx", "npz", "vtu", "uff"] {
         let line = format!("export out --to {format} --quiet");
-        refused(
-            &folder,
-            &line,
-            "a.msh is not the file that out/modes.json speaks of",
-        );
+        refused(&folder, &line, "a.msh is not the file that out/modes.json speaks of");
     }
 }
 
@@ -286,7 +237,6 @@ fn a_sweep_does_not_take_another_points_result() {
     assert!(output.status.success(), "{}", errors(&output));
     let point = |number: usize| folder.join(format!("out/sweep/{number}/modes.json"));
     fs::copy(point(1), point(2)).unwrap();
-    let said =
-        "is not the result of point 2: expected --set ring.nodes=25, found --set ring.nodes=24";
+    let said = "is not the result of point 2: expected --set ring.nodes=25, found --set ring.nodes=24";
     refused(&folder, "sweep out --merge --force", said);
 }

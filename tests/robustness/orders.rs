@@ -27,14 +27,7 @@ const NODES: [[f64; 2]; 14] = [
     [0.05, 0.1],
 ];
 
-const GROUPS: [&str; 6] = [
-    "2 6 \"b\"",
-    "2 1 \"a\"",
-    "1 2 \"foot\"",
-    "1 3 \"side\"",
-    "1 4 \"lower\"",
-    "1 5 \"top\"",
-];
+const GROUPS: [&str; 6] = ["2 6 \"b\"", "2 1 \"a\"", "1 2 \"foot\"", "1 3 \"side\"", "1 4 \"lower\"", "1 5 \"top\""];
 
 /// Type, group and nodes of an element.
 type Element = (usize, usize, &'static str);
@@ -68,9 +61,7 @@ fn write_mesh(folder: &Path, nodes: &[[f64; 2]], elements: &[Element], more: &st
     fs::write(folder.join("squares.msh"), mesh).unwrap();
     let parts = ["a", "b"].into_iter().zip([1, 6]);
     let parts = parts.filter(|(_, group)| elements.iter().any(|element| element.1 == *group));
-    let parts: String = parts
-        .map(|(part, _)| format!("{{ group = '{part}', material = 'steel' }},"))
-        .collect();
+    let parts: String = parts.map(|(part, _)| format!("{{ group = '{part}', material = 'steel' }},")).collect();
     let case = format!(
         "[housing]\nmesh = 'squares.msh'\nlength_unit = 'm'\nplane = {{ assumption = 'stress', thickness = 0.01 }}\nparts = [{parts}]\nsupports = [{{ group = 'foot', fixed = ['x', 'y'] }}]\n{more}\n[modes]\ncount = 3\n"
     );
@@ -100,10 +91,7 @@ fn elements_of_two_orders_on_one_edge_are_refused() {
     // four nodes, and another middle node in the same place
     for upper in [(3, 1, "4 3 5 6"), (16, 1, "4 3 5 6 14 11 12 13")] {
         write(&folder, 1.0, &[LOWER, upper, FOOT], "");
-        let words = [
-            "1 edge is without a middle node that all",
-            "elements 1 and 2 of \"a\" at (0.05",
-        ];
+        let words = ["1 edge is without a middle node that all", "elements 1 and 2 of \"a\" at (0.05"];
         refused(&command(&folder, "modes"), 2, &words);
         let inspect = plummer(&folder, &["inspect", "squares.msh", "--length-unit", "m"]);
         refused(&inspect, 1, &words);
@@ -115,23 +103,12 @@ fn elements_of_two_orders_on_one_edge_are_refused() {
 #[test]
 fn groups_without_the_middle_nodes_of_the_elements_are_refused() {
     let folder = scratch("orders-group");
-    let words = [
-        "1 of its edges lack the middle node",
-        "element 3 of the group on element 1",
-    ];
+    let words = ["1 of its edges lack the middle node", "element 3 of the group on element 1"];
     write(&folder, 1.0, &[LOWER, UPPER, (1, 2, "1 2")], "");
-    refused(
-        &command(&folder, "modes"),
-        2,
-        &[words[0], words[1], "the support would"],
-    );
+    refused(&command(&folder, "modes"), 2, &[words[0], words[1], "the support would"]);
     let mass = "masses = [{ group = 'side', mass = 1.0 }]";
     write(&folder, 1.0, &[LOWER, UPPER, (1, 3, "2 3"), FOOT], mass);
-    refused(
-        &command(&folder, "modes"),
-        2,
-        &[words[0], words[1], "the mass would"],
-    );
+    refused(&command(&folder, "modes"), 2, &[words[0], words[1], "the mass would"]);
 }
 
 #[test]
@@ -152,15 +129,7 @@ fn what_a_group_lists_twice_counts_once() {
 #[test]
 fn links_of_nodes_to_themselves_are_refused_or_said() {
     let folder = scratch("orders-link");
-    let elements = [
-        LOWER,
-        UPPER,
-        FOOT,
-        SIDE[0],
-        SIDE[1],
-        (8, 4, "2 3 8"),
-        (8, 5, "5 6 12"),
-    ];
+    let elements = [LOWER, UPPER, FOOT, SIDE[0], SIDE[1], (8, 4, "2 3 8"), (8, 5, "5 6 12")];
     for link in ["tie = true", "spring = { x = 1e6 }"] {
         let link = format!("links = [{{ between = ['side', 'lower'], {link} }}]");
         write(&folder, 1.0, &elements, &link);
@@ -170,10 +139,7 @@ fn links_of_nodes_to_themselves_are_refused_or_said() {
     let some = "links = [{ between = ['side', 'top'], spring = { x = 1e3 } }]";
     write(&folder, 1.0, &elements, some);
     let said = text(&command(&folder, "modes"));
-    assert!(
-        said.contains("\"side\" and \"top\" of a link share 1 of their nodes"),
-        "{said}"
-    );
+    assert!(said.contains("\"side\" and \"top\" of a link share 1 of their nodes"), "{said}");
 }
 
 #[test]
@@ -188,11 +154,7 @@ fn a_sensor_that_cannot_move_is_refused() {
         let output = command(&folder, "condense");
         match code {
             0 => _ = text(&output),
-            _ => refused(
-                &output,
-                code,
-                &["sensor \"P1\"", "the support \"foot\" holds"],
-            ),
+            _ => refused(&output, code, &["sensor \"P1\"", "the support \"foot\" holds"]),
         }
     }
 }
@@ -212,11 +174,7 @@ fn flat_layers_on_held_faces_are_said() {
         let said = text(&command(&folder, "modes"));
         let words = "flat layers of first order with incompatible modes stand on held faces, 1 of their faces";
         assert_eq!(said.contains(words), flat, "{said}");
-        assert_eq!(
-            said.contains("is 5.0 times the height of the layer"),
-            flat,
-            "{said}"
-        );
+        assert_eq!(said.contains("is 5.0 times the height of the layer"), flat, "{said}");
     }
 }
 
@@ -237,9 +195,7 @@ fn a_tie_of_bodies_is_that_of_their_faces() {
         (3, 1, "6 7 15 14"),
         (3, 1, "7 8 16 15"),
     ]);
-    elements.extend(
-        ["9 10", "10 11", "11 12", "12 13", "13 14", "14 15", "15 16"].map(|nodes| (1, 5, nodes)),
-    );
+    elements.extend(["9 10", "10 11", "11 12", "12 13", "13 14", "14 15", "15 16"].map(|nodes| (1, 5, nodes)));
     elements.extend([(1, 2, "1 2"), (1, 2, "7 8")]);
     let found = [["a", "b"], ["side", "top"]].map(|[a, b]| {
         let link = format!("links = [{{ between = ['{a}', '{b}'], tie = true }}]");

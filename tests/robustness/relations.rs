@@ -54,11 +54,7 @@ impl Question {
         let mut text = String::new();
         for (name, young, density) in [("hard", 200e9, 8000.0), ("soft", 70e9, 2700.0)] {
             let (young, density) = (young * self.stiffness, density * self.density);
-            writeln!(
-                text,
-                "[materials.{name}]\nyoung = {young:e}\npoisson = 0.3\ndensity = {density:e}"
-            )
-            .unwrap();
+            writeln!(text, "[materials.{name}]\nyoung = {young:e}\npoisson = 0.3\ndensity = {density:e}").unwrap();
         }
         let parts: Vec<String> = self
             .parts
@@ -68,10 +64,7 @@ impl Question {
         let stiffness = 1e6 * self.stiffness / self.pieces as f64;
         let (plane, z) = match self.mesh.solid {
             true => ("", format!(", z = {:e}", stiffness)),
-            false => (
-                "plane = { assumption = 'stress', thickness = 4e-3 }\n",
-                String::new(),
-            ),
+            false => ("plane = { assumption = 'stress', thickness = 4e-3 }\n", String::new()),
         };
         let spring = format!("{{ x = {stiffness:e}, y = {stiffness:e}{z} }}");
         let support = format!("{{ group = 'foot', spring = {spring}, per = 'group' }}");
@@ -148,9 +141,7 @@ fn paths(result: &Value) -> Vec<Vec<[f64; 2]>> {
 pub fn apart(found: &[f64], expected: &[f64], factor: f64) -> f64 {
     assert_eq!(found.len(), expected.len());
     let pairs = found.iter().zip(expected);
-    pairs
-        .map(|(found, expected)| (found / (factor * expected) - 1.0).abs())
-        .fold(0.0, f64::max)
+    pairs.map(|(found, expected)| (found / (factor * expected) - 1.0).abs()).fold(0.0, f64::max)
 }
 
 /// The plane and the solid question.
@@ -192,10 +183,7 @@ fn place_side_and_unit_of_a_mesh_play_no_part() {
             question.write(&folder);
             result(&folder, "modes", &[])
         });
-        assert!(
-            apart(&after, &before[..after.len()], 1.0) < SAME,
-            "{before:?} {after:?}"
-        );
+        assert!(apart(&after, &before[..after.len()], 1.0) < SAME, "{before:?} {after:?}");
     }
 }
 
@@ -237,9 +225,7 @@ fn responses_are_the_same_both_ways() {
             paths(&found)[place.unwrap_or_else(|| panic!("{from} to {to} of {all:?}"))].clone()
         };
         let (there, back) = (path("F1", "P2"), path("F2", "P1"));
-        let most = there
-            .iter()
-            .fold(0.0, |most: f64, [re, im]| most.max(re.hypot(*im)));
+        let most = there.iter().fold(0.0, |most: f64, [re, im]| most.max(re.hypot(*im)));
         for (there, back) in there.iter().zip(&back) {
             let apart = (there[0] - back[0]).hypot(there[1] - back[1]);
             assert!(apart < SAME * most, "{there:?} {back:?}");
@@ -278,25 +264,13 @@ fn a_superelement_vibrates_as_what_it_was_made_of() {
         question.write(&folder);
         let whole = frequencies(&result(&folder, "modes", &[]));
         // enough for all of the plane mesh, and for digits of the solid one
-        let set = [
-            "condense.fixed_interface_modes=120",
-            "accuracy.band_hz=[0,5000]",
-        ];
+        let set = ["condense.fixed_interface_modes=120", "accuracy.band_hz=[0,5000]"];
         result(&folder, "condense", &["--set", set[0], "--set", set[1]]);
-        fs::copy(
-            folder.join("out/superelement.npz"),
-            folder.join("element.npz"),
-        )
-        .unwrap();
+        fs::copy(folder.join("out/superelement.npz"), folder.join("element.npz")).unwrap();
         let case = fs::read_to_string(folder.join("case.toml")).unwrap();
-        let (materials, ring) = (
-            case.find("[housing]").unwrap(),
-            case.find("[ring]").unwrap(),
-        );
+        let (materials, ring) = (case.find("[housing]").unwrap(), case.find("[ring]").unwrap());
         let after = case[ring..].find("[damping]").unwrap() + ring;
-        let ring = case[ring..after]
-            .lines()
-            .filter(|line| !line.starts_with("tie"));
+        let ring = case[ring..after].lines().filter(|line| !line.starts_with("tie"));
         let text = format!(
             "{}[housing]\nsuperelement = 'element.npz'\n{}\n[modes]\ncount = 12\n",
             &case[..materials],
@@ -313,12 +287,7 @@ fn a_superelement_vibrates_as_what_it_was_made_of() {
         let apart = apart(&condensed, &whole, 1.0);
         println!("{apart:e}");
         assert!(apart < limit, "{whole:?} {condensed:?}");
-        assert!(
-            condensed
-                .iter()
-                .zip(&whole)
-                .all(|(c, w)| *c > (1.0 - SAME) * w)
-        );
+        assert!(condensed.iter().zip(&whole).all(|(c, w)| *c > (1.0 - SAME) * w));
     }
 }
 
@@ -330,8 +299,7 @@ pub fn ask_at_random(dice: &mut Dice) {
     let before = question.answer(&folder);
     question.mesh.shuffle(dice);
     question.motion = Motion::at_random(question.mesh.solid, dice);
-    (question.unit, question.mesh.metre) =
-        *dice.of(&[("m", 1.0), ("cm", 1e2), ("mm", 1e3), ("um", 1e6)]);
+    (question.unit, question.mesh.metre) = *dice.of(&[("m", 1.0), ("cm", 1e2), ("mm", 1e3), ("um", 1e6)]);
     if dice.below(2) == 0 {
         question.mesh.split("right", "rest");
         question.parts.push(("rest", "soft"));

@@ -68,11 +68,7 @@ impl Scene {
 
     /// An angle as it is after mirror and turn, degrees.
     fn angle(&self, degrees: f64) -> f64 {
-        let mirrored = if self.side < 0.0 {
-            180.0 - degrees
-        } else {
-            degrees
-        };
+        let mirrored = if self.side < 0.0 { 180.0 - degrees } else { degrees };
         mirrored + self.turn + self.more
     }
 
@@ -101,30 +97,13 @@ impl Scene {
             "whole" => load(1.0),
             "halves" => format!("{0}, {0}", load(0.5)),
             _ => {
-                let point = |time: f64| {
-                    format!(
-                        "{{ time = {}, force = {} }}",
-                        u(time, [0, 0, 1]),
-                        list(ONE, force)
-                    )
-                };
+                let point = |time: f64| format!("{{ time = {}, force = {} }}", u(time, [0, 0, 1]), list(ONE, force));
                 format!("{{ profile = [{}, {}] }}", point(0.0), point(1.0))
             }
         };
-        let at = |time: f64| {
-            format!(
-                "{{ time = {}, hz = {} }}",
-                u(time, [0, 0, 1]),
-                u(20.0 * self.side, hz)
-            )
-        };
+        let at = |time: f64| format!("{{ time = {}, hz = {} }}", u(time, [0, 0, 1]), u(20.0 * self.side, hz));
         let speed = match (self.uneven, self.speed) {
-            (true, _) => format!(
-                "{}, {{ time = {}, hz = {} }}",
-                at(0.0),
-                u(2e-3, [0, 0, 1]),
-                u(24.0, hz)
-            ),
+            (true, _) => format!("{}, {{ time = {}, hz = {} }}", at(0.0), u(2e-3, [0, 0, 1]), u(24.0, hz)),
             (_, "one") => at(0.0),
             _ => format!("{}, {}", at(0.0), at(1.0)),
         };
@@ -217,10 +196,7 @@ fn assert_same(what: &str, found: &[f64], expected: &[f64], factor: f64) {
 fn similar_bearings_have_similar_signals() {
     let folder = scratch("relations-units");
     for uneven in [false, true] {
-        let even = Scene {
-            uneven,
-            ..Scene::new()
-        };
+        let even = Scene { uneven, ..Scene::new() };
         let one = even.signals(&folder);
         for units in [[4.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]] {
             let [length, _, time] = units;
@@ -248,13 +224,7 @@ fn turned_and_mirrored_bearings_have_the_same_signals() {
         // the second ball in the place of the first
         (0.0, 1.0, 0.0, -360.0 / 7.0),
     ] {
-        let scene = Scene {
-            turn,
-            side,
-            more,
-            ball,
-            ..Scene::new()
-        };
+        let scene = Scene { turn, side, more, ball, ..Scene::new() };
         let what = format!("{turn} {side} {more} {ball}");
         let other = scene.signals(&folder);
         let expected = match turn {
@@ -279,18 +249,9 @@ fn loads_and_speeds_in_pieces_are_the_whole() {
         ("profile", "one", ""),
         ("whole", "two", ""),
         ("whole", "one", zero_slip),
-        (
-            "whole",
-            "one",
-            "ball_radius_differences = [0, 0, 0, 0, 0, 0, 0]",
-        ),
+        ("whole", "one", "ball_radius_differences = [0, 0, 0, 0, 0, 0, 0]"),
     ] {
-        let scene = Scene {
-            loads,
-            speed,
-            more_keys,
-            ..Scene::new()
-        };
+        let scene = Scene { loads, speed, more_keys, ..Scene::new() };
         let other = scene.signals(&folder);
         for (other, one) in other.iter().zip(&one) {
             assert_same(&format!("{loads} {speed} {more_keys}"), other, one, 1.0);
@@ -330,10 +291,7 @@ fn a_bearing_comes_back_after_each_ball() {
     let one = scene.signals(&folder);
     let orders = &result(&folder, "run", &[])["defect_orders"];
     let pass = 1.0 / (20.0 * orders["outer"].as_f64().unwrap());
-    let begin = [
-        format!("transient.start={pass:e}"),
-        format!("transient.end={:e}", pass + 2e-3),
-    ];
+    let begin = [format!("transient.start={pass:e}"), format!("transient.end={:e}", pass + 2e-3)];
     let words = ["--set", &begin[0], "--set", &begin[1]];
     let found = result(&folder, "run", &words);
     assert_eq!(found["status"], "complete");

@@ -13,12 +13,7 @@ use std::thread;
 use super::program::{errors, plummer, scratch};
 
 fn mesh(name: &str) -> Vec<u8> {
-    fs::read(
-        Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("meshes")
-            .join(name),
-    )
-    .unwrap()
+    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(name)).unwrap()
 }
 
 /// A case of a free annulus with its mesh beside it.
@@ -74,10 +69,7 @@ fn a_mesh_that_changes_gives_one_of_its_results_or_an_error() {
                 let output = modes(&folder);
                 match output.status.code() {
                     // what is said to have been read is what was computed
-                    Some(0) => assert!(
-                        expected.contains(&result(&folder)),
-                        "round {round}: another result"
-                    ),
+                    Some(0) => assert!(expected.contains(&result(&folder)), "round {round}: another result"),
                     Some(1 | 2) => {
                         assert!(errors(&output).contains("ring.msh"), "{}", errors(&output))
                     }
@@ -101,29 +93,18 @@ impl Drop for Ends<'_> {
 fn result(folder: &Path) -> (String, String) {
     let text = fs::read(folder.join("out/case/modes.json")).unwrap();
     let json: serde_json::Value = serde_json::from_slice(&text).unwrap();
-    (
-        json["meshes"][0]["sha256"].to_string(),
-        json["frequencies_hz"].to_string(),
-    )
+    (json["meshes"][0]["sha256"].to_string(), json["frequencies_hz"].to_string())
 }
 
 #[test]
 fn what_is_no_file_is_an_error() {
-    for (name, target) in [
-        ("folder", "."),
-        ("device", "/dev/null"),
-        ("nothing", "no-such-file"),
-    ] {
+    for (name, target) in [("folder", "."), ("device", "/dev/null"), ("nothing", "no-such-file")] {
         let folder = case(&format!("no-file-{name}"));
         let path = folder.join("ring.msh");
         fs::remove_file(&path).unwrap();
         std::os::unix::fs::symlink(target, &path).unwrap();
         let output = modes(&folder);
         assert_eq!(output.status.code(), Some(2), "{name}: {}", errors(&output));
-        assert!(
-            errors(&output).contains("ring.msh"),
-            "{name}: {}",
-            errors(&output)
-        );
+        assert!(errors(&output).contains("ring.msh"), "{name}: {}", errors(&output));
     }
 }

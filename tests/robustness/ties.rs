@@ -34,53 +34,21 @@ fn ties_across_a_gap_are_said_and_from_within_refused() {
         assert_eq!(warnings, "[]");
     }
     for (between, gap, words) in [
-        (
-            faces,
-            0.02,
-            [
-                "up to 2.00e-2 m, 0.40 of the size",
-                "about 1.570e0 kg of material would fill the gap",
-            ],
-        ),
-        (
-            faces,
-            0.0004,
-            [
-                "up to 4.00e-4 m, 0.01 of the size",
-                "about 3.140e-2 kg of material would fill the gap",
-            ],
-        ),
-        (
-            ["a", "b"],
-            0.004,
-            [
-                "up to 4.00e-3 m, 0.08 of the size",
-                "about 3.140e-1 kg of material would fill the gap",
-            ],
-        ),
+        (faces, 0.02, ["up to 2.00e-2 m, 0.40 of the size", "about 1.570e0 kg of material would fill the gap"]),
+        (faces, 0.0004, ["up to 4.00e-4 m, 0.01 of the size", "about 3.140e-2 kg of material would fill the gap"]),
+        (["a", "b"], 0.004, ["up to 4.00e-3 m, 0.08 of the size", "about 3.140e-1 kg of material would fill the gap"]),
     ] {
         write(&folder, gap);
         let (warnings, _) = result(&folder, &modes(&folder, &housing(between, "")));
-        for word in words
-            .into_iter()
-            .chain(["16 of 16 tied nodes", "the farthest is node"])
-        {
+        for word in words.into_iter().chain(["16 of 16 tied nodes", "the farthest is node"]) {
             assert!(warnings.contains(word), "{word} in: {warnings}");
         }
     }
     // no centre of an element lies in another one; of bodies, nodes at the rim lie on the sides of the other
     write(&folder, -0.004);
     for (between, inside, twice) in [
-        (
-            faces,
-            "16 of them into the other body",
-            "; about 3.140e-1 kg count twice",
-        ),
-        (
-            ["a", "b"],
-            "4 of them into the other body",
-            "; about 1.396e-1 kg count twice",
-        ),
+        (faces, "16 of them into the other body", "; about 3.140e-1 kg count twice"),
+        (["a", "b"], "4 of them into the other body", "; about 1.396e-1 kg count twice"),
     ] {
         let refused = modes(&folder, &housing(between, ""));
         let said = errors(&refused);
@@ -88,10 +56,7 @@ fn ties_across_a_gap_are_said_and_from_within_refused() {
         for word in [inside, twice, "housing.overlap"] {
             assert!(said.contains(word), "{word} in: {said}");
         }
-        let (warnings, _) = result(
-            &folder,
-            &modes(&folder, &housing(between, "overlap = 'allow'")),
-        );
+        let (warnings, _) = result(&folder, &modes(&folder, &housing(between, "overlap = 'allow'")));
         assert!(warnings.contains(twice), "{warnings}");
     }
 }

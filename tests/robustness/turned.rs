@@ -31,35 +31,19 @@ fn write(folder: &std::path::Path, kind: usize, elements: &[&[usize]], turned: [
     let quadratic = kind > 3;
     for (name, floor, turned) in [("a", 0.0, turned[0]), ("b", 0.1, turned[1])] {
         let corners = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]];
-        let middles = [
-            [0.05, 0.0],
-            [0.1, 0.05],
-            [0.05, 0.1],
-            [0.0, 0.05],
-            [0.05, 0.05],
-        ];
+        let middles = [[0.05, 0.0], [0.1, 0.05], [0.05, 0.1], [0.0, 0.05], [0.05, 0.05]];
         let places = corners.iter().chain(middles.iter().take(match kind {
             9 => 5,
             16 => 4,
             _ => 0,
         }));
-        let nodes: Vec<usize> = places
-            .map(|[x, y]| grid.node([*x, y + floor, 0.0], true))
-            .collect();
+        let nodes: Vec<usize> = places.map(|[x, y]| grid.node([*x, y + floor, 0.0], true)).collect();
         for (number, element) in elements.iter().enumerate() {
             let own: Vec<usize> = element.iter().map(|&place| nodes[place]).collect();
-            let own = if number < turned {
-                backwards(kind, &own)
-            } else {
-                own
-            };
+            let own = if number < turned { backwards(kind, &own) } else { own };
             grid.element(kind, 2, name, &own);
         }
-        let (edge, from) = if name == "a" {
-            ("foot", 0)
-        } else {
-            ("roof", 2)
-        };
+        let (edge, from) = if name == "a" { ("foot", 0) } else { ("roof", 2) };
         let mut ends = vec![nodes[from], nodes[from + 1]];
         if quadratic {
             ends.push(nodes[4 + from]);
@@ -81,10 +65,7 @@ fn groups_that_run_clockwise_are_turned() {
         for turned in [[all, 0], [0, all], [all, all]] {
             write(&folder, kind, elements, turned);
             let (warnings, found) = result(&folder, &modes(&folder, HOUSING));
-            assert!(
-                (found / expected - 1.0).abs() < 1e-9,
-                "{kind} {turned:?}: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-9, "{kind} {turned:?}: {found} {expected}");
             assert_eq!(warnings, "[]");
             let seen = plummer(&folder, &["inspect", "grid.msh", "--length-unit", "m"]);
             assert_eq!(seen.status.code(), Some(0), "{}", errors(&seen));
@@ -94,10 +75,7 @@ fn groups_that_run_clockwise_are_turned() {
             let mixed = modes(&folder, HOUSING);
             let said = errors(&mixed);
             assert_eq!(mixed.status.code(), Some(2), "{said}");
-            assert!(
-                said.contains("element 1") && said.contains("clockwise"),
-                "{said}"
-            );
+            assert!(said.contains("element 1") && said.contains("clockwise"), "{said}");
         }
     }
 }

@@ -100,25 +100,16 @@ fn compute(name: &str, names: [&str; 3], files: [&str; 2]) -> BTreeMap<PathBuf, 
         let said = errors(&output);
         assert_eq!(output.status.code(), Some(0), "{command}: {said}");
     }
-    let (inside, beside): (BTreeMap<_, _>, BTreeMap<_, _>) = content(&outer)
-        .into_iter()
-        .partition(|(path, _)| path.starts_with(&results));
-    assert!(
-        before == beside,
-        "something beside the results has changed: {:?}",
-        beside.keys()
-    );
+    let (inside, beside): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        content(&outer).into_iter().partition(|(path, _)| path.starts_with(&results));
+    assert!(before == beside, "something beside the results has changed: {:?}", beside.keys());
     inside
 }
 
 #[test]
 fn names_are_text_and_nothing_is_written_elsewhere() {
     let name = format!("{ELSEWHERE}{MARKUP}");
-    let results = compute(
-        "untrusted",
-        [MARKUP, &name, "P1"],
-        ["case.toml", "ring.msh"],
-    );
+    let results = compute("untrusted", [MARKUP, &name, "P1"], ["case.toml", "ring.msh"]);
     let mut pages = 0;
     for (path, bytes) in &results {
         let ending = path.extension().unwrap_or_default();
@@ -137,47 +128,23 @@ fn names_are_text_and_nothing_is_written_elsewhere() {
 
 #[test]
 fn folders_and_files_may_be_named_as_one_likes() {
-    let results = compute(
-        "Gehäuse & 軸受 $HOME",
-        ["bore", "Прогон", "Датчик 1"],
-        ["mein Fall.toml", "rohr (2) ß.msh"],
-    );
-    let page = results
-        .iter()
-        .find(|(path, _)| path.ends_with("results/run-report.html"));
+    let results = compute("Gehäuse & 軸受 $HOME", ["bore", "Прогон", "Датчик 1"], ["mein Fall.toml", "rohr (2) ß.msh"]);
+    let page = results.iter().find(|(path, _)| path.ends_with("results/run-report.html"));
     let page = String::from_utf8(page.unwrap().1.clone()).unwrap();
-    assert!(
-        page.contains("rohr (2) ß.msh") && page.contains("plummer run &#x27;mein Fall.toml&#x27;")
-    );
+    assert!(page.contains("rohr (2) ß.msh") && page.contains("plummer run &#x27;mein Fall.toml&#x27;"));
 }
 
 /// What a program does not import it cannot call: there is no way from it to a network.
 #[test]
 fn the_program_has_no_way_to_a_network() {
-    let output = Command::new("nm")
-        .args([
-            "--dynamic",
-            "--undefined-only",
-            env!("CARGO_BIN_EXE_plummer"),
-        ])
-        .output()
-        .unwrap();
+    let output =
+        Command::new("nm").args(["--dynamic", "--undefined-only", env!("CARGO_BIN_EXE_plummer")]).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    let names = text
-        .lines()
-        .filter_map(|line| line.split_whitespace().last());
+    let names = text.lines().filter_map(|line| line.split_whitespace().last());
     let names: Vec<&str> = names.filter_map(|name| name.split('@').next()).collect();
     let imported = |name: &&str| names.contains(name);
     // names of what it does call are found
     assert!(["write", "rename"].iter().all(imported), "{names:?}");
-    let network = [
-        "socket",
-        "connect",
-        "bind",
-        "listen",
-        "sendto",
-        "getaddrinfo",
-        "gethostbyname",
-    ];
+    let network = ["socket", "connect", "bind", "listen", "sendto", "getaddrinfo", "gethostbyname"];
     assert_eq!(network.iter().find(|name| imported(name)), None);
 }

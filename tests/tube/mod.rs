@@ -49,36 +49,21 @@ impl Tube {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             2.0 * f64::from(state) / f64::from(u32::MAX) - 1.0
         };
-        let node = |step: usize, layer: usize, row: usize| {
-            1 + (step % columns) + columns * (layer + (THICK + 1) * row)
-        };
+        let node = |step: usize, layer: usize, row: usize| 1 + (step % columns) + columns * (layer + (THICK + 1) * row);
         let mut nodes = String::new();
         for row in 0..=LONG {
             for layer in 0..=THICK {
                 for step in 0..columns {
-                    let angle = (self.from + (self.to - self.from) * step as f64 / round as f64)
-                        .to_radians();
-                    let mut radius =
-                        self.inner + (self.outer - self.inner) * layer as f64 / THICK as f64;
+                    let angle = (self.from + (self.to - self.from) * step as f64 / round as f64).to_radians();
+                    let mut radius = self.inner + (self.outer - self.inner) * layer as f64 / THICK as f64;
                     if layer == 0 {
                         radius += self.noise * random();
                     }
                     let along = self.length * (row as f64 / LONG as f64 - 0.5);
                     let own = [radius * angle.cos(), radius * angle.sin(), along];
-                    let at = [0, 1, 2].map(|k| {
-                        self.centre[k]
-                            + (0..3)
-                                .map(|axis| own[axis] * self.axes[axis][k])
-                                .sum::<f64>()
-                    });
-                    let _ = writeln!(
-                        nodes,
-                        "{} {:e} {:e} {:e}",
-                        node(step, layer, row),
-                        at[0],
-                        at[1],
-                        at[2]
-                    );
+                    let at = [0, 1, 2]
+                        .map(|k| self.centre[k] + (0..3).map(|axis| own[axis] * self.axes[axis][k]).sum::<f64>());
+                    let _ = writeln!(nodes, "{} {:e} {:e} {:e}", node(step, layer, row), at[0], at[1], at[2]);
                 }
             }
         }
@@ -86,13 +71,8 @@ impl Tube {
         for row in 0..LONG {
             for step in 0..round {
                 let quad = |layer: usize| {
-                    [
-                        (step, row),
-                        (step + 1, row),
-                        (step + 1, row + 1),
-                        (step, row + 1),
-                    ]
-                    .map(|(step, row)| node(step, layer, row))
+                    [(step, row), (step + 1, row), (step + 1, row + 1), (step, row + 1)]
+                        .map(|(step, row)| node(step, layer, row))
                 };
                 elements.push((3, 2, 2, quad(0).to_vec()));
                 let middle = self.from + (self.to - self.from) * (step as f64 + 0.5) / round as f64;
@@ -101,13 +81,8 @@ impl Tube {
                 }
                 for layer in 0..THICK {
                     let corners = |row: usize| {
-                        [
-                            (step, layer),
-                            (step, layer + 1),
-                            (step + 1, layer + 1),
-                            (step + 1, layer),
-                        ]
-                        .map(|(step, layer)| node(step, layer, row))
+                        [(step, layer), (step, layer + 1), (step + 1, layer + 1), (step + 1, layer)]
+                            .map(|(step, layer)| node(step, layer, row))
                     };
                     // positive volume: radius, angle, axis are right-handed
                     elements.push((5, 1, 1, [corners(row), corners(row + 1)].concat()));
@@ -117,12 +92,7 @@ impl Tube {
         let mut lines = String::new();
         for (place, (kind, group, entity, nodes)) in elements.iter().enumerate() {
             let nodes: Vec<String> = nodes.iter().map(usize::to_string).collect();
-            let _ = writeln!(
-                lines,
-                "{} {kind} 2 {group} {entity} {}",
-                place + 1,
-                nodes.join(" ")
-            );
+            let _ = writeln!(lines, "{} {kind} 2 {group} {entity} {}", place + 1, nodes.join(" "));
         }
         let count = columns * (THICK + 1) * (LONG + 1);
         format!(

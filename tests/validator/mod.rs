@@ -3,14 +3,7 @@
 use serde_json::{Map, Value};
 
 /// Keywords that say nothing about validity.
-const ANNOTATIONS: [&str; 6] = [
-    "$schema",
-    "definitions",
-    "description",
-    "title",
-    "default",
-    "$comment",
-];
+const ANNOTATIONS: [&str; 6] = ["$schema", "definitions", "description", "title", "default", "$comment"];
 
 /// Checks values against a schema; a keyword that it does not know is an error.
 pub struct Validator<'a> {
@@ -69,15 +62,11 @@ impl<'a> Validator<'a> {
             },
             "enum" => list().any(|option| option == value),
             "const" => rule == value,
-            "minimum" => value
-                .as_f64()
-                .is_none_or(|number| number >= rule.as_f64().unwrap()),
+            "minimum" => value.as_f64().is_none_or(|number| number >= rule.as_f64().unwrap()),
             "minItems" => array.is_none_or(|items| items.len() >= limit),
             "maxItems" => array.is_none_or(|items| items.len() <= limit),
             "maxProperties" => object.is_none_or(|entries| entries.len() <= limit),
-            "required" => object.is_none_or(|entries| {
-                list().all(|key| entries.contains_key(key.as_str().unwrap()))
-            }),
+            "required" => object.is_none_or(|entries| list().all(|key| entries.contains_key(key.as_str().unwrap()))),
             "dependencies" => object.is_none_or(|entries| {
                 let rules = rule.as_object().unwrap().iter();
                 let mut asked = rules.filter(|(key, _)| entries.contains_key(*key));
@@ -88,9 +77,7 @@ impl<'a> Validator<'a> {
             }),
             "items" => {
                 let mut items = array.into_iter().flatten().enumerate();
-                return items.try_for_each(|(index, item)| {
-                    self.at(rule, item, &format!("{path}[{index}]"))
-                });
+                return items.try_for_each(|(index, item)| self.at(rule, item, &format!("{path}[{index}]")));
             }
             "properties" => {
                 let mut given = object.into_iter().flatten();
@@ -100,29 +87,19 @@ impl<'a> Validator<'a> {
                 });
             }
             "additionalProperties" => {
-                let known = |key: &str| {
-                    all.get("properties")
-                        .is_some_and(|known| known.get(key).is_some())
-                };
+                let known = |key: &str| all.get("properties").is_some_and(|known| known.get(key).is_some());
                 let mut others = object.into_iter().flatten().filter(|(key, _)| !known(key));
-                return others
-                    .try_for_each(|(key, entry)| self.at(rule, entry, &format!("{path}.{key}")));
+                return others.try_for_each(|(key, entry)| self.at(rule, entry, &format!("{path}.{key}")));
             }
             "not" => !valid(&rule),
             "allOf" => return list().try_for_each(|schema| self.at(schema, value, path)),
             "anyOf" => list().any(|schema| valid(&schema)),
             "oneOf" => list().filter(valid).count() == 1,
             other => {
-                return wrong(format!(
-                    "the keyword {other} is not known to this validator"
-                ));
+                return wrong(format!("the keyword {other} is not known to this validator"));
             }
         };
-        if holds {
-            Ok(())
-        } else {
-            wrong(format!("{value} breaks {keyword}: {rule}"))
-        }
+        if holds { Ok(()) } else { wrong(format!("{value} breaks {keyword}: {rule}")) }
     }
 }
 
@@ -133,9 +110,7 @@ fn is_a(value: &Value, kind: &Value) -> bool {
         "string" => value.is_string(),
         "boolean" => value.is_boolean(),
         "number" => value.is_number(),
-        "integer" => value
-            .as_f64()
-            .is_some_and(|number| number.fract().abs() < f64::MIN_POSITIVE),
+        "integer" => value.as_f64().is_some_and(|number| number.fract().abs() < f64::MIN_POSITIVE),
         "null" => value.is_null(),
         other => panic!("{other} is no kind"),
     }

@@ -12,8 +12,8 @@ use plummer::fe::element::continuum::{ContinuumProperties, Formulation, nodal_ma
 use plummer::fe::material::{ElasticMaterial, Material};
 use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use plummer::fe::model::{
-    Connection, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, PointMass,
-    SpringStiffness, SupportShare,
+    Connection, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, PointMass, SpringStiffness,
+    SupportShare,
 };
 use plummer::numerics::linalg::{SparseMatrix, TripletBuilder};
 use plummer::numerics::units::LengthUnit;
@@ -23,10 +23,7 @@ fn aluminium() -> ElasticMaterial {
 }
 
 fn part(group: &str) -> HousingPart {
-    HousingPart {
-        group: group.to_owned(),
-        material: aluminium(),
-    }
+    HousingPart { group: group.to_owned(), material: aluminium() }
 }
 
 /// Two blocks with springs to the ground and between them, and a mass on top.
@@ -42,10 +39,7 @@ fn blocks() -> HousingModel {
         between: ["foot", "seat"].map(str::to_owned),
         connection: Connection::Spring(springs, SupportShare::PerNode),
     };
-    let mass = PointMass {
-        group: "top".to_owned(),
-        mass: 1e-3,
-    };
+    let mass = PointMass { group: "top".to_owned(), mass: 1e-3 };
     let description = HousingDescription {
         parts: vec![part("lower"), part("upper")],
         supports: vec![ground],
@@ -58,17 +52,13 @@ fn blocks() -> HousingModel {
 
 fn annulus() -> HousingModel {
     let mesh = Mesh::read_gmsh(&data("ring3d_tet10.msh"), LengthUnit::Metre).unwrap();
-    let description = HousingDescription {
-        parts: vec![part("housing")],
-        ..HousingDescription::default()
-    };
+    let description = HousingDescription { parts: vec![part("housing")], ..HousingDescription::default() };
     HousingModel::new(&mesh, description).unwrap()
 }
 
 fn on_threads(threads: usize, model: &HousingModel) -> SystemMatrices {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.unwrap()
-        .install(|| SystemMatrices::assemble(model).unwrap())
+    pool.unwrap().install(|| SystemMatrices::assemble(model).unwrap())
 }
 
 fn bits(matrix: &SparseMatrix) -> Vec<u64> {
@@ -97,10 +87,7 @@ fn a_list_of_triplets_adds_up_to_the_same() {
     let mut m = TripletBuilder::new(model.dof(), model.dof());
     for element in model.elements().iter() {
         let nodes = model.elements().nodes(element);
-        let at: Vec<[f64; 3]> = nodes
-            .iter()
-            .map(|&node| model.coordinates()[node])
-            .collect();
+        let at: Vec<[f64; 3]> = nodes.iter().map(|&node| model.coordinates()[node]).collect();
         let own_k = stiffness(element.kind, &at, &properties, Formulation::default()).unwrap();
         let own_m = nodal_mass(element.kind, &at, &properties).unwrap();
         for (a, &row) in nodes.iter().enumerate() {
@@ -132,10 +119,8 @@ fn a_list_of_triplets_adds_up_to_the_same() {
 fn what_is_spread_over_a_face_adds_up() {
     let (with, without) = (blocks(), {
         let mesh = Mesh::read_gmsh(&data("two_blocks.msh"), LengthUnit::Millimetre).unwrap();
-        let description = HousingDescription {
-            parts: vec![part("lower"), part("upper")],
-            ..HousingDescription::default()
-        };
+        let description =
+            HousingDescription { parts: vec![part("lower"), part("upper")], ..HousingDescription::default() };
         HousingModel::new(&mesh, description).unwrap()
     });
     let loaded = SystemMatrices::assemble(&with).unwrap();
@@ -154,11 +139,7 @@ fn what_is_spread_over_a_face_adds_up() {
         }
     }
     // sums of 1e5 entries, which cancel: 1e3 times the rounding of the largest
-    let stiffest = loaded
-        .stiffness
-        .data()
-        .iter()
-        .fold(0.0_f64, |k, v| k.max(*v));
+    let stiffest = loaded.stiffness.data().iter().fold(0.0_f64, |k, v| k.max(*v));
     assert!((force - 2e6).abs() < 1e-12 * stiffest * 1e3, "{force}");
     assert!(bending.abs() < 1e-12 * stiffest * 1e3, "{bending}");
 }
@@ -170,10 +151,7 @@ fn a_group_without_a_whole_element_on_the_housing_is_refused() {
     let (on, off) = (0, mesh.nodes.len());
     mesh.nodes.push([0.0, 0.0, -1.0]);
     mesh.node_tags.push(1_000_000);
-    let entity = Entity {
-        dimension: 1,
-        tag: 99,
-    };
+    let entity = Entity { dimension: 1, tag: 99 };
     mesh.blocks.push(ElementBlock {
         kind: ElementKind::Line2,
         tags: vec![1_000_000],
@@ -203,9 +181,7 @@ fn a_group_without_a_whole_element_on_the_housing_is_refused() {
     };
     let message = refusal(SupportShare::PerGroup).unwrap_err();
     assert!(
-        message.ends_with(
-            "no part of it belongs to an element of the housing, so the support would hang on nothing"
-        ),
+        message.ends_with("no part of it belongs to an element of the housing, so the support would hang on nothing"),
         "{message}"
     );
     // a spring at each node finds the one that is on the housing

@@ -10,13 +10,9 @@
 use std::f64::consts::{PI, TAU};
 
 use plummer::fe::model::Fit;
-use plummer::numerics::linalg::{
-    DenseMatrix, EigenProblem, SparseCholesky, submatrix, symmetric_generalised_eigen,
-};
+use plummer::numerics::linalg::{DenseMatrix, EigenProblem, SparseCholesky, submatrix, symmetric_generalised_eigen};
 
-use crate::setup::{
-    ALUMINIUM_DENSITY, BORE_RADIUS, GRAVITY, HOUSING_WIDTH, Housing, MESHES, column, dense,
-};
+use crate::setup::{ALUMINIUM_DENSITY, BORE_RADIUS, GRAVITY, HOUSING_WIDTH, Housing, MESHES, column, dense};
 
 /// Area of the annulus times width and density, kg.
 fn drawn_mass() -> f64 {
@@ -40,9 +36,7 @@ fn full_hz(housing: &Housing) -> Vec<f64> {
 /// Relative errors of the reduced frequencies.
 fn errors(housing: &Housing, kept: usize, full: &[f64]) -> Vec<f64> {
     let modes = housing.structure(kept).modes().unwrap();
-    (0..full.len())
-        .map(|mode| modes.frequency_hz(mode) / full[mode] - 1.0)
-        .collect()
+    (0..full.len()).map(|mode| modes.frequency_hz(mode) / full[mode] - 1.0).collect()
 }
 
 #[test]
@@ -58,11 +52,7 @@ fn frequencies_converge_from_above() {
             assert!(*error < limit, "{kept} modes, {} Hz: {error:e}", full[mode]);
             // both eigen-solvers are good to 1e-10
             assert!(*error > -1e-9, "{kept} modes, {} Hz: {error:e}", full[mode]);
-            assert!(
-                *error < before[mode] + 1e-9,
-                "{kept} modes, {} Hz",
-                full[mode]
-            );
+            assert!(*error < before[mode] + 1e-9, "{kept} modes, {} Hz", full[mode]);
         }
         before = errors;
     }
@@ -98,10 +88,7 @@ fn static_flexibility_is_exact() {
             loads
         };
         let mut full = loads(k.rows());
-        SparseCholesky::new(&k)
-            .unwrap()
-            .solve_columns(&mut full)
-            .unwrap();
+        SparseCholesky::new(&k).unwrap().solve_columns(&mut full).unwrap();
         for kept in [0, 40] {
             let structure = housing.structure(kept);
             let reduced = structure.static_response(&loads(structure.dof())).unwrap();
@@ -128,14 +115,9 @@ fn a_rigid_translation_weighs_the_mesh() {
                 let motion = column(&motion);
                 let found = (motion.transpose() * &element.mass * &motion)[(0, 0)];
                 let weight = element.gravity_load(GRAVITY);
-                let load: f64 = (0..element.order())
-                    .map(|i| weight[i] * motion[(i, 0)])
-                    .sum();
+                let load: f64 = (0..element.order()).map(|i| weight[i] * motion[(i, 0)]).sum();
                 // constraint modes carry the rigid motion to round-off times the condition of K_ii
-                assert!(
-                    (found / mass - 1.0).abs() < 1e-10,
-                    "{mesh}, {kept}: {found}"
-                );
+                assert!((found / mass - 1.0).abs() < 1e-10, "{mesh}, {kept}: {found}");
                 assert!((load - mass * GRAVITY[component]).abs() < 1e-10 * mass * 9.81);
             }
         }
@@ -149,11 +131,7 @@ fn ring_and_housing_weigh_what_they_weigh() {
     let section = housing.ring.section();
     let total = housing.matrices.total_mass() + section.mass * TAU * section.radius;
     let fall = housing.ring.rigid_motion(0.0, 1.0, 0.0);
-    let weight: f64 = fall
-        .iter()
-        .zip(structure.gravity())
-        .map(|(a, b)| a * b)
-        .sum();
+    let weight: f64 = fall.iter().zip(structure.gravity()).map(|(a, b)| a * b).sum();
     // as above
     assert!((weight / (total * GRAVITY[1]) - 1.0).abs() < 1e-10);
 }

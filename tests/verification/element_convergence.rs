@@ -13,8 +13,8 @@
 use plummer::app::verification::{BODY, StructuredMesh};
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::element::continuum::{
-    ContinuumKind, Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule,
-    shape_derivatives, shape_values,
+    ContinuumKind, Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule, shape_derivatives,
+    shape_values,
 };
 use plummer::fe::material::Material;
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart, PlaneModel};
@@ -29,14 +29,9 @@ fn material() -> Material {
 
 fn model(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -> HousingModel {
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: BODY.to_owned(),
-            material: material().into(),
-        }],
-        plane: (kind.dimension() == 2).then_some(PlaneModel {
-            assumption: PlaneAssumption::Stress,
-            thickness: THICKNESS,
-        }),
+        parts: vec![HousingPart { group: BODY.to_owned(), material: material().into() }],
+        plane: (kind.dimension() == 2)
+            .then_some(PlaneModel { assumption: PlaneAssumption::Stress, thickness: THICKNESS }),
         formulation,
         ..HousingDescription::default()
     };
@@ -44,10 +39,8 @@ fn model(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -
 }
 
 /// Amplitude, wave vector, phase.
-const WAVES: [([f64; 3], [f64; 3], f64); 2] = [
-    ([1.0, -0.6, 0.5], [1.6, 1.1, -0.9], 0.4),
-    ([0.3, 0.8, -0.7], [-0.9, 1.7, 1.2], -0.7),
-];
+const WAVES: [([f64; 3], [f64; 3], f64); 2] =
+    [([1.0, -0.6, 0.5], [1.6, 1.1, -0.9], 0.4), ([0.3, 0.8, -0.7], [-0.9, 1.7, 1.2], -0.7)];
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -68,9 +61,7 @@ fn manufactured(x: [f64; 3], dimension: usize) -> ([f64; 3], [f64; 3]) {
         let sine = (dot(wave, flat(x)) + phase).sin();
         for i in 0..3 {
             u[i] += amplitude[i] * sine;
-            force[i] += sine
-                * ((lambda + mu) * dot(amplitude, wave) * wave[i]
-                    + mu * dot(wave, wave) * amplitude[i]);
+            force[i] += sine * ((lambda + mu) * dot(amplitude, wave) * wave[i] + mu * dot(wave, wave) * amplitude[i]);
         }
     }
     (u, force)
@@ -88,21 +79,10 @@ fn fine_rule(kind: ContinuumKind) -> QuadratureRule {
 }
 
 /// Calls `visit(nodes, shape values, position, weight det J)` at every point of every element.
-fn at_points(
-    grid: &StructuredMesh,
-    kind: ContinuumKind,
-    mut visit: impl FnMut(&[usize], &[f64], [f64; 3], f64),
-) {
+fn at_points(grid: &StructuredMesh, kind: ContinuumKind, mut visit: impl FnMut(&[usize], &[f64], [f64; 3], f64)) {
     let points = fine_rule(kind).points().iter();
-    let tables: Vec<_> = points
-        .map(|p| {
-            (
-                shape_values(kind, p.natural),
-                shape_derivatives(kind, p.natural),
-                p.weight,
-            )
-        })
-        .collect();
+    let tables: Vec<_> =
+        points.map(|p| (shape_values(kind, p.natural), shape_derivatives(kind, p.natural), p.weight)).collect();
     for nodes in grid.mesh.blocks[0].elements() {
         for (values, derivatives, weight) in &tables {
             let mut x = [0.0; 3];
@@ -117,11 +97,7 @@ fn at_points(
                 }
             }
             let [a, b, c] = j;
-            let across = [
-                b[1] * c[2] - b[2] * c[1],
-                b[2] * c[0] - b[0] * c[2],
-                b[0] * c[1] - b[1] * c[0],
-            ];
+            let across = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
             visit(nodes, &values[..nodes.len()], x, weight * dot(a, across));
         }
     }
@@ -133,9 +109,7 @@ fn static_error(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formula
     let thickness = if d == 2 { THICKNESS } else { 1.0 };
     let model = model(grid, kind, formulation);
     let stiffness = SystemMatrices::assemble(&model).unwrap().stiffness;
-    let mut u: Vec<f64> = (0..model.dof())
-        .map(|dof| manufactured(grid.mesh.nodes[dof / d], d).0[dof % d])
-        .collect();
+    let mut u: Vec<f64> = (0..model.dof()).map(|dof| manufactured(grid.mesh.nodes[dof / d], d).0[dof % d]).collect();
     let mut load = vec![0.0; model.dof()];
     at_points(grid, kind, |nodes, values, x, volume| {
         let (_, force) = manufactured(x, d);
@@ -146,13 +120,10 @@ fn static_error(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formula
         }
     });
     let on_boundary = |dof: &usize| (0..d).any(|axis| grid.is_on_face(dof / d, axis));
-    let (held, free): (Vec<usize>, Vec<usize>) =
-        model.free_dofs().into_iter().partition(on_boundary);
+    let (held, free): (Vec<usize>, Vec<usize>) = model.free_dofs().into_iter().partition(on_boundary);
     let prescribed = DenseMatrix::from_fn(held.len(), 1, |row, _| u[held[row]]);
     let reaction = sparse_times_dense(&submatrix(&stiffness, &free, &held), &prescribed);
-    let mut solution: Vec<f64> = (0..free.len())
-        .map(|row| load[free[row]] - reaction[(row, 0)])
-        .collect();
+    let mut solution: Vec<f64> = (0..free.len()).map(|row| load[free[row]] - reaction[(row, 0)]).collect();
     let factor = SparseCholesky::new(&submatrix(&stiffness, &free, &free)).unwrap();
     factor.solve_vector(&mut solution).unwrap();
     for (&dof, value) in free.iter().zip(solution) {
@@ -162,11 +133,7 @@ fn static_error(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formula
     at_points(grid, kind, |nodes, values, x, volume| {
         let (exact, _) = manufactured(x, d);
         for i in 0..d {
-            let found: f64 = nodes
-                .iter()
-                .zip(values)
-                .map(|(node, value)| value * u[d * node + i])
-                .sum();
+            let found: f64 = nodes.iter().zip(values).map(|(node, value)| value * u[d * node + i]).sum();
             error += volume * (found - exact[i]).powi(2);
             norm += volume * exact[i].powi(2);
         }
@@ -186,18 +153,11 @@ fn smooth(dimension: usize) -> impl Fn([f64; 3]) -> [f64; 3] {
     }
 }
 
-const INCOMPATIBLE: Formulation = Formulation {
-    integration: Integration::Full,
-    linear: LinearFormulation::Incompatible,
-};
-const PLAIN: Formulation = Formulation {
-    integration: Integration::Full,
-    linear: LinearFormulation::Plain,
-};
-const FOUR_POINT: Formulation = Formulation {
-    integration: Integration::FourPoint,
-    linear: LinearFormulation::Incompatible,
-};
+const INCOMPATIBLE: Formulation =
+    Formulation { integration: Integration::Full, linear: LinearFormulation::Incompatible };
+const PLAIN: Formulation = Formulation { integration: Integration::Full, linear: LinearFormulation::Plain };
+const FOUR_POINT: Formulation =
+    Formulation { integration: Integration::FourPoint, linear: LinearFormulation::Incompatible };
 
 fn listed(errors: &[f64]) -> String {
     errors.iter().map(|error| format!("{error:.2e} ")).collect()
@@ -207,18 +167,10 @@ fn listed(errors: &[f64]) -> String {
 fn orders(cells: &[usize], errors: &[f64]) -> Vec<f64> {
     let finer = cells.windows(2).map(|pair| pair[1] as f64 / pair[0] as f64);
     let better = errors.windows(2).map(|pair| (pair[0] / pair[1]).abs());
-    better
-        .zip(finer)
-        .map(|(error, cells)| error.ln() / cells.ln())
-        .collect()
+    better.zip(finer).map(|(error, cells)| error.ln() / cells.ln()).collect()
 }
 
-fn displacement_order(
-    kind: ContinuumKind,
-    formulation: Formulation,
-    straight: bool,
-    cells: &[usize],
-) {
+fn displacement_order(kind: ContinuumKind, formulation: Formulation, straight: bool, cells: &[usize]) {
     let errors: Vec<f64> = cells
         .iter()
         .map(|&n| {
@@ -240,11 +192,7 @@ fn displacement_order(
         listed(&errors)
     );
     let last = orders[orders.len() - 1];
-    assert!(
-        (last - (degree + 1.0)).abs() < 0.1,
-        "{}: order {last}",
-        kind.name()
-    );
+    assert!((last - (degree + 1.0)).abs() < 0.1, "{}: order {last}", kind.name());
 }
 
 macro_rules! displacement_orders {
@@ -287,11 +235,7 @@ fn quad8_loses_an_order_on_trapezoids() {
             // every other line of nodes across y rises and falls by a quarter of a cell
             let (column, row) = ((x * n as f64).round(), y * n as f64);
             let inner = if y > 0.0 && y < 1.0 { 0.25 } else { 0.0 };
-            let sign = if (column + row.round()) % 2.0 < 0.5 {
-                1.0
-            } else {
-                -1.0
-            };
+            let sign = if (column + row.round()) % 2.0 < 0.5 { 1.0 } else { -1.0 };
             [x, y + sign * inner / n as f64, 0.0]
         };
         let mut grid = StructuredMesh::new(ContinuumKind::Quad8, [n; 3], alternate);
@@ -299,9 +243,6 @@ fn quad8_loses_an_order_on_trapezoids() {
         static_error(&grid, ContinuumKind::Quad8, PLAIN)
     });
     let orders = orders(&cells, &errors);
-    println!(
-        "Quad8 on trapezoids: errors {}, orders {orders:.3?}",
-        listed(&errors)
-    );
+    println!("Quad8 on trapezoids: errors {}, orders {orders:.3?}", listed(&errors));
     assert!((orders[1] - 2.0).abs() < 0.15, "{orders:?}");
 }

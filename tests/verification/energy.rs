@@ -15,11 +15,7 @@ use plummer::numerics::Unwatched;
 use plummer::system::EnergyBalance;
 
 /// Samples by `dop853`, far more than the vibrations of a ball between its contacts need for a sum over them.
-const PRECISE: [&str; 3] = [
-    "transient.method='dop853'",
-    "transient.tolerance=1e-10",
-    "transient.step=1e-7",
-];
+const PRECISE: [&str; 3] = ["transient.method='dop853'", "transient.tolerance=1e-10", "transient.step=1e-7"];
 
 /// A stretch of a scene, s, and what its balance must close to by `dop853` and by the chosen method.
 struct Stretch {
@@ -34,22 +30,13 @@ impl Stretch {
     fn balance(&self, set: &[&str]) -> EnergyBalance {
         let path = format!("{}/examples/{}", env!("CARGO_MANIFEST_DIR"), self.path);
         let (start, end) = (self.start, self.start + self.seconds);
-        let times = [
-            format!("transient.start={start}"),
-            format!("transient.end={end}"),
-        ];
-        let set = ["analysis.envelope=[]", "transient.modes=7"]
-            .iter()
-            .chain(set)
-            .map(|key| (*key).to_owned());
+        let times = [format!("transient.start={start}"), format!("transient.end={end}")];
+        let set = ["analysis.envelope=[]", "transient.modes=7"].iter().chain(set).map(|key| (*key).to_owned());
         let case = Case::load(&path, &set.chain(times).collect::<Vec<_>>()).unwrap();
         let run = case.for_run().unwrap();
         let scene = Scene::build(run, &Unwatched).unwrap();
         let model = ModelChoice::of_case(run, &scene).unwrap().model;
-        let span = Span {
-            duration: self.seconds,
-            output_hz: 100e3,
-        };
+        let span = Span { duration: self.seconds, output_hz: 100e3 };
         let run = Simulation::kept_from_rest(&scene, &model, span, true, &mut InMemory, |_| {});
         run.unwrap().energy.unwrap()
     }
@@ -59,10 +46,7 @@ impl Stretch {
     fn check(&self, flows: [bool; 5]) {
         let path = self.path;
         let chosen = [flows[0], flows[1], flows[2], false, false];
-        for (set, limit, needed) in [
-            (&PRECISE[..], self.precise, flows),
-            (&[], self.chosen, chosen),
-        ] {
+        for (set, limit, needed) in [(&PRECISE[..], self.precise, flows), (&[], self.chosen, chosen)] {
             let energy = self.balance(set);
             assert!(energy.error().abs() < limit, "{path} {set:?}: {energy:?}");
             let parts = [
@@ -92,14 +76,7 @@ fn it_closes_without_defects() {
     ];
     for (path, start, precise, chosen, damped) in scenes {
         let seconds = 5e-4;
-        Stretch {
-            path,
-            start,
-            seconds,
-            precise,
-            chosen,
-        }
-        .check([true, true, true, damped, false]);
+        Stretch { path, start, seconds, precise, chosen }.check([true, true, true, damped, false]);
     }
 }
 
@@ -107,49 +84,25 @@ fn it_closes_without_defects() {
 // tangential force with it.
 #[test]
 fn it_closes_over_a_dent_of_the_outer_race() {
-    for (path, start, with_blending) in [
-        ("scenes/impact.toml", 0.0, false),
-        ("tadina2011/outer-dent.toml", 2.3075, true),
-    ] {
+    for (path, start, with_blending) in
+        [("scenes/impact.toml", 0.0, false), ("tadina2011/outer-dent.toml", 2.3075, true)]
+    {
         let (seconds, precise, chosen) = (1e-3, 2e-4, 1e-3);
-        Stretch {
-            path,
-            start,
-            seconds,
-            precise,
-            chosen,
-        }
-        .check([true, true, true, true, with_blending]);
+        Stretch { path, start, seconds, precise, chosen }.check([true, true, true, true, with_blending]);
     }
 }
 
 #[test]
 fn it_closes_over_a_dent_of_the_inner_race_and_a_flat() {
-    for (path, start) in [
-        ("tadina2011/inner-dent.toml", 2.3285),
-        ("tadina2011/ball-flat.toml", 2.3),
-    ] {
+    for (path, start) in [("tadina2011/inner-dent.toml", 2.3285), ("tadina2011/ball-flat.toml", 2.3)] {
         let (seconds, precise, chosen) = (7e-4, 1e-6, 1e-4);
-        Stretch {
-            path,
-            start,
-            seconds,
-            precise,
-            chosen,
-        }
-        .check([true; 5]);
+        Stretch { path, start, seconds, precise, chosen }.check([true; 5]);
     }
 }
 
 // What the modes damp here in so short a time is 5e-6 of what is exchanged.
 #[test]
 fn it_closes_in_a_solid_housing() {
-    Stretch {
-        path: "scenes/pedestal.toml",
-        start: 0.0,
-        seconds: 3e-4,
-        precise: 5e-5,
-        chosen: 1e-4,
-    }
-    .check([true, true, false, true, false]);
+    Stretch { path: "scenes/pedestal.toml", start: 0.0, seconds: 3e-4, precise: 5e-5, chosen: 1e-4 }
+        .check([true, true, false, true, false]);
 }

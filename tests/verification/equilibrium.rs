@@ -18,13 +18,11 @@ use plummer::fe::model::Fit;
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::ode::{NoRecord, State};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection,
-    StaticCondition, Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, StaticCondition, Structure,
+    StructureModes,
 };
 
-use crate::setup::{
-    Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure, preloaded_bearing,
-};
+use crate::setup::{Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure, preloaded_bearing};
 
 /// Weight of the shaft, N.
 const WEIGHT: f64 = 0.15 * 9.81;
@@ -51,18 +49,9 @@ struct Case<'a> {
 impl Case<'_> {
     fn drift(&self, selection: ModeSelection, residual: bool, method: Method) -> Drift {
         let setup = paper_bearing(self.first_deg, Formulation::Consistent);
-        let rest =
-            Equilibrium::find(self.structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
+        let rest = Equilibrium::find(self.structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
         let undamped = ModeDamping::Modal(0.0);
-        let mut system = CoupledSystem::new(
-            self.structure,
-            self.modes,
-            setup,
-            selection,
-            undamped,
-            residual,
-        )
-        .unwrap();
+        let mut system = CoupledSystem::new(self.structure, self.modes, setup, selection, undamped, residual).unwrap();
         let start = system.state_at(0.0, &rest, self.modes);
         let mut end = start.clone();
         // 1e-8 s is below the limit of 216 modes, 5.3e-8 s
@@ -70,30 +59,14 @@ impl Case<'_> {
             Method::NewmarkExplicit => 1e-8,
             _ => 1e-7,
         };
-        let schedule = Schedule {
-            interval: 1000.0 * h,
-            steps_per_interval: 1000,
-            intervals: 1,
-        };
-        integrate(
-            &mut system,
-            method,
-            &schedule,
-            &mut end,
-            &mut NoRecord,
-            |_, _| Stepping::Continue,
-        )
-        .unwrap();
+        let schedule = Schedule { interval: 1000.0 * h, steps_per_interval: 1000, intervals: 1 };
+        integrate(&mut system, method, &schedule, &mut end, &mut NoRecord, |_, _| Stepping::Continue).unwrap();
         let forces = |system: &mut CoupledSystem, state: &State| {
             let forces = contact_forces(system, state);
             [forces.inner, forces.outer].concat()
         };
-        let statics: Vec<f64> = rest
-            .balls
-            .iter()
-            .map(|ball| ball.inner)
-            .chain(rest.balls.iter().map(|ball| ball.outer))
-            .collect();
+        let statics: Vec<f64> =
+            rest.balls.iter().map(|ball| ball.inner).chain(rest.balls.iter().map(|ball| ball.outer)).collect();
         let largest = |a: &[f64], b: &[f64]| {
             let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
             differences.fold(0.0, f64::max)
@@ -116,10 +89,7 @@ fn two_balls_share_the_weight() {
         for ball in [0, 6] {
             let force = rest.balls[ball].inner;
             // three balls rest on top of the inner race, 7.2e-4 N in all: 5e-4 of the share
-            assert!(
-                (force / share - 1.0).abs() < 1e-3,
-                "{force} N, alone {share} N"
-            );
+            assert!((force / share - 1.0).abs() < 1e-3, "{force} N, alone {share} N");
             assert!((force - 0.82).abs() < 0.005, "the paper's loads: {force} N");
         }
         // springs at 180 degrees and none at 360: the ring leans by 12 nm and shifts 1.2e-5 of a share
@@ -134,27 +104,11 @@ fn over_one_ball_the_shaft_leans_on_a_neighbour() {
     let rest = find(&structure, 270.0, Formulation::Consistent);
     // found 0.8090 um; 1.4718 N, 0.411 mN and 0.608 mN; pinned to 2 % because other rings and ball
     // weights shift it, the design page says 0.8 um and 0.4 mN
-    assert!(
-        (rest.shaft[0] / 0.809e-6 - 1.0).abs() < 0.02,
-        "{:e} m",
-        rest.shaft[0]
-    );
+    assert!((rest.shaft[0] / 0.809e-6 - 1.0).abs() < 0.02, "{:e} m", rest.shaft[0]);
     let (below, neighbour, other) = (rest.balls[0], rest.balls[1], rest.balls[6]);
-    assert!(
-        (below.inner / WEIGHT - 1.0).abs() < 1e-3,
-        "{} N",
-        below.inner
-    );
-    assert!(
-        (neighbour.inner / 0.411e-3 - 1.0).abs() < 0.02,
-        "{} N",
-        neighbour.inner
-    );
-    assert!(
-        (neighbour.outer / 0.608e-3 - 1.0).abs() < 0.02,
-        "{} N",
-        neighbour.outer
-    );
+    assert!((below.inner / WEIGHT - 1.0).abs() < 1e-3, "{} N", below.inner);
+    assert!((neighbour.inner / 0.411e-3 - 1.0).abs() < 0.02, "{} N", neighbour.inner);
+    assert!((neighbour.outer / 0.608e-3 - 1.0).abs() < 0.02, "{} N", neighbour.outer);
     assert!(other.inner == 0.0, "{} N", other.inner);
     // a minimum: a hundred times the 390 N/m (F/chi) by which the upright position falls
     assert!(rest.least_curvature > 1e4, "{} N/m", rest.least_curvature);
@@ -172,10 +126,7 @@ fn inner_forces_balance_the_weight() {
             for ball in &rest.balls {
                 let (sin, cos) = ball.angle.sin_cos();
                 let rho = touching + ball.displacement;
-                let b = [
-                    rho * cos - (rest.shaft[0] - rest.centre[0]),
-                    rho * sin - (rest.shaft[1] - rest.centre[1]),
-                ];
+                let b = [rho * cos - (rest.shaft[0] - rest.centre[0]), rho * sin - (rest.shaft[1] - rest.centre[1])];
                 let chi = b[0].hypot(b[1]);
                 let n = [b[0] / chi, b[1] / chi];
                 for component in 0..2 {
@@ -185,10 +136,7 @@ fn inner_forces_balance_the_weight() {
                 let pull = setup.geometry.ball_mass() * -9.81 * sin;
                 let along = ball.inner * (n[0] * cos + n[1] * sin) - ball.outer + pull;
                 // a ball in the clearance is left where nothing but its weight, below 3.3e-4 N, acts
-                assert!(
-                    along.abs() < 1e-10,
-                    "{formulation:?} {first_deg}: {along:e} N"
-                );
+                assert!(along.abs() < 1e-10, "{formulation:?} {first_deg}: {along:e} N");
             }
             // the search ends at 1e-11 of the weight
             let error = sum[0].hypot(sum[1]);
@@ -204,11 +152,7 @@ fn integrators_leave_an_equilibrium_alone() {
     // with the ball on a ring node: forces over the residual flexibility end at 1e-11 of the largest,
     // 1.5 N: found 8e-11 N; inside an element 9e-8 N of 0.82 N were found
     for (first_deg, limit) in [(270.0, 1e-9), (SYMMETRIC_DEG, 1e-7)] {
-        let case = Case {
-            structure: &structure,
-            modes: &modes,
-            first_deg,
-        };
+        let case = Case { structure: &structure, modes: &modes, first_deg };
         let spectral_radius = 0.8;
         for method in [
             Method::Exponential,
@@ -218,28 +162,12 @@ fn integrators_leave_an_equilibrium_alone() {
         ] {
             let all = case.drift(ModeSelection::All, false, method);
             // round-off of 216 modal displacements against contacts of 1e7 N/m; found 9e-11 N, 1e-18 m
-            assert!(
-                all.force < 1e-9,
-                "{method:?} {first_deg}: {:e} N",
-                all.force
-            );
-            assert!(
-                all.shaft < 1e-17,
-                "{method:?} {first_deg}: {:e} m",
-                all.shaft
-            );
+            assert!(all.force < 1e-9, "{method:?} {first_deg}: {:e} N", all.force);
+            assert!(all.shaft < 1e-17, "{method:?} {first_deg}: {:e} m", all.shaft);
             let few = case.drift(ModeSelection::UpTo(60e3), true, method);
-            assert!(
-                few.force < limit,
-                "{method:?} {first_deg}: {:e} N",
-                few.force
-            );
+            assert!(few.force < limit, "{method:?} {first_deg}: {:e} N", few.force);
             // the same out of balance moves the shaft: found 5e-16 m
-            assert!(
-                few.shaft < 1e-14,
-                "{method:?} {first_deg}: {:e} m",
-                few.shaft
-            );
+            assert!(few.shaft < 1e-14, "{method:?} {first_deg}: {:e} m", few.shaft);
         }
         // the check can fail: without the residual, five modes are too stiff for the static load
         let without = case.drift(ModeSelection::UpTo(60e3), false, Method::Exponential);
@@ -253,11 +181,7 @@ fn integrators_leave_a_tied_housing_in_equilibrium() {
     let modes = structure.modes().unwrap();
     // found 1.4e-12 N with the ball on a ring node and 4.3e-8 N inside an element, half of what the beam ring leaves there
     for (first_deg, limit) in [(270.0, 1e-11), (SYMMETRIC_DEG, 1e-7)] {
-        let case = Case {
-            structure: &structure,
-            modes: &modes,
-            first_deg,
-        };
+        let case = Case { structure: &structure, modes: &modes, first_deg };
         let all = case.drift(ModeSelection::All, false, Method::Exponential);
         // round-off, found 2e-11 N
         assert!(all.force < 1e-10, "{first_deg}: {:e} N", all.force);
@@ -280,11 +204,7 @@ fn every_equilibrium_over_one_ball_is_found() {
     let lean = |rest: &Equilibrium| rest.shaft[0] - others[0].shaft[0];
     assert!(lean(stable[0]) * lean(stable[1]) < 0.0);
     for rest in stable {
-        assert!(
-            (lean(rest).abs() / 0.8e-6 - 1.0).abs() < 0.02,
-            "{:e}",
-            lean(rest)
-        );
+        assert!((lean(rest).abs() / 0.8e-6 - 1.0).abs() < 0.02, "{:e}", lean(rest));
     }
     let saddle = others[0];
     assert_eq!(saddle.directions_down, 1);
@@ -310,15 +230,12 @@ fn the_stiffness_of_the_bearing_is_the_slope_of_its_load() {
         let condition = StaticCondition::at(&setup, 0.0);
         let shaft = |load: [f64; 2]| {
             let condition = StaticCondition { load, ..condition };
-            Equilibrium::find(&structure, &setup, condition)
-                .unwrap()
-                .shaft
+            Equilibrium::find(&structure, &setup, condition).unwrap().shaft
         };
         let rest = Equilibrium::find(&structure, &setup, condition).unwrap();
         for direction in [[1.0, 0.0], [0.0, 1.0]] {
             let change = 1e-4;
-            let moved =
-                |sign: f64| shaft([0, 1].map(|k| condition.load[k] + sign * change * direction[k]));
+            let moved = |sign: f64| shaft([0, 1].map(|k| condition.load[k] + sign * change * direction[k]));
             let (ahead, behind) = (moved(1.0), moved(-1.0));
             for (i, row) in rest.shaft_stiffness.iter().enumerate() {
                 let force: f64 = (0..2).map(|j| row[j] * (ahead[j] - behind[j])).sum();
@@ -342,10 +259,7 @@ fn waves_and_larger_balls_take_play_away() {
         rest.balls.iter().map(|ball| ball.inner).collect()
     };
     let tighter = |by: f64| BearingSetup {
-        geometry: plain
-            .geometry
-            .with_radial_play(plain.geometry.radial_play() - by)
-            .unwrap(),
+        geometry: plain.geometry.with_radial_play(plain.geometry.radial_play() - by).unwrap(),
         ..plain.clone()
     };
     let height = 0.2e-6;
@@ -359,10 +273,7 @@ fn waves_and_larger_balls_take_play_away() {
         }],
         ..plain.clone()
     };
-    let larger = BearingSetup {
-        oversizes: vec![height; 7],
-        ..plain.clone()
-    };
+    let larger = BearingSetup { oversizes: vec![height; 7], ..plain.clone() };
     // a wave raises the inner race towards the balls and lowers the outer one
     for (irregular, tighter) in [
         (wave(Race::Inner, height), tighter(height)),

@@ -8,21 +8,12 @@ use plummer::numerics::Unwatched;
 
 /// An example at constant speed: 10 Hz between two lines of the envelope's spectrum over 0.2 s, in quarters.
 fn run(example: &str, set: &[&str]) -> RunResult {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join(format!("examples/tadina2011/{example}.toml"));
-    let constant = [
-        "speed.profile=[{time=0,hz=21}]",
-        "transient.end=0.25",
-        "analysis.envelope=[{from=0.05,to=0.25}]",
-    ];
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("examples/tadina2011/{example}.toml"));
+    let constant = ["speed.profile=[{time=0,hz=21}]", "transient.end=0.25", "analysis.envelope=[{from=0.05,to=0.25}]"];
     let case = Case::from_source(Source {
         text: std::fs::read_to_string(&path).unwrap(),
         path,
-        set: constant
-            .iter()
-            .chain(set)
-            .map(|&set| set.to_owned())
-            .collect(),
+        set: constant.iter().chain(set).map(|&set| set.to_owned()).collect(),
     });
     let result = compute_run(&case.unwrap(), &Unwatched).unwrap();
     assert!(matches!(result.simulation.end, RunEnd::Complete));
@@ -55,22 +46,13 @@ fn every_fault_has_its_own_order() {
                 continue;
             }
             let beside = mean(&faulty, &|run| line(run, hz));
-            assert!(
-                amplitude > beside,
-                "{example}: {amplitude} at its own order, {beside} at {other}"
-            );
+            assert!(amplitude > beside, "{example}: {amplitude} at its own order, {beside} at {other}");
         }
         let sound = mean(&healthy, &|run| line(run, lines[own]));
-        assert!(
-            amplitude > 5.0 * sound,
-            "{example}: {amplitude}, without it {sound}"
-        );
+        assert!(amplitude > 5.0 * sound, "{example}: {amplitude}, without it {sound}");
         // found 240 to 620 m/s^2, and 25 to 60
         let [peak, quiet] = [&faulty, &healthy].map(|runs| mean(runs, &|run| run.windows[0].peak));
-        assert!(
-            peak > 5.0 * quiet,
-            "{example}: {peak} m/s^2, without it {quiet} m/s^2"
-        );
+        assert!(peak > 5.0 * quiet, "{example}: {peak} m/s^2, without it {quiet} m/s^2");
     }
 }
 
@@ -79,8 +61,7 @@ fn every_fault_has_its_own_order() {
 fn a_dent_outside_the_loaded_zone_is_hardly_heard() {
     let rms = |angle_deg: u32| {
         let angle = format!("bearing.defects[0].angle_deg={angle_deg}");
-        let starts =
-            [270, 280, 290, 300, 310, 320].map(|deg| format!("bearing.first_ball_deg={deg}"));
+        let starts = [270, 280, 290, 300, 310, 320].map(|deg| format!("bearing.first_ball_deg={deg}"));
         let of = |start: &String| run("outer-dent", &[&angle, start]).windows[0].rms;
         starts.iter().map(of).sum::<f64>() / 6.0
     };
@@ -94,10 +75,7 @@ fn a_dent_outside_the_loaded_zone_is_hardly_heard() {
 /// balls above the shaft fall into it and are thrown against the outer race.
 #[test]
 fn a_turning_dent_is_heard_under_the_load() {
-    let shallow = [
-        "bearing.defects[0].depth=1e-6",
-        "shaft.loads=[{force=[0,-20]}]",
-    ];
+    let shallow = ["bearing.defects[0].depth=1e-6", "shaft.loads=[{force=[0,-20]}]"];
     let result = run("inner-dent", &shallow);
     let signal = result.simulation.signal(0).unwrap();
     let times = &result.simulation.record.time_s;

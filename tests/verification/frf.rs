@@ -15,17 +15,16 @@ use plummer::fe::element::continuum::{Formulation, Integration};
 use plummer::fe::material::Material;
 use plummer::fe::mesh::Mesh;
 use plummer::fe::model::{
-    Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
-    Link, RingTie, SpringStiffness, SupportShare,
+    Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, RingTie,
+    SpringStiffness, SupportShare,
 };
 use plummer::fe::reduction::frf::{
-    FrequencyResponse, FrfPaths, FrfQuantity, ModalBasis, ModalDamping, ModalSuperposition,
-    ReducedSystem, direct_response,
+    FrequencyResponse, FrfPaths, FrfQuantity, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem,
+    direct_response,
 };
 use plummer::numerics::Unwatched;
 use plummer::numerics::linalg::{
-    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix,
-    submatrix,
+    ComplexMatrix, DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, SparseMatrix, submatrix,
 };
 use plummer::numerics::units::LengthUnit;
 use std::f64::consts::TAU;
@@ -48,14 +47,8 @@ impl Pedestal {
         let mesh = Mesh::read_gmsh(&data("pedestal_10k.msh"), LengthUnit::Metre).unwrap();
         let material = Material::new(70e9, 0.33, 2700.0).unwrap();
         let description = HousingDescription {
-            parts: vec![HousingPart {
-                group: "housing".into(),
-                material: material.into(),
-            }],
-            formulation: Formulation {
-                integration: Integration::FourPoint,
-                ..Formulation::default()
-            },
+            parts: vec![HousingPart { group: "housing".into(), material: material.into() }],
+            formulation: Formulation { integration: Integration::FourPoint, ..Formulation::default() },
             supports: vec![HousingSupport {
                 group: "feet".into(),
                 constraint: Constraint::Fixed([true; 3]),
@@ -87,11 +80,7 @@ impl Pedestal {
 
     fn problem(&self) -> HarmonicProblem {
         let (alpha, beta) = self.rayleigh();
-        let damping = HarmonicDamping {
-            alpha,
-            beta,
-            ..HarmonicDamping::default()
-        };
+        let damping = HarmonicDamping { alpha, beta, ..HarmonicDamping::default() };
         let (k, m) = (&self.matrices.stiffness, &self.matrices.mass);
         HarmonicProblem::restricted(k, m, &damping, &self.free).unwrap()
     }
@@ -114,8 +103,7 @@ fn full_response_of_the_pedestal() {
     let mut largest = 0.0_f64;
     for entry in pedestal.reference["results"].as_array().unwrap() {
         let number = |key: &str| entry[key].as_f64().unwrap();
-        let complex =
-            |key: &str| Complex::new(number(&format!("{key}_re")), number(&format!("{key}_im")));
+        let complex = |key: &str| Complex::new(number(&format!("{key}_re")), number(&format!("{key}_im")));
         let hz = number("f_hz");
         let solution = problem.solve(TAU * hz, &load).unwrap();
         // the reference's force is down; its drive receptance is u_y there
@@ -149,12 +137,8 @@ fn reciprocity_and_balance_of_power() {
     let pedestal = Pedestal::new();
     let (k, m) = (&pedestal.matrices.stiffness, &pedestal.matrices.mass);
     let structural = k.map(|value| 0.02 * value);
-    let damping = HarmonicDamping {
-        alpha: 100.0,
-        beta: 1e-8,
-        structural: Some(&structural),
-        ..HarmonicDamping::default()
-    };
+    let damping =
+        HarmonicDamping { alpha: 100.0, beta: 1e-8, structural: Some(&structural), ..HarmonicDamping::default() };
     let problem = HarmonicProblem::restricted(k, m, &damping, &pedestal.free).unwrap();
     let rows = [pedestal.force, pedestal.response];
     let loads = pedestal.forces(&rows);
@@ -184,10 +168,7 @@ fn reduced_response_of_the_pedestal() {
     let (k, m) = (&pedestal.matrices.stiffness, &pedestal.matrices.mass);
     let part = |a| submatrix(a, &pedestal.free, &pedestal.free);
     let kept = 60;
-    let modes = EigenProblem::new(&part(k), &part(m))
-        .unwrap()
-        .lowest(kept)
-        .unwrap();
+    let modes = EigenProblem::new(&part(k), &part(m)).unwrap().lowest(kept).unwrap();
     // static response to the load, and what of it the modes do not carry
     let full = pedestal.problem();
     let load = pedestal.forces(&[pedestal.force]);
@@ -195,48 +176,26 @@ fn reduced_response_of_the_pedestal() {
     let (a, b) = (pedestal.force, pedestal.response);
     let shape = |row: usize, mode: usize| modes.vectors[(row, mode)];
     let residual = |row: usize| -> f64 {
-        let carried: f64 = (0..kept)
-            .map(|mode| shape(row, mode) * shape(a, mode) / modes.values[mode])
-            .sum();
+        let carried: f64 = (0..kept).map(|mode| shape(row, mode) * shape(a, mode) / modes.values[mode]).sum();
         rest[(row, 0)].re - carried
     };
     // a coordinate without mass of stiffness 1: its displacement is the load on it
     let order = kept + 1;
     let diagonal = |values: &dyn Fn(usize) -> f64| {
-        DenseMatrix::from_fn(
-            order,
-            order,
-            |row, column| {
-                if row == column { values(row) } else { 0.0 }
-            },
-        )
+        DenseMatrix::from_fn(order, order, |row, column| if row == column { values(row) } else { 0.0 })
     };
     let stiffness = diagonal(&|row| if row < kept { modes.values[row] } else { 1.0 });
     let mass = diagonal(&|row| f64::from(u8::from(row < kept)));
     let (alpha, beta) = pedestal.rayleigh();
     let damping = diagonal(&|row| {
-        if row < kept {
-            alpha + beta * modes.values[row]
-        } else {
-            0.0
-        }
+        if row < kept { alpha + beta * modes.values[row] } else { 0.0 }
     });
-    let system = ReducedSystem::new(stiffness, mass)
-        .and_then(|system| system.with_viscous(damping))
-        .unwrap();
+    let system = ReducedSystem::new(stiffness, mass).and_then(|system| system.with_viscous(damping)).unwrap();
     let paths = FrfPaths {
-        loads: DenseMatrix::from_fn(
-            order,
-            1,
-            |row, _| if row < kept { shape(a, row) } else { 1.0 },
-        ),
+        loads: DenseMatrix::from_fn(order, 1, |row, _| if row < kept { shape(a, row) } else { 1.0 }),
         sensors: DenseMatrix::from_fn(2, order, |sensor, column| {
             let row = [b, a][sensor];
-            if column < kept {
-                shape(row, column)
-            } else {
-                residual(row)
-            }
+            if column < kept { shape(row, column) } else { residual(row) }
         }),
     };
     let list = [500.0, 7370.0, 18_600.0, 30_000.0, 45_000.0];
@@ -258,11 +217,8 @@ fn reduced_response_of_the_pedestal() {
         let difference = |found: &FrequencyResponse, other: &FrequencyResponse| {
             found.largest_difference(other).unwrap()[(sensor, 0)]
         };
-        let errors = [
-            difference(&direct, &reference),
-            difference(&by_modes, &reference),
-            difference(&by_modes, &direct),
-        ];
+        let errors =
+            [difference(&direct, &reference), difference(&by_modes, &reference), difference(&by_modes, &direct)];
         println!("sensor {sensor}: {errors:?}");
         // the static residual of modes above 190 kHz at 45 kHz: (45/190)^2 of what they carry, a few per cent of 1
         assert!(errors[0] < 5e-3, "{}", errors[0]);
@@ -279,10 +235,7 @@ fn auto_keeps_its_target_against_the_reference() {
     let tag = |key: &str| reference[key].as_u64().unwrap();
     let (force, response) = (tag("force_node_tag"), tag("response_node_tag"));
     let entries = reference["results"].as_array().unwrap();
-    let hz: Vec<f64> = entries
-        .iter()
-        .map(|entry| entry["f_hz"].as_f64().unwrap())
-        .collect();
+    let hz: Vec<f64> = entries.iter().map(|entry| entry["f_hz"].as_f64().unwrap()).collect();
     let source = Source {
         path: data("pedestal.toml"),
         text: format!(
@@ -307,11 +260,7 @@ fn auto_keeps_its_target_against_the_reference() {
         for (entry, hz) in entries.iter().zip(&hz) {
             let part = |part: &str| entry[format!("{key}_{part}")].as_f64().unwrap();
             let expected = Complex::new(part("re"), part("im"));
-            let place = result
-                .response
-                .frequencies_hz()
-                .iter()
-                .position(|own| (own - hz).abs() < 1e-9);
+            let place = result.response.frequencies_hz().iter().position(|own| (own - hz).abs() < 1e-9);
             let found = result.response.receptance()[place.unwrap()][path.place];
             largest = largest.max((found - expected).norm() / expected.norm());
         }
@@ -343,10 +292,7 @@ fn blocks(young: [f64; 2], eta: [f64; 2], springs: bool) -> HousingModel {
         } else {
             Vec::new()
         },
-        links: vec![Link {
-            between: ["foot", "seat"].map(str::to_owned),
-            connection: Connection::Tie,
-        }],
+        links: vec![Link { between: ["foot", "seat"].map(str::to_owned), connection: Connection::Tie }],
         ..HousingDescription::default()
     };
     HousingModel::new(&mesh, description).unwrap()
@@ -391,10 +337,7 @@ fn structural_damping_follows_the_tie() {
     let mesh = Mesh::read_gmsh(&path, LengthUnit::parse("mm").unwrap()).unwrap();
     let aluminium = Material::new(72e9, 0.33, 2700.0).and_then(|m| m.with_loss_factor(eta));
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: "housing".into(),
-            material: aluminium.unwrap().into(),
-        }],
+        parts: vec![HousingPart { group: "housing".into(), material: aluminium.unwrap().into() }],
         plane: Some(plummer::fe::model::PlaneModel {
             assumption: plummer::fe::element::continuum::PlaneAssumption::Stress,
             thickness: 4e-3,
@@ -403,20 +346,10 @@ fn structural_damping_follows_the_tie() {
     };
     housing.model = HousingModel::new(&mesh, description).unwrap();
     let ring = steel_ring();
-    let tie = RingTie::new(
-        &mesh,
-        &housing.model,
-        "bore",
-        &ring,
-        BORE_RADIUS,
-        Fit::Sliding,
-    )
-    .unwrap();
+    let tie = RingTie::new(&mesh, &housing.model, "bore", &ring, BORE_RADIUS, Fit::Sliding).unwrap();
     assert!(tie.rotation().is_some());
     let plain = SystemMatrices::assemble(&housing.model).unwrap();
-    let lossy = StructuralStiffness::assemble(&housing.model)
-        .unwrap()
-        .unwrap();
+    let lossy = StructuralStiffness::assemble(&housing.model).unwrap().unwrap();
     let coupled = CoupledMatrices::new(&plain, &tie, &ring);
     let on_ring = coupled.motions.congruent(lossy.matrix());
     let of_housing = coupled.motions.congruent(&plain.stiffness);

@@ -59,34 +59,17 @@ fn hertz_impact_by_all_integrators() {
     let mass = 7800.0 * 4.0 / 3.0 * PI * radius * radius * radius;
     let expected = impact(stiffness, mass, 1.0).unwrap();
     let spectral_radius = 0.8;
-    for method in [
-        Method::Exponential,
-        Method::NewmarkExplicit,
-        Method::Newmark,
-        Method::GeneralizedAlpha { spectral_radius },
-    ] {
+    for method in
+        [Method::Exponential, Method::NewmarkExplicit, Method::Newmark, Method::GeneralizedAlpha { spectral_radius }]
+    {
         let mut sphere = Sphere {
-            linear: [LinearCoordinate {
-                squared_frequency: 0.0,
-                damping: 0.0,
-            }],
-            law: HertzContact {
-                stiffness,
-                damping: 0.0,
-            },
+            linear: [LinearCoordinate { squared_frequency: 0.0, damping: 0.0 }],
+            law: HertzContact { stiffness, damping: 0.0 },
             mass,
         };
-        let mut state = State {
-            t: 0.0,
-            y: vec![0.0],
-            v: vec![1.0],
-        };
+        let mut state = State { t: 0.0, y: vec![0.0], v: vec![1.0] };
         let steps = 1100;
-        let schedule = Schedule {
-            interval: 1.1 * expected.contact_time,
-            steps_per_interval: steps,
-            intervals: 1,
-        };
+        let schedule = Schedule { interval: 1.1 * expected.contact_time, steps_per_interval: steps, intervals: 1 };
         let mut peak = Peak::default();
         let go_on = |_, _| Stepping::Continue;
         integrate(&mut sphere, method, &schedule, &mut state, &mut peak, go_on).unwrap();

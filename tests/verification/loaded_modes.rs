@@ -16,20 +16,17 @@
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
-use plummer::bearing::defect::{
-    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect,
-};
+use plummer::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect};
 use plummer::bearing::{Race, Wave};
 use plummer::numerics::linalg::{DenseMatrix, general_spectrum};
 use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeDamping,
-    ModeSelection, StaticCondition, Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeDamping, ModeSelection,
+    StaticCondition, Structure, StructureModes,
 };
 
 use crate::setup::{
-    ContactForces, SYMMETRIC_DEG, column, contact_forces, paper_bearing, paper_section,
-    paper_structure,
+    ContactForces, SYMMETRIC_DEG, column, contact_forces, paper_bearing, paper_section, paper_structure,
 };
 
 /// Everything about one equilibrium.
@@ -54,16 +51,8 @@ impl Scene {
         let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
         let undamped = ModeDamping::Modal(0.0);
         let all = ModeSelection::All;
-        let system =
-            CoupledSystem::new(&structure, &modes, setup.clone(), all, undamped, false).unwrap();
-        Self {
-            state: system.state_at(0.0, &rest, &modes),
-            structure,
-            modes,
-            setup,
-            rest,
-            system,
-        }
+        let system = CoupledSystem::new(&structure, &modes, setup.clone(), all, undamped, false).unwrap();
+        Self { state: system.state_at(0.0, &rest, &modes), structure, modes, setup, rest, system }
     }
 
     fn loaded(&self) -> LoadedModes {
@@ -98,8 +87,7 @@ impl Scene {
             for row in 0..order {
                 k[(row, column)] = -self.mass(row) * (up[row] - down[row]) / (2.0 * h);
             }
-            k[(column, column)] +=
-                self.mass(column) * self.system.linear()[column].squared_frequency;
+            k[(column, column)] += self.mass(column) * self.system.linear()[column].squared_frequency;
         }
         k
     }
@@ -168,10 +156,7 @@ fn without_ball_modes(loaded: &LoadedModes) -> Vec<f64> {
 fn assert_digits(found: &[f64], expected: &[f64]) {
     for (found, expected) in found.iter().zip(expected) {
         // expected: this program's own, all digits given
-        assert!(
-            (found / expected - 1.0).abs() < 2e-4,
-            "{found} Hz, expected {expected} Hz"
-        );
+        assert!((found / expected - 1.0).abs() < 2e-4, "{found} Hz, expected {expected} Hz");
     }
 }
 
@@ -182,18 +167,12 @@ fn the_published_eigenfrequencies() {
     for published in [8.2e3, 11.3e3, 36e3] {
         let found = loaded.nearest(published).unwrap().frequency_hz;
         // the source's two to three digits
-        assert!(
-            (found / published - 1.0).abs() < 0.015,
-            "{found} Hz, published {published} Hz"
-        );
+        assert!((found / published - 1.0).abs() < 0.015, "{found} Hz, published {published} Hz");
     }
     // shaft on ring and springs twice, then one that the source does not name, then its three, the
     // ring's as a pair
     let frequencies = without_ball_modes(&loaded);
-    assert_digits(
-        &frequencies[..7],
-        &[317.03, 480.76, 4839.6, 8292.8, 11265.0, 35707.0, 35853.0],
-    );
+    assert_digits(&frequencies[..7], &[317.03, 480.76, 4839.6, 8292.8, 11265.0, 35707.0, 35853.0]);
     assert_eq!((loaded.without_stiffness, loaded.unstable), (0, 0));
 }
 
@@ -260,24 +239,11 @@ fn the_linearisation_on_what_is_no_circle_is_that_of_the_force() {
         vec![RaceDefect::Dent(dent)]
     };
     let flat = |angle: f64| {
-        let shape = FlatShape {
-            radius: 1.2e-3,
-            depth: 0.3e-6,
-            rim_radius: 0.05e-3,
-            curvature: CurvatureReading::Total,
-        };
-        vec![FlatOnBall {
-            ball: 0,
-            shape: BallFlat::new(&geometry, shape, stiffness).unwrap(),
-            angle,
-        }]
+        let shape =
+            FlatShape { radius: 1.2e-3, depth: 0.3e-6, rim_radius: 0.05e-3, curvature: CurvatureReading::Total };
+        vec![FlatOnBall { ball: 0, shape: BallFlat::new(&geometry, shape, stiffness).unwrap(), angle }]
     };
-    let waves = [Race::Inner, Race::Outer].map(|race| Wave {
-        race,
-        order: 14,
-        amplitude: 0.5e-6,
-        phase: 0.3,
-    });
+    let waves = [Race::Inner, Race::Outer].map(|race| Wave { race, order: 14, amplitude: 0.5e-6, phase: 0.3 });
     let oversizes: Vec<f64> = (0..7).map(|ball| 1e-7 * f64::from(ball)).collect();
     for (race_defects, flats, waves, oversizes) in [
         (dent(Race::Outer, 0.01), vec![], vec![], vec![]),
@@ -287,13 +253,7 @@ fn the_linearisation_on_what_is_no_circle_is_that_of_the_force() {
         (vec![], vec![], waves.to_vec(), vec![]),
         (vec![], vec![], vec![], oversizes),
     ] {
-        let setup = BearingSetup {
-            race_defects,
-            flats,
-            waves,
-            oversizes,
-            ..sound.clone()
-        };
+        let setup = BearingSetup { race_defects, flats, waves, oversizes, ..sound.clone() };
         let mut scene = Scene::of(0.0, setup);
         assert!(scene.rest.is_stable());
         let force = scene.rest.balls[0].inner;
@@ -333,10 +293,7 @@ fn the_curvature_of_an_equilibrium_is_that_of_the_force() {
         // shaft and balls with the structure following statically
         let (structure, rest) = (0..modes, modes..order);
         let coupling = block(structure.clone(), rest.clone());
-        let follow = block(structure.clone(), structure)
-            .lu()
-            .solve(&coupling)
-            .unwrap();
+        let follow = block(structure.clone(), structure).lu().solve(&coupling).unwrap();
         let condensed = block(rest.clone(), rest) - coupling.transpose() * follow;
         let softest = condensed.symmetric_eigenvalues().min();
         let error = scene.rest.least_curvature / softest - 1.0;

@@ -14,8 +14,8 @@ use plummer::fe::material::Material;
 use plummer::fe::mesh::Mesh;
 use plummer::fe::modal::{Mechanisms, ModalBasis, ModeRange, over_all_dofs, strain_products};
 use plummer::fe::model::{
-    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link,
-    SpringStiffness, SupportShare,
+    Connection, Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, SpringStiffness,
+    SupportShare,
 };
 use plummer::numerics::linalg::{DenseMatrix, EigenProblem, LinalgError, submatrix};
 use plummer::numerics::units::LengthUnit;
@@ -35,34 +35,21 @@ impl Run {
             _ => LengthUnit::Metre,
         };
         let mesh = Mesh::read_gmsh(&data(file), unit).unwrap();
-        let parts = parts
-            .iter()
-            .map(|&(group, [young, poisson, density])| HousingPart {
-                group: group.to_owned(),
-                material: Material::new(young, poisson, density).unwrap().into(),
-            });
-        let description = HousingDescription {
-            parts: parts.collect(),
-            ..description
-        };
+        let parts = parts.iter().map(|&(group, [young, poisson, density])| HousingPart {
+            group: group.to_owned(),
+            material: Material::new(young, poisson, density).unwrap().into(),
+        });
+        let description = HousingDescription { parts: parts.collect(), ..description };
         let model = HousingModel::new(&mesh, description).unwrap();
-        let SystemMatrices {
-            stiffness, mass, ..
-        } = SystemMatrices::assemble(&model).unwrap();
+        let SystemMatrices { stiffness, mass, .. } = SystemMatrices::assemble(&model).unwrap();
         let problem = EigenProblem::restricted(&stiffness, &mass, &model.free_dofs()).unwrap();
-        Self {
-            mesh,
-            model,
-            problem,
-        }
+        Self { mesh, model, problem }
     }
 
     fn modes(&self, range: ModeRange) -> ModalBasis {
         let mut basis = self.by_matrices(range);
         let free = self.model.free_dofs();
-        let products = |shapes: &DenseMatrix| {
-            strain_products(&self.model, &over_all_dofs(&self.model, &free, shapes)?)
-        };
+        let products = |shapes: &DenseMatrix| strain_products(&self.model, &over_all_dofs(&self.model, &free, shapes)?);
         basis.sharpen(products).unwrap();
         basis
     }
@@ -94,10 +81,7 @@ fn assert_agree(a: &ModalBasis, b: &ModalBasis) {
     for mode in 0..a.count() {
         let difference = (a.frequencies_hz[mode] - b.frequencies_hz[mode]).abs();
         let allowed = a.error_bounds_hz[mode] + b.error_bounds_hz[mode];
-        assert!(
-            difference <= allowed,
-            "{mode}: {difference:e} > {allowed:e}"
-        );
+        assert!(difference <= allowed, "{mode}: {difference:e} > {allowed:e}");
     }
 }
 
@@ -105,18 +89,8 @@ fn assert_agree(a: &ModalBasis, b: &ModalBasis) {
 fn the_second_solver_agrees() {
     for (file, part, description, elastic) in [
         ("pedestal_10k.msh", "housing", held("feet", [true; 3]), 0),
-        (
-            "pedestal_10k.msh",
-            "housing",
-            HousingDescription::default(),
-            6,
-        ),
-        (
-            "ring3d_hex20.msh",
-            "housing",
-            HousingDescription::default(),
-            6,
-        ),
+        ("pedestal_10k.msh", "housing", HousingDescription::default(), 6),
+        ("ring3d_hex20.msh", "housing", HousingDescription::default(), 6),
     ] {
         let run = Run::new(file, &[(part, ALUMINIUM)], description);
         let modes = run.modes(ModeRange::Count(20));
@@ -131,10 +105,7 @@ fn the_second_solver_agrees() {
         for (place, (there, here)) in pairs.enumerate() {
             let allowed = band.error_bounds_hz[place] + modes.error_bounds_hz[elastic + place];
             let difference = (there - here).abs();
-            assert!(
-                difference <= allowed,
-                "{file} {place}: {difference:e} > {allowed:e}"
-            );
+            assert!(difference <= allowed, "{file} {place}: {difference:e} > {allowed:e}");
             // the bounds of both solvers together leave eight digits
             assert!(allowed < 1e-8 * here, "{file} {place}: {allowed:e}");
         }
@@ -144,16 +115,9 @@ fn the_second_solver_agrees() {
 /// 56 000 degrees of freedom: the factor is in single precision.
 #[test]
 fn threads_change_no_frequency() {
-    let run = Run::new(
-        "pedestal_60k.msh",
-        &[("housing", ALUMINIUM)],
-        held("feet", [true; 3]),
-    );
+    let run = Run::new("pedestal_60k.msh", &[("housing", ALUMINIUM)], held("feet", [true; 3]));
     let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run.modes(ModeRange::Count(20)))
     };
     let (one, two) = (on(1), on(2));
@@ -174,23 +138,15 @@ fn threads_change_no_frequency() {
 /// Unknowns in another order get another elimination order, another start vector and another round-off.
 #[test]
 fn order_and_start_vector_change_no_frequency() {
-    let run = Run::new(
-        "pedestal_10k.msh",
-        &[("housing", ALUMINIUM)],
-        held("feet", [true; 3]),
-    );
-    let SystemMatrices {
-        stiffness, mass, ..
-    } = SystemMatrices::assemble(&run.model).unwrap();
+    let run = Run::new("pedestal_10k.msh", &[("housing", ALUMINIUM)], held("feet", [true; 3]));
+    let SystemMatrices { stiffness, mass, .. } = SystemMatrices::assemble(&run.model).unwrap();
     let reference = run.modes(ModeRange::Count(20));
     let mut order = run.model.free_dofs();
     let mut state = 1_u64;
     for shuffle in 0..3 {
         // Fisher and Yates, numbers by Knuth's linear congruence
         for last in (1..order.len()).rev() {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             order.swap(last, (state >> 33) as usize % (last + 1));
         }
         let shuffled = |a| submatrix(a, &order, &order);
@@ -210,10 +166,7 @@ fn order_and_start_vector_change_no_frequency() {
 #[test]
 fn two_floating_parts_and_one() {
     let parts = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
-    for (description, zero) in [
-        (HousingDescription::default(), 12),
-        (held("base", [true; 3]), 6),
-    ] {
+    for (description, zero) in [(HousingDescription::default(), 12), (held("base", [true; 3]), 6)] {
         let run = Run::new("two_blocks.msh", &parts, description);
         assert_eq!(run.free_motions().total(), zero);
         let sentences = run.free_motions().sentences().join(" ");
@@ -230,10 +183,7 @@ fn two_floating_parts_and_one() {
 fn a_block_that_slides_on_its_base() {
     let parts = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
     let description = HousingDescription {
-        links: vec![Link {
-            between: ["seat".to_owned(), "foot".to_owned()],
-            connection: Connection::Tie,
-        }],
+        links: vec![Link { between: ["seat".to_owned(), "foot".to_owned()], connection: Connection::Tie }],
         ..held("base", [false, false, true])
     };
     let run = Run::new("two_blocks.msh", &parts, description);
@@ -260,10 +210,7 @@ fn soft_springs_are_no_rigid_modes() {
         let rough = run.by_matrices(ModeRange::Count(8));
         println!(
             "{stiffness:e} N/m: {:.2e} Hz, bound {:.1e} Hz; by the matrices {} rigid, bound {:.1e} Hz",
-            modes.frequencies_hz[0],
-            modes.error_bounds_hz[0],
-            rough.rigid_modes,
-            rough.error_bounds_hz[0],
+            modes.frequencies_hz[0], modes.error_bounds_hz[0], rough.rigid_modes, rough.error_bounds_hz[0],
         );
         let found = (modes.rigid_modes, modes.eigenvalues[0] * stiffness.recip());
         // 8.3 g on the springs: the translations have k / m = 120 k, the softest rotation less
@@ -282,35 +229,17 @@ fn rigid_modes_have_no_energy() {
     let two = [("lower", ALUMINIUM), ("upper", ALUMINIUM)];
     let rubber = [("housing", [1e7, 0.4999, 1100.0])];
     for (file, parts, description, rigid, limit) in [
-        (
-            "pedestal_10k.msh",
-            &[("housing", ALUMINIUM)][..],
-            free(),
-            6,
-            5e-5,
-        ),
+        ("pedestal_10k.msh", &[("housing", ALUMINIUM)][..], free(), 6, 5e-5),
         ("two_blocks.msh", &two, free(), 12, 5e-5),
-        (
-            "two_blocks.msh",
-            &two,
-            held("base", [false, false, true]),
-            9,
-            5e-5,
-        ),
+        ("two_blocks.msh", &two, held("base", [false, false, true]), 9, 5e-5),
         ("ring3d_hex20.msh", &rubber, free(), 6, 1e-2),
     ] {
         let modes = Run::new(file, parts, description).modes(ModeRange::Count(16));
         assert_eq!(modes.rigid_modes, rigid, "{file}");
         let largest = |values: &[f64]| values[..rigid].iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let (value, bound) = (
-            largest(&modes.frequencies_hz),
-            largest(&modes.error_bounds_hz),
-        );
+        let (value, bound) = (largest(&modes.frequencies_hz), largest(&modes.error_bounds_hz));
         println!("{file}: rigid up to {value:.1e} Hz, bound {bound:.1e} Hz");
-        assert!(
-            bound < limit && value <= 2.0 * bound,
-            "{file}: {value:e} {bound:e}"
-        );
+        assert!(bound < limit && value <= 2.0 * bound, "{file}: {value:e} {bound:e}");
     }
 }
 
@@ -320,10 +249,7 @@ fn a_ratio_of_stiffness_of_a_million() {
     let soft = [7e4, 0.33, 2700.0];
     let on_base = |lower: [f64; 3], upper: [f64; 3]| {
         let description = HousingDescription {
-            links: vec![Link {
-                between: ["seat".to_owned(), "foot".to_owned()],
-                connection: Connection::Tie,
-            }],
+            links: vec![Link { between: ["seat".to_owned(), "foot".to_owned()], connection: Connection::Tie }],
             ..held("base", [true; 3])
         };
         let parts = [("lower", lower), ("upper", upper)];
@@ -353,11 +279,7 @@ fn a_ratio_of_stiffness_of_a_million() {
 #[test]
 fn nearly_incompressible() {
     let rubber = [1e7, 0.4999, 1100.0];
-    let run = Run::new(
-        "ring3d_hex20.msh",
-        &[("housing", rubber)],
-        HousingDescription::default(),
-    );
+    let run = Run::new("ring3d_hex20.msh", &[("housing", rubber)], HousingDescription::default());
     let modes = run.modes(ModeRange::Count(14));
     assert_eq!(modes.rigid_modes, 6);
     let hz = &modes.frequencies_hz;
@@ -371,22 +293,14 @@ fn nearly_incompressible() {
 /// Ends of a band on eigenvalues: counted a little above them, which the answer says.
 #[test]
 fn a_shift_on_an_eigenvalue() {
-    let run = Run::new(
-        "pedestal_10k.msh",
-        &[("housing", ALUMINIUM)],
-        held("feet", [true; 3]),
-    );
+    let run = Run::new("pedestal_10k.msh", &[("housing", ALUMINIUM)], held("feet", [true; 3]));
     let hz = run.modes(ModeRange::Count(10)).frequencies_hz;
     let band = run.modes(ModeRange::BandHz([hz[2], hz[7]]));
     let check = band.count_check;
     assert_eq!((check.counted, check.found), (band.count(), band.count()));
     // each end may have gone to either side of its eigenvalue
     let (from, to) = (check.above_hz.unwrap(), check.below_hz);
-    let expected: Vec<f64> = hz
-        .iter()
-        .copied()
-        .filter(|&hz| hz > from && hz < to)
-        .collect();
+    let expected: Vec<f64> = hz.iter().copied().filter(|&hz| hz > from && hz < to).collect();
     assert_eq!(expected.len(), band.count());
     let up_to = run.modes(ModeRange::UpToHz(hz[7]));
     assert!(up_to.count() == 7 || up_to.count() == 8);
@@ -399,9 +313,6 @@ fn more_modes_than_the_model_has() {
     let run = Run::new("two_blocks.msh", &parts, HousingDescription::default());
     let order = run.problem.order();
     let error = ModalBasis::of(&run.problem, ModeRange::Count(order + 1)).unwrap_err();
-    let expected = LinalgError::TooManyModes {
-        asked: order + 1,
-        available: order,
-    };
+    let expected = LinalgError::TooManyModes { asked: order + 1, available: order };
     assert_eq!(error, expected);
 }

@@ -8,20 +8,16 @@
 
 use std::f64::consts::PI;
 
-use plummer::bearing::defect::{
-    BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect, SurfaceDent,
-};
+use plummer::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect, SurfaceDent};
 use plummer::bearing::{BearingDimensions, BearingGeometry, Race, Wave};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
-    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, ModeDamping,
-    ModeSelection, Recorder, RunRecord, StaticCondition, Structure, StructureModes, SystemError,
+    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, ModeDamping, ModeSelection,
+    Recorder, RunRecord, StaticCondition, Structure, StructureModes, SystemError,
 };
 
-use crate::setup::{
-    SYMMETRIC_DEG, paper_bearing, paper_structure, preloaded_bearing, rolling_cage,
-};
+use crate::setup::{SYMMETRIC_DEG, paper_bearing, paper_structure, preloaded_bearing, rolling_cage};
 
 fn system(
     (structure, modes): &(Structure, StructureModes),
@@ -29,10 +25,7 @@ fn system(
     balls_inertia: BallsInertia,
     residual: bool,
 ) -> CoupledSystem {
-    let setup = BearingSetup {
-        balls_inertia,
-        ..setup.clone()
-    };
+    let setup = BearingSetup { balls_inertia, ..setup.clone() };
     let kept = ModeSelection::Count(10);
     let damping = ModeDamping::Modal(0.02);
     CoupledSystem::new(structure, modes, setup, kept, damping, residual).unwrap()
@@ -56,16 +49,8 @@ fn record(system: &mut CoupledSystem, state: &mut State, schedule: &Schedule) ->
 
 /// Ball displacements in a state.
 fn displacements(system: &mut CoupledSystem, t: f64, y: &[f64]) -> Vec<f64> {
-    let mut state = State {
-        t,
-        y: y.to_vec(),
-        v: vec![0.0; y.len()],
-    };
-    let none = Schedule {
-        interval: 1e-8,
-        steps_per_interval: 1,
-        intervals: 0,
-    };
+    let mut state = State { t, y: y.to_vec(), v: vec![0.0; y.len()] };
+    let none = Schedule { interval: 1e-8, steps_per_interval: 1, intervals: 0 };
     let geometry = system.setup().geometry;
     let touching = geometry.outer_race_radius() - geometry.ball_radius();
     let radii = record(system, &mut state, &none).ball_radius;
@@ -75,10 +60,7 @@ fn displacements(system: &mut CoupledSystem, t: f64, y: &[f64]) -> Vec<f64> {
 /// Bearings with everything that a ball can touch, turning at 21 Hz.
 fn bearings() -> Vec<(&'static str, BearingSetup)> {
     let plain = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
-    let plain = BearingSetup {
-        cage: rolling_cage(&plain.geometry, SYMMETRIC_DEG, 21.0),
-        ..plain
-    };
+    let plain = BearingSetup { cage: rolling_cage(&plain.geometry, SYMMETRIC_DEG, 21.0), ..plain };
     let shape = |depth: f64| DentShape {
         angle: 1.5 * PI,
         length: 0.75e-3,
@@ -88,27 +70,17 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
         curvature: CurvatureReading::Total,
     };
     let (geometry, stiffness) = (plain.geometry, plain.stiffness);
-    let dent = |race: Race, depth: f64| {
-        RaceDefect::Dent(Dent::new(&geometry, race, shape(depth), stiffness).unwrap())
-    };
+    let dent = |race: Race, depth: f64| RaceDefect::Dent(Dent::new(&geometry, race, shape(depth), stiffness).unwrap());
     let surface = |race: Race, depth: f64| {
         let dent = SurfaceDent::new(&geometry, race, shape(depth), stiffness);
         RaceDefect::SurfaceDent(dent.unwrap())
     };
-    let flat = FlatShape {
-        radius: 2e-3,
-        depth: 10e-6,
-        rim_radius: 0.05e-3,
-        curvature: CurvatureReading::Total,
-    };
+    let flat = FlatShape { radius: 2e-3, depth: 10e-6, rim_radius: 0.05e-3, curvature: CurvatureReading::Total };
     let flat = BallFlat::new(&geometry, flat, stiffness).unwrap();
     vec![
         (
             "dents",
-            BearingSetup {
-                race_defects: vec![dent(Race::Outer, 15e-6), dent(Race::Inner, 2e-6)],
-                ..plain.clone()
-            },
+            BearingSetup { race_defects: vec![dent(Race::Outer, 15e-6), dent(Race::Inner, 2e-6)], ..plain.clone() },
         ),
         (
             "dents in three dimensions",
@@ -120,13 +92,7 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
         (
             "flats",
             BearingSetup {
-                flats: (0..7)
-                    .map(|ball| FlatOnBall {
-                        ball,
-                        shape: flat.clone(),
-                        angle: 0.9 * ball as f64,
-                    })
-                    .collect(),
+                flats: (0..7).map(|ball| FlatOnBall { ball, shape: flat.clone(), angle: 0.9 * ball as f64 }).collect(),
                 ..plain.clone()
             },
         ),
@@ -134,12 +100,7 @@ fn bearings() -> Vec<(&'static str, BearingSetup)> {
             "waves and balls of different size",
             BearingSetup {
                 waves: [Race::Inner, Race::Outer]
-                    .map(|race| Wave {
-                        race,
-                        order: 9,
-                        amplitude: 0.3e-6,
-                        phase: 0.4,
-                    })
+                    .map(|race| Wave { race, order: 9, amplitude: 0.3e-6, phase: 0.4 })
                     .to_vec(),
                 oversizes: (0..7).map(|ball| 0.1e-6 * f64::from(ball - 3)).collect(),
                 ..plain.clone()
@@ -155,10 +116,7 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -176,9 +134,7 @@ fn every_ball_stands_where_it_would_not_accelerate() {
             for _ in 0..300 {
                 let t = 0.1 * numbers.next();
                 // ring and shaft moved by up to some micrometres, beyond the play of 2.5 um
-                let mut y: Vec<f64> = (0..modes)
-                    .map(|mode| 3e-8 * numbers.next() / (1.0 + mode as f64))
-                    .collect();
+                let mut y: Vec<f64> = (0..modes).map(|mode| 3e-8 * numbers.next() / (1.0 + mode as f64)).collect();
                 y.extend([4e-6 * numbers.next(), 4e-6 * numbers.next()]);
                 let balls = displacements(&mut standing, t, &y);
                 let mut reduced = vec![0.0; y.len()];
@@ -188,10 +144,7 @@ fn every_ball_stands_where_it_would_not_accelerate() {
                 let (mut g, v) = (vec![0.0; y.len()], vec![0.0; y.len()]);
                 moving.force_into(t, &y, &v, &mut g);
                 // the displacement from the recorded radius is good to 1e-18 m, a contact to 3e7 N/m, its force to 3e-11 N
-                let size = g[modes..modes + 2]
-                    .iter()
-                    .map(|g| 0.15 * g.abs())
-                    .sum::<f64>();
+                let size = g[modes..modes + 2].iter().map(|g| 0.15 * g.abs()).sum::<f64>();
                 // with residual flexibility balls that move are taken where they were found to 1e-7 of their displacement,
                 // and their tangential forces are not continued from there
                 let digits = if residual { 1e-7 } else { 1e-9 };
@@ -226,10 +179,7 @@ fn the_equilibrium_is_one_without_inertia_too() {
     let ring = ring();
     let setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     let rest = Equilibrium::find(&ring.0, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
-    let setup = BearingSetup {
-        balls_inertia: BallsInertia::QuasiStatic,
-        ..setup
-    };
+    let setup = BearingSetup { balls_inertia: BallsInertia::QuasiStatic, ..setup };
     let (all, damping) = (ModeSelection::All, ModeDamping::Modal(0.02));
     let mut system = CoupledSystem::new(&ring.0, &ring.1, setup, all, damping, false).unwrap();
     let state = system.state_at(0.0, &rest, &ring.1);
@@ -250,27 +200,16 @@ fn slow_motions_are_those_of_light_balls() {
     let ring = ring();
     let shaft_path = |mass: f64, inertia: BallsInertia| -> Vec<f64> {
         let preloaded = preloaded_bearing(SYMMETRIC_DEG, 5.0);
-        let geometry = BearingGeometry::new(BearingDimensions {
-            ball_mass: mass,
-            ..*preloaded.geometry.dimensions()
-        });
+        let geometry = BearingGeometry::new(BearingDimensions { ball_mass: mass, ..*preloaded.geometry.dimensions() });
         let play = preloaded.geometry.radial_play();
         let geometry = geometry.unwrap().with_radial_play(play).unwrap();
-        let setup = BearingSetup {
-            cage: rolling_cage(&geometry, SYMMETRIC_DEG, 5.0),
-            geometry,
-            ..preloaded
-        };
+        let setup = BearingSetup { cage: rolling_cage(&geometry, SYMMETRIC_DEG, 5.0), geometry, ..preloaded };
         let condition = StaticCondition::at(&setup, 0.0);
         let rest = Equilibrium::find(&ring.0, &setup, condition).unwrap();
         let mut system = system(&ring, &setup, inertia, true);
         let mut state = system.state_at(0.0, &rest, &ring.1);
         state.v[system.modes() + 1] = 1e-4;
-        let schedule = Schedule {
-            interval: 1e-5,
-            steps_per_interval: 1000,
-            intervals: 40,
-        };
+        let schedule = Schedule { interval: 1e-5, steps_per_interval: 1000, intervals: 40 };
         let path = record(&mut system, &mut state, &schedule).shaft_y;
         path.iter().map(|y| y - path[0]).collect()
     };
@@ -282,9 +221,7 @@ fn slow_motions_are_those_of_light_balls() {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / most
     };
     let [heavy, light] = [3.29e-5, 3.29e-6].map(difference);
-    println!(
-        "shaft's path: {heavy:.2e} with the source's balls, {light:.2e} with a tenth of their mass"
-    );
+    println!("shaft's path: {heavy:.2e} with the source's balls, {light:.2e} with a tenth of their mass");
     assert!(heavy < 0.05, "{heavy}");
     assert!((heavy / light - 10.0).abs() < 2.0, "{heavy} {light}");
 }
@@ -324,9 +261,7 @@ fn setup_stiffness(race: Race) -> f64 {
 #[test]
 fn what_needs_the_speed_of_balls_is_refused() {
     let ring = ring();
-    for (contact_damping, formulation) in
-        [(1.0, Formulation::Consistent), (0.0, Formulation::Printed)]
-    {
+    for (contact_damping, formulation) in [(1.0, Formulation::Consistent), (0.0, Formulation::Printed)] {
         let setup = BearingSetup {
             contact_damping,
             balls_inertia: BallsInertia::QuasiStatic,

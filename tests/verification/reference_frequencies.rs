@@ -14,15 +14,12 @@
 //! Trap: gmsh's node order of tet10 and hex20 is its own; CalculiX's "plane stress" is a 3D layer.
 
 use plummer::fe::assembly::SystemMatrices;
-use plummer::fe::element::continuum::{
-    Formulation, Integration, LinearFormulation, PlaneAssumption,
-};
+use plummer::fe::element::continuum::{Formulation, Integration, LinearFormulation, PlaneAssumption};
 use plummer::fe::material::Material;
 use plummer::fe::mesh::Mesh;
 use plummer::fe::modal::{ModeRange, housing_modes};
 use plummer::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, SupportShare,
 };
 use plummer::numerics::units::LengthUnit;
 use std::path::{Path, PathBuf};
@@ -39,20 +36,13 @@ struct Reference {
 
 /// A file of tests/data.
 pub fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 fn reference(mesh: &str, condition: &str) -> Reference {
     let text = std::fs::read_to_string(data("frequencies.json")).unwrap();
     let all: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let entry = all
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|entry| entry["mesh"] == mesh && entry["bc"] == condition)
-        .unwrap();
+    let entry = all.as_array().unwrap().iter().find(|entry| entry["mesh"] == mesh && entry["bc"] == condition).unwrap();
     let material = &entry["material"];
     let hz = entry["exact_quadrature_hz"].as_array().unwrap().iter();
     Reference {
@@ -82,32 +72,21 @@ fn supports(condition: &str) -> Vec<HousingSupport> {
 
 /// The group that holds all elements of the highest dimension.
 fn body(mesh: &Mesh) -> String {
-    let largest = mesh
-        .groups
-        .iter()
-        .max_by_key(|group| (group.dimension, group.elements.len()));
+    let largest = mesh.groups.iter().max_by_key(|group| (group.dimension, group.elements.len()));
     largest.unwrap().name.clone()
 }
 
 fn model(file: &str, unit: LengthUnit, condition: &str, formulation: Formulation) -> HousingModel {
-    let name = file
-        .trim_end_matches("_mm")
-        .trim_end_matches("_bin")
-        .trim_end_matches("_v22");
+    let name = file.trim_end_matches("_mm").trim_end_matches("_bin").trim_end_matches("_v22");
     let given = reference(name, condition);
     let mesh = Mesh::read_gmsh(&data(&format!("{file}.msh")), unit).unwrap();
     let material = Material::new(given.young, given.poisson, given.density).unwrap();
     // the plane annulus is 4 mm thick, which no frequency depends on
     let solid = mesh.blocks.iter().any(|block| block.kind.dimension() == 3);
-    let plane = (!solid).then(|| PlaneModel {
-        assumption: PlaneAssumption::Stress,
-        thickness: given.thickness.unwrap_or(4e-3),
-    });
+    let plane = (!solid)
+        .then(|| PlaneModel { assumption: PlaneAssumption::Stress, thickness: given.thickness.unwrap_or(4e-3) });
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: body(&mesh),
-            material: material.into(),
-        }],
+        parts: vec![HousingPart { group: body(&mesh), material: material.into() }],
         plane,
         formulation,
         supports: supports(condition),
@@ -117,22 +96,11 @@ fn model(file: &str, unit: LengthUnit, condition: &str, formulation: Formulation
 }
 
 /// As the reference integrates: plain linear elements, Tet10 stiffness with four points.
-const AS_REFERENCE: Formulation = Formulation {
-    integration: Integration::FourPoint,
-    linear: LinearFormulation::Plain,
-};
+const AS_REFERENCE: Formulation = Formulation { integration: Integration::FourPoint, linear: LinearFormulation::Plain };
 
 /// Relative differences of the elastic modes, after the number of rigid ones was checked.
-fn differences(
-    file: &str,
-    unit: LengthUnit,
-    condition: &str,
-    formulation: Formulation,
-) -> Vec<f64> {
-    let name = file
-        .trim_end_matches("_mm")
-        .trim_end_matches("_bin")
-        .trim_end_matches("_v22");
+fn differences(file: &str, unit: LengthUnit, condition: &str, formulation: Formulation) -> Vec<f64> {
+    let name = file.trim_end_matches("_mm").trim_end_matches("_bin").trim_end_matches("_v22");
     let given = reference(name, condition);
     let model = model(file, unit, condition, formulation);
     let matrices = SystemMatrices::assemble(&model).unwrap();
@@ -143,16 +111,9 @@ fn differences(
     assert_eq!(modes.rigid_modes, first_elastic, "{file} {condition}");
     for value in &modes.eigenvalues[..first_elastic] {
         let ratio = (value.abs() / modes.eigenvalues[first_elastic]).sqrt();
-        assert!(
-            ratio < 1e-5,
-            "{file}: rigid mode at {ratio:e} of the first elastic one"
-        );
+        assert!(ratio < 1e-5, "{file}: rigid mode at {ratio:e} of the first elastic one");
     }
-    let pairs = modes
-        .frequencies_hz
-        .iter()
-        .zip(&given.hz)
-        .skip(first_elastic);
+    let pairs = modes.frequencies_hz.iter().zip(&given.hz).skip(first_elastic);
     pairs.map(|(found, hz)| found / hz - 1.0).collect()
 }
 
@@ -163,10 +124,7 @@ fn in_a_pair(hz: &[f64], mode: usize) -> bool {
 }
 
 fn agrees(file: &str, unit: LengthUnit, condition: &str, formulation: Formulation) {
-    let name = file
-        .trim_end_matches("_mm")
-        .trim_end_matches("_bin")
-        .trim_end_matches("_v22");
+    let name = file.trim_end_matches("_mm").trim_end_matches("_bin").trim_end_matches("_v22");
     let hz = reference(name, condition).hz;
     let found = differences(file, unit, condition, formulation);
     let first = hz.len() - found.len();
@@ -180,9 +138,7 @@ fn agrees(file: &str, unit: LengthUnit, condition: &str, formulation: Formulatio
             hz[mode]
         );
     }
-    let largest = found
-        .iter()
-        .fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let largest = found.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     println!("{file} {condition}: largest difference {largest:.2e}");
 }
 
@@ -220,37 +176,20 @@ reference_meshes! {
 /// Full integration of curved Tet10 is stiffer than four points, by less than 5e-4 on these meshes.
 #[test]
 fn full_integration_of_curved_elements() {
-    for (file, condition) in [
-        ("pedestal_10k", "feet"),
-        ("pedestal_10k", "free"),
-        ("ring3d_tet10", "free"),
-    ] {
-        let full = Formulation {
-            integration: Integration::Full,
-            ..AS_REFERENCE
-        };
+    for (file, condition) in [("pedestal_10k", "feet"), ("pedestal_10k", "free"), ("ring3d_tet10", "free")] {
+        let full = Formulation { integration: Integration::Full, ..AS_REFERENCE };
         let found = differences(file, LengthUnit::Metre, condition, full);
-        let largest = found
-            .iter()
-            .fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let largest = found.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
         println!("{file} {condition}: full integration differs by up to {largest:.2e}");
         assert!(largest < 5e-4, "{file}: {largest:e}");
-        assert!(
-            largest > 1e-6,
-            "{file}: the rules should differ, {largest:e}"
-        );
+        assert!(largest > 1e-6, "{file}: the rules should differ, {largest:e}");
     }
 }
 
 /// FV32 as published (secondary source): 44.623, 130.03, 162.70, 246.05, 379.90, 391.44 Hz, 16 x 8 Quad8.
 #[test]
 fn fv32_published() {
-    published(
-        "fv32_quad8",
-        "root",
-        &[44.623, 130.03, 162.70, 246.05, 379.90, 391.44],
-        5e-5,
-    );
+    published("fv32_quad8", "root", &[44.623, 130.03, 162.70, 246.05, 379.90, 391.44], 5e-5);
 }
 
 /// FV52 as published for 4 x 4 x 1 hex20 (secondary source). Trap: the usual target, 45.897 Hz, is thin-plate
@@ -268,9 +207,6 @@ fn published(file: &str, condition: &str, hz: &[f64], limit: f64) {
     let modes = housing_modes(&model, matrices, ModeRange::Count(hz.len() + 3)).unwrap();
     let rigid = modes.rigid_modes;
     for (found, hz) in modes.frequencies_hz[rigid..].iter().zip(hz) {
-        assert!(
-            (found / hz - 1.0).abs() < limit,
-            "{file}: {found}, published {hz}"
-        );
+        assert!((found / hz - 1.0).abs() < limit, "{file}: {found}, published {hz}");
     }
 }

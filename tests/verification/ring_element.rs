@@ -28,9 +28,7 @@ use plummer::fe::element::curved_beam::closed_form::{
 };
 use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::model::Ring;
-use plummer::numerics::linalg::{
-    DenseCholesky, DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen,
-};
+use plummer::numerics::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};
 
 use crate::setup::{column, steel_ring};
 
@@ -70,11 +68,7 @@ fn of_order(frequencies: &[f64], n: usize) -> [f64; 2] {
 
 /// Axial, shear and bending stiffness.
 fn moduli(section: &BeamSection) -> [f64; 3] {
-    [
-        section.axial,
-        1.0 / section.shear_compliance,
-        section.bending,
-    ]
+    [section.axial, 1.0 / section.shear_compliance, section.bending]
 }
 
 /// Inertia per length that goes with U, W and T.
@@ -86,17 +80,9 @@ fn inertia(section: &BeamSection) -> [f64; 3] {
 /// circumference with `eps = (n U + W) / R`, `gamma = T - (U + n W) / R`, `kappa = n T / R`.
 fn exact_waves(section: &BeamSection, n: usize) -> SymmetricSpectrum {
     let (n, r) = (n as f64, section.radius);
-    let strains = [
-        [n / r, 1.0 / r, 0.0],
-        [-1.0 / r, -n / r, 1.0],
-        [0.0, 0.0, n / r],
-    ];
+    let strains = [[n / r, 1.0 / r, 0.0], [-1.0 / r, -n / r, 1.0], [0.0, 0.0, n / r]];
     let (moduli, inertia) = (moduli(section), inertia(section));
-    let k = DenseMatrix::from_fn(3, 3, |i, j| {
-        (0..3)
-            .map(|e| moduli[e] * strains[e][i] * strains[e][j])
-            .sum()
-    });
+    let k = DenseMatrix::from_fn(3, 3, |i, j| (0..3).map(|e| moduli[e] * strains[e][i] * strains[e][j]).sum());
     let m = DenseMatrix::from_fn(3, 3, |i, j| if i == j { inertia[i] } else { 0.0 });
     symmetric_generalised_eigen(&k, &m).unwrap()
 }
@@ -132,9 +118,7 @@ fn leading_error(section: &BeamSection, n: usize, nodes: usize) -> f64 {
     let waves = exact_waves(section, n);
     let length = TAU * section.radius / nodes as f64;
     let (moduli, inertia) = (moduli(section), inertia(section));
-    let softness: f64 = (0..3)
-        .map(|i| (inertia[i] * waves.vectors[(i, 0)]).powi(2) / moduli[i])
-        .sum();
+    let softness: f64 = (0..3).map(|i| (inertia[i] * waves.vectors[(i, 0)]).powi(2) / moduli[i]).sum();
     // half of that in the frequency
     0.5 * waves.values[0] * length * length / 12.0 * softness
 }
@@ -154,12 +138,7 @@ fn pinch(ring: &Ring) -> [f64; 2] {
 fn pinch_error(slenderness: f64, kind: RingInterpolation) -> f64 {
     let section = section(slenderness);
     let [axial, shear, bending] = moduli(&section);
-    let theory = RingSection {
-        radius: section.radius,
-        bending,
-        axial,
-        shear,
-    };
+    let theory = RingSection { radius: section.radius, bending, axial, shear };
     let exact = pinched(&theory, 1.0).unwrap();
     let [shortening, widening] = pinch(&ring(36, section, kind));
     let error = |found: f64, exact: f64| (found / exact - 1.0).abs();
@@ -184,8 +163,7 @@ fn a_thin_free_ring_has_the_thin_frequencies() {
     let section = section(1000.0);
     let found = frequencies_hz(&ring(36, section, ExactArc));
     for n in 2..=4 {
-        let thin =
-            thin_frequency_hz(n as u32, section.radius, section.bending, section.mass).unwrap();
+        let thin = thin_frequency_hz(n as u32, section.radius, section.bending, section.mass).unwrap();
         for hz in of_order(&found, n) {
             let error = (hz / thin - 1.0).abs();
             // found: 4.7e-7, 5.2e-7, 5.4e-6; the thin formula itself is good to (t/R)^2 = 1e-6
@@ -204,10 +182,7 @@ fn a_free_ring_of_any_thickness_has_the_exact_frequencies() {
         assert!(error < limit, "R/t = {slenderness}: {error:e}");
     }
     // thin rings do not lock: two to four waves, found 5.8e-6 with R/t = 1000
-    let (thick, thin) = (
-        frequency_error(36, 30.0, ExactArc),
-        frequency_error(36, 1000.0, ExactArc),
-    );
+    let (thick, thin) = (frequency_error(36, 30.0, ExactArc), frequency_error(36, 1000.0, ExactArc));
     assert!(thin < thick, "{thin:e} {thick:e}");
 }
 
@@ -218,10 +193,7 @@ fn thick_rings_converge_with_the_predicted_error() {
         let predicted = leading_error(&section(5.0), n, 96);
         // the next order in L adds 0.5 % here (found for n = 2, 3, 4)
         for error in [first, second] {
-            assert!(
-                (error / predicted - 1.0).abs() < 0.02,
-                "n = {n}: {error:e} {predicted:e}"
-            );
+            assert!((error / predicted - 1.0).abs() < 0.02, "n = {n}: {error:e} {predicted:e}");
         }
         let [coarse, _] = frequency_errors(48, 5.0, n, ExactArc);
         let order = (coarse / first).log2();
@@ -265,10 +237,7 @@ fn a_pinched_ring_of_any_thickness_is_exact() {
         let error = pinch_error(slenderness, ExactArc);
         // nodally exact: what is left is round-off times the condition of K, (R/t)^2 and more; found
         // 2e-13 at R/t = 5 to 7e-10 at 1000, nowhere near the 1e-3 asked for
-        assert!(
-            error < 1e-13 * slenderness.powi(2).max(100.0),
-            "R/t = {slenderness}: {error:e}"
-        );
+        assert!(error < 1e-13 * slenderness.powi(2).max(100.0), "R/t = {slenderness}: {error:e}");
     }
 }
 
@@ -278,10 +247,7 @@ fn rigid_motions_make_no_force() {
         for nodes in [3, 36, 72] {
             let force = rigid_force(&ring(nodes, section(slenderness), ExactArc));
             // the design asks for 1e-12; found below 5e-16, round-off of a dozen products
-            assert!(
-                force < 1e-14,
-                "R/t = {slenderness}, {nodes} nodes: {force:e}"
-            );
+            assert!(force < 1e-14, "R/t = {slenderness}, {nodes} nodes: {force:e}");
         }
     }
     assert!(rigid_force(&steel_ring()) < 1e-14);
@@ -293,27 +259,18 @@ fn what_the_published_interpolation_reaches() {
     for (slenderness, reached) in [(5.0, 2.517e-4), (100.0, 1.318e-5), (1000.0, 1.255e-5)] {
         let error = pinch_error(slenderness, Raveendranath);
         // reached: pinned to 1 %, the digits given
-        assert!(
-            (error / reached - 1.0).abs() < 0.01,
-            "R/t = {slenderness}: {error:e}"
-        );
+        assert!((error / reached - 1.0).abs() < 0.01, "R/t = {slenderness}: {error:e}");
     }
     // frequencies with two to four waves, 36 elements: half as much again as the exact arc's when
     // thick, twice when thin
     for (slenderness, reached) in [(5.0, 3.271e-3), (100.0, 1.94e-4)] {
         let error = frequency_error(36, slenderness, Raveendranath);
-        assert!(
-            (error / reached - 1.0).abs() < 0.01,
-            "R/t = {slenderness}: {error:e}"
-        );
+        assert!((error / reached - 1.0).abs() < 0.01, "R/t = {slenderness}: {error:e}");
     }
     // a rigid translation has energy: the force of the 36-element ring is far above round-off
     for (slenderness, reached) in [(5.0, 4.160e-7), (1000.0, 1.965e-8)] {
         let force = rigid_force(&ring(36, section(slenderness), Raveendranath));
-        assert!(
-            (force / reached - 1.0).abs() < 0.01,
-            "R/t = {slenderness}: {force:e}"
-        );
+        assert!((force / reached - 1.0).abs() < 0.01, "R/t = {slenderness}: {force:e}");
     }
     // of the source's outer ring with 72 elements, two rigid motions come out at 9.2e-4 of the first
     // elastic frequency, the rotation at round-off

@@ -25,9 +25,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use nalgebra::Matrix3;
 use plummer::fe::element::curved_beam::OutOfPlaneArc;
 use plummer::fe::element::curved_beam::RingInterpolation::ExactArc;
-use plummer::fe::element::curved_beam::closed_form::{
-    thin_frequency_hz, thin_out_of_plane_frequency_hz,
-};
+use plummer::fe::element::curved_beam::closed_form::{thin_frequency_hz, thin_out_of_plane_frequency_hz};
 use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::model::Ring;
 use plummer::numerics::linalg::{DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};
@@ -78,9 +76,7 @@ fn modes(nodes: usize, section: BeamSection) -> Vec<Mode> {
     let momenta = ring.mass() * &found.vectors;
     let mode = |(index, value): (usize, &f64)| Mode {
         hz: value.abs().sqrt() / TAU,
-        out_of_plane: (3 * nodes..6 * nodes)
-            .map(|i| momenta[(i, index)] * found.vectors[(i, index)])
-            .sum(),
+        out_of_plane: (3 * nodes..6 * nodes).map(|i| momenta[(i, index)] * found.vectors[(i, index)]).sum(),
     };
     found.values.iter().enumerate().map(mode).collect()
 }
@@ -109,17 +105,9 @@ fn inertia(section: &BeamSection) -> [f64; 3] {
 /// `gamma = n V / R - A`, `kappa = -(n A + B) / R`, `tau = (n B + A) / R`.
 fn exact_waves(section: &BeamSection, n: usize) -> SymmetricSpectrum {
     let (n, r) = (n as f64, section.radius);
-    let strains = [
-        [n / r, -1.0, 0.0],
-        [0.0, -n / r, -1.0 / r],
-        [0.0, 1.0 / r, n / r],
-    ];
+    let strains = [[n / r, -1.0, 0.0], [0.0, -n / r, -1.0 / r], [0.0, 1.0 / r, n / r]];
     let (moduli, inertia) = (moduli(section), inertia(section));
-    let k = DenseMatrix::from_fn(3, 3, |i, j| {
-        (0..3)
-            .map(|e| moduli[e] * strains[e][i] * strains[e][j])
-            .sum()
-    });
+    let k = DenseMatrix::from_fn(3, 3, |i, j| (0..3).map(|e| moduli[e] * strains[e][i] * strains[e][j]).sum());
     let m = DenseMatrix::from_fn(3, 3, |i, j| if i == j { inertia[i] } else { 0.0 });
     symmetric_generalised_eigen(&k, &m).unwrap()
 }
@@ -134,22 +122,13 @@ fn leading_error(section: &BeamSection, n: usize, nodes: usize) -> f64 {
     let waves = exact_waves(section, n);
     let length = TAU * section.radius / nodes as f64;
     let (moduli, inertia) = (moduli(section), inertia(section));
-    let softness: f64 = (0..3)
-        .map(|i| (inertia[i] * waves.vectors[(i, 0)]).powi(2) / moduli[i])
-        .sum();
+    let softness: f64 = (0..3).map(|i| (inertia[i] * waves.vectors[(i, 0)]).powi(2) / moduli[i]).sum();
     0.5 * waves.values[0] * length * length / 12.0 * softness
 }
 
 fn thin_hz(section: &BeamSection, n: usize) -> f64 {
     let out = &section.out_of_plane;
-    thin_out_of_plane_frequency_hz(
-        n as u32,
-        section.radius,
-        out.bending,
-        out.torsion,
-        section.mass,
-    )
-    .unwrap()
+    thin_out_of_plane_frequency_hz(n as u32, section.radius, out.bending, out.torsion, section.mass).unwrap()
 }
 
 /// The published frequencies with 2, 3 and 4 waves, Hz, out of the plane and in it.
@@ -159,12 +138,8 @@ const TEST_6: [[f64; 3]; 2] = [[51.849, 148.77, 286.98], [53.382, 150.99, 289.51
 fn the_thin_theory_gives_the_published_numbers() {
     let section = round();
     for n in 2..=4 {
-        let in_plane =
-            thin_frequency_hz(n as u32, section.radius, section.bending, section.mass).unwrap();
-        for (thin, published) in [
-            (thin_hz(&section, n), TEST_6[0][n - 2]),
-            (in_plane, TEST_6[1][n - 2]),
-        ] {
+        let in_plane = thin_frequency_hz(n as u32, section.radius, section.bending, section.mass).unwrap();
+        for (thin, published) in [(thin_hz(&section, n), TEST_6[0][n - 2]), (in_plane, TEST_6[1][n - 2])] {
             // five digits are published
             assert!((thin / published - 1.0).abs() < 3e-5, "{thin} {published}");
         }
@@ -176,9 +151,8 @@ fn a_ring_without_shear_and_rotary_inertia_converges_to_the_thin_theory() {
     let section = round().without_shear().without_rotary_inertia();
     let spectra = [16, 32].map(|nodes| modes(nodes, section));
     for (n, reached) in [(2, 7.1e-6), (3, 5.8e-5), (4, 2.2e-4)] {
-        let [coarse, fine] = spectra
-            .each_ref()
-            .map(|found| of_order(found, true, n).map(|hz| hz / thin_hz(&section, n) - 1.0));
+        let [coarse, fine] =
+            spectra.each_ref().map(|found| of_order(found, true, n).map(|hz| hz / thin_hz(&section, n) - 1.0));
         for pair in [0, 1] {
             let order = (coarse[pair] / fine[pair]).log2();
             assert!((order - 4.0).abs() < 0.1, "n = {n}: order {order}");
@@ -232,13 +206,8 @@ fn thick_rings_converge_with_the_predicted_error() {
     for n in 2..=3 {
         let exact = exact_hz(&section, n);
         let predicted = leading_error(&section, n, 96);
-        let [coarse, fine] = spectra
-            .each_ref()
-            .map(|found| of_order(found, true, n)[0] / exact - 1.0);
-        assert!(
-            (fine / predicted - 1.0).abs() < 0.02,
-            "n = {n}: {fine:e} {predicted:e}"
-        );
+        let [coarse, fine] = spectra.each_ref().map(|found| of_order(found, true, n)[0] / exact - 1.0);
+        assert!((fine / predicted - 1.0).abs() < 0.02, "n = {n}: {fine:e} {predicted:e}");
         let order = (coarse / fine).log2();
         assert!((order - 2.0).abs() < 0.1, "n = {n}: order {order}");
     }

@@ -24,14 +24,8 @@ use plummer::numerics::units::LengthUnit;
 /// Frequencies of the first `pairs` double elastic modes, Hz.
 fn pairs(file: &str, material: Material, pairs: usize) -> Vec<f64> {
     let mesh = Mesh::read_gmsh(&data(file), LengthUnit::Metre).unwrap();
-    let part = HousingPart {
-        group: "ring".to_owned(),
-        material: material.into(),
-    };
-    let description = HousingDescription {
-        parts: vec![part],
-        ..HousingDescription::default()
-    };
+    let part = HousingPart { group: "ring".to_owned(), material: material.into() };
+    let description = HousingDescription { parts: vec![part], ..HousingDescription::default() };
     let model = HousingModel::new(&mesh, description).unwrap();
     let matrices = SystemMatrices::assemble(&model).unwrap();
     let modes = housing_modes(&model, matrices, ModeRange::Count(6 + 2 * pairs)).unwrap();

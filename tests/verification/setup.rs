@@ -20,8 +20,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use plummer::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile,
-    SpeedProfile,
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile, SpeedProfile,
 };
 use plummer::fe::assembly::{CoupledMatrices, SystemMatrices};
 use plummer::fe::element::continuum::PlaneAssumption;
@@ -29,17 +28,15 @@ use plummer::fe::element::curved_beam::RingInterpolation;
 use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::mesh::Mesh;
 use plummer::fe::model::{
-    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    Ring, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingSupport,
+    RingTie, SpringShare, SpringStiffness, SupportShare,
 };
 use plummer::fe::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
 use plummer::numerics::linalg::{DenseMatrix, SparseMatrix};
 use plummer::numerics::ode::State;
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::units::LengthUnit;
-use plummer::system::{
-    BallsInertia, BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure,
-};
+use plummer::system::{BallsInertia, BearingSetup, CoupledSystem, Formulation, Recorder, Shaft, Structure};
 
 /// Standard gravity as the source rounds it, m/s^2.
 pub const GRAVITY: [f64; 2] = [0.0, -9.81];
@@ -122,16 +119,11 @@ pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
         outer_groove_radius: 1.07e-3,
     })
     .unwrap();
-    let steel = ContactMaterial {
-        young: 206e9,
-        poisson: 0.3,
-    };
+    let steel = ContactMaterial { young: 206e9, poisson: 0.3 };
     BearingSetup {
         cage: rolling_cage(&geometry, first_deg, 0.0),
         geometry,
-        stiffness: RaceContacts::new(&geometry, steel, steel, steel)
-            .unwrap()
-            .stiffness(),
+        stiffness: RaceContacts::new(&geometry, steel, steel, steel).unwrap().stiffness(),
         contact_damping: 0.0,
         formulation,
         balls_inertia: BallsInertia::Dynamic,
@@ -139,11 +131,7 @@ pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
         oversizes: Vec::new(),
         race_defects: Vec::new(),
         flats: Vec::new(),
-        shaft: Shaft {
-            mass: 0.15,
-            unbalance: 2e-5,
-            loads: Vec::new(),
-        },
+        shaft: Shaft { mass: 0.15, unbalance: 2e-5, loads: Vec::new() },
         gravity: GRAVITY,
     }
 }
@@ -159,11 +147,7 @@ pub fn rolling_cage(geometry: &BearingGeometry, first_deg: f64, frequency_hz: f6
 pub fn preloaded_bearing(first_deg: f64, frequency_hz: f64) -> BearingSetup {
     let plain = paper_bearing(first_deg, Formulation::Consistent);
     let geometry = plain.geometry.with_radial_play(-1.5e-6).unwrap();
-    BearingSetup {
-        cage: rolling_cage(&geometry, first_deg, frequency_hz),
-        geometry,
-        ..plain
-    }
+    BearingSetup { cage: rolling_cage(&geometry, first_deg, frequency_hz), geometry, ..plain }
 }
 
 /// The aluminium ring as a mesh, tied to the steel ring.
@@ -182,44 +166,24 @@ impl Housing {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("meshes/{mesh}.msh"));
         let mesh = Mesh::read_gmsh(&path, LengthUnit::parse("mm").unwrap()).unwrap();
         let aluminium = Material::new(72e9, 0.33, ALUMINIUM_DENSITY).unwrap();
-        let parts = vec![HousingPart {
-            group: "housing".into(),
-            material: aluminium.into(),
-        }];
+        let parts = vec![HousingPart { group: "housing".into(), material: aluminium.into() }];
         let springs = HousingSupport {
             group: "lower".into(),
             constraint: Constraint::Spring(SpringStiffness::Global([3.6e6, 3.6e6, 0.0])),
             share: SupportShare::PerGroup,
         };
         let supports = if supported { vec![springs] } else { vec![] };
-        let plane = PlaneModel {
-            assumption: PlaneAssumption::Stress,
-            thickness: HOUSING_WIDTH,
-        };
-        let description = HousingDescription {
-            parts,
-            plane: Some(plane),
-            supports,
-            ..HousingDescription::default()
-        };
+        let plane = PlaneModel { assumption: PlaneAssumption::Stress, thickness: HOUSING_WIDTH };
+        let description = HousingDescription { parts, plane: Some(plane), supports, ..HousingDescription::default() };
         let model = HousingModel::new(&mesh, description).unwrap();
         let ring = steel_ring();
         let tie = RingTie::new(&mesh, &model, "bore", &ring, BORE_RADIUS, fit).unwrap();
         let matrices = SystemMatrices::assemble(&model).unwrap().for_tie(&tie);
-        Self {
-            model,
-            ring,
-            tie,
-            matrices,
-        }
+        Self { model, ring, tie, matrices }
     }
 
     pub fn superelement(&self, fixed_interface_modes: usize) -> Superelement {
-        let choice = BasisChoice {
-            size: BasisSize::Count(fixed_interface_modes),
-            enhanced: false,
-            band_hz: 40e3,
-        };
+        let choice = BasisChoice { size: BasisSize::Count(fixed_interface_modes), enhanced: false, band_hz: 40e3 };
         let condensed = craig_bampton(&self.matrices, self.tie.partition(), choice, None);
         condensed.unwrap().superelement
     }
@@ -235,11 +199,9 @@ impl Housing {
         let matrices = SystemMatrices::assemble(&self.model).unwrap();
         let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring);
         let first = coupled.stiffness.rows() - self.ring.dof();
-        let (interior, ring): (Vec<usize>, Vec<usize>) =
-            coupled.free_dofs.iter().partition(|&&dof| dof < first);
+        let (interior, ring): (Vec<usize>, Vec<usize>) = coupled.free_dofs.iter().partition(|&&dof| dof < first);
         let order = [ring, interior].concat();
-        let part =
-            |whole: &SparseMatrix| plummer::numerics::linalg::submatrix(whole, &order, &order);
+        let part = |whole: &SparseMatrix| plummer::numerics::linalg::submatrix(whole, &order, &order);
         (part(&coupled.stiffness), part(&coupled.mass))
     }
 }
@@ -264,24 +226,9 @@ pub struct ContactForces {
 /// What the record of a run of no steps says; for a structure without sensors.
 pub fn contact_forces(system: &mut CoupledSystem, state: &State) -> ContactForces {
     let mut recorder = Recorder::new(system, 1, 1e-8, 1).unwrap();
-    let schedule = Schedule {
-        interval: 1e-8,
-        steps_per_interval: 1,
-        intervals: 0,
-    };
+    let schedule = Schedule { interval: 1e-8, steps_per_interval: 1, intervals: 0 };
     let mut state = state.clone();
-    integrate(
-        system,
-        Method::Exponential,
-        &schedule,
-        &mut state,
-        &mut recorder,
-        |_, _| Stepping::Continue,
-    )
-    .unwrap();
+    integrate(system, Method::Exponential, &schedule, &mut state, &mut recorder, |_, _| Stepping::Continue).unwrap();
     let record = recorder.finish();
-    ContactForces {
-        inner: record.inner_force,
-        outer: record.outer_force,
-    }
+    ContactForces { inner: record.inner_force, outer: record.outer_force }
 }

@@ -14,8 +14,7 @@ use crate::reference_frequencies::data;
 use plummer::app::case::{Case, Source};
 use plummer::app::scene::{AssembledHousing, CondensedHousing};
 use plummer::fe::reduction::{
-    Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure,
-    choose_basis,
+    Attached, BasisChoice, BasisSize, CraigBampton, ErrorEstimate, InteriorBasis, Substructure, choose_basis,
 };
 use plummer::numerics::Unwatched;
 use plummer::numerics::linalg::{EigenPairs, symmetric_generalised_eigen};
@@ -52,12 +51,7 @@ fixed_interface_modes = 0
 "#;
 
 fn case(text: &str, set: &[String]) -> Case {
-    Case::from_source(Source {
-        path: data("case.toml"),
-        text: text.to_owned(),
-        set: set.to_vec(),
-    })
-    .unwrap()
+    Case::from_source(Source { path: data("case.toml"), text: text.to_owned(), set: set.to_vec() }).unwrap()
 }
 
 /// The nodes nearest to points of the bore at steps of five degrees, each once.
@@ -73,9 +67,7 @@ fn interface_nodes() -> Vec<u64> {
         };
         let tags = &housing.mesh.node_tags;
         let others = (0..housing.mesh.nodes.len()).filter(|&place| !nodes.contains(&tags[place]));
-        let nearest = others
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap();
+        let nearest = others.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
         nodes.push(tags[nearest]);
     }
     nodes
@@ -86,19 +78,11 @@ fn numbers(value: &serde_json::Value) -> Vec<f64> {
     values.map(|value| value.as_f64().unwrap()).collect()
 }
 
-fn reduced_hz(
-    substructure: &Substructure,
-    basis: InteriorBasis,
-    weight: &CondensedHousing,
-) -> Vec<f64> {
+fn reduced_hz(substructure: &Substructure, basis: InteriorBasis, weight: &CondensedHousing) -> Vec<f64> {
     let weight = &weight.housing.matrices.weight;
     let element = CraigBampton::new(substructure.clone(), basis, weight).superelement;
     let modes = symmetric_generalised_eigen(&element.stiffness, &element.mass).unwrap();
-    modes
-        .values
-        .iter()
-        .map(|value| value.abs().sqrt() / TAU)
-        .collect()
+    modes.values.iter().map(|value| value.abs().sqrt() / TAU).collect()
 }
 
 #[test]
@@ -109,9 +93,7 @@ fn reduced_frequencies_of_the_reference() {
         format!("condense.interface={{nodes={:?}}}", interface_nodes()),
         "condense.fixed_interface_modes=0".to_owned(),
     ];
-    let stage = CondensedHousing::build(&case(ANNULUS, &set), &Unwatched)
-        .unwrap()
-        .unwrap();
+    let stage = CondensedHousing::build(&case(ANNULUS, &set), &Unwatched).unwrap().unwrap();
     let substructure = &stage.condensed.substructure;
     assert_eq!(substructure.interface_dof(), 216);
     let pairs = substructure.lowest_modes(81).unwrap();
@@ -153,11 +135,7 @@ fn effectivity(
     for &band_hz in bands {
         for &size in sizes {
             let plain = InteriorBasis::of_modes(substructure, pairs, size);
-            let choice = BasisChoice {
-                size: BasisSize::Count(size),
-                enhanced: true,
-                band_hz,
-            };
+            let choice = BasisChoice { size: BasisSize::Count(size), enhanced: true, band_hz };
             let enhanced = choose_basis(substructure, choice, attached).unwrap();
             for basis in [plain, enhanced] {
                 let estimate = ErrorEstimate::of(substructure, &basis, attached, band_hz).unwrap();
@@ -184,29 +162,17 @@ fn residual_vectors_on_the_tied_pedestal() {
     let substructure = &stage.condensed.substructure;
     let attached = stage.boundary.attached();
     let matrices = stage.full_matrices();
-    let problem = plummer::numerics::linalg::EigenProblem::restricted(
-        &matrices.stiffness,
-        &matrices.mass,
-        &matrices.free_dofs,
-    );
+    let problem =
+        plummer::numerics::linalg::EigenProblem::restricted(&matrices.stiffness, &matrices.mass, &matrices.free_dofs);
     let pairs = problem.unwrap().lowest(20).unwrap();
-    let full: Vec<f64> = pairs
-        .values
-        .iter()
-        .map(|value| value.sqrt() / TAU)
-        .collect();
+    let full: Vec<f64> = pairs.values.iter().map(|value| value.sqrt() / TAU).collect();
     let largest = |enhanced: bool, modes: usize| {
-        let choice = BasisChoice {
-            size: BasisSize::Count(40),
-            enhanced,
-            band_hz: 80e3,
-        };
+        let choice = BasisChoice { size: BasisSize::Count(40), enhanced, band_hz: 80e3 };
         let basis = choose_basis(substructure, choice, attached).unwrap();
         assert_eq!(basis.count(), 40);
         let estimate = ErrorEstimate::of(substructure, &basis, attached, 120e3).unwrap();
         let both = estimate.modes.iter().zip(&full).take(modes);
-        both.map(|(mode, hz)| mode.frequency_hz / hz - 1.0)
-            .fold(0.0, f64::max)
+        both.map(|(mode, hz)| mode.frequency_hz / hz - 1.0).fold(0.0, f64::max)
     };
     // in NumPy, from the same matrices: 6.0e-3 against 1.6e-5 on twelve modes, 8.3e-3 against 1.7e-4 on twenty
     for (modes, gain) in [(12, 100.0), (20, 10.0)] {

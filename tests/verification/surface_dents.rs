@@ -43,9 +43,7 @@ fn sunk(setup: &BearingSetup, dent: &SurfaceDent, force: f64) -> f64 {
         let middle = 0.5 * (low + high);
         let radius = place + middle;
         let found = dent.contacts(PolarPosition { radius, angle });
-        let radial = found
-            .pressing()
-            .map(|c| c.stiffness * c.delta.powf(1.5) * c.normal_radial);
+        let radial = found.pressing().map(|c| c.stiffness * c.delta.powf(1.5) * c.normal_radial);
         if radial.sum::<f64>() < force {
             low = middle;
         } else {
@@ -60,18 +58,14 @@ fn the_shaft_sinks_by_the_drop_into_the_surface() {
     let structure = paper_structure(72, 0.0);
     let sound = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     let solve = |race_defects: Vec<RaceDefect>| {
-        let setup = BearingSetup {
-            race_defects,
-            ..sound.clone()
-        };
+        let setup = BearingSetup { race_defects, ..sound.clone() };
         let condition = StaticCondition::at(&setup, 0.0);
         Equilibrium::find(&structure, &setup, condition).unwrap()
     };
     let below = 1.5 * std::f64::consts::PI;
     let places = [below - HALF, below + HALF];
-    let dents = places.map(|angle| {
-        SurfaceDent::new(&sound.geometry, Race::Outer, shape(angle), sound.stiffness).unwrap()
-    });
+    let dents =
+        places.map(|angle| SurfaceDent::new(&sound.geometry, Race::Outer, shape(angle), sound.stiffness).unwrap());
     let healthy = solve(Vec::new());
     let damaged = solve(dents.iter().cloned().map(RaceDefect::SurfaceDent).collect());
     let force = healthy.balls[0].outer;
@@ -83,10 +77,7 @@ fn the_shaft_sinks_by_the_drop_into_the_surface() {
     let found = healthy.shaft[1] - damaged.shaft[1];
     let expected = deeper / HALF.cos();
     // balls a little lower carry the shaft at angles and forces that differ by 1e-3, the ball's weight apart
-    assert!(
-        (found / expected - 1.0).abs() < 0.01,
-        "{found} m, expected {expected} m"
-    );
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} m, expected {expected} m");
     // in the plane the same dents let the balls fall until others carry
     let in_plane = places.map(|angle| {
         let dent = Dent::new(&sound.geometry, Race::Outer, shape(angle), sound.stiffness);

@@ -21,14 +21,8 @@ use plummer::numerics::units::LengthUnit;
 fn elastic(mesh: &Mesh, group: &str, integration: Integration, count: usize) -> Vec<f64> {
     let material = Material::new(70e9, 0.33, 2700.0).unwrap();
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: group.to_owned(),
-            material: material.into(),
-        }],
-        formulation: Formulation {
-            integration,
-            ..Formulation::default()
-        },
+        parts: vec![HousingPart { group: group.to_owned(), material: material.into() }],
+        formulation: Formulation { integration, ..Formulation::default() },
         ..HousingDescription::default()
     };
     let model = HousingModel::new(mesh, description).unwrap();
@@ -45,9 +39,7 @@ fn coarse_ring_stays_above_with_both_rules() {
     let errors = [Integration::Full, Integration::FourPoint].map(|integration| {
         let found = elastic(&mesh, "ring", integration, converged.len());
         let pairs = found.iter().zip(converged);
-        pairs
-            .map(|(found, hz)| found / hz - 1.0)
-            .collect::<Vec<_>>()
+        pairs.map(|(found, hz)| found / hz - 1.0).collect::<Vec<_>>()
     });
     println!("full {:.4?}", errors[0]);
     println!("four {:.4?}", errors[1]);
@@ -66,12 +58,9 @@ fn four_over_full(bulge: f64) -> Vec<f64> {
         let swell = [flat[1] * flat[2], flat[2] * flat[0], flat[0] * flat[1]];
         [0, 1, 2].map(|i| 0.01 * p[i] * (1.0 + bulge * swell[i]))
     });
-    let [full, four] = [Integration::Full, Integration::FourPoint]
-        .map(|integration| elastic(&grid.mesh, BODY, integration, 6));
-    four.iter()
-        .zip(full)
-        .map(|(four, full)| four / full - 1.0)
-        .collect()
+    let [full, four] =
+        [Integration::Full, Integration::FourPoint].map(|integration| elastic(&grid.mesh, BODY, integration, 6));
+    four.iter().zip(full).map(|(four, full)| four / full - 1.0).collect()
 }
 
 /// Measured: hollow -4.5e-4 to -1.3e-4; bulging -3.6e-5 to 4.9e-5, half of the modes softer and half stiffer.

@@ -33,14 +33,9 @@ const RIGID: [[f64; 3]; 3] = [[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1.0
 
 /// The three lowest frequencies of ring and housing over the fourth.
 fn rigid_ratios(housing: &Housing, partition: &HousingPartition) -> [f64; 3] {
-    let choice = BasisChoice {
-        size: BasisSize::Count(20),
-        enhanced: false,
-        band_hz: 40e3,
-    };
+    let choice = BasisChoice { size: BasisSize::Count(20), enhanced: false, band_hz: 40e3 };
     let condensed = craig_bampton(&housing.matrices, partition, choice, None).unwrap();
-    let structure =
-        Structure::with_housing(housing.ring.clone(), &condensed.superelement, GRAVITY).unwrap();
+    let structure = Structure::with_housing(housing.ring.clone(), &condensed.superelement, GRAVITY).unwrap();
     let squares = structure.modes().unwrap().squared_frequencies;
     [0, 1, 2].map(|mode| (squares[mode].abs() / squares[3]).sqrt())
 }
@@ -63,21 +58,13 @@ fn linear_in_the_angle(housing: &Housing) -> HousingPartition {
             tie.add(row, 3 * node + 2, share * arm * lever);
         }
     }
-    HousingPartition {
-        tie: tie.build(),
-        ..partition.clone()
-    }
+    HousingPartition { tie: tie.build(), ..partition.clone() }
 }
 
 /// A rigid motion of the housing in the displacements that the partition uses [dof].
 fn rigid_housing(housing: &Housing, motion: [f64; 3]) -> Vec<f64> {
     let [x, y, turn] = motion;
-    let xy: Vec<f64> = housing
-        .model
-        .coordinates()
-        .iter()
-        .flat_map(|at| [x - turn * at[1], y + turn * at[0]])
-        .collect();
+    let xy: Vec<f64> = housing.model.coordinates().iter().flat_map(|at| [x - turn * at[1], y + turn * at[0]]).collect();
     match housing.tie.rotation() {
         None => xy,
         Some(rotation) => {
@@ -92,10 +79,7 @@ fn a_bonded_housing_has_three_rigid_modes_on_any_mesh() {
     for mesh in MESHES {
         let housing = Housing::new(mesh, false, Fit::Bonded);
         let ratios = rigid_ratios(&housing, housing.tie.partition());
-        assert!(
-            ratios.iter().all(|&ratio| ratio < LIMIT),
-            "{mesh}: {ratios:?}"
-        );
+        assert!(ratios.iter().all(|&ratio| ratio < LIMIT), "{mesh}: {ratios:?}");
     }
 }
 
@@ -138,10 +122,7 @@ fn rigid_motions_of_the_full_model_make_no_force() {
             let housing = Housing::new(mesh, false, fit);
             let partition = housing.tie.partition();
             let (k, _) = housing.full();
-            let largest = k
-                .data()
-                .iter()
-                .fold(0.0, |largest: f64, value| value.abs().max(largest));
+            let largest = k.data().iter().fold(0.0, |largest: f64, value| value.abs().max(largest));
             for motion in RIGID {
                 let [x, y, turn] = motion;
                 let body = rigid_housing(&housing, motion);
@@ -166,11 +147,7 @@ fn a_sliding_housing_has_one_motion_more() {
             let squares = EigenProblem::new(&k, &m).unwrap().lowest(8).unwrap().values;
             let ratio = |mode: usize| (squares[mode].abs() / squares[free]).sqrt();
             for mode in 0..free {
-                assert!(
-                    ratio(mode) < LIMIT,
-                    "{mesh} {fit:?} {mode}: {:e}",
-                    ratio(mode)
-                );
+                assert!(ratio(mode) < LIMIT, "{mesh} {fit:?} {mode}: {:e}", ratio(mode));
             }
             // the next pair is the ovalling of ring and housing, 31 or 53 kHz
             assert!(squares[free] > (TAU * 30e3).powi(2), "{mesh} {fit:?}");

@@ -25,8 +25,8 @@ use plummer::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use plummer::fe::mesh::Mesh;
 use plummer::fe::modal::{ModeRange, housing_modes};
 use plummer::fe::model::{
-    Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport,
-    Link, Ring, RingFrame, RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
+    Connection, Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, Link, Ring, RingFrame,
+    RingSupport, RingTie, SpringShare, SpringStiffness, SupportShare,
 };
 use plummer::fe::reduction::{BasisChoice, BasisSize, craig_bampton};
 use plummer::numerics::linalg::{DenseMatrix, EigenProblem, sparse_times_dense};
@@ -37,18 +37,11 @@ const LIMIT: f64 = 1e-5;
 
 fn part(group: &str) -> HousingPart {
     let aluminium = Material::new(70e9, 0.33, 2700.0).unwrap();
-    HousingPart {
-        group: group.to_owned(),
-        material: aluminium.into(),
-    }
+    HousingPart { group: group.to_owned(), material: aluminium.into() }
 }
 
 fn fixed(group: &str) -> HousingSupport {
-    HousingSupport {
-        group: group.to_owned(),
-        constraint: Constraint::Fixed([true; 3]),
-        share: SupportShare::PerNode,
-    }
+    HousingSupport { group: group.to_owned(), constraint: Constraint::Fixed([true; 3]), share: SupportShare::PerNode }
 }
 
 fn mesh(name: &str, unit: LengthUnit) -> Mesh {
@@ -73,31 +66,18 @@ fn ring() -> Ring {
 /// The pedestal with the ring in its bore.
 fn pedestal(supports: Vec<HousingSupport>, frame: RingFrame, fit: Fit) -> Housing {
     let mesh = mesh("pedestal_10k", LengthUnit::Metre);
-    let description = HousingDescription {
-        parts: vec![part("housing")],
-        supports,
-        frame,
-        ..HousingDescription::default()
-    };
+    let description =
+        HousingDescription { parts: vec![part("housing")], supports, frame, ..HousingDescription::default() };
     let model = HousingModel::new(&mesh, description).unwrap();
     let ring = ring();
     let tie = RingTie::new(&mesh, &model, "bore", &ring, 6e-3, fit).unwrap();
     let matrices = SystemMatrices::assemble(&model).unwrap().for_tie(&tie);
-    Housing {
-        model,
-        ring,
-        tie,
-        matrices,
-    }
+    Housing { model, ring, tie, matrices }
 }
 
 /// All frequencies^2 with so many fixed-interface modes.
 fn condensed(housing: &Housing, modes: usize) -> Vec<f64> {
-    let choice = BasisChoice {
-        size: BasisSize::Count(modes),
-        enhanced: false,
-        band_hz: 40e3,
-    };
+    let choice = BasisChoice { size: BasisSize::Count(modes), enhanced: false, band_hz: 40e3 };
     let partition = housing.tie.partition();
     let condensed = craig_bampton(&housing.matrices, partition, choice, None).unwrap();
     let ring = housing.ring.clone();
@@ -118,10 +98,7 @@ fn a_solid_housing_and_its_ring_move_rigidly_in_six_ways() {
         // the ring is round: where its nodes stand matters as much as 72 elements and 20 modes are coarse (5e-5)
         let elastic = squares[6].sqrt();
         let first = *first.get_or_insert(elastic);
-        println!(
-            "first elastic frequency off by {:.1e}",
-            elastic / first - 1.0
-        );
+        println!("first elastic frequency off by {:.1e}", elastic / first - 1.0);
         assert!((elastic / first - 1.0).abs() < 2e-4, "{elastic} {first}");
     }
 }
@@ -187,17 +164,10 @@ fn six_motions_of_the_whole_need_no_force() {
 fn eighty_modes_of_a_pedestal() {
     let held = pedestal(vec![fixed("feet")], RingFrame::default(), Fit::Bonded);
     let (k, m) = held.full();
-    let full = EigenProblem::new(&k, &m)
-        .unwrap()
-        .lowest(10)
-        .unwrap()
-        .values;
+    let full = EigenProblem::new(&k, &m).unwrap().lowest(10).unwrap().values;
     for (kept, limit) in [(20, 3e-2), (80, 3e-3)] {
         let reduced = condensed(&held, kept);
-        let errors = reduced
-            .iter()
-            .zip(&full)
-            .map(|(reduced, full)| (reduced / full).sqrt() - 1.0);
+        let errors = reduced.iter().zip(&full).map(|(reduced, full)| (reduced / full).sqrt() - 1.0);
         let errors: Vec<f64> = errors.collect();
         println!("{kept} fixed-interface modes: {errors:.6?}");
         for error in errors {
@@ -210,20 +180,12 @@ fn eighty_modes_of_a_pedestal() {
 fn blocks(supports: Vec<HousingSupport>, links: Vec<Link>) -> HousingModel {
     let mesh = mesh("two_blocks", LengthUnit::Millimetre);
     let parts = vec![part("lower"), part("upper")];
-    let description = HousingDescription {
-        parts,
-        supports,
-        links,
-        ..Default::default()
-    };
+    let description = HousingDescription { parts, supports, links, ..Default::default() };
     HousingModel::new(&mesh, description).unwrap()
 }
 
 fn link(between: [&str; 2], connection: Connection) -> Vec<Link> {
-    vec![Link {
-        between: between.map(str::to_owned),
-        connection,
-    }]
+    vec![Link { between: between.map(str::to_owned), connection }]
 }
 
 fn frequencies(model: &HousingModel, count: usize) -> (usize, Vec<f64>, f64) {
@@ -236,10 +198,7 @@ fn frequencies(model: &HousingModel, count: usize) -> (usize, Vec<f64>, f64) {
 
 #[test]
 fn tied_blocks_vibrate_like_one() {
-    let whole = HousingDescription {
-        parts: vec![part("block")],
-        ..Default::default()
-    };
+    let whole = HousingDescription { parts: vec![part("block")], ..Default::default() };
     let whole = HousingModel::new(&mesh("one_block", LengthUnit::Millimetre), whole).unwrap();
     let (_, expected, mass) = frequencies(&whole, 16);
     // whichever is named first, the finer surface follows the coarser; of bodies, the faces that touch
@@ -319,21 +278,10 @@ fn a_tie_transmits_all_of_a_force() {
             }
         });
         let force = sparse_times_dense(&matrices.stiffness, &u);
-        let size = (0..model.dof())
-            .map(|i| u[(i, 0)].abs())
-            .fold(0.0, f64::max);
-        let largest = (0..model.dof())
-            .map(|i| force[(i, 0)].abs())
-            .fold(0.0, f64::max);
-        let stiffest = matrices
-            .stiffness
-            .data()
-            .iter()
-            .fold(0.0_f64, |k, value| k.max(*value));
-        assert!(
-            largest < 1e-12 * stiffest * size,
-            "motion {motion}: {largest:e} N"
-        );
+        let size = (0..model.dof()).map(|i| u[(i, 0)].abs()).fold(0.0, f64::max);
+        let largest = (0..model.dof()).map(|i| force[(i, 0)].abs()).fold(0.0, f64::max);
+        let stiffest = matrices.stiffness.data().iter().fold(0.0_f64, |k, value| k.max(*value));
+        assert!(largest < 1e-12 * stiffest * size, "motion {motion}: {largest:e} N");
     }
 }
 
@@ -346,15 +294,10 @@ fn a_surface_elsewhere_is_refused() {
             links: link(between, Connection::Tie),
             ..Default::default()
         };
-        HousingModel::new(&mesh, description)
-            .unwrap_err()
-            .to_string()
+        HousingModel::new(&mesh, description).unwrap_err().to_string()
     };
     let far = refusal(["top", "seat"]);
-    assert!(
-        far.contains("too far from \"seat\" to be tied to it"),
-        "{far}"
-    );
+    assert!(far.contains("too far from \"seat\" to be tied to it"), "{far}");
     assert!(far.contains("5.000e-3 m"), "{far}");
     let apart = refusal(["upper", "base"]);
     let message = "no face of \"upper\" lies on \"base\"";

@@ -17,13 +17,12 @@ use plummer::numerics::linalg::{DenseCholesky, DenseMatrix};
 use plummer::numerics::ode::{Instant, NoRecord, Observer, SecondOrderSystem, State};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Recorder,
-    StaticCondition, Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Recorder, StaticCondition,
+    Structure, StructureModes,
 };
 
 use crate::setup::{
-    SYMMETRIC_DEG, column, contact_forces, paper_bearing, paper_structure, preloaded_bearing,
-    rolling_cage,
+    SYMMETRIC_DEG, column, contact_forces, paper_bearing, paper_structure, preloaded_bearing, rolling_cage,
 };
 
 fn run(
@@ -33,18 +32,11 @@ fn run(
     state: &mut State,
     observer: &mut impl Observer<CoupledSystem>,
 ) {
-    integrate(system, method, schedule, state, observer, |_, _| {
-        Stepping::Continue
-    })
-    .unwrap();
+    integrate(system, method, schedule, state, observer, |_, _| Stepping::Continue).unwrap();
 }
 
 fn steps(h: f64, count: u32) -> Schedule {
-    Schedule {
-        interval: h * f64::from(count),
-        steps_per_interval: count,
-        intervals: 1,
-    }
+    Schedule { interval: h * f64::from(count), steps_per_interval: count, intervals: 1 }
 }
 
 /// Position and velocity over ring displacements, shaft and balls.
@@ -66,13 +58,7 @@ struct NodalNewmark<'a> {
 }
 
 impl<'a> NodalNewmark<'a> {
-    fn new(
-        structure: &'a Structure,
-        modes: &StructureModes,
-        setup: &'a BearingSetup,
-        ratio: f64,
-        h: f64,
-    ) -> Self {
+    fn new(structure: &'a Structure, modes: &StructureModes, setup: &'a BearingSetup, ratio: f64, h: f64) -> Self {
         let dof = structure.dof();
         let m_phi = structure.mass() * &modes.shapes;
         let scaled = DenseMatrix::from_fn(dof, dof, |row, mode| {
@@ -97,10 +83,7 @@ impl<'a> NodalNewmark<'a> {
         let geometry = &setup.geometry;
         let shaft = setup.cage.shaft().motion(t);
         let cage = setup.cage.motion(t);
-        let law = |stiffness| HertzContact {
-            stiffness,
-            damping: setup.contact_damping,
-        };
+        let law = |stiffness| HertzContact { stiffness, damping: setup.contact_damping };
         let mut ring = column(self.structure.gravity());
         let mut total = setup.shaft_load(t);
         let unbalance = setup.shaft.unbalance * shaft.speed * shaft.speed;
@@ -111,15 +94,11 @@ impl<'a> NodalNewmark<'a> {
             let angle = setup.cage.ball_angle(cage.angle, ball as u32);
             let (sin, cos) = angle.sin_cos();
             let rows = self.structure.ring().rows_at(angle);
-            let radial = |d: &DenseMatrix| -> f64 {
-                (0..6).map(|k| rows.radial[k] * d[(rows.dofs[k], 0)]).sum()
-            };
+            let radial = |d: &DenseMatrix| -> f64 { (0..6).map(|k| rows.radial[k] * d[(rows.dofs[k], 0)]).sum() };
             // the ball also moves along the deformed race; differences of 1e-5 rad are good to 1e-10
             let displaced = |angle: f64| -> f64 {
                 let rows = self.structure.ring().rows_at(angle);
-                (0..6)
-                    .map(|k| rows.radial[k] * y.ring[(rows.dofs[k], 0)])
-                    .sum()
+                (0..6).map(|k| rows.radial[k] * y.ring[(rows.dofs[k], 0)]).sum()
             };
             let slope = (displaced(angle + 1e-5) - displaced(angle - 1e-5)) / 2e-5;
             let race_rate = radial(&v.ring) + cage.speed * slope;
@@ -133,16 +112,15 @@ impl<'a> NodalNewmark<'a> {
             let chi = b[0].hypot(b[1]);
             let n = [b[0] / chi, b[1] / chi];
             let turn = rho * cage.speed;
-            let chi_rate = n[0] * (s_rate * cos - turn * sin - v.rest[0])
-                + n[1] * (s_rate * sin + turn * cos - v.rest[1]);
+            let chi_rate =
+                n[0] * (s_rate * cos - turn * sin - v.rest[0]) + n[1] * (s_rate * sin + turn * cos - v.rest[1]);
             let reach = geometry.effective_inner_race_radius() + geometry.ball_radius();
             let inner = law(setup.stiffness.inner()).force(reach - chi, -chi_rate);
             total[0] -= inner * n[0];
             total[1] -= inner * n[1];
             let weight = setup.gravity[0] * cos + setup.gravity[1] * sin;
             let contact = inner * (n[0] * cos + n[1] * sin) - outer;
-            accelerations
-                .push(contact / geometry.ball_mass() + weight + rho * cage.speed * cage.speed);
+            accelerations.push(contact / geometry.ball_mass() + weight + rho * cage.speed * cage.speed);
         }
         accelerations[0] = total[0] / setup.shaft.mass;
         accelerations[1] = total[1] / setup.shaft.mass;
@@ -185,31 +163,16 @@ fn modal_newmark_is_nodal_newmark() {
     setup.contact_damping = 1.0;
     let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let (ratio, h, count) = (0.03, 1e-7, 1000);
-    let mut system = CoupledSystem::new(
-        &structure,
-        &modes,
-        setup.clone(),
-        ModeSelection::All,
-        ModeDamping::Modal(ratio),
-        false,
-    )
-    .unwrap();
+    let mut system =
+        CoupledSystem::new(&structure, &modes, setup.clone(), ModeSelection::All, ModeDamping::Modal(ratio), false)
+            .unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let n = modes.count();
     (state.v[n], state.v[n + 1]) = (5e-3, -5e-3);
     let shapes = |amplitudes: &[f64]| &modes.shapes * column(amplitudes);
-    let nodal = |values: &[f64]| Nodal {
-        ring: shapes(&values[..n]),
-        rest: values[n..].to_vec(),
-    };
+    let nodal = |values: &[f64]| Nodal { ring: shapes(&values[..n]), rest: values[n..].to_vec() };
     let (start, mut y, mut v) = (nodal(&state.y), nodal(&state.y), nodal(&state.v));
-    run(
-        &mut system,
-        Method::NewmarkExplicit,
-        &steps(h, count),
-        &mut state,
-        &mut NoRecord,
-    );
+    run(&mut system, Method::NewmarkExplicit, &steps(h, count), &mut state, &mut NoRecord);
     NodalNewmark::new(&structure, &modes, &setup, ratio, h).integrate(&mut y, &mut v, count);
     let modal = nodal(&state.y);
     // displacements and, larger, rotations
@@ -221,10 +184,7 @@ fn modal_newmark_is_nodal_newmark() {
     for place in 0..modal.rest.len() {
         let moved = (modal.rest[place] - start.rest[place]).abs();
         let error = (modal.rest[place] - y.rest[place]).abs();
-        assert!(
-            error < 1e-9 * moved.max(1e-9),
-            "{place}: {error:e} m of {moved:e} m"
-        );
+        assert!(error < 1e-9 * moved.max(1e-9), "{place}: {error:e} m of {moved:e} m");
     }
 }
 
@@ -268,9 +228,7 @@ impl Energy<'_> {
             let speed = now.v[n + 2 + ball];
             energy += geometry.ball_mass() * (0.5 * speed.powi(2) - weight * s);
             let rows = self.structure.ring().rows_at(angle);
-            let w: f64 = (0..6)
-                .map(|k| rows.radial[k] * displaced[(rows.dofs[k], 0)])
-                .sum();
+            let w: f64 = (0..6).map(|k| rows.radial[k] * displaced[(rows.dofs[k], 0)]).sum();
             let rho = geometry.outer_race_radius() - geometry.ball_radius() + s;
             energy -= 0.5 * geometry.ball_mass() * (rho * cage.speed).powi(2);
             let chi = (rho * cos - shaft[0]).hypot(rho * sin - shaft[1]);
@@ -308,10 +266,7 @@ impl Energy<'_> {
             let chi = b[0].hypot(b[1]);
             let reach = geometry.effective_inner_race_radius() + geometry.ball_radius();
             let law = |stiffness, overlap: f64| {
-                let law = HertzContact {
-                    stiffness,
-                    damping: 0.0,
-                };
+                let law = HertzContact { stiffness, damping: 0.0 };
                 law.force(overlap, 0.0)
             };
             by_angle -= law(setup.stiffness.outer(), s - race(angle)) * slope;
@@ -358,25 +313,12 @@ struct EnergyError {
     contact_changes: usize,
 }
 
-fn energy_error(
-    setup: &BearingSetup,
-    selection: ModeSelection,
-    method: Method,
-    schedule: &Schedule,
-) -> EnergyError {
+fn energy_error(setup: &BearingSetup, selection: ModeSelection, method: Method, schedule: &Schedule) -> EnergyError {
     let structure = paper_structure(24, 0.0);
     let modes = structure.modes().unwrap();
     let rest = Equilibrium::find(&structure, setup, StaticCondition::at(setup, 0.0)).unwrap();
     let undamped = ModeDamping::Modal(0.0);
-    let mut system = CoupledSystem::new(
-        &structure,
-        &modes,
-        setup.clone(),
-        selection,
-        undamped,
-        false,
-    )
-    .unwrap();
+    let mut system = CoupledSystem::new(&structure, &modes, setup.clone(), selection, undamped, false).unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let n = system.modes();
     let kick = [1e-3, 0.5e-3];
@@ -398,9 +340,7 @@ fn energy_error(
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let tenth = changes.len() / 10;
     EnergyError {
-        largest: changes
-            .iter()
-            .fold(0.0, |largest, change| change.abs().max(largest)),
+        largest: changes.iter().fold(0.0, |largest, change| change.abs().max(largest)),
         contact_changes: energy.changes,
         drift: mean(&changes[changes.len() - tenth..]) - mean(&changes[..tenth]),
         work: energy.work / unit,
@@ -412,10 +352,7 @@ fn energy_is_kept_to_second_order() {
     let setup = preloaded_bearing(270.0, 0.0);
     // found 3.7e-8 and 2.1e-5 of the kick: five modes without their residual are out of balance at the
     // start and move more than the kick moves them
-    for (selection, limit) in [
-        (ModeSelection::All, 5e-8),
-        (ModeSelection::UpTo(60e3), 3e-5),
-    ] {
+    for (selection, limit) in [(ModeSelection::All, 5e-8), (ModeSelection::UpTo(60e3), 3e-5)] {
         for method in [Method::Exponential, Method::NewmarkExplicit] {
             // the same 2 ms
             let error = |h, count| energy_error(&setup, selection, method, &steps(h, count));
@@ -424,11 +361,7 @@ fn energy_is_kept_to_second_order() {
             assert!(fine.largest < limit, "{what}: {:e}", fine.largest);
             // it swings about a value that stays; the exponential method loses a little with stiff
             // modes, see the next test
-            assert!(
-                fine.drift.abs() < 0.5 * fine.largest,
-                "{what}: {:e}",
-                fine.drift
-            );
+            assert!(fine.drift.abs() < 0.5 * fine.largest, "{what}: {:e}", fine.drift);
             let order = (coarse.largest / fine.largest).log2();
             assert!((order - 2.0).abs() < 0.05, "{what}: order {order}");
         }
@@ -475,25 +408,13 @@ fn stiff_modes_lose_energy_with_the_third_power_of_the_step() {
 fn energy_is_kept_when_balls_lift_off_and_land() {
     let setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     for selection in [ModeSelection::All, ModeSelection::UpTo(60e3)] {
-        for method in [
-            Method::Exponential,
-            Method::NewmarkExplicit,
-            Method::Newmark,
-        ] {
+        for method in [Method::Exponential, Method::NewmarkExplicit, Method::Newmark] {
             let error = energy_error(&setup, selection, method, &steps(2e-8, 100_000));
             // found 76 and 80
-            assert!(
-                error.contact_changes > 50,
-                "{} changes",
-                error.contact_changes
-            );
+            assert!(error.contact_changes > 50, "{} changes", error.contact_changes);
             // found 3.0e-9 to 4.3e-9, 0.7e-9 and 1.2e-9 with the implicit one: infinite curvature of the force where
             // contact begins costs nothing that shows
-            assert!(
-                error.largest < 1e-8,
-                "{selection:?} {method:?}: {:e}",
-                error.largest
-            );
+            assert!(error.largest < 1e-8, "{selection:?} {method:?}: {:e}", error.largest);
         }
     }
 }
@@ -508,15 +429,7 @@ fn smooth_signal(method: Method, h: f64, duration: f64) -> Vec<f64> {
     setup.contact_damping = 1.0;
     let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let damping = ModeDamping::Modal(0.03);
-    let mut system = CoupledSystem::new(
-        &structure,
-        &modes,
-        setup,
-        ModeSelection::All,
-        damping,
-        false,
-    )
-    .unwrap();
+    let mut system = CoupledSystem::new(&structure, &modes, setup, ModeSelection::All, damping, false).unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let mut schedule = Schedule::covering(duration, 1e-5, h).unwrap();
     let wanted = schedule.intervals as usize + 1;
@@ -594,25 +507,11 @@ fn overlaps_are_events_of_the_contacts() {
         state.v[n..n + 2].copy_from_slice(&[1e-3, 0.5e-3]);
         let mut sides = SidesOfContacts::default();
         for _ in 0..100 {
-            let method = Method::Dop853 {
-                tolerance: 1e-6,
-                events: true,
-            };
-            run(
-                &mut system,
-                method,
-                &steps(2e-5, 1),
-                &mut state,
-                &mut NoRecord,
-            );
+            let method = Method::Dop853 { tolerance: 1e-6, events: true };
+            run(&mut system, method, &steps(2e-5, 1), &mut state, &mut NoRecord);
             sides.compare(&mut system, &state);
         }
-        assert!(
-            sides.touching > 100 && sides.apart > 100,
-            "{} {}",
-            sides.touching,
-            sides.apart
-        );
+        assert!(sides.touching > 100 && sides.apart > 100, "{} {}", sides.touching, sides.apart);
     }
 }
 
@@ -620,22 +519,13 @@ fn overlaps_are_events_of_the_contacts() {
 fn steps_that_end_at_contacts_keep_more_of_the_energy() {
     let setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     // of the kick; found 6.4e-11 and 3.6e-9 with events, 1.9e-9 and 2.2e-8 without
-    for (selection, bound) in [
-        (ModeSelection::All, 2e-10),
-        (ModeSelection::UpTo(60e3), 1e-8),
-    ] {
+    for (selection, bound) in [(ModeSelection::All, 2e-10), (ModeSelection::UpTo(60e3), 1e-8)] {
         let error = |events| {
-            let method = Method::Dop853 {
-                tolerance: 1e-7,
-                events,
-            };
+            let method = Method::Dop853 { tolerance: 1e-7, events };
             energy_error(&setup, selection, method, &steps(2e-7, 10_000)).largest
         };
         let (across, ending) = (error(false), error(true));
         assert!(ending < bound, "{selection:?}: {ending:e}");
-        assert!(
-            3.0 * ending < across,
-            "{selection:?}: {ending:e} {across:e}"
-        );
+        assert!(3.0 * ending < across, "{selection:?}: {ending:e} {across:e}");
     }
 }

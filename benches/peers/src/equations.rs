@@ -96,11 +96,7 @@ impl Equations {
         let dof = self.size() / 2;
         let mut values: Vec<f64> = x.iter().zip(&self.scale).map(|(x, s)| x * s).collect();
         let v = values.split_off(dof);
-        State {
-            t: self.rest.t + t,
-            y: values,
-            v,
-        }
+        State { t: self.rest.t + t, y: values, v }
     }
 
     fn take(&mut self, x: &[f64]) {
@@ -114,8 +110,7 @@ impl Equations {
         self.evaluations += 1;
         self.take(x);
         let (y, v) = self.state.split_at(self.force.len());
-        self.system
-            .force_into(self.rest.t + t, y, v, &mut self.force);
+        self.system.force_into(self.rest.t + t, y, v, &mut self.force);
         let (of_y, of_v) = dx.split_at_mut(self.force.len());
         let (scale_y, scale_v) = self.scale.split_at(self.force.len());
         for (i, linear) in self.system.linear().iter().enumerate() {
@@ -131,8 +126,7 @@ impl Equations {
             self.take(x);
             self.tangent.clear();
             let (y, v) = self.state.split_at(self.force.len());
-            self.system
-                .tangent_into(self.rest.t + t, y, v, &mut self.tangent);
+            self.system.tangent_into(self.rest.t + t, y, v, &mut self.tangent);
             self.linearisations += 1;
             self.tangent_at.0 = t;
             self.tangent_at.1.copy_from_slice(x);

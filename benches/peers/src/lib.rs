@@ -6,9 +6,7 @@ mod own;
 mod record;
 
 use equations::Equations;
-use numpy::{
-    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
-};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::error::Error;
@@ -53,10 +51,7 @@ impl Scene {
     #[new]
     fn new(path: &str, set: Vec<String>) -> PyResult<Self> {
         let equations = Equations::of_case(path, &set).map_err(failed)?;
-        Ok(Self {
-            derivative: vec![0.0; equations.size()],
-            equations,
-        })
+        Ok(Self { derivative: vec![0.0; equations.size()], equations })
     }
 
     /// Number of coordinates and velocities.
@@ -96,20 +91,13 @@ impl Scene {
         t: f64,
         x: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.equations
-            .rhs_into(t, x.as_slice()?, &mut self.derivative);
+        self.equations.rhs_into(t, x.as_slice()?, &mut self.derivative);
         Ok(PyArray1::from_slice(py, &self.derivative))
     }
 
     /// The same into memory at hand.
-    fn rhs_into(
-        &mut self,
-        t: f64,
-        x: PyReadonlyArray1<'_, f64>,
-        mut dx: PyReadwriteArray1<'_, f64>,
-    ) -> PyResult<()> {
-        self.equations
-            .rhs_into(t, x.as_slice()?, dx.as_slice_mut()?);
+    fn rhs_into(&mut self, t: f64, x: PyReadonlyArray1<'_, f64>, mut dx: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
+        self.equations.rhs_into(t, x.as_slice()?, dx.as_slice_mut()?);
         Ok(())
     }
 

@@ -2,10 +2,7 @@
 
 use crate::Run;
 use crate::equations::Equations;
-use diffsol::{
-    NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod,
-    OdeSolverStopReason,
-};
+use diffsol::{NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverStopReason};
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 use std::cell::RefCell;
 use std::error::Error;
@@ -52,12 +49,7 @@ pub fn diffsol(
     }?;
     let seconds = clock.elapsed().as_secs_f64();
     let evaluations = equations.borrow_mut().take_evaluations();
-    Ok(Run {
-        seconds,
-        evaluations,
-        interval: interval.unwrap_or(0.0),
-        states,
-    })
+    Ok(Run { seconds, evaluations, interval: interval.unwrap_or(0.0), states })
 }
 
 /// Steps to the end, with the states every `interval` seconds.
@@ -116,9 +108,7 @@ pub fn ode_solvers(
     let start = equations.start();
     if start.len() != SIZE {
         let found = start.len();
-        return Err(
-            format!("{SIZE} coordinates and velocities are compiled in, found {found}").into(),
-        );
+        return Err(format!("{SIZE} coordinates and velocities are compiled in, found {found}").into());
     }
     equations.take_evaluations();
     let start = SVector::from_row_slice(&start);
@@ -134,8 +124,8 @@ pub fn ode_solvers(
             let f = Shared(&equations);
             // as Dop853::new, without its test for stiffness
             let mut solver = Dop853::from_param(
-                f, 0.0, seconds, dx, start, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, seconds,
-                0.0, MOST_STEPS, MOST_STEPS, output,
+                f, 0.0, seconds, dx, start, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, seconds, 0.0, MOST_STEPS,
+                MOST_STEPS, output,
             );
             solver.integrate()?;
             (clock.elapsed(), solver.y_out().clone())
@@ -144,19 +134,15 @@ pub fn ode_solvers(
             let f = Shared(&equations);
             // as Dopri5::new, without its test for stiffness
             let mut solver = Dopri5::from_param(
-                f, 0.0, seconds, dx, start, tolerance, tolerance, 0.9, 0.04, 0.2, 10.0, seconds,
-                0.0, MOST_STEPS, MOST_STEPS, output,
+                f, 0.0, seconds, dx, start, tolerance, tolerance, 0.9, 0.04, 0.2, 10.0, seconds, 0.0, MOST_STEPS,
+                MOST_STEPS, output,
             );
             solver.integrate()?;
             (clock.elapsed(), solver.y_out().clone())
         }
         _ => return Err(format!("no method `{method}`").into()),
     };
-    let kept = if interval.is_some() {
-        states.as_slice()
-    } else {
-        &[]
-    };
+    let kept = if interval.is_some() { states.as_slice() } else { &[] };
     let evaluations = equations.borrow_mut().take_evaluations();
     Ok(Run {
         seconds: elapsed.as_secs_f64(),

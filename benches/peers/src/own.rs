@@ -22,10 +22,7 @@ pub fn method(name: &str, tolerance: Option<f64>) -> Result<Method, Box<dyn Erro
         ("exponential-adams", tolerance) => Method::ExponentialAdams { tolerance },
         ("exponential", None) => Method::Exponential,
         ("newmark", None) => Method::Newmark,
-        ("dop853", Some(tolerance)) => Method::Dop853 {
-            tolerance,
-            events: true,
-        },
+        ("dop853", Some(tolerance)) => Method::Dop853 { tolerance, events: true },
         _ => return Err(format!("no method `{name}` with tolerance {tolerance:?}").into()),
     })
 }
@@ -58,10 +55,5 @@ pub fn run(
         let (y, v) = (y.to_vec(), v.to_vec());
         equations.measure(&y, &v, x);
     }
-    Ok(Run {
-        seconds,
-        evaluations: statistics.evaluations,
-        interval: schedule.step(),
-        states,
-    })
+    Ok(Run { seconds, evaluations: statistics.evaluations, interval: schedule.step(), states })
 }

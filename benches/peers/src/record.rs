@@ -26,12 +26,7 @@ pub fn acceleration(
         let state = equations.state(step as f64 * interval, x);
         let system = equations.system_mut();
         system.force_into(state.t, &state.y, &state.v, &mut force);
-        let now = Instant {
-            step,
-            t: state.t,
-            y: &state.y,
-            v: &state.v,
-        };
+        let now = Instant { step, t: state.t, y: &state.y, v: &state.v };
         recorder.observe(system, now);
     }
     let record = recorder.finish();
@@ -61,10 +56,7 @@ pub fn between_steps(
         let left = equations.rest().t + t - state.t;
         // what round-off leaves of an instant is none
         if left > 1e-6 * interval {
-            let method = Method::Dop853 {
-                tolerance: BETWEEN,
-                events: false,
-            };
+            let method = Method::Dop853 { tolerance: BETWEEN, events: false };
             let schedule = Schedule::covering(left, left, left)?;
             let go_on = |_, _| Stepping::Continue;
             let system = equations.system_mut();

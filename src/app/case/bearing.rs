@@ -119,10 +119,7 @@ pub struct RaceMaterial {
 
 impl Default for RaceMaterial {
     fn default() -> Self {
-        Self {
-            inner: bearing_steel(),
-            outer: bearing_steel(),
-        }
+        Self { inner: bearing_steel(), outer: bearing_steel() }
     }
 }
 
@@ -144,14 +141,9 @@ impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
 
     fn try_from(form: Loose<InnerAndOuter<String>>) -> Result<Self, Mismatch> {
         match form {
-            Loose::Word(name) => Ok(Self {
-                inner: name.clone(),
-                outer: name,
-            }),
+            Loose::Word(name) => Ok(Self { inner: name.clone(), outer: name }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
-            other => {
-                Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }"))
-            }
+            other => Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }")),
         }
     }
 }
@@ -159,11 +151,7 @@ impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
 impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
     fn from(races: RaceMaterial) -> Self {
         let RaceMaterial { inner, outer } = races;
-        if inner == outer {
-            Self::Word(inner)
-        } else {
-            Self::Table(InnerAndOuter { inner, outer })
-        }
+        if inner == outer { Self::Word(inner) } else { Self::Table(InnerAndOuter { inner, outer }) }
     }
 }
 
@@ -195,10 +183,7 @@ impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
         match form {
             Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),
-            other => Err(other.mismatch(
-                &["hertz"],
-                "\"hertz\", or { inner = NUMBER, outer = NUMBER }",
-            )),
+            other => Err(other.mismatch(&["hertz"], "\"hertz\", or { inner = NUMBER, outer = NUMBER }")),
         }
     }
 }

@@ -9,9 +9,7 @@ use crate::system::BallsInertia;
 
 #[test]
 fn slip_is_a_number_or_a_table_over_time_or_speed() {
-    let slip = |set: &str| {
-        read(FULL, &[&format!("bearing.slip={set}")]).map(|case| case.bearing.unwrap().slip)
-    };
+    let slip = |set: &str| read(FULL, &[&format!("bearing.slip={set}")]).map(|case| case.bearing.unwrap().slip);
     assert!(matches!(slip("0.5").unwrap(), Slip::Constant(slip) if near(slip, 0.5)));
     let over = slip("{profile=[{time=0,slip=0.1},{time=1,slip=0}]}").unwrap();
     assert!(matches!(over, Slip::OverTime(points) if near(points[1].0, 1.0)));
@@ -22,18 +20,9 @@ fn slip_is_a_number_or_a_table_over_time_or_speed() {
             "{profile=[{hz=0,slip=0.1},{time=20,slip=0}]}",
             "found points with neither, both, or now the one and now the other, expected `time` in every point, or `hz` in every point",
         ),
-        (
-            "[0,0.1]",
-            "found an array, expected a number, or { profile = [{ time or hz, slip }, ...] }",
-        ),
-        (
-            "{profile=[{hz=-1,slip=0.1}]}",
-            "`bearing.slip.profile[0].hz`: found -1, expected a number not below 0",
-        ),
-        (
-            "{profile=[{hz=1,slip=1}]}",
-            "`bearing.slip.profile[0].slip`: found 1, expected a number from 0 to below 1",
-        ),
+        ("[0,0.1]", "found an array, expected a number, or { profile = [{ time or hz, slip }, ...] }"),
+        ("{profile=[{hz=-1,slip=0.1}]}", "`bearing.slip.profile[0].hz`: found -1, expected a number not below 0"),
+        ("{profile=[{hz=1,slip=1}]}", "`bearing.slip.profile[0].slip`: found 1, expected a number from 0 to below 1"),
         (
             "{profile=[{time=1,slip=0},{time=1,slip=0}]}",
             "`bearing.slip.profile[1].time`: found 1, expected more than the one before it (1)",
@@ -47,11 +36,8 @@ fn slip_is_a_number_or_a_table_over_time_or_speed() {
 
 #[test]
 fn a_load_is_constant_or_over_time() {
-    let loads = |set: &str| {
-        read(FULL, &[&format!("shaft.loads={set}")]).map(|case| case.shaft.unwrap().loads)
-    };
-    let two =
-        loads("[{force=[1,2]},{profile=[{time=0,force=[0,0]},{time=2,force=[3,4]}]}]").unwrap();
+    let loads = |set: &str| read(FULL, &[&format!("shaft.loads={set}")]).map(|case| case.shaft.unwrap().loads);
+    let two = loads("[{force=[1,2]},{profile=[{time=0,force=[0,0]},{time=2,force=[3,4]}]}]").unwrap();
     assert!(matches!(two[0], Load::Constant([x, _]) if near(x, 1.0)));
     assert!(matches!(&two[1], Load::Profile(points) if near(points[1].force[1], 4.0)));
     for (set, message) in [
@@ -70,23 +56,16 @@ fn a_load_is_constant_or_over_time() {
 
 #[test]
 fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
-    let defects = |set: &str| {
-        read(FULL, &[&format!("bearing.defects=[{set}]")]).map(|case| case.bearing.unwrap().defects)
-    };
+    let defects =
+        |set: &str| read(FULL, &[&format!("bearing.defects=[{set}]")]).map(|case| case.bearing.unwrap().defects);
     let dent = defects("{on='inner',angle_deg=10,length=0.8e-3,depth=15e-6}").unwrap();
     assert!(matches!(&dent[0], Defect::Dent(dent)
         if dent.on == Race::Inner && near(dent.rim_radius, 0.05e-3)));
-    assert!(
-        matches!(&dent[0], Defect::Dent(dent) if dent.profile == DentProfile::InPlane && dent.width.is_none())
-    );
+    assert!(matches!(&dent[0], Defect::Dent(dent) if dent.profile == DentProfile::InPlane && dent.width.is_none()));
     // wider than the ball, which is not felt in the plane
-    for (profile, width, read) in [
-        ("in-plane", 3e-3, DentProfile::InPlane),
-        ("surface", 0.41e-3, DentProfile::Surface),
-    ] {
-        let set = format!(
-            "{{on='outer',angle_deg=1,length=1e-3,depth=1e-5,width={width},profile='{profile}'}}"
-        );
+    for (profile, width, read) in [("in-plane", 3e-3, DentProfile::InPlane), ("surface", 0.41e-3, DentProfile::Surface)]
+    {
+        let set = format!("{{on='outer',angle_deg=1,length=1e-3,depth=1e-5,width={width},profile='{profile}'}}");
         assert!(matches!(&defects(&set).unwrap()[0], Defect::Dent(dent)
             if dent.profile == read && dent.width.is_some_and(|found| near(found, width))));
     }
@@ -94,14 +73,9 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
     assert!(matches!(&measured[0], Defect::Measured(measured)
         if measured.profile.csv == Path::new("folder/scan.csv")));
     let flat = defects("{on='ball',ball=5,flat_radius=2e-3,depth=1e-5}").unwrap();
-    assert!(
-        matches!(&flat[0], Defect::Flat(flat) if flat.ball == 5 && flat.angle_deg.abs() < 1e-300)
-    );
+    assert!(matches!(&flat[0], Defect::Flat(flat) if flat.ball == 5 && flat.angle_deg.abs() < 1e-300));
     for (set, message) in [
-        (
-            "{on='inner',length=1e-3,depth=1e-5}",
-            "`bearing.defects[0]` lacks the required key `angle_deg`",
-        ),
+        ("{on='inner',length=1e-3,depth=1e-5}", "`bearing.defects[0]` lacks the required key `angle_deg`"),
         (
             "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,ball=1}",
             "found `ball` beside a race, expected keys of a race's defect",
@@ -126,10 +100,7 @@ fn a_defect_is_a_dent_a_measured_profile_or_a_flat() {
             "{on='ball',ball=1,flat_radius=2e-3,depth=1e-5},{on='ball',ball=1,flat_radius=2e-3,depth=1e-5}",
             "`bearing.defects[1].ball`",
         ),
-        (
-            "{on='inner',angle_deg=0,length=18e-3,depth=1e-5}",
-            "`bearing.defects[0].length`",
-        ),
+        ("{on='inner',angle_deg=0,length=18e-3,depth=1e-5}", "`bearing.defects[0].length`"),
         (
             "{on='inner',angle_deg=0,length=1e-3,depth=1e-5,profile='surface'}",
             "found profile = \"surface\" without `width`, expected the dent's extent across the race as `width`, or profile = \"in-plane\"",
@@ -166,10 +137,7 @@ fn waves_and_ball_sizes_are_checked() {
             "bearing.waviness=[{on='inner',order=0,amplitude=1e-7}]",
             "`bearing.waviness[0].order`: found 0, expected at least 1",
         ),
-        (
-            "bearing.waviness=[{on='outer',order=2,amplitude=-1e-7}]",
-            "`bearing.waviness[0].amplitude`: found -1e-7",
-        ),
+        ("bearing.waviness=[{on='outer',order=2,amplitude=-1e-7}]", "`bearing.waviness[0].amplitude`: found -1e-7"),
         (
             "bearing.ball_radius_differences=[1e-7]",
             "`bearing.ball_radius_differences`: found 1, expected as many numbers as there are balls",
@@ -189,12 +157,7 @@ fn a_ball_pass_needs_loaded_modes() {
     let (message, _) = refusal(&["modes.linearise=none", "modes.ball_pass=true"]);
     assert!(message.contains("`modes.ball_pass`"), "{message}");
     assert!(message.contains("modes.linearise"), "{message}");
-    assert!(
-        read(FULL, &["modes.linearise=static", "modes.ball_pass=true"])
-            .unwrap()
-            .modes
-            .ball_pass
-    );
+    assert!(read(FULL, &["modes.linearise=static", "modes.ball_pass=true"]).unwrap().modes.ball_pass);
 }
 
 #[test]

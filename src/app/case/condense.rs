@@ -58,10 +58,7 @@ struct InterfaceForm {
     nodes: Option<Vec<u64>>,
 }
 
-read_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[
-    words(&["ring"]),
-    table::<InterfaceForm>(generator),
-]));
+read_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[words(&["ring"]), table::<InterfaceForm>(generator),]));
 
 impl TryFrom<Loose<InterfaceForm>> for Interface {
     type Error = Mismatch;
@@ -70,14 +67,8 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
         const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
         match form {
             Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Table(InterfaceForm {
-                group: Some(group),
-                nodes: None,
-            }) => Ok(Self::Group(group)),
-            Loose::Table(InterfaceForm {
-                group: None,
-                nodes: Some(nodes),
-            }) => Ok(Self::Nodes(nodes)),
+            Loose::Table(InterfaceForm { group: Some(group), nodes: None }) => Ok(Self::Group(group)),
+            Loose::Table(InterfaceForm { group: None, nodes: Some(nodes) }) => Ok(Self::Nodes(nodes)),
             Loose::Table(InterfaceForm { group: None, .. }) => {
                 Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
             }
@@ -115,10 +106,7 @@ impl TryFrom<Loose<UpToForm>> for InterfaceModes {
             Loose::Word(word) if word == "none" => Ok(Self::None),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch(
-                &["none"],
-                "\"none\", a whole number or { up_to_hz = NUMBER }",
-            )),
+            other => Err(other.mismatch(&["none"], "\"none\", a whole number or { up_to_hz = NUMBER }")),
         }
     }
 }
@@ -158,10 +146,7 @@ impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Whole(count) => Ok(Self::Count(count)),
             Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch(
-                &["auto"],
-                "\"auto\", a whole number or { up_to_hz = NUMBER }",
-            )),
+            other => Err(other.mismatch(&["auto"], "\"auto\", a whole number or { up_to_hz = NUMBER }")),
         }
     }
 }

@@ -5,8 +5,7 @@ use std::slice;
 
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 
 use super::error::one_of;
@@ -31,14 +30,8 @@ impl<'de> Deserializer<'de> for &Node {
             Value::Float(_) => Err(self.wrong_kind(&"a finite number")),
             Value::Flag(flag) => visitor.visit_bool(*flag),
             Value::Moment(_) => Err(self.wrong_kind(&visitor)),
-            Value::List(items) => visitor.visit_seq(Items {
-                items: items.iter(),
-                index: 0,
-            }),
-            Value::Table(entries) => visitor.visit_map(Entries {
-                entries: entries.iter(),
-                current: None,
-            }),
+            Value::List(items) => visitor.visit_seq(Items { items: items.iter(), index: 0 }),
+            Value::Table(entries) => visitor.visit_map(Entries { entries: entries.iter(), current: None }),
         }
         .map_err(|fault| fault.at(self.mark))
     }
@@ -47,19 +40,11 @@ impl<'de> Deserializer<'de> for &Node {
         visitor.visit_some(self)
     }
 
-    fn deserialize_newtype_struct<V: Visitor<'de>>(
-        self,
-        _name: &'static str,
-        visitor: V,
-    ) -> Result<V::Value, Fault> {
+    fn deserialize_newtype_struct<V: Visitor<'de>>(self, _name: &'static str, visitor: V) -> Result<V::Value, Fault> {
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_tuple<V: Visitor<'de>>(
-        self,
-        length: usize,
-        visitor: V,
-    ) -> Result<V::Value, Fault> {
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
         match &self.value {
             Value::List(items) if items.len() == length => self.deserialize_any(visitor),
             _ => Err(self.wrong_kind(&format!("an array of {length}").as_str())),
@@ -85,9 +70,7 @@ impl<'de> Deserializer<'de> for &Node {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         match &self.value {
-            Value::Text(text) => visitor
-                .visit_enum(Word(text))
-                .map_err(|fault| fault.at(self.mark)),
+            Value::Text(text) => visitor.visit_enum(Word(text)).map_err(|fault| fault.at(self.mark)),
             _ => Err(self.wrong_kind(&one_of(&owned(variants)).as_str())),
         }
     }
@@ -106,18 +89,13 @@ struct Items<'a> {
 impl<'de> SeqAccess<'de> for Items<'_> {
     type Error = Fault;
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(
-        &mut self,
-        seed: T,
-    ) -> Result<Option<T::Value>, Fault> {
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         let Some(item) = self.items.next() else {
             return Ok(None);
         };
         let step = Step::Index(self.index);
         self.index += 1;
-        seed.deserialize(item)
-            .map(Some)
-            .map_err(|fault| fault.at(item.mark).under(step))
+        seed.deserialize(item).map(Some).map_err(|fault| fault.at(item.mark).under(step))
     }
 }
 
@@ -129,26 +107,20 @@ struct Entries<'a> {
 impl<'de> MapAccess<'de> for Entries<'_> {
     type Error = Fault;
 
-    fn next_key_seed<K: DeserializeSeed<'de>>(
-        &mut self,
-        seed: K,
-    ) -> Result<Option<K::Value>, Fault> {
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
         self.current = self.entries.next();
         let Some((key, node)) = self.current else {
             return Ok(None);
         };
         let text: StrDeserializer<'_, Fault> = key.as_str().into_deserializer();
-        seed.deserialize(text)
-            .map(Some)
-            .map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
+        seed.deserialize(text).map(Some).map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
     }
 
     fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Fault> {
         let Some((key, node)) = self.current else {
             return Err(Fault::wrong("no key".to_owned(), &"a key before a value"));
         };
-        seed.deserialize(node)
-            .map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
+        seed.deserialize(node).map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
     }
 }
 
@@ -180,11 +152,7 @@ impl<'de> VariantAccess<'de> for Word<'_> {
         Err(Fault::wrong(format!("\"{}\"", self.0), &visitor))
     }
 
-    fn struct_variant<V: Visitor<'de>>(
-        self,
-        _fields: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Fault> {
+    fn struct_variant<V: Visitor<'de>>(self, _fields: &'static [&'static str], visitor: V) -> Result<V::Value, Fault> {
         Err(Fault::wrong(format!("\"{}\"", self.0), &visitor))
     }
 }

@@ -137,10 +137,7 @@ impl TryFrom<Loose<ProfileFile>> for Profile {
             Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
             Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
             Loose::Table(file) => Ok(Self::File(file)),
-            other => Err(other.mismatch(
-                &[IN_PLANE, SURFACE],
-                "\"in-plane\", \"surface\", or { csv = \"FILE\" }",
-            )),
+            other => Err(other.mismatch(&[IN_PLANE, SURFACE], "\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
         }
     }
 }
@@ -205,11 +202,7 @@ const RIM_RADIUS: f64 = 0.05e-3;
 
 /// Refuses a key that this kind of defect does not have.
 fn without(present: bool, found: &'static str, expected: &'static str) -> Result<(), Mismatch> {
-    if present {
-        Err(Mismatch::form(found, expected))
-    } else {
-        Ok(())
-    }
+    if present { Err(Mismatch::form(found, expected)) } else { Ok(()) }
 }
 
 fn given<T>(value: Option<T>, key: &'static str) -> Result<T, Mismatch> {
@@ -227,26 +220,17 @@ impl TryFrom<DefectForm> for Defect {
         };
         const RACE: &str = "keys of a race's defect";
         without(form.ball.is_some(), "`ball` beside a race", RACE)?;
-        without(
-            form.flat_radius.is_some(),
-            "`flat_radius` beside a race",
-            RACE,
-        )?;
+        without(form.flat_radius.is_some(), "`flat_radius` beside a race", RACE)?;
         let angle_deg = given(form.angle_deg, "angle_deg")?;
         let profile = match &form.profile {
             None => DentProfile::default(),
             Some(Profile::Dent(profile)) => *profile,
             Some(Profile::File(file)) => {
                 only_file(&form)?;
-                return Ok(Self::Measured(MeasuredDefect {
-                    on,
-                    angle_deg,
-                    profile: file.clone(),
-                }));
+                return Ok(Self::Measured(MeasuredDefect { on, angle_deg, profile: file.clone() }));
             }
         };
-        const WIDTH: &str =
-            "the dent's extent across the race as `width`, or profile = \"in-plane\"";
+        const WIDTH: &str = "the dent's extent across the race as `width`, or profile = \"in-plane\"";
         let wide = profile == DentProfile::InPlane || form.width.is_some();
         without(!wide, "profile = \"surface\" without `width`", WIDTH)?;
         Ok(Self::Dent(DentDefect {

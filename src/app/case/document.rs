@@ -34,19 +34,12 @@ impl<'a> Document<'a> {
     /// Reads the text and applies the arguments in order.
     pub(super) fn read(source: &'a Source) -> Result<Self, CaseError> {
         let mut root = Node::read(&source.text).map_err(|fault| CaseError::Syntax {
-            place: Place::Line {
-                path: source.path.clone(),
-                line: fault.line,
-            },
+            place: Place::Line { path: source.path.clone(), line: fault.line },
             message: fault.message,
         })?;
         for (index, argument) in source.set.iter().enumerate() {
-            set::apply(&mut root, argument, Mark::Set(index)).map_err(|problem| {
-                CaseError::Set {
-                    argument: argument.clone(),
-                    problem,
-                }
-            })?;
+            set::apply(&mut root, argument, Mark::Set(index))
+                .map_err(|problem| CaseError::Set { argument: argument.clone(), problem })?;
         }
         Ok(Self { source, root })
     }
@@ -68,9 +61,7 @@ impl<'a> Document<'a> {
         match mark {
             Some(Mark::Line(line)) => Place::Line { path, line },
             Some(Mark::Set(index)) => match self.source.set.get(index) {
-                Some(argument) => Place::Set {
-                    argument: argument.clone(),
-                },
+                Some(argument) => Place::Set { argument: argument.clone() },
                 None => Place::File { path },
             },
             None => Place::File { path },
@@ -83,28 +74,14 @@ impl<'a> Document<'a> {
         let steps = fault.steps();
         let key = format_path(&steps);
         match fault.kind {
-            FaultKind::UnknownKey { found, valid } => CaseError::UnknownKey {
-                place,
-                key,
-                keys: Box::new(Choices::new(&found, valid)),
-            },
-            FaultKind::UnknownName { found, valid } => CaseError::UnknownName {
-                place,
-                key,
-                names: Box::new(Choices::new(&found, valid)),
-                found,
-            },
-            FaultKind::MissingKey { key: missing } => CaseError::MissingKey {
-                place,
-                table: key,
-                key: missing,
-            },
-            FaultKind::Wrong { found, expected } => CaseError::WrongValue {
-                place,
-                key,
-                found,
-                expected,
-            },
+            FaultKind::UnknownKey { found, valid } => {
+                CaseError::UnknownKey { place, key, keys: Box::new(Choices::new(&found, valid)) }
+            }
+            FaultKind::UnknownName { found, valid } => {
+                CaseError::UnknownName { place, key, names: Box::new(Choices::new(&found, valid)), found }
+            }
+            FaultKind::MissingKey { key: missing } => CaseError::MissingKey { place, table: key, key: missing },
+            FaultKind::Wrong { found, expected } => CaseError::WrongValue { place, key, found, expected },
         }
     }
 }

@@ -51,11 +51,7 @@ impl<'de> Visitor<'de> for BandVisitor {
     fn visit_str<E: de::Error>(self, word: &str) -> Result<Self::Value, E> {
         match word {
             KURTOGRAM => Ok(EnvelopeBand::Kurtogram),
-            _ => Err(Mismatch::Word {
-                found: word.to_owned(),
-                valid: &[KURTOGRAM],
-            }
-            .raise()),
+            _ => Err(Mismatch::Word { found: word.to_owned(), valid: &[KURTOGRAM] }.raise()),
         }
     }
 
@@ -86,8 +82,7 @@ mod tests {
         // the echo that results carry reads back
         let again = serde_json::to_string(&case.analysis).map_err(|error| error.to_string())?;
         assert!(again.contains("\"band_hz\":"), "{again}");
-        let again: crate::app::case::Analysis =
-            serde_json::from_str(&again).map_err(|error| error.to_string())?;
+        let again: crate::app::case::Analysis = serde_json::from_str(&again).map_err(|error| error.to_string())?;
         assert_eq!(again, case.analysis);
         Ok(case.analysis.band_hz)
     }
@@ -99,20 +94,11 @@ mod tests {
         assert_eq!(band("[2000, 9e3]"), Ok(between));
         assert_eq!(band("\"kurtogram\""), Ok(Some(EnvelopeBand::Kurtogram)));
         for (text, found) in [
-            (
-                "\"kurtgram\"",
-                "`analysis.band_hz` is \"kurtgram\", expected `kurtogram`".to_owned(),
-            ),
+            ("\"kurtgram\"", "`analysis.band_hz` is \"kurtgram\", expected `kurtogram`".to_owned()),
             ("5000", format!("`analysis.band_hz`: found 5000, {FORMS}")),
             ("true", format!("`analysis.band_hz`: found true, {FORMS}")),
-            (
-                "[1, 2, 3]",
-                format!("`analysis.band_hz`: found an array of 3, {FORMS}"),
-            ),
-            (
-                "[1]",
-                format!("`analysis.band_hz`: found an array of 1, {FORMS}"),
-            ),
+            ("[1, 2, 3]", format!("`analysis.band_hz`: found an array of 3, {FORMS}")),
+            ("[1]", format!("`analysis.band_hz`: found an array of 1, {FORMS}")),
         ] {
             let error = band(text).unwrap_err();
             assert!(error.ends_with(&found), "{text}: {error}");
@@ -122,18 +108,9 @@ mod tests {
     #[test]
     fn a_band_lies_below_half_the_rate_and_takes_the_place_of_the_high_pass() {
         for (text, expected) in [
-            (
-                "[0, 9e3]",
-                "`analysis.band_hz[0]`: found 0, expected a number above 0",
-            ),
-            (
-                "[9e3, 9e3]",
-                "`analysis.band_hz[1]`: found 9000, expected more than the lowest frequency (9000)",
-            ),
-            (
-                "[2e3, 5e4]",
-                "`analysis.band_hz[1]`: found 50000, expected below half of `transient.output_hz` (50000)",
-            ),
+            ("[0, 9e3]", "`analysis.band_hz[0]`: found 0, expected a number above 0"),
+            ("[9e3, 9e3]", "`analysis.band_hz[1]`: found 9000, expected more than the lowest frequency (9000)"),
+            ("[2e3, 5e4]", "`analysis.band_hz[1]`: found 50000, expected below half of `transient.output_hz` (50000)"),
             (
                 "\"kurtogram\"\nhigh_pass_hz = 5000",
                 "`analysis.band_hz`: found beside `analysis.high_pass_hz`, expected one of the two",

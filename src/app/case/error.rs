@@ -152,10 +152,7 @@ impl CaseError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Read { .. }
-            | Self::Syntax { .. }
-            | Self::WrongValue { .. }
-            | Self::MissingKey { .. } => None,
+            Self::Read { .. } | Self::Syntax { .. } | Self::WrongValue { .. } | Self::MissingKey { .. } => None,
             Self::Set { problem, .. } => Some(problem.help().to_owned()),
             Self::UnknownKey { keys, .. } => Some(keys.help("keys")),
             Self::UnknownName { names, .. } => Some(names.help("names")),

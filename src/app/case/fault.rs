@@ -27,18 +27,11 @@ pub(super) enum FaultKind {
 
 impl Fault {
     fn new(kind: FaultKind) -> Self {
-        Self {
-            upward: Vec::new(),
-            mark: None,
-            kind,
-        }
+        Self { upward: Vec::new(), mark: None, kind }
     }
 
     pub(super) fn wrong(found: String, expected: &dyn Expected) -> Self {
-        Self::new(FaultKind::Wrong {
-            found,
-            expected: plain(&expected.to_string()),
-        })
+        Self::new(FaultKind::Wrong { found, expected: plain(&expected.to_string()) })
     }
 
     /// Notes the place, unless a deeper one is known.
@@ -101,10 +94,7 @@ impl std::error::Error for Fault {}
 
 impl de::Error for Fault {
     fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::new(FaultKind::Wrong {
-            found: message.to_string(),
-            expected: "a value of this key".to_owned(),
-        })
+        Self::new(FaultKind::Wrong { found: message.to_string(), expected: "a value of this key".to_owned() })
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
@@ -120,22 +110,14 @@ impl de::Error for Fault {
     }
 
     fn unknown_variant(found: &str, valid: &'static [&'static str]) -> Self {
-        Self::new(FaultKind::UnknownName {
-            found: found.to_owned(),
-            valid: owned(valid),
-        })
+        Self::new(FaultKind::UnknownName { found: found.to_owned(), valid: owned(valid) })
     }
 
     fn unknown_field(found: &str, valid: &'static [&'static str]) -> Self {
-        Self::new(FaultKind::UnknownKey {
-            found: found.to_owned(),
-            valid: owned(valid),
-        })
+        Self::new(FaultKind::UnknownKey { found: found.to_owned(), valid: owned(valid) })
     }
 
     fn missing_field(key: &'static str) -> Self {
-        Self::new(FaultKind::MissingKey {
-            key: key.to_owned(),
-        })
+        Self::new(FaultKind::MissingKey { key: key.to_owned() })
     }
 }

@@ -82,10 +82,6 @@ impl TryFrom<PushForm> for Push {
             SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
             SensorSpot::Recovered(row) => row.clone(),
         });
-        Ok(Self {
-            name,
-            spot,
-            direction: form.direction,
-        })
+        Ok(Self { name, spot, direction: form.direction })
     }
 }

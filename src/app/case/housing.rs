@@ -55,9 +55,7 @@ pub struct Part {
 }
 
 /// A direction of the mesh's frame.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
     /// First coordinate.
@@ -117,10 +115,7 @@ impl TryFrom<SupportForm> for Support {
         let per = form.per.unwrap_or_default();
         let hold = match (form.fixed, form.spring, form.radial) {
             (Some(_), None, None) if form.per.is_some() => {
-                return Err(Mismatch::form(
-                    "`per` beside `fixed`",
-                    "`per` beside `spring` or `radial` only",
-                ));
+                return Err(Mismatch::form("`per` beside `fixed`", "`per` beside `spring` or `radial` only"));
             }
             (Some(axes), None, None) => Hold::Fixed(axes),
             (None, Some(spring), None) => Hold::Spring(spring.into(), per),
@@ -128,10 +123,7 @@ impl TryFrom<SupportForm> for Support {
             (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
-        Ok(Self {
-            group: form.group,
-            hold,
-        })
+        Ok(Self { group: form.group, hold })
     }
 }
 
@@ -141,12 +133,6 @@ impl From<Support> for SupportForm {
             Hold::Fixed(axes) => (Some(axes), SpringKeys::default()),
             Hold::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
-        Self {
-            group: support.group,
-            fixed,
-            spring: keys.spring,
-            radial: keys.radial,
-            per: keys.per,
-        }
+        Self { group: support.group, fixed, spring: keys.spring, radial: keys.radial, per: keys.per }
     }
 }

@@ -181,10 +181,7 @@ mod tests {
             )
         );
         let again: Case = serde_json::from_value(echo).unwrap();
-        assert!(matches!(
-            again.housing,
-            Some(HousingSource::Superelement(_))
-        ));
+        assert!(matches!(again.housing, Some(HousingSource::Superelement(_))));
         assert_eq!(again.sensors, case.sensors);
     }
 

@@ -40,10 +40,7 @@ impl TryFrom<LinkForm> for Link {
         let per = form.per.unwrap_or_default();
         let connection = match (form.spring, form.radial, form.tie) {
             (None, None, Some(true)) if form.per.is_some() => {
-                return Err(Mismatch::form(
-                    "`per` beside `tie`",
-                    "`per` beside `spring` or `radial` only",
-                ));
+                return Err(Mismatch::form("`per` beside `tie`", "`per` beside `spring` or `radial` only"));
             }
             (None, None, Some(true)) => Connection::Tie,
             (Some(spring), None, None) => Connection::Spring(spring.into(), per),
@@ -52,10 +49,7 @@ impl TryFrom<LinkForm> for Link {
             (None, None, Some(false)) => return Err(Mismatch::form("`tie = false`", ONE)),
             _ => return Err(Mismatch::form("several", ONE)),
         };
-        Ok(Self {
-            between: form.between,
-            connection,
-        })
+        Ok(Self { between: form.between, connection })
     }
 }
 
@@ -65,12 +59,6 @@ impl From<Link> for LinkForm {
             Connection::Tie => (Some(true), SpringKeys::default()),
             Connection::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
-        Self {
-            between: link.between,
-            spring: keys.spring,
-            radial: keys.radial,
-            tie,
-            per: keys.per,
-        }
+        Self { between: link.between, spring: keys.spring, radial: keys.radial, tie, per: keys.per }
     }
 }

@@ -29,15 +29,8 @@ impl Case {
     /// breaks a rule of [`Case::validate`]; the same for any of its variants.
     pub fn load(path: impl AsRef<Path>, set: &[String]) -> Result<Self, CaseError> {
         let path = path.as_ref();
-        let text = crate::files::read_text(path).map_err(|source| CaseError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-        Self::from_source(Source {
-            path: path.to_owned(),
-            text,
-            set: set.to_vec(),
-        })
+        let text = crate::files::read_text(path).map_err(|source| CaseError::Read { path: path.to_owned(), source })?;
+        Self::from_source(Source { path: path.to_owned(), text, set: set.to_vec() })
     }
 
     /// Reads a case from text that is at hand; see [`Case::load`].
@@ -73,10 +66,7 @@ impl Case {
         let housing = self.housing.iter_mut().map(HousingSource::path_mut);
         let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
         let meshes = self.modes.convergence.iter_mut();
-        let defects = self
-            .bearing
-            .iter_mut()
-            .flat_map(|bearing| &mut bearing.defects);
+        let defects = self.bearing.iter_mut().flat_map(|bearing| &mut bearing.defects);
         housing
             .chain(compared)
             .chain(defects.filter_map(Defect::path_mut))
@@ -101,11 +91,7 @@ impl Case {
         self.read_variants(variants, "frf.variants")
     }
 
-    fn read_variants(
-        &self,
-        variants: &[super::Variant],
-        key: &str,
-    ) -> Result<Vec<VariantCase>, CaseError> {
+    fn read_variants(&self, variants: &[super::Variant], key: &str) -> Result<Vec<VariantCase>, CaseError> {
         let read = |(index, variant): (usize, &super::Variant)| {
             let mut source = self.source.clone();
             source.set.extend(variant.set.iter().cloned());
@@ -115,10 +101,7 @@ impl Case {
                     if let Some(frf) = &mut case.frf {
                         frf.variants.clear();
                     }
-                    Ok(VariantCase {
-                        what: variant.what.clone(),
-                        case,
-                    })
+                    Ok(VariantCase { what: variant.what.clone(), case })
                 }
                 Err(error) => Err(CaseError::Variant {
                     place: self.place(&format!("{key}[{index}]")),
@@ -135,9 +118,7 @@ impl Case {
     pub fn place(&self, key: &str) -> Place {
         match Document::read(&self.source) {
             Ok(document) => document.place(key),
-            Err(_) => Place::File {
-                path: self.source.path.clone(),
-            },
+            Err(_) => Place::File { path: self.source.path.clone() },
         }
     }
 

@@ -60,12 +60,7 @@ fn is_zero(loss_factor: &f64) -> bool {
 
 impl Material {
     const fn new(young: f64, poisson: f64, density: f64) -> Self {
-        Self::Isotropic(IsotropicMaterial {
-            young,
-            poisson,
-            density,
-            loss_factor: 0.0,
-        })
+        Self::Isotropic(IsotropicMaterial { young, poisson, density, loss_factor: 0.0 })
     }
 
     /// Structural loss factor, >= 0 and < 2.
@@ -145,12 +140,7 @@ impl TryFrom<MaterialForm> for Material {
                 if form.x_axis.is_some() || form.y_axis.is_some() {
                     return Err(Mismatch::form("axes of an isotropic material", FORMS));
                 }
-                Ok(Self::Isotropic(IsotropicMaterial {
-                    young,
-                    poisson,
-                    density: form.density,
-                    loss_factor,
-                }))
+                Ok(Self::Isotropic(IsotropicMaterial { young, poisson, density: form.density, loss_factor }))
             }
             (OneOrThree::Three(young), OneOrThree::Three(poisson), Some(shear)) => {
                 Ok(Self::Orthotropic(OrthotropicMaterial {
@@ -166,9 +156,7 @@ impl TryFrom<MaterialForm> for Material {
             (OneOrThree::One(_), OneOrThree::One(_), Some(_)) => {
                 Err(Mismatch::form("`shear` of an isotropic material", FORMS))
             }
-            (OneOrThree::Three(_), OneOrThree::Three(_), None) => {
-                Err(Mismatch::form("no `shear`", FORMS))
-            }
+            (OneOrThree::Three(_), OneOrThree::Three(_), None) => Err(Mismatch::form("no `shear`", FORMS)),
             _ => Err(Mismatch::form("one number and three", FORMS)),
         }
     }

@@ -83,9 +83,7 @@ pub use sensor::{Sensor, SensorSpot};
 pub use set::{SetProblem, replaced_argument, split_argument};
 pub use slip::Slip;
 pub use spring::Spring;
-pub use transient::{
-    Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient,
-};
+pub use transient::{Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWindow, StepLength, Transient};
 
 /// One case: everything that a command computes from, but the mesh.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -169,8 +167,7 @@ impl Case {
             (Some(mass), _) => mass,
             (None, Some(density)) => density * volume,
             (None, None) => {
-                let material =
-                    self.known_material("bearing.ball_material", &bearing.ball_material)?;
+                let material = self.known_material("bearing.ball_material", &bearing.ball_material)?;
                 material.density() * volume
             }
         })
@@ -190,17 +187,12 @@ impl Case {
     /// Returns the relative error that the frequencies in the band may have: that of `[accuracy]`, else 0.01.
     #[must_use]
     pub fn target(&self) -> f64 {
-        self.accuracy
-            .as_ref()
-            .map_or(0.01, |accuracy| accuracy.target)
+        self.accuracy.as_ref().map_or(0.01, |accuracy| accuracy.target)
     }
 
     /// Returns the case file's name without folder and ending, or `case` if it has none.
     #[must_use]
     pub fn name(&self) -> String {
-        self.source.path.file_stem().map_or_else(
-            || "case".to_owned(),
-            |stem| stem.to_string_lossy().into_owned(),
-        )
+        self.source.path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
     }
 }

@@ -66,14 +66,9 @@ mod tests {
 
     #[test]
     fn limits_have_defaults_and_a_file_its_name() {
-        let modes = read(FULL, &["modes.compare=[{file='a/bench.uff'}]"])
-            .expect("a case")
-            .modes;
+        let modes = read(FULL, &["modes.compare=[{file='a/bench.uff'}]"]).expect("a case").modes;
         let compare = &modes.compare[0];
-        assert_eq!(
-            (compare.name().as_str(), compare.points_within),
-            ("bench.uff", None)
-        );
+        assert_eq!((compare.name().as_str(), compare.points_within), ("bench.uff", None));
         // as the documentation says
         assert!((compare.mac - 0.95).abs() < 1e-15 && (compare.within - 0.01).abs() < 1e-15);
         let modes = read(FULL, &["modes.convergence={meshes=['a.msh']}"]);
@@ -84,31 +79,16 @@ mod tests {
     #[test]
     fn misspelt_keys_are_named() {
         for (argument, key, nearest) in [
-            (
-                "modes.compare=[{fle='a.csv'}]",
-                "modes.compare[0].fle",
-                "file",
-            ),
-            (
-                "modes.compare[0].withn=0.1",
-                "modes.compare[0].withn",
-                "within",
-            ),
-            (
-                "modes.convergence.mehses=[]",
-                "modes.convergence.mehses",
-                "meshes",
-            ),
+            ("modes.compare=[{fle='a.csv'}]", "modes.compare[0].fle", "file"),
+            ("modes.compare[0].withn=0.1", "modes.compare[0].withn", "within"),
+            ("modes.convergence.mehses=[]", "modes.convergence.mehses", "meshes"),
             ("modes.convergance={}", "modes.convergance", "convergence"),
         ] {
             let error = read(FULL, &[argument]).expect_err(argument);
             let expected = format!("--set {argument}: unknown key `{key}`");
             assert_eq!(error.to_string(), expected);
             let help = error.help().expect("help");
-            assert!(
-                help.starts_with(&format!("did you mean `{nearest}`?")),
-                "{help}"
-            );
+            assert!(help.starts_with(&format!("did you mean `{nearest}`?")), "{help}");
         }
         let error = read(FULL, &["modes.compare=[{what='a'}]"]).expect_err("no file");
         assert_eq!(

@@ -12,10 +12,7 @@ pub struct Choices {
 impl Choices {
     /// Collects the valid names and picks the one nearest to what was found.
     pub(super) fn new(found: &str, valid: Vec<String>) -> Self {
-        Self {
-            nearest: nearest(found, valid.iter().map(String::as_str)),
-            valid,
-        }
+        Self { nearest: nearest(found, valid.iter().map(String::as_str)), valid }
     }
 
     /// "did you mean `x`? keys here: a, b", without the question when nothing is near.

@@ -33,11 +33,7 @@ pub(super) fn format_path(steps: &[Step]) -> String {
 
 /// Returns a key as it must be written in a path: bare where possible, else in double quotes.
 pub(super) fn quoted(key: &str) -> String {
-    if !key.is_empty() && key.chars().all(is_bare) {
-        key.to_owned()
-    } else {
-        format!("\"{key}\"")
-    }
+    if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { format!("\"{key}\"") }
 }
 
 /// Reads a key path; `None` when it is malformed (empty step, open quote or bracket, stray character).
@@ -69,9 +65,7 @@ fn is_bare(letter: char) -> bool {
 fn take_key(text: &str) -> Option<(String, &str)> {
     for quote in ['"', '\''] {
         if let Some(inner) = text.strip_prefix(quote) {
-            return inner
-                .split_once(quote)
-                .map(|(key, rest)| (key.to_owned(), rest));
+            return inner.split_once(quote).map(|(key, rest)| (key.to_owned(), rest));
         }
     }
     let end = text.find(|letter| !is_bare(letter)).unwrap_or(text.len());
@@ -88,30 +82,17 @@ mod tests {
 
     #[test]
     fn a_path_survives_reading_and_writing() {
-        for text in [
-            "title",
-            "bearing.defects[0].depth",
-            "materials.\"bearing steel\".young",
-            "a[1][2].b",
-        ] {
+        for text in ["title", "bearing.defects[0].depth", "materials.\"bearing steel\".young", "a[1][2].b"] {
             let steps = parse_path(text).unwrap();
             assert_eq!(format_path(&steps), text);
         }
-        assert_eq!(
-            parse_path("defects[3].on").unwrap(),
-            [key("defects"), Step::Index(3), key("on")]
-        );
-        assert_eq!(
-            parse_path("materials.'bearing steel'").unwrap(),
-            [key("materials"), key("bearing steel")]
-        );
+        assert_eq!(parse_path("defects[3].on").unwrap(), [key("defects"), Step::Index(3), key("on")]);
+        assert_eq!(parse_path("materials.'bearing steel'").unwrap(), [key("materials"), key("bearing steel")]);
     }
 
     #[test]
     fn a_malformed_path_is_refused() {
-        for text in [
-            "", ".", "a.", ".a", "a..b", "a[", "a[x]", "a[0", "a b", "\"a", "a]",
-        ] {
+        for text in ["", ".", "a.", ".a", "a..b", "a[", "a[x]", "a[0", "a b", "\"a", "a]"] {
             assert_eq!(parse_path(text), None, "{text}");
         }
     }

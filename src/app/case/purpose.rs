@@ -46,9 +46,7 @@ impl Need<'_> {
     /// The part of this name, if it is there.
     fn of<T>(self, table: &'static str, part: Option<T>) -> Result<T, CaseError> {
         part.ok_or_else(|| CaseError::MissingTable {
-            place: Place::File {
-                path: self.case.source.path.clone(),
-            },
+            place: Place::File { path: self.case.source.path.clone() },
             table,
             needed_by: self.by,
         })
@@ -75,9 +73,7 @@ impl Case {
             Purpose::Chart => self.for_chart().map(|_| ()),
             Purpose::Modes => match self.modes.linearise {
                 Linearise::None => Ok(()),
-                Linearise::Static => self
-                    .at_rest(need("`modes.linearise = \"static\"`"))
-                    .map(|_| ()),
+                Linearise::Static => self.at_rest(need("`modes.linearise = \"static\"`")).map(|_| ()),
             },
             Purpose::Condense => {
                 let need = need("`condense`");
@@ -120,14 +116,7 @@ impl Case {
         let speed = need.of("[speed]", self.speed.as_ref())?;
         let transient = need.of("[transient]", self.transient.as_ref())?;
         need.that("[[sensors]]", !self.sensors.is_empty())?;
-        Ok(RunCase {
-            case: self,
-            ring,
-            bearing,
-            shaft,
-            speed,
-            transient,
-        })
+        Ok(RunCase { case: self, ring, bearing, shaft, speed, transient })
     }
 
     /// What an equilibrium under the load needs.
@@ -145,10 +134,7 @@ impl Case {
 
     /// Whether a part of the housing is of a material with a loss factor.
     fn has_loss_factor(&self) -> bool {
-        let mut parts = self
-            .meshed_housing()
-            .into_iter()
-            .flat_map(|housing| &housing.parts);
+        let mut parts = self.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
         parts.any(|part| {
             let material = self.material(&part.material);
             material.is_some_and(|material| material.loss_factor() > 0.0)

@@ -92,11 +92,7 @@ impl TryFrom<SensorForm> for Sensor {
             (_, Some(direction)) => direction,
             (_, None) => return Err(Mismatch::Missing { key: "direction" }),
         };
-        Ok(Self {
-            name: form.name,
-            spot,
-            direction,
-        })
+        Ok(Self { name: form.name, spot, direction })
     }
 }
 

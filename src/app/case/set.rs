@@ -15,9 +15,7 @@ pub enum SetProblem {
     #[error("found no `=`, expected KEY=VALUE")]
     NoEquals,
     /// The part before `=` is not a key path.
-    #[error(
-        "found the key path `{found}`, expected names joined by dots, e.g. `bearing.defects[0].depth`"
-    )]
+    #[error("found the key path `{found}`, expected names joined by dots, e.g. `bearing.defects[0].depth`")]
     Key {
         /// The key path as written.
         found: String,
@@ -60,9 +58,7 @@ impl SetProblem {
             }
             Self::Value { .. } => "quote it twice: --set 'title=\"with {braces}\"'",
             Self::NotATable { .. } => "set that key itself",
-            Self::Position { .. } => {
-                "positions count from 0; to add an item set the whole array: --set 'KEY=[...]'"
-            }
+            Self::Position { .. } => "positions count from 0; to add an item set the whole array: --set 'KEY=[...]'",
         }
     }
 }
@@ -76,9 +72,7 @@ impl SetProblem {
 /// [`SetProblem`] when the argument is malformed or leads through a value without parts.
 pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), SetProblem> {
     let (key, value) = split_argument(argument).ok_or(SetProblem::NoEquals)?;
-    let steps = parse_path(key).ok_or_else(|| SetProblem::Key {
-        found: key.to_owned(),
-    })?;
+    let steps = parse_path(key).ok_or_else(|| SetProblem::Key { found: key.to_owned() })?;
     let value = read_value(value, mark)?;
     let mut node = root;
     for (depth, step) in steps.iter().enumerate() {
@@ -111,9 +105,9 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
     let keys: Vec<_> = arguments.iter().map(names).collect();
     for (place, later) in keys.iter().enumerate() {
         let Some(later) = later else { continue };
-        let earlier = keys[..place].iter().position(|earlier| {
-            (earlier.as_ref()).is_some_and(|earlier| earlier.starts_with(later))
-        });
+        let earlier = keys[..place]
+            .iter()
+            .position(|earlier| (earlier.as_ref()).is_some_and(|earlier| earlier.starts_with(later)));
         if let Some(earlier) = earlier {
             return Some([arguments[earlier].clone(), arguments[place].clone()]);
         }
@@ -149,35 +143,17 @@ fn read_value(text: &str, mark: Mark) -> Result<Node, SetProblem> {
         Err(fault) => fault,
     };
     if text.is_empty() || text.contains(['"', '\'', '[', ']', '{', '}', '\n']) {
-        return Err(SetProblem::Value {
-            found: text.to_owned(),
-            message: fault.message,
-        });
+        return Err(SetProblem::Value { found: text.to_owned(), message: fault.message });
     }
-    Ok(Node {
-        mark,
-        value: Value::Text(text.to_owned()),
-    })
+    Ok(Node { mark, value: Value::Text(text.to_owned()) })
 }
 
-fn descend<'a>(
-    node: &'a mut Node,
-    above: &[Step],
-    step: &Step,
-    mark: Mark,
-) -> Result<&'a mut Node, SetProblem> {
+fn descend<'a>(node: &'a mut Node, above: &[Step], step: &Step, mark: Mark) -> Result<&'a mut Node, SetProblem> {
     let found = node.describe();
-    let beyond = |index, length| SetProblem::Position {
-        key: format_path(above),
-        index,
-        length,
-    };
+    let beyond = |index, length| SetProblem::Position { key: format_path(above), index, length };
     match (&mut node.value, step) {
         (Value::Table(entries), Step::Key(key)) => {
-            Ok(entries.entry(key.clone()).or_insert_with(|| Node {
-                mark,
-                value: Value::Table(BTreeMap::new()),
-            }))
+            Ok(entries.entry(key.clone()).or_insert_with(|| Node { mark, value: Value::Table(BTreeMap::new()) }))
         }
         (Value::List(items), step) => {
             let index = match step {
@@ -187,17 +163,11 @@ fn descend<'a>(
             let length = items.len();
             match index {
                 Some(index) => items.get_mut(index).ok_or_else(|| beyond(index, length)),
-                None => Err(SetProblem::NotATable {
-                    key: format_path(above),
-                    found,
-                }),
+                None => Err(SetProblem::NotATable { key: format_path(above), found }),
             }
         }
         (_, Step::Index(index)) => Err(beyond(*index, 0)),
-        (_, Step::Key(_)) => Err(SetProblem::NotATable {
-            key: format_path(above),
-            found,
-        }),
+        (_, Step::Key(_)) => Err(SetProblem::NotATable { key: format_path(above), found }),
     }
 }
 
@@ -207,7 +177,8 @@ mod tests {
     use super::super::tree::{Mark, Node};
     use super::apply;
 
-    const TEXT: &str = "title = \"a\"\n[bearing]\nballs = 7\n[[bearing.defects]]\ndepth = 1\n[[bearing.defects]]\ndepth = 2\n";
+    const TEXT: &str =
+        "title = \"a\"\n[bearing]\nballs = 7\n[[bearing.defects]]\ndepth = 1\n[[bearing.defects]]\ndepth = 2\n";
 
     fn after(argument: &str, path: &str) -> (String, Mark) {
         let mut root = Node::read(TEXT).unwrap();
@@ -221,9 +192,7 @@ mod tests {
 
     fn problem(argument: &str) -> String {
         let mut root = Node::read(TEXT).unwrap();
-        apply(&mut root, argument, Mark::Set(0))
-            .unwrap_err()
-            .to_string()
+        apply(&mut root, argument, Mark::Set(0)).unwrap_err().to_string()
     }
 
     #[test]
@@ -236,11 +205,7 @@ mod tests {
             ("bearing.fit=\"a=b\"", "bearing.fit", "\"a=b\""),
             ("housing.mesh=../a b.msh", "housing.mesh", "\"../a b.msh\""),
             ("ring.shear=false", "ring.shear", "false"),
-            (
-                "bearing.defects[1].depth=3",
-                "bearing.defects[1].depth",
-                "3",
-            ),
+            ("bearing.defects[1].depth=3", "bearing.defects[1].depth", "3"),
             ("bearing.defects.1.depth=3", "bearing.defects[1].depth", "3"),
             ("bearing.defects=[]", "bearing.defects", "an array of 0"),
             ("a.b={c=[1,2]}", "a.b.c", "an array of 2"),
@@ -265,25 +230,15 @@ mod tests {
             problem("bearing..balls=1"),
             "found the key path `bearing..balls`, expected names joined by dots, e.g. `bearing.defects[0].depth`"
         );
-        assert_eq!(
-            problem("title.x=1"),
-            "`title` is \"a\", it has no keys of its own"
-        );
-        assert_eq!(
-            problem("bearing.defects.depth=1"),
-            "`bearing.defects` is an array of 2, it has no keys of its own"
-        );
+        assert_eq!(problem("title.x=1"), "`title` is \"a\", it has no keys of its own");
+        assert_eq!(problem("bearing.defects.depth=1"), "`bearing.defects` is an array of 2, it has no keys of its own");
         assert_eq!(
             problem("bearing.defects[2].depth=1"),
             "found position 2 of `bearing.defects`, expected one below 2"
         );
-        assert_eq!(
-            problem("bearing[0]=1"),
-            "found position 0 of `bearing`, expected one below 0"
-        );
+        assert_eq!(problem("bearing[0]=1"), "found position 0 of `bearing`, expected one below 0");
         assert!(
-            problem("bearing.defects=[1")
-                .starts_with("found the value `[1`, expected a TOML value or a bare word: ")
+            problem("bearing.defects=[1").starts_with("found the value `[1`, expected a TOML value or a bare word: ")
         );
         assert!(problem("title=").starts_with("found the value ``, expected a TOML value"));
     }

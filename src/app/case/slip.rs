@@ -45,10 +45,7 @@ struct SlipPoint {
     slip: f64,
 }
 
-written_as!(Slip, Loose<SlipForm>, |generator| any_of(&[
-    number(),
-    table::<SlipForm>(generator)
-]));
+written_as!(Slip, Loose<SlipForm>, |generator| any_of(&[number(), table::<SlipForm>(generator)]));
 
 /// Every point over time, or every point over speed.
 fn one_axis() -> Value {
@@ -68,10 +65,7 @@ impl TryFrom<Loose<SlipForm>> for Slip {
             Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
             Loose::Table(form) => form,
             other => {
-                return Err(other.mismatch(
-                    &[],
-                    "a number, or { profile = [{ time or hz, slip }, ...] }",
-                ));
+                return Err(other.mismatch(&[], "a number, or { profile = [{ time or hz, slip }, ...] }"));
             }
         };
         let points = form.profile.iter();
@@ -100,22 +94,12 @@ impl From<Slip> for Loose<SlipForm> {
     fn from(slip: Slip) -> Self {
         let profile = match slip {
             Slip::Constant(slip) => return Self::Number(slip),
-            Slip::OverTime(points) => points
-                .into_iter()
-                .map(|(time, slip)| SlipPoint {
-                    time: Some(time),
-                    hz: None,
-                    slip,
-                })
-                .collect(),
-            Slip::OverSpeed(points) => points
-                .into_iter()
-                .map(|(hz, slip)| SlipPoint {
-                    time: None,
-                    hz: Some(hz),
-                    slip,
-                })
-                .collect(),
+            Slip::OverTime(points) => {
+                points.into_iter().map(|(time, slip)| SlipPoint { time: Some(time), hz: None, slip }).collect()
+            }
+            Slip::OverSpeed(points) => {
+                points.into_iter().map(|(hz, slip)| SlipPoint { time: None, hz: Some(hz), slip }).collect()
+            }
         };
         Self::Table(SlipForm { profile })
     }

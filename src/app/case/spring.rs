@@ -40,10 +40,6 @@ impl SpringKeys {
             SpringStiffness::Global([x, y, z]) => (Some(Spring { x, y, z }), None),
             SpringStiffness::Radial(radial) => (None, Some(radial)),
         };
-        Self {
-            spring,
-            radial,
-            per: Some(share),
-        }
+        Self { spring, radial, per: Some(share) }
     }
 }

@@ -92,11 +92,7 @@ impl Ensemble {
 
 impl Default for Ensemble {
     fn default() -> Self {
-        Self {
-            runs: Self::default_runs(),
-            perturbation: Self::default_perturbation(),
-            seed: Self::default_seed(),
-        }
+        Self { runs: Self::default_runs(), perturbation: Self::default_perturbation(), seed: Self::default_seed() }
     }
 }
 
@@ -135,10 +131,7 @@ pub enum StepLength {
     Seconds(f64),
 }
 
-read_as!(StepLength, Loose<NoTable>, |_| any_of(&[
-    words(&["auto"]),
-    number()
-]));
+read_as!(StepLength, Loose<NoTable>, |_| any_of(&[words(&["auto"]), number()]));
 
 impl TryFrom<Loose<NoTable>> for StepLength {
     type Error = Mismatch;
@@ -168,10 +161,7 @@ pub enum ModesKept {
     Count(usize),
 }
 
-read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[
-    words(&["auto", "all"]),
-    whole()
-]));
+read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[words(&["auto", "all"]), whole()]));
 
 impl TryFrom<Loose<NoTable>> for ModesKept {
     type Error = Mismatch;

@@ -49,20 +49,14 @@ impl Node {
     pub(super) fn read(text: &str) -> Result<Self, SyntaxFault> {
         let lines = Lines::of(text);
         let table = DeTable::parse(text).map_err(|error| lines.fault(&error))?;
-        Ok(Self {
-            mark: Mark::Line(1),
-            value: lines.table(table.get_ref())?,
-        })
+        Ok(Self { mark: Mark::Line(1), value: lines.table(table.get_ref())? })
     }
 
     /// Reads one TOML value given as an argument; every part of it carries `mark`.
     pub(super) fn read_value(text: &str, mark: Mark) -> Result<Self, SyntaxFault> {
         let lines = Lines::of(text);
         let value = DeValue::parse(text).map_err(|error| lines.fault(&error))?;
-        let mut node = Self {
-            mark,
-            value: lines.value(value.get_ref(), 1)?,
-        };
+        let mut node = Self { mark, value: lines.value(value.get_ref(), 1)? };
         node.remark(mark);
         Ok(node)
     }
@@ -118,9 +112,7 @@ struct Lines {
 
 impl Lines {
     fn of(text: &str) -> Self {
-        let starts = std::iter::once(0)
-            .chain(text.match_indices('\n').map(|(at, _)| at + 1))
-            .collect();
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         Self { starts }
     }
 
@@ -136,10 +128,7 @@ impl Lines {
     }
 
     fn node(&self, value: &Spanned<DeValue<'_>>, line: usize) -> Result<Node, SyntaxFault> {
-        Ok(Node {
-            mark: Mark::Line(line),
-            value: self.value(value.get_ref(), line)?,
-        })
+        Ok(Node { mark: Mark::Line(line), value: self.value(value.get_ref(), line)? })
     }
 
     fn table(&self, table: &DeTable<'_>) -> Result<Value, SyntaxFault> {
@@ -152,27 +141,18 @@ impl Lines {
     }
 
     fn value(&self, value: &DeValue<'_>, line: usize) -> Result<Value, SyntaxFault> {
-        let unreadable = |number: &dyn std::fmt::Display| SyntaxFault {
-            line,
-            message: format!("the number {number} does not fit"),
-        };
+        let unreadable =
+            |number: &dyn std::fmt::Display| SyntaxFault { line, message: format!("the number {number} does not fit") };
         Ok(match value {
             DeValue::String(text) => Value::Text(text.to_string()),
             DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix())
                 .map(Value::Integer)
                 .map_err(|_| unreadable(number))?,
-            DeValue::Float(number) => number
-                .as_str()
-                .parse()
-                .map(Value::Float)
-                .map_err(|_| unreadable(number))?,
+            DeValue::Float(number) => number.as_str().parse().map(Value::Float).map_err(|_| unreadable(number))?,
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(moment) => Value::Moment(moment.to_string()),
             DeValue::Array(items) => Value::List(
-                items
-                    .iter()
-                    .map(|item| self.node(item, self.line(&item.span())))
-                    .collect::<Result<_, _>>()?,
+                items.iter().map(|item| self.node(item, self.line(&item.span()))).collect::<Result<_, _>>()?,
             ),
             DeValue::Table(table) => self.table(table)?,
         })
@@ -227,9 +207,6 @@ mod tests {
         let fault = Node::read("a = 1\nb = 2\na = 3\n").unwrap_err();
         assert_eq!((fault.line, fault.message.as_str()), (3, "duplicate key"));
         let fault = Node::read("a = 99999999999999999999\n").unwrap_err();
-        assert_eq!(
-            fault.message,
-            "the number 99999999999999999999 does not fit"
-        );
+        assert_eq!(fault.message, "the number 99999999999999999999 does not fit");
     }
 }

@@ -11,32 +11,21 @@ use serde::ser::{Serialize, Serializer};
 #[derive(Debug, PartialEq)]
 pub(super) enum Mismatch {
     /// Another kind of value, or a combination of keys that excludes itself.
-    Form {
-        found: String,
-        expected: &'static str,
-    },
+    Form { found: String, expected: &'static str },
     /// A word that is none of those valid.
-    Word {
-        found: String,
-        valid: &'static [&'static str],
-    },
+    Word { found: String, valid: &'static [&'static str] },
     /// A key that this combination needs.
     Missing { key: &'static str },
 }
 
 impl Mismatch {
     pub(super) fn form(found: impl Into<String>, expected: &'static str) -> Self {
-        Self::Form {
-            found: found.into(),
-            expected,
-        }
+        Self::Form { found: found.into(), expected }
     }
 
     pub(super) fn raise<E: de::Error>(self) -> E {
         match self {
-            Self::Form { found, expected } => {
-                E::invalid_value(Unexpected::Other(&found), &expected)
-            }
+            Self::Form { found, expected } => E::invalid_value(Unexpected::Other(&found), &expected),
             Self::Word { found, valid } => E::unknown_variant(&found, valid),
             Self::Missing { key } => E::missing_field(key),
         }
@@ -98,11 +87,7 @@ pub(super) enum Loose<T> {
 
 impl<T> Loose<T> {
     /// The error for a form that the key does not take; it takes these words.
-    pub(super) fn mismatch(
-        self,
-        valid: &'static [&'static str],
-        expected: &'static str,
-    ) -> Mismatch {
+    pub(super) fn mismatch(self, valid: &'static [&'static str], expected: &'static str) -> Mismatch {
         let found = match self {
             Self::Word(found) if !valid.is_empty() => return Mismatch::Word { found, valid },
             Self::Word(word) => format!("\"{word}\""),

@@ -385,10 +385,7 @@ impl Command {
     pub fn result_files(&self) -> Vec<String> {
         let names: &[&str] = match self {
             Self::Chart { only: None, .. } => &["chart", "stability"],
-            Self::Chart {
-                only: Some(ChartPart::Stability),
-                ..
-            } => &["stability"],
+            Self::Chart { only: Some(ChartPart::Stability), .. } => &["stability"],
             Self::Analyze(_) => &["analysis"],
             other => &[other.name()],
         };
@@ -442,9 +439,7 @@ pub struct Options {
 fn pause(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(pause) if (0.0..=3.2e7).contains(&pause) => Ok(pause),
-        _ => Err(format!(
-            "expected seconds from 0 to 3.2e7, found \"{text}\""
-        )),
+        _ => Err(format!("expected seconds from 0 to 3.2e7, found \"{text}\"")),
     }
 }
 
@@ -452,9 +447,7 @@ fn pause(text: &str) -> Result<f64, String> {
 fn density(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(density) if density > 0.0 && density.is_finite() => Ok(density),
-        _ => Err(format!(
-            "expected a number of kg/m^3 above 0, found \"{text}\""
-        )),
+        _ => Err(format!("expected a number of kg/m^3 above 0, found \"{text}\"")),
     }
 }
 
@@ -464,22 +457,14 @@ impl Options {
     pub fn command_line(&self, command: &str, case: &Case) -> String {
         let file = shell_word(&case.source.path.to_string_lossy());
         let mut words = vec![format!("plummer {command} {file}")];
-        words.extend(
-            self.set
-                .iter()
-                .map(|set| format!("--set {}", shell_word(set))),
-        );
+        words.extend(self.set.iter().map(|set| format!("--set {}", shell_word(set))));
         words.join(" ")
     }
 
     /// Returns whether progress may be shown at all.
     #[must_use]
     pub fn visibility(&self) -> Visibility {
-        if self.quiet || self.json {
-            Visibility::Hidden
-        } else {
-            Visibility::OnTerminal
-        }
+        if self.quiet || self.json { Visibility::Hidden } else { Visibility::OnTerminal }
     }
 }
 
@@ -536,9 +521,7 @@ mod tests {
             "plummer --out o --threads 3 --force --set a=1 --set b=2 run a.toml",
         ] {
             let Arguments { command, options } = parse(words).unwrap();
-            assert!(
-                matches!(command, Command::Run { case, resume: false, .. } if case.as_os_str() == "a.toml")
-            );
+            assert!(matches!(command, Command::Run { case, resume: false, .. } if case.as_os_str() == "a.toml"));
             assert_eq!(options.out.unwrap().as_os_str(), "o");
             assert_eq!(options.threads.unwrap().get(), 3);
             assert!(options.force && !options.quiet && !options.json);
@@ -584,20 +567,11 @@ mod tests {
     fn values_that_begin_with_a_minus_are_values() {
         for (words, said) in [
             ("plummer analyze a.csv --speed -30Hz", "-30Hz"),
-            (
-                "plummer analyze a.csv --rate -5",
-                "expected a number above 0",
-            ),
-            (
-                "plummer inspect a.msh --density -1",
-                "expected a number of kg/m^3 above 0",
-            ),
+            ("plummer analyze a.csv --rate -5", "expected a number above 0"),
+            ("plummer inspect a.msh --density -1", "expected a number of kg/m^3 above 0"),
         ] {
             match parse(words) {
-                Ok(Arguments {
-                    command: Command::Analyze(asked),
-                    ..
-                }) => {
+                Ok(Arguments { command: Command::Analyze(asked), .. }) => {
                     assert_eq!(asked.speed.unwrap().text, said);
                 }
                 Ok(_) => panic!("{words}"),
@@ -644,10 +618,7 @@ mod tests {
     fn parts_of_a_chart_are_called_what_is_typed_and_have_their_files() {
         let files = |words: &str| parse(words).unwrap().command.result_files();
         assert_eq!(files("plummer chart a"), ["chart.json", "stability.json"]);
-        for (part, file) in [
-            (ChartPart::Accuracy, "chart.json"),
-            (ChartPart::Stability, "stability.json"),
-        ] {
+        for (part, file) in [(ChartPart::Accuracy, "chart.json"), (ChartPart::Stability, "stability.json")] {
             let words = format!("plummer chart a --only {}", part.name());
             assert_eq!(files(&words), [file]);
         }

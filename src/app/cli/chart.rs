@@ -8,8 +8,8 @@ use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdi
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::studies::chart::{
-    Chart, ChartResult, Condition, Effort, Point, chart_report, compute_chart, compute_stability,
-    stability_section, work_precision,
+    Chart, ChartResult, Condition, Effort, Point, chart_report, compute_chart, compute_stability, stability_section,
+    work_precision,
 };
 use crate::report::significant;
 
@@ -26,12 +26,7 @@ pub(super) struct Wanted {
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn chart(
-    case: &Case,
-    wanted: Wanted,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
+pub(super) fn chart(case: &Case, wanted: Wanted, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let command = result_command(wanted, &options.command_line("chart", case));
     if wanted.only == Some(ChartPart::Stability) {
@@ -50,9 +45,7 @@ pub(super) fn chart(
     };
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
-    let svg = work_precision(&result)
-        .to_svg()
-        .map_err(ComputeError::from)?;
+    let svg = work_precision(&result).to_svg().map_err(ComputeError::from)?;
     let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
     let mut report = chart_report(case, &result, &command);
     if let Some(stability) = &stability {
@@ -61,18 +54,8 @@ pub(super) fn chart(
     }
     let files = ReportFiles::write(&folder, "chart", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result(
-        "chart",
-        case,
-        progress,
-        wall_s,
-        &files,
-        result.summary(case),
-    );
-    let mut shown = ChartResult {
-        chart: record,
-        stability: None,
-    };
+    let record = case_result("chart", case, progress, wall_s, &files, result.summary(case));
+    let mut shown = ChartResult { chart: record, stability: None };
     let mut lines = summary(&result);
     if let Some(stability) = &stability {
         let head = result_head("chart", progress, wall_s, None);
@@ -93,9 +76,7 @@ pub(super) fn chart(
 
 /// The command line with what it computed.
 fn result_command(wanted: Wanted, line: &str) -> String {
-    let part = wanted
-        .only
-        .map_or(String::new(), |part| format!(" --only {}", part.name()));
+    let part = wanted.only.map_or(String::new(), |part| format!(" --only {}", part.name()));
     match wanted.effort {
         Effort::Full => format!("{line}{part}"),
         Effort::Quick => format!("{line}{part} --quick"),
@@ -144,23 +125,14 @@ fn summary(result: &Chart) -> String {
         ),
     ];
     lines.extend(warnings(&result.scene.doubts));
-    lines.extend(
-        result
-            .front
-            .iter()
-            .map(|&place| line(&result.points[place])),
-    );
+    lines.extend(result.front.iter().map(|&place| line(&result.points[place])));
     let [chosen, source] = &result.over_all_starts;
     let starts = reference.starts.len();
-    for (name, place, error) in [
-        ("the program's choice", result.chosen, chosen),
-        ("the source's method", result.source, source),
-    ] {
+    for (name, place, error) in
+        [("the program's choice", result.chosen, chosen), ("the source's method", result.source, source)]
+    {
         lines.push(format!("{name}, error over all {starts} starts:"));
-        lines.push(line(&Point {
-            error: error.clone(),
-            ..result.points[place].clone()
-        }));
+        lines.push(line(&Point { error: error.clone(), ..result.points[place].clone() }));
     }
     lines.join("\n")
 }
@@ -168,22 +140,11 @@ fn summary(result: &Chart) -> String {
 fn line(point: &Point) -> String {
     let (name, value) = point.parameter();
     let error = match &point.error {
-        Ok(error) => format!(
-            "error {} (+- {})",
-            significant(error.mean, 2),
-            significant(error.deviation, 2)
-        ),
+        Ok(error) => format!("error {} (+- {})", significant(error.mean, 2), significant(error.deviation, 2)),
         Err(failure) => failure.reason.clone(),
     };
-    let wall = point
-        .wall_s
-        .map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
-    format!(
-        "  {wall} s/s  {}, {}, {name} {}: {error}",
-        point.method(),
-        point.model_name(),
-        significant(value, 3)
-    )
+    let wall = point.wall_s.map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
+    format!("  {wall} s/s  {}, {}, {name} {}: {error}", point.method(), point.model_name(), significant(value, 3))
 }
 
 #[cfg(test)]
@@ -198,12 +159,8 @@ mod tests {
 
     /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
     fn small() -> Case {
-        let set = [
-            "ring.nodes=12",
-            "accuracy.band_hz=[0,160000]",
-            "transient.end=0.13e-3",
-            "transient.ensemble.runs=2",
-        ];
+        let set =
+            ["ring.nodes=12", "accuracy.band_hz=[0,160000]", "transient.end=0.13e-3", "transient.ensemble.runs=2"];
         Case::example("scenes/smooth", &set)
     }
 
@@ -212,15 +169,9 @@ mod tests {
         let case = small();
         let out = std::env::temp_dir().join(format!("plummer-{}-chart", std::process::id()));
         fs::create_dir_all(&out).unwrap();
-        let options = Options {
-            out: Some(out.clone()),
-            ..Options::default()
-        };
+        let options = Options { out: Some(out.clone()), ..Options::default() };
         let progress = Progress::new(Visibility::Hidden);
-        let wanted = Wanted {
-            effort: Effort::Quick,
-            only: Some(ChartPart::Accuracy),
-        };
+        let wanted = Wanted { effort: Effort::Quick, only: Some(ChartPart::Accuracy) };
         let outcome = chart(&case, wanted, &options, &progress).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");

@@ -5,8 +5,8 @@ use super::results::{case_result, warnings};
 use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::case::Case;
 use crate::app::commands::condense::{
-    Comparison, CondenseResult, compute_condense, condense_report, imported_report,
-    reduced_superelement_record, superelement_record,
+    Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
+    superelement_record,
 };
 use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
@@ -18,17 +18,11 @@ use crate::formats::write_superelement_npz;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn condense(
-    case: &Case,
-    arguments: &Arguments,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
+pub fn condense(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let options = &arguments.options;
     let comparison = match &arguments.command {
-        Command::Condense {
-            compare_full: true, ..
-        } => Comparison::Full,
+        Command::Condense { compare_full: true, .. } => Comparison::Full,
         _ => Comparison::None,
     };
     if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
@@ -86,14 +80,7 @@ fn check_imported(
     let report = imported_report(case, imported, &command);
     let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result(
-        "condense",
-        case,
-        progress,
-        wall_s,
-        &files,
-        imported.summary(),
-    );
+    let record = case_result("condense", case, progress, wall_s, &files, imported.summary());
     let (path, json) = folder.write_json("condense.json", &record)?;
     let mut lines = imported.notes.clone();
     lines.extend(check_lines(&imported.checks));
@@ -114,27 +101,18 @@ fn verdict(checks: &[Check], help: &str) -> Verdict {
                 Bound::AtMost => "at most",
                 Bound::AtLeast => "at least",
             };
-            format!(
-                "{}: found {:.3e}, expected {bound} {:.3e} ({})",
-                check.name, check.value, check.limit, check.what
-            )
+            format!("{}: found {:.3e}, expected {bound} {:.3e} ({})", check.name, check.value, check.limit, check.what)
         })
         .collect();
     if failed.is_empty() {
         Verdict::Good
     } else {
-        Verdict::Bad {
-            what: failed.join("; "),
-            help: Some(help.to_owned()),
-        }
+        Verdict::Bad { what: failed.join("; "), help: Some(help.to_owned()) }
     }
 }
 
 fn summary(result: &CondenseResult) -> String {
-    let (element, basis) = (
-        &result.stage.condensed.superelement,
-        &result.stage.condensed.basis,
-    );
+    let (element, basis) = (&result.stage.condensed.superelement, &result.stage.condensed.basis);
     let of_modes = result.interface.as_ref().map(|interface| {
         format!(
             "{} modes of the interface in place of its coordinates: frequencies up to {:.1e} higher, on average {:.0} % of \
@@ -189,8 +167,5 @@ fn check_lines(checks: &[Check]) -> Vec<String> {
 }
 
 fn line(check: &Check) -> String {
-    format!(
-        "  {} FAILS: {}: {:.3e}",
-        check.name, check.what, check.value
-    )
+    format!("  {} FAILS: {}: {:.3e}", check.name, check.what, check.value)
 }

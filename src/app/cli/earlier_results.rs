@@ -43,32 +43,14 @@ pub(super) fn digests(files: &[PathBuf]) -> Result<BTreeMap<String, String>, Cli
 ///
 /// # Errors
 /// [`CliError::Results`], [`CliError::Case`].
-pub(super) fn case_of_results(
-    folder: &Path,
-    wanted: Wanted,
-    set: &[String],
-) -> Result<Case, CliError> {
-    let Wanted {
-        command,
-        arrays,
-        instead,
-    } = wanted;
+pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> Result<Case, CliError> {
+    let Wanted { command, arrays, instead } = wanted;
     let path = folder.join(format!("{command}.json"));
     let beside = folder.join(arrays);
     if !path.is_file() || !beside.is_file() {
-        return Err(ResultsError::Missing {
-            folder: folder.to_owned(),
-            command,
-            arrays,
-            instead,
-        }
-        .into());
+        return Err(ResultsError::Missing { folder: folder.to_owned(), command, arrays, instead }.into());
     }
-    let damaged = |expected, found: String| ResultsError::Damaged {
-        path: path.clone(),
-        expected,
-        found,
-    };
+    let damaged = |expected, found: String| ResultsError::Damaged { path: path.clone(), expected, found };
     let result = files::read(&path).map_err(|error| error.to_string());
     let result = result.and_then(|text| serde_json::from_slice(&text).map_err(|e| e.to_string()));
     let result: Value = result.map_err(|found| damaged("a result of this command", found))?;

@@ -58,9 +58,7 @@ pub enum CliError {
         path: PathBuf,
     },
     /// A run cannot go on and begin anew.
-    #[error(
-        "--resume goes on with a run, --force begins it anew: expected one of them, found both"
-    )]
+    #[error("--resume goes on with a run, --force begins it anew: expected one of them, found both")]
     ResumeAnew,
     /// The command was asked to stop and can go on.
     #[error("{what}; {kept} in {}", folder.display())]
@@ -209,32 +207,25 @@ impl CliError {
             Self::Init(error) => error.help(),
             Self::Chart(error) => error.help(),
             Self::Sweep(error) => error.help(),
-            Self::Busy { .. } => {
-                Some("wait for its end, or choose another folder with --out".to_owned())
-            }
+            Self::Busy { .. } => Some("wait for its end, or choose another folder with --out".to_owned()),
             Self::Results(error) => error.help(),
             Self::ResultExists { .. } => {
                 Some("replace it with --force, or choose another folder with --out".to_owned())
             }
-            Self::Finished { .. } => {
-                Some("leave --resume out, and begin anew with --force".to_owned())
-            }
+            Self::Finished { .. } => Some("leave --resume out, and begin anew with --force".to_owned()),
             Self::Interrupted { command, .. } => Some(format!("go on with: {command}")),
             Self::Folder { .. } => Some("choose another folder with --out".to_owned()),
-            Self::SetWithoutCase { .. } => Some(
-                "leave it out; the command has options of its own, which --help lists".to_owned(),
-            ),
+            Self::SetWithoutCase { .. } => {
+                Some("leave it out; the command has options of its own, which --help lists".to_owned())
+            }
             Self::SetTwice { .. } => Some("leave one of the two out".to_owned()),
             Self::BadAnswer { help, .. } | Self::WrongInput { help, .. } => help.clone(),
             Self::Threads(_) => Some(
-                "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"
-                    .to_owned(),
+                "use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)".to_owned(),
             ),
-            Self::File(_)
-            | Self::StandardOutput(_)
-            | Self::ResumeAnew
-            | Self::Signals(_)
-            | Self::Verification(_) => None,
+            Self::File(_) | Self::StandardOutput(_) | Self::ResumeAnew | Self::Signals(_) | Self::Verification(_) => {
+                None
+            }
         }
     }
 
@@ -254,9 +245,7 @@ mod tests {
     use std::path::PathBuf;
 
     use super::super::analyze::Missing;
-    use super::{
-        AnalyzeError, ChartError, CliError, ExportError, InitError, ResultsError, SweepError,
-    };
+    use super::{AnalyzeError, ChartError, CliError, ExportError, InitError, ResultsError, SweepError};
     use crate::app::case::Case;
     use crate::app::error::{ComputeError, UnfinishedError};
     use crate::files::FileError;
@@ -277,31 +266,18 @@ mod tests {
                  help: replace it with --force, or choose another folder with --out\n",
             ),
             (
-                CliError::Folder {
-                    path: path(),
-                    source: source(),
-                },
+                CliError::Folder { path: path(), source: source() },
                 2,
                 "error: cannot make the folder out/a: full\nhelp: choose another folder with --out\n",
             ),
             (
-                CliError::from(FileError::Write {
-                    path: path(),
-                    source: source(),
-                }),
+                CliError::from(FileError::Write { path: path(), source: source() }),
                 1,
                 "error: cannot write out/a: full\n",
             ),
+            (CliError::StandardOutput(source()), 1, "error: cannot write to standard output: full\n"),
             (
-                CliError::StandardOutput(source()),
-                1,
-                "error: cannot write to standard output: full\n",
-            ),
-            (
-                CliError::BadAnswer {
-                    what: "blew up at 0.3 s".to_owned(),
-                    help: Some("halve the step".to_owned()),
-                },
+                CliError::BadAnswer { what: "blew up at 0.3 s".to_owned(), help: Some("halve the step".to_owned()) },
                 1,
                 "error: blew up at 0.3 s\nhelp: halve the step\n",
             ),
@@ -327,23 +303,15 @@ mod tests {
                 "error: interrupted at t = 1.25 s of 4 s; the signals so far and a checkpoint are in out/a\n\
                  help: go on with: plummer run a.toml --resume\n",
             ),
+            (CliError::Signals(source()), 1, "error: cannot catch interrupts: full\n"),
             (
-                CliError::Signals(source()),
-                1,
-                "error: cannot catch interrupts: full\n",
-            ),
-            (
-                CliError::from(ComputeError::from(UnfinishedError::InTheWay {
-                    path: path(),
-                })),
+                CliError::from(ComputeError::from(UnfinishedError::InTheWay { path: path() })),
                 2,
                 "error: out/a holds an unfinished run\n\
                  help: go on with --resume, or give it up and begin anew with --force\n",
             ),
             (
-                CliError::from(ComputeError::from(UnfinishedError::Nothing {
-                    path: path(),
-                })),
+                CliError::from(ComputeError::from(UnfinishedError::Nothing { path: path() })),
                 2,
                 "error: out/a has no checkpoint: there is no unfinished run to go on with\n\
                  help: leave --resume out to begin a run\n",
@@ -351,10 +319,7 @@ mod tests {
             (
                 CliError::from(ComputeError::from(UnfinishedError::Changed {
                     path: path(),
-                    changes: vec![
-                        "no --set, now --set a=1".to_owned(),
-                        "another content of b".to_owned(),
-                    ],
+                    changes: vec!["no --set, now --set a=1".to_owned(), "another content of b".to_owned()],
                 })),
                 2,
                 "error: the run in out/a was begun with something else: no --set, now --set a=1; another content of b\n\
@@ -366,10 +331,7 @@ mod tests {
                 "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
             ),
             (
-                CliError::from(ExportError::NothingCondensed {
-                    format: "op4",
-                    found: "a ring alone",
-                }),
+                CliError::from(ExportError::NothingCondensed { format: "op4", found: "a ring alone" }),
                 2,
                 "error: --to op4 writes a condensed housing: expected [housing] with a mesh, and ring.tie or \
                  condense.interface, found a ring alone\n\
@@ -393,9 +355,7 @@ mod tests {
                  help: wait for its end, or choose another folder with --out\n",
             ),
             (
-                CliError::from(InitError::Exists {
-                    path: PathBuf::from("a.toml"),
-                }),
+                CliError::from(InitError::Exists { path: PathBuf::from("a.toml") }),
                 2,
                 "error: a.toml exists\nhelp: replace it with --force, or name another file with --out\n",
             ),
@@ -409,9 +369,7 @@ mod tests {
                 CliError::from(AnalyzeError::Missing {
                     input: path(),
                     missing: vec![
-                        Missing::Channel {
-                            known: vec!["P1".to_owned(), "P2".to_owned()],
-                        },
+                        Missing::Channel { known: vec!["P1".to_owned(), "P2".to_owned()] },
                         Missing::Rate,
                         Missing::Speed,
                     ],
@@ -423,20 +381,13 @@ mod tests {
                  help: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n",
             ),
             (
-                CliError::from(AnalyzeError::Missing {
-                    input: path(),
-                    missing: vec![Missing::Bearing],
-                }),
+                CliError::from(AnalyzeError::Missing { input: path(), missing: vec![Missing::Bearing] }),
                 2,
                 "error: out/a: nothing says which bearing it is\n\
                  help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
             ),
             (
-                CliError::from(ChartError::TooShort {
-                    found: 1e-4,
-                    band_hz: 4e4,
-                    needed: 5e-4,
-                }),
+                CliError::from(ChartError::TooShort { found: 1e-4, band_hz: 4e4, needed: 5e-4 }),
                 2,
                 "error: transient.end - transient.start is 0.0001 s: a chart in the band up to 40000 Hz needs at least 0.0005 s\n\
                  help: a later transient.end, by at least 0.0005 s after transient.start\n",
@@ -467,32 +418,19 @@ mod tests {
                  help: go on with what it was begun with, or begin anew with --force\n",
             ),
             (
-                CliError::from(SweepError::NoPlan {
-                    folder: path(),
-                    plan: PathBuf::from("out/a/sweep/plan.json"),
-                }),
+                CliError::from(SweepError::NoPlan { folder: path(), plan: PathBuf::from("out/a/sweep/plan.json") }),
                 2,
                 "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
                  help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
             ),
-            (
-                CliError::from(SweepError::Io {
-                    path: path(),
-                    source: source(),
-                }),
-                1,
-                "error: out/a: full\n",
-            ),
+            (CliError::from(SweepError::Io { path: path(), source: source() }), 1, "error: out/a: full\n"),
             (
                 CliError::Verification("the built-in case has no bearing".into()),
                 1,
                 "error: the built-in case has no bearing\n",
             ),
             (
-                CliError::from(ExportError::from(FileError::Write {
-                    path: path(),
-                    source: source(),
-                })),
+                CliError::from(ExportError::from(FileError::Write { path: path(), source: source() })),
                 1,
                 "error: cannot write out/a: full\n",
             ),

@@ -22,8 +22,7 @@ pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcom
     let report = frf_report(case, &result, &command)?;
     let files = ReportFiles::write(&folder, "frf", case, report, progress)?;
     let uff = folder.path().join("frf.uff");
-    write_responses_uff(&uff, &case.title, &responses(case, &result)?)
-        .map_err(ComputeError::from)?;
+    write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
     let record = case_result("frf", case, progress, wall_s, &files, result.summary());
     let (path, json) = folder.write_json("frf.json", &record)?;
@@ -77,12 +76,7 @@ fn summary(result: &FrfResult) -> String {
     lines.extend(warnings(&result.doubts));
     for path in &result.paths {
         if path.is_closed() {
-            lines.push(format!(
-                "{} to {}: {}",
-                path.from,
-                path.to,
-                TransferPath::CLOSED
-            ));
+            lines.push(format!("{} to {}: {}", path.from, path.to, TransferPath::CLOSED));
             continue;
         }
         let modes: Vec<String> = path
@@ -90,25 +84,12 @@ fn summary(result: &FrfResult) -> String {
             .modes
             .iter()
             .take(3)
-            .map(|share| {
-                format!(
-                    "{:.0} Hz ({:.0} %)",
-                    share.frequency_hz,
-                    100.0 * share.share
-                )
-            })
+            .map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share))
             .collect();
-        lines.push(format!(
-            "{} to {}: carried by {}",
-            path.from,
-            path.to,
-            modes.join(", ")
-        ));
+        lines.push(format!("{} to {}: carried by {}", path.from, path.to, modes.join(", ")));
     }
     if let Some((hz, error)) = result.largest_estimate() {
-        lines.push(format!(
-            "estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"
-        ));
+        lines.push(format!("estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"));
     }
     if let Some(why) = &result.not_compared {
         lines.push(format!("nothing was compared with the full model: {why}"));
@@ -122,10 +103,7 @@ fn summary(result: &FrfResult) -> String {
     for ranked in &result.ranking {
         let path = &result.paths[ranked.path];
         if let Some(quietest) = ranked.variants.first() {
-            lines.push(format!(
-                "{} to {}: least transmitted by \"{}\"",
-                path.from, path.to, quietest.name
-            ));
+            lines.push(format!("{} to {}: least transmitted by \"{}\"", path.from, path.to, quietest.name));
         }
     }
     lines.join("\n")
@@ -141,9 +119,7 @@ fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
 fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, ComputeError> {
     let direction = |name: &str| {
         let pushes = case.frf.iter().flat_map(|frf| &frf.from);
-        let push = pushes
-            .filter(|push| push.name == name)
-            .map(|push| push.direction);
+        let push = pushes.filter(|push| push.name == name).map(|push| push.direction);
         let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
         let given = push.chain(sensors.map(|sensor| sensor.direction)).next();
         given.and_then(unit)
@@ -151,9 +127,7 @@ fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, 
     let node = |name: &str| {
         use crate::app::case::SensorSpot;
         let pushes = case.frf.iter().flat_map(|frf| &frf.from);
-        let push = pushes
-            .filter(|push| push.name == name)
-            .map(|push| &push.spot);
+        let push = pushes.filter(|push| push.name == name).map(|push| &push.spot);
         let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
         let spot = push.chain(sensors.map(|sensor| &sensor.spot)).next();
         match spot {
@@ -161,17 +135,11 @@ fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, 
             _ => None,
         }
     };
-    let point = |name: &str| ResponsePoint {
-        name: name.to_owned(),
-        node: node(name),
-        direction: direction(name),
-    };
+    let point = |name: &str| ResponsePoint { name: name.to_owned(), node: node(name), direction: direction(name) };
     let mut responses = Vec::with_capacity(result.paths.len());
     for path in &result.paths {
         let (sensor, load) = path.place;
-        let values = result
-            .response
-            .path(sensor, load, FrfQuantity::Receptance)?;
+        let values = result.response.path(sensor, load, FrfQuantity::Receptance)?;
         let response = FrequencyResponse {
             name: format!("{} to {}", path.from, path.to),
             frequency_hz: result.response.frequencies_hz().to_vec(),

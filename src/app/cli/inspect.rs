@@ -31,9 +31,7 @@ pub fn inspect(
         command: "inspect",
         mesh: path,
         wall_s: started.elapsed().as_secs_f64(),
-        mass_kg: density
-            .filter(|_| unit.is_some())
-            .map(|density| density * found.size),
+        mass_kg: density.filter(|_| unit.is_some()).map(|density| density * found.size),
         found: &found,
     })?;
     let mut written = Vec::new();
@@ -42,12 +40,7 @@ pub fn inspect(
         folder.claim("inspect", options.force)?;
         written.push(folder.write_json("inspect.json", &result)?.0);
     }
-    Ok(Outcome {
-        summary: summary(path, &found, density),
-        result,
-        written,
-        verdict: verdict(&found),
-    })
+    Ok(Outcome { summary: summary(path, &found, density), result, written, verdict: verdict(&found) })
 }
 
 /// A mesh is good unless elements of it are folded or count twice.
@@ -83,9 +76,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     let inventory = &found.inventory;
     let unit = found.length_unit.map_or("unit", |_| "m");
     let counts = |kinds: &[crate::fe::mesh::KindCount]| {
-        let names = kinds
-            .iter()
-            .map(|kind| format!("{} {}", kind.count, kind.kind.name()));
+        let names = kinds.iter().map(|kind| format!("{} {}", kind.count, kind.kind.name()));
         names.collect::<Vec<_>>().join(", ")
     };
     let mut line = |name: &str, value: String| {
@@ -94,22 +85,13 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
     line("elements", counts(&inventory.elements));
-    line(
-        "nodes",
-        format!("{}{}", inventory.nodes, node_faults(found)),
-    );
-    let [x, y, z] = inventory
-        .bounding_box
-        .extent()
-        .map(|side| significant(side, 5));
+    line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
+    let [x, y, z] = inventory.bounding_box.extent().map(|side| significant(side, 5));
     line("extent", format!("{x} x {y} x {z} {unit}"));
     let solid = inventory.dimension == 3;
     let what = if solid { "volume" } else { "area" };
     let power = if solid { 3 } else { 2 };
-    line(
-        what,
-        format!("{} {unit}^{power}", significant(found.size, 7)),
-    );
+    line(what, format!("{} {unit}^{power}", significant(found.size, 7)));
     if solid {
         line("mass", masses(found, density));
     }
@@ -124,24 +106,9 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         line("worst shape", shape);
     }
     if found.invalid_elements > 0 {
-        let tags: Vec<String> = found
-            .invalid
-            .iter()
-            .map(|bad| bad.tag.to_string())
-            .collect();
-        let more = if found.invalid_elements > tags.len() {
-            ", ..."
-        } else {
-            ""
-        };
-        line(
-            "INVALID",
-            format!(
-                "{} elements: {}{more}",
-                found.invalid_elements,
-                tags.join(", ")
-            ),
-        );
+        let tags: Vec<String> = found.invalid.iter().map(|bad| bad.tag.to_string()).collect();
+        let more = if found.invalid_elements > tags.len() { ", ..." } else { "" };
+        line("INVALID", format!("{} elements: {}{more}", found.invalid_elements, tags.join(", ")));
     }
     if let Some(doubled) = &found.doubled {
         line("DOUBLED", doubled.sentence());
@@ -167,27 +134,17 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         }
     }
     if inventory.ungrouped_elements > 0 {
-        line(
-            "in no group",
-            format!("{} elements", inventory.ungrouped_elements),
-        );
+        line("in no group", format!("{} elements", inventory.ungrouped_elements));
     }
     for overlap in &inventory.overlaps {
         let [a, b] = &overlap.names;
-        line(
-            "overlap",
-            format!("\"{a}\" and \"{b}\": {} elements", overlap.elements),
-        );
+        line("overlap", format!("\"{a}\" and \"{b}\": {} elements", overlap.elements));
     }
     let _ = write!(text, "groups");
     for group in &inventory.groups {
         let what = ["points", "curves", "surfaces", "volumes"][group.dimension.min(3)];
         let (name, tag) = (format!("\"{}\"", group.name), group.tag);
-        let _ = write!(
-            text,
-            "\n  {name:<22}{what:<9} tag {tag:<5}{:>8} nodes  ",
-            group.nodes
-        );
+        let _ = write!(text, "\n  {name:<22}{what:<9} tag {tag:<5}{:>8} nodes  ", group.nodes);
         let _ = write!(text, "{}", counts(&group.kinds));
         let same = |size: &&crate::app::commands::inspect::GroupSize| {
             size.name == group.name && size.dimension == group.dimension
@@ -210,11 +167,7 @@ fn node_faults(found: &Inspection) -> String {
     let inventory = &found.inventory;
     let mut faults = String::new();
     if inventory.unused.count > 0 {
-        let _ = write!(
-            faults,
-            ", {} unused (tags {:?} ...)",
-            inventory.unused.count, inventory.unused.first_tags
-        );
+        let _ = write!(faults, ", {} unused (tags {:?} ...)", inventory.unused.count, inventory.unused.first_tags);
     }
     if inventory.duplicates.count > 0 {
         let _ = write!(

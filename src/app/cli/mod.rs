@@ -60,9 +60,7 @@ const STACK: usize = 8 << 20;
 pub fn main() -> ExitCode {
     let named = std::thread::Builder::new().name("main".to_owned());
     match named.stack_size(STACK).spawn(on_arguments) {
-        Ok(work) => work
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Ok(work) => work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
         Err(error) => {
             let _ = writeln!(
                 io::stderr(),
@@ -133,11 +131,7 @@ pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliErro
         Command::Verify { full } => verify::verify(*full, options),
         Command::Schema { results } => return emit(to, &format!("{:#}", schema::schema(*results))),
         Command::Init(asked) => init::init(asked, options),
-        Command::Inspect {
-            mesh,
-            length_unit,
-            density,
-        } => inspect::inspect(mesh, *length_unit, *density, options),
+        Command::Inspect { mesh, length_unit, density } => inspect::inspect(mesh, *length_unit, *density, options),
     }?;
     outcome.show(options, to)?;
     match outcome.verdict {

@@ -1,8 +1,7 @@
 //! Comparisons with other modes and the convergence of the mesh, as lines for a reader.
 
 use crate::app::commands::modes::{
-    FileComparison, LoneMode, MeshConvergence, ModesResult, error_text, misses_text, mode_numbers,
-    plain, signed,
+    FileComparison, LoneMode, MeshConvergence, ModesResult, error_text, misses_text, mode_numbers, plain, signed,
 };
 use crate::report::significant;
 
@@ -20,22 +19,12 @@ pub(super) fn failures(result: &ModesResult) -> Vec<String> {
             expected.len()
         ));
     }
-    for comparison in result
-        .comparisons
-        .iter()
-        .filter(|comparison| !comparison.ok)
-    {
+    for comparison in result.comparisons.iter().filter(|comparison| !comparison.ok) {
         let [agree, judged] = comparison.agreeing();
-        let mut text = format!(
-            "{agree} of {judged} modes agree with {} ({})",
-            comparison.what,
-            comparison.file.display()
-        );
+        let mut text =
+            format!("{agree} of {judged} modes agree with {} ({})", comparison.what, comparison.file.display());
         if comparison.missing_here() > 0 {
-            text.push_str(&format!(
-                ", {} of its modes were not found here",
-                comparison.missing_here()
-            ));
+            text.push_str(&format!(", {} of its modes were not found here", comparison.missing_here()));
         }
         found.push(text);
     }
@@ -104,20 +93,11 @@ fn compared(comparison: &FileComparison) -> Vec<String> {
 /// Modes without a partner: those that are missing one by one, of the others their number.
 fn lone(side: &str, modes: &[LoneMode]) -> Vec<String> {
     let missing = modes.iter().filter(|mode| mode.missing);
-    let mut lines: Vec<String> = missing
-        .map(|mode| {
-            format!(
-                "  mode {} {side}, {:.3} Hz: FAILS: no partner",
-                mode.mode + 1,
-                mode.hz
-            )
-        })
-        .collect();
+    let mut lines: Vec<String> =
+        missing.map(|mode| format!("  mode {} {side}, {:.3} Hz: FAILS: no partner", mode.mode + 1, mode.hz)).collect();
     let rest = modes.iter().filter(|mode| !mode.missing).count();
     if rest > 0 {
-        lines.push(format!(
-            "  modes {side} beyond the other side's range, not judged: {rest}"
-        ));
+        lines.push(format!("  modes {side} beyond the other side's range, not judged: {rest}"));
     }
     lines
 }
@@ -160,9 +140,7 @@ fn converged(found: &MeshConvergence) -> Vec<String> {
             number(limit.and_then(|limit| limit.estimate), 3),
             number(limit.and_then(|limit| limit.order), 2),
             error_text(mode),
-            limit.map_or("on no other mesh of its kind", |limit| limit
-                .behaviour
-                .describe()),
+            limit.map_or("on no other mesh of its kind", |limit| limit.behaviour.describe()),
         ));
     }
     if found.modes.len() > LISTED {

@@ -35,7 +35,8 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
             Verdict::Bad {
                 what: failures(&result).join("; "),
                 help: Some(
-                    "the table names each; modes.expected and modes.compare in the case file hold the limits".to_owned(),
+                    "the table names each; modes.expected and modes.compare in the case file hold the limits"
+                        .to_owned(),
                 ),
             }
         },
@@ -45,10 +46,7 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
 fn summary(result: &ModesResult) -> String {
     let survey = &result.survey;
     let check = survey.basis.count_check;
-    let mut first = format!(
-        "{} degrees of freedom, {} rigid modes",
-        survey.dof, survey.basis.rigid_modes
-    );
+    let mut first = format!("{} degrees of freedom, {} rigid modes", survey.dof, survey.basis.rigid_modes);
     if survey.basis.rigid_modes == survey.basis.count() {
         first.push_str(" (all that were asked for)");
     }
@@ -64,16 +62,10 @@ fn summary(result: &ModesResult) -> String {
             "between {above:.2} and {:.2} Hz: {} modes counted, {} found",
             check.below_hz, check.counted, check.found
         ),
-        None => format!(
-            "below {:.2} Hz: {} modes counted, {} found",
-            check.below_hz, check.counted, check.found
-        ),
+        None => format!("below {:.2} Hz: {} modes counted, {} found", check.below_hz, check.counted, check.found),
     });
     lines.extend(crate::app::commands::modes::free_motions(result));
-    lines.push(format!(
-        "unloaded (Hz): {}",
-        listed(&result.base.unloaded_hz)
-    ));
+    lines.push(format!("unloaded (Hz): {}", listed(&result.base.unloaded_hz)));
     lines.extend(reading(&result.base));
     for variant in &result.variants {
         lines.push(format!("-- {}", variant.what));
@@ -87,17 +79,9 @@ fn summary(result: &ModesResult) -> String {
 fn reading(reading: &Reading) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(loaded) = &reading.loaded {
-        let own: Vec<f64> = loaded
-            .modes
-            .iter()
-            .filter(|mode| !mode.is_ball_mode())
-            .map(|mode| mode.frequency_hz)
-            .take(8)
-            .collect();
-        lines.push(format!(
-            "loaded (Hz), without the balls' own: {}",
-            listed(&own)
-        ));
+        let own: Vec<f64> =
+            loaded.modes.iter().filter(|mode| !mode.is_ball_mode()).map(|mode| mode.frequency_hz).take(8).collect();
+        lines.push(format!("loaded (Hz), without the balls' own: {}", listed(&own)));
         if let Some(difference) = reading.condensation_difference {
             lines.push(format!(
                 "  housing condensed for the load, which alone moves frequencies by up to {difference:.1e}"
@@ -105,9 +89,7 @@ fn reading(reading: &Reading) -> Vec<String> {
         }
     }
     for expected in &reading.expected {
-        let found = expected
-            .found_hz
-            .map_or_else(|| "none".to_owned(), |hz| format!("{hz:.1}"));
+        let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{hz:.1}"));
         let error = expected.relative_error.unwrap_or(f64::NAN);
         lines.push(format!(
             "  {:<32} expected {:>8.1}  found {found:>8}  {:+6.2} %  {}",
@@ -121,9 +103,5 @@ fn reading(reading: &Reading) -> Vec<String> {
 }
 
 fn listed(frequencies_hz: &[f64]) -> String {
-    frequencies_hz
-        .iter()
-        .map(|hz| format!("{hz:.2}"))
-        .collect::<Vec<_>>()
-        .join(" ")
+    frequencies_hz.iter().map(|hz| format!("{hz:.2}")).collect::<Vec<_>>().join(" ")
 }

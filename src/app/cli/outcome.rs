@@ -81,16 +81,9 @@ mod tests {
     fn summary_json_or_nothing() {
         let plain = Options::default();
         assert_eq!(shown(&plain), "8.2 kHz\n11.3 kHz\nwrote out/a/modes.json\n");
-        let json = Options {
-            json: true,
-            quiet: true,
-            ..Options::default()
-        };
+        let json = Options { json: true, quiet: true, ..Options::default() };
         assert_eq!(shown(&json), "{\n  \"command\": \"modes\"\n}\n");
-        let quiet = Options {
-            quiet: true,
-            ..Options::default()
-        };
+        let quiet = Options { quiet: true, ..Options::default() };
         assert_eq!(shown(&quiet), "");
     }
 }

@@ -18,9 +18,7 @@ use crate::files;
 /// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
 pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
     match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(CliError::StandardOutput(error))
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
         _ => Ok(()),
     }
 }
@@ -63,9 +61,7 @@ impl OutputFolder {
     /// Returns the folder of this path.
     #[must_use]
     pub fn at(path: &Path) -> Self {
-        Self {
-            path: path.to_owned(),
-        }
+        Self { path: path.to_owned() }
     }
 
     /// Returns the folder's path.
@@ -87,10 +83,7 @@ impl OutputFolder {
     /// # Errors
     /// As [`claim`](Self::claim).
     pub fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
-        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder {
-            path: self.path.clone(),
-            source,
-        })?;
+        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder { path: self.path.clone(), source })?;
         self.lock()?;
         let mut paths = names.iter().map(|name| self.path.join(name));
         match paths.find(|path| !force && path.exists()) {
@@ -116,28 +109,18 @@ impl OutputFolder {
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
     #[must_use]
     pub fn report_name(&self, command: &str) -> String {
-        let others = [
-            "run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify",
-        ]
-        .into_iter()
-        .filter(|&other| other != command);
+        let others = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"]
+            .into_iter()
+            .filter(|&other| other != command);
         let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
-        if others.into_iter().any(shared) {
-            format!("{command}-report.html")
-        } else {
-            "report.html".to_owned()
-        }
+        if others.into_iter().any(shared) { format!("{command}-report.html") } else { "report.html".to_owned() }
     }
 
     /// Writes a result as JSON; gives its path, and what it says.
     ///
     /// # Errors
     /// [`CliError::Write`], and as [`json`].
-    pub(super) fn write_json(
-        &self,
-        name: &str,
-        result: &impl Serialize,
-    ) -> Result<(PathBuf, Value), CliError> {
+    pub(super) fn write_json(&self, name: &str, result: &impl Serialize) -> Result<(PathBuf, Value), CliError> {
         let json = json(result)?;
         let path = self.write(name, format!("{json:#}\n").as_bytes())?;
         Ok((path, json))
@@ -157,10 +140,7 @@ impl OutputFolder {
     /// # Errors
     /// [`CliError::Folder`].
     pub fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
-        files::make_below(&self.path, name).map_err(|source| CliError::Folder {
-            path: self.path.join(name),
-            source,
-        })
+        files::make_below(&self.path, name).map_err(|source| CliError::Folder { path: self.path.join(name), source })
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.
@@ -206,10 +186,8 @@ mod tests {
 
     fn names(path: &Path) -> Vec<String> {
         let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
-        let mut names: Vec<String> = fs::read_dir(path)
-            .unwrap()
-            .map(|entry| name(entry).into_string().unwrap())
-            .collect();
+        let mut names: Vec<String> =
+            fs::read_dir(path).unwrap().map(|entry| name(entry).into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -247,9 +225,7 @@ mod tests {
         let path = folder.join("run.json");
         fs::create_dir_all(path.join("inside")).unwrap();
         let error = write_atomic(&path, b"text").unwrap_err();
-        assert!(
-            matches!(error, CliError::File(FileError::Write { path: named, .. }) if named == path)
-        );
+        assert!(matches!(error, CliError::File(FileError::Write { path: named, .. }) if named == path));
         assert_eq!(names(&folder), ["run.json"]);
         assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
         assert!(write_atomic(Path::new("/"), b"text").is_err());
@@ -259,10 +235,7 @@ mod tests {
     #[test]
     fn a_result_is_replaced_only_by_force() {
         let path = folder("force");
-        let options = Options {
-            out: Some(path.join("new")),
-            ..Options::default()
-        };
+        let options = Options { out: Some(path.join("new")), ..Options::default() };
         let case = Case::from_source(Source {
             path: PathBuf::from("folder/case.v2.toml"),
             text: include_str!("../case/full.toml").to_owned(),
@@ -279,9 +252,7 @@ mod tests {
         folder.claim("run", true).unwrap();
         let default = OutputFolder::of(&case, &Options::default());
         assert_eq!(default.path(), Path::new("out/case.v2"));
-        let blocked = OutputFolder {
-            path: written.join("below a file"),
-        };
+        let blocked = OutputFolder { path: written.join("below a file") };
         let error = blocked.claim("run", false).unwrap_err();
         assert!(matches!(error, CliError::Folder { .. }));
         fs::remove_dir_all(path).unwrap();

@@ -219,10 +219,7 @@ mod tests {
         // The estimate itself is indicatif's: whole seconds.
         let before = shown.split("s left").next().unwrap_or_default();
         assert!(before.len() < shown.len(), "{shown}");
-        assert!(
-            before.ends_with(|last: char| last.is_ascii_digit()),
-            "{shown}"
-        );
+        assert!(before.ends_with(|last: char| last.is_ascii_digit()), "{shown}");
         progress.finish();
     }
 
@@ -259,13 +256,7 @@ mod tests {
     fn fractions_beyond_the_ends_are_held() {
         let progress = Progress::new(Visibility::Hidden);
         progress.stage("step");
-        for (fraction, position) in [
-            (0.5, STEPS / 2),
-            (2.0, STEPS),
-            (-1.0, 0),
-            (f64::NAN, 0),
-            (1.0, STEPS),
-        ] {
+        for (fraction, position) in [(0.5, STEPS / 2), (2.0, STEPS), (-1.0, 0), (f64::NAN, 0), (1.0, STEPS)] {
             progress.set(fraction);
             assert_eq!(progress.bar.position(), position);
         }
@@ -281,10 +272,7 @@ mod tests {
         sleep(Duration::from_millis(20));
         progress.stage("assemble");
         let times = progress.times();
-        assert_eq!(
-            (times[0].name.as_str(), times[1].name.as_str()),
-            ("read", "assemble")
-        );
+        assert_eq!((times[0].name.as_str(), times[1].name.as_str()), ("read", "assemble"));
         assert!(times[0].seconds >= 0.02);
         assert!(times[1].seconds >= 0.0);
     }

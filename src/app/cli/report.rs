@@ -54,10 +54,7 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
     for (page, command, report) in reports {
         let files = ReportFiles::draw(&folder, &page, &command, &report)?;
         let version = &report.version;
-        summary.push(format!(
-            "{command}: {}, computed by {version}",
-            report.title
-        ));
+        summary.push(format!("{command}: {}, computed by {version}", report.title));
         pages.push(PageSummary {
             page: folder.path().join(&page),
             command,
@@ -75,11 +72,7 @@ pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
     });
     Ok(Outcome {
         summary: summary.join("\n"),
-        result: json(&ReportResult {
-            plummer: VERSION,
-            command: "report",
-            reports: pages,
-        })?,
+        result: json(&ReportResult { plummer: VERSION, command: "report", reports: pages })?,
         written,
         verdict: Verdict::Good,
     })
@@ -96,9 +89,7 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
         }
     }
     if found.is_empty() {
-        return Err(ResultsError::NoReport {
-            folder: folder.to_owned(),
-        });
+        return Err(ResultsError::NoReport { folder: folder.to_owned() });
     }
     found.sort();
     Ok(found)
@@ -107,17 +98,12 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
 /// The report that a file holds, and the command that it is of.
 fn read(path: &Path) -> Result<(String, Report), ResultsError> {
     let bytes = fs::read(path).map_err(FileError::read(path))?;
-    let report = Report::from_record(&bytes).map_err(|source| ResultsError::BrokenReport {
-        path: path.to_owned(),
-        source,
-    })?;
+    let report =
+        Report::from_record(&bytes).map_err(|source| ResultsError::BrokenReport { path: path.to_owned(), source })?;
     // names of files are made of it: nothing is written beside the folder
     let command = report.table_files.as_ref().map(|files| &files.prefix);
     match command.filter(|command| WITH_REPORT.contains(&command.as_str())) {
         Some(command) => Ok((command.clone(), report)),
-        None => Err(ResultsError::OtherReport {
-            path: path.to_owned(),
-            command: command.cloned().unwrap_or_default(),
-        }),
+        None => Err(ResultsError::OtherReport { path: path.to_owned(), command: command.cloned().unwrap_or_default() }),
     }
 }

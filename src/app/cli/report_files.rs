@@ -45,9 +45,7 @@ impl ReportFiles {
         let meshes = mesh_digests(case)?;
         unchanged(&meshes, &progress.files())?;
         let mut report = report;
-        let head = report
-            .document
-            .get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
+        let head = report.document.get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
         head.meshes = meshes.iter().map(MeshFile::from).collect();
         let files = Self::without_case(folder, command, report)?;
         Ok(Self { meshes, ..files })
@@ -57,11 +55,7 @@ impl ReportFiles {
     ///
     /// # Errors
     /// As [`ReportFiles::write`].
-    pub(super) fn without_case(
-        folder: &OutputFolder,
-        command: &str,
-        report: Report,
-    ) -> Result<Self, CliError> {
+    pub(super) fn without_case(folder: &OutputFolder, command: &str, report: Report) -> Result<Self, CliError> {
         let page = folder.report_name(command);
         let report = report.tables_in(TABLES, command);
         let record = report.to_record().map_err(ComputeError::from)?;
@@ -73,24 +67,14 @@ impl ReportFiles {
     ///
     /// # Errors
     /// [`CliError`] when its contents do not fit together or a file cannot be written.
-    pub(super) fn draw(
-        folder: &OutputFolder,
-        page: &str,
-        command: &str,
-        report: &Report,
-    ) -> Result<Self, CliError> {
+    pub(super) fn draw(folder: &OutputFolder, page: &str, command: &str, report: &Report) -> Result<Self, CliError> {
         let html = report.to_html().map_err(ComputeError::from)?;
         let figures = report.svg_files(command).map_err(ComputeError::from)?;
         let tables = report.csv_files();
         let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
-        let figures = figures
-            .into_iter()
-            .map(|(name, text)| (format!("{FIGURES}/{name}"), text));
+        let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
-        for (of, ending, files) in [
-            (TABLES, ".csv", tables),
-            (FIGURES, ".svg", figures.collect()),
-        ] {
+        for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
             let path = folder.path().join(of);
             if files.is_empty() && !path.exists() {
                 continue;
@@ -106,11 +90,7 @@ impl ReportFiles {
             paths.push(path);
         }
         paths.push(folder.write(page, html.as_bytes())?);
-        Ok(Self {
-            meshes: Vec::new(),
-            tables: named,
-            paths,
-        })
+        Ok(Self { meshes: Vec::new(), tables: named, paths })
     }
 }
 
@@ -135,19 +115,14 @@ fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError
         same_path.is_some_and(|now| now.sha256 != file.sha256)
     };
     match read.iter().find(other) {
-        Some(file) => Err(ComputeError::MeshChanged {
-            path: file.path.clone(),
-        }),
+        Some(file) => Err(ComputeError::MeshChanged { path: file.path.clone() }),
         None => Ok(()),
     }
 }
 
 /// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
 fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
-    let failed = |source| CliError::Folder {
-        path: path.to_owned(),
-        source,
-    };
+    let failed = |source| CliError::Folder { path: path.to_owned(), source };
     if !path.is_dir() {
         return Ok(());
     }
@@ -162,14 +137,9 @@ fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliErr
 
 /// Whether a file's name is `COMMAND-NUMBER-CAPTION` and that ending.
 fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
-    let rest = name
-        .strip_prefix(command)
-        .and_then(|rest| rest.strip_prefix('-'));
-    let number = rest
-        .and_then(|rest| rest.strip_suffix(ending))
-        .and_then(|rest| rest.split_once('-'));
-    number
-        .is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+    let rest = name.strip_prefix(command).and_then(|rest| rest.strip_prefix('-'));
+    let number = rest.and_then(|rest| rest.strip_suffix(ending)).and_then(|rest| rest.split_once('-'));
+    number.is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
 #[cfg(test)]
@@ -183,12 +153,7 @@ mod tests {
         for page in ["report.html", "modes-report.html"] {
             assert_eq!(page_of(&record_of(page)).as_deref(), Some(page));
         }
-        for other in [
-            "report.html",
-            "notes.cbor.gz",
-            "reports.cbor.gz",
-            ".cbor.gz",
-        ] {
+        for other in ["report.html", "notes.cbor.gz", "reports.cbor.gz", ".cbor.gz"] {
             assert_eq!(page_of(other), None, "{other}");
         }
     }

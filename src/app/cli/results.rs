@@ -71,10 +71,7 @@ pub(super) fn warnings(doubts: &[String]) -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_modes(
-    folder: &OutputFolder,
-    result: &ModesResult,
-) -> Result<PathBuf, CliError> {
+pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result<PathBuf, CliError> {
     let path = folder.path().join("modes.npz");
     write_modes_npz(&path, &result.mode_shapes()).map_err(ComputeError::from)?;
     Ok(path)
@@ -84,10 +81,7 @@ pub(super) fn write_modes(
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_signals<R: Recording>(
-    folder: &OutputFolder,
-    result: &RunResult<R>,
-) -> Result<PathBuf, CliError> {
+pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunResult<R>) -> Result<PathBuf, CliError> {
     let path = folder.path().join("signals.npz");
     let record = &result.simulation.record;
     let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
@@ -125,10 +119,7 @@ pub(super) fn write_scalograms(
     folder: &OutputFolder,
     scalograms: &[SensorScalogram],
 ) -> Result<Option<PathBuf>, CliError> {
-    let Some(SensorScalogram {
-        scalogram: axes, ..
-    }) = scalograms.first()
-    else {
+    let Some(SensorScalogram { scalogram: axes, .. }) = scalograms.first() else {
         return Ok(None);
     };
     let path = folder.path().join("scalogram.npz");
@@ -138,12 +129,7 @@ pub(super) fn write_scalograms(
         npz.array("time_s", &axes.time_s)?;
         npz.array("frequency_hz", &axes.frequency_hz)?;
         for of_sensor in scalograms {
-            npz.matrix(
-                &of_sensor.sensor,
-                rows,
-                columns,
-                &of_sensor.scalogram.amplitude,
-            )?;
+            npz.matrix(&of_sensor.sensor, rows, columns, &of_sensor.scalogram.amplitude)?;
         }
         Ok(npz.finish()?)
     };

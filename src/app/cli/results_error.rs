@@ -9,17 +9,8 @@ use crate::files::FileError;
 use crate::report::ReportError;
 
 /// The commands that write reports, by the names of their results.
-pub(super) const WITH_REPORT: [&str; 9] = [
-    "run",
-    "modes",
-    "condense",
-    "frf",
-    "chart",
-    "stability",
-    "analysis",
-    "sweep",
-    "verify",
-];
+pub(super) const WITH_REPORT: [&str; 9] =
+    ["run", "modes", "condense", "frf", "chart", "stability", "analysis", "sweep", "verify"];
 
 /// Why earlier results, or the reports beside them, cannot be used.
 #[derive(Debug, Error)]
@@ -112,31 +103,22 @@ impl ResultsError {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let text = match self {
-            Self::Missing {
-                folder, command, ..
-            } => format!(
-                "run `plummer {command} CASE.toml --out {}` first",
-                shell_word(&folder.to_string_lossy())
-            ),
+            Self::Missing { folder, command, .. } => {
+                format!("run `plummer {command} CASE.toml --out {}` first", shell_word(&folder.to_string_lossy()))
+            }
             Self::CaseGone { .. } => {
-                "go to the folder in which the results were computed, or compute them again"
-                    .to_owned()
+                "go to the folder in which the results were computed, or compute them again".to_owned()
             }
             Self::CaseChanged { .. } => {
                 "compute the results again with --force, or give the case file its old values; [analysis] may change"
                     .to_owned()
             }
             Self::SetChanges { .. } => {
-                "of results, --set changes [analysis] alone; compute others with these values"
-                    .to_owned()
+                "of results, --set changes [analysis] alone; compute others with these values".to_owned()
             }
-            Self::Damaged { .. } | Self::OtherFile { .. } => {
-                "compute the results again with --force".to_owned()
-            }
+            Self::Damaged { .. } | Self::OtherFile { .. } => "compute the results again with --force".to_owned(),
             Self::NoReport { .. } => "name the folder with the results of a command".to_owned(),
-            Self::BrokenReport { .. } | Self::OtherReport { .. } => {
-                "run the command again with --force".to_owned()
-            }
+            Self::BrokenReport { .. } | Self::OtherReport { .. } => "run the command again with --force".to_owned(),
             Self::Unreadable(_) => return None,
         };
         Some(text)

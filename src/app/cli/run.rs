@@ -8,9 +8,7 @@ use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdi
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::run::unfinished::{CHECKPOINT_S, RunIdentity, UnfinishedRun};
-use crate::app::commands::run::{
-    Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report,
-};
+use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::app::error::UnfinishedError;
 use crate::app::shell_word::shell_word;
@@ -91,18 +89,10 @@ pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Ou
 }
 
 /// The run to begin or to go on with.
-fn unfinished(
-    case: &Case,
-    arguments: &Arguments,
-    folder: &OutputFolder,
-) -> Result<UnfinishedRun, CliError> {
+fn unfinished(case: &Case, arguments: &Arguments, folder: &OutputFolder) -> Result<UnfinishedRun, CliError> {
     let partial = folder.path().join(PARTIAL);
     let (resume, pause) = match arguments.command {
-        Command::Run {
-            resume,
-            checkpoint_every,
-            ..
-        } => (resume, checkpoint_every),
+        Command::Run { resume, checkpoint_every, .. } => (resume, checkpoint_every),
         _ => (false, CHECKPOINT_S),
     };
     let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
@@ -152,9 +142,7 @@ fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Ve
 /// What to try after a blow-up.
 fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
     let no_step = |limit: StepLimit| {
-        asked.is_some_and(|asked| {
-            limit.step_s < 2.0 / (f64::from(MOST_STEPS_PER_INTERVAL) * asked.output_hz)
-        })
+        asked.is_some_and(|asked| limit.step_s < 2.0 / (f64::from(MOST_STEPS_PER_INTERVAL) * asked.output_hz))
     };
     if let Some(limit) = blow_up.limit.filter(|limit| no_step(*limit)) {
         return format!(
@@ -240,17 +228,12 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
                     significant(*amplitude, 3),
                     window.spectrum.unit
                 ),
-                None => format!(
-                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"
-                ),
+                None => format!("  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"),
             });
         }
     }
     if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
-        lines.push(format!(
-            "{} windows more: run.json and the report have them",
-            more + 1
-        ));
+        lines.push(format!("{} windows more: run.json and the report have them", more + 1));
     }
     if let Some(imported) = &result.scene.stage.imported {
         lines.extend(imported.notes.iter().cloned());

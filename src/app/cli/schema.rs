@@ -43,10 +43,7 @@ impl<A: JsonSchema, B: JsonSchema> JsonSchema for Either<A, B> {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let forms = [
-            generator.subschema_for::<A>(),
-            generator.subschema_for::<B>(),
-        ];
+        let forms = [generator.subschema_for::<A>(), generator.subschema_for::<B>()];
         json_schema!({ "anyOf": forms })
     }
 }
@@ -55,17 +52,15 @@ impl ResultOf {
     fn schema(self) -> Value {
         match self {
             Self::Modes => of::<CaseResult<'_, ModesSummary<'_>>>(self),
-            Self::Condense => {
-                of::<CaseResult<'_, Either<CondenseSummary<'_>, ImportedSummary<'_>>>>(self)
-            }
+            Self::Condense => of::<CaseResult<'_, Either<CondenseSummary<'_>, ImportedSummary<'_>>>>(self),
             Self::Frf => of::<CaseResult<'_, FrfSummary<'_>>>(self),
             Self::Run => of::<Either<CaseResult<'_, RunSummary<'_>>, ExplainSummary<'_>>>(self),
             Self::Analyze => of::<Either<AnalysisResult, SurveyResult>>(self),
             Self::Chart => of::<ChartResult<'_>>(self),
             Self::Stability => of::<CaseResult<'_, StabilitySummary<'_>>>(self),
-            Self::Sweep => of::<
-                Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>,
-            >(self),
+            Self::Sweep => {
+                of::<Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>>(self)
+            }
             Self::Verify => of::<VerifyResult<'_>>(self),
             Self::Inspect => of::<InspectResult<'_>>(self),
             Self::Init => of::<Either<DraftResult<'_>, CatalogueResult>>(self),

@@ -32,9 +32,7 @@ fn without_case(command: &Command) -> Option<&'static str> {
         Command::Inspect { .. } => Some("inspect"),
         Command::Verify { .. } => Some("verify"),
         Command::Report { .. } => Some("report"),
-        Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => {
-            Some("analyze FILE")
-        }
+        Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => Some("analyze FILE"),
         Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
         Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
         Command::Run { .. }

@@ -26,9 +26,7 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
     let command = Arguments::command();
     let Some(folder) = &options.out else {
         let mut page = Vec::new();
-        Man::new(command)
-            .render(&mut page)
-            .map_err(CliError::StandardOutput)?;
+        Man::new(command).render(&mut page).map_err(CliError::StandardOutput)?;
         return told(to.write_all(&page).and_then(|()| to.flush()));
     };
     let folder = OutputFolder::at(folder);
@@ -39,9 +37,7 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
     for part in command.get_subcommands().chain([&command]) {
         let name = part.get_bin_name().unwrap_or("plummer").replace(' ', "-");
         let mut page = Vec::new();
-        Man::new(part.clone().display_name(name.clone()))
-            .render(&mut page)
-            .map_err(CliError::StandardOutput)?;
+        Man::new(part.clone().display_name(name.clone())).render(&mut page).map_err(CliError::StandardOutput)?;
         folder.write(&format!("{name}.1"), &page)?;
     }
     Ok(())
@@ -50,9 +46,7 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
 /// A closed pipe is no error.
 fn told(written: io::Result<()>) -> Result<(), CliError> {
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(CliError::StandardOutput(error))
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
         _ => Ok(()),
     }
 }
@@ -70,23 +64,14 @@ mod tests {
         completions(Shell::Bash, &mut script).unwrap();
         let script = String::from_utf8(script).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let options = Options {
-            out: Some(folder.path().to_owned()),
-            ..Options::default()
-        };
+        let options = Options { out: Some(folder.path().to_owned()), ..Options::default() };
         man(&options, &mut Vec::new()).unwrap();
         for command in Arguments::command().get_subcommands() {
             let name = command.get_name();
-            assert!(
-                script.contains(&format!("plummer__subcmd__{name}")),
-                "{name}"
-            );
+            assert!(script.contains(&format!("plummer__subcmd__{name}")), "{name}");
             let page = folder.path().join(format!("plummer-{name}.1"));
             let page = std::fs::read_to_string(page).unwrap();
-            assert!(
-                page.contains(".SH OPTIONS") || page.contains(".SH SYNOPSIS"),
-                "{name}"
-            );
+            assert!(page.contains(".SH OPTIONS") || page.contains(".SH SYNOPSIS"), "{name}");
         }
         let mut page = Vec::new();
         man(&Options::default(), &mut page).unwrap();

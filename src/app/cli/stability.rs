@@ -9,8 +9,7 @@ use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{
-    Condition, Effort, Stability, StabilitySummary, compute_stability, resonance_plot,
-    stability_map, stability_report,
+    Condition, Effort, Stability, StabilitySummary, compute_stability, resonance_plot, stability_map, stability_report,
 };
 use crate::report::significant;
 use std::path::PathBuf;
@@ -55,9 +54,7 @@ pub(super) fn write_stability(
     stability: &Stability,
     record: &CaseResult<'_, StabilitySummary<'_>>,
 ) -> Result<Vec<PathBuf>, CliError> {
-    let map = stability_map(stability)
-        .to_svg()
-        .map_err(ComputeError::from)?;
+    let map = stability_map(stability).to_svg().map_err(ComputeError::from)?;
     let map = folder.write("stability.svg", map.as_bytes())?;
     let resonance = resonance_plot().to_svg().map_err(ComputeError::from)?;
     let resonance = folder.write("resonance.svg", resonance.as_bytes())?;
@@ -67,33 +64,19 @@ pub(super) fn write_stability(
 
 /// The limits of the case as it is, and the range of the measured ones over all conditions.
 pub(super) fn stability_lines(stability: &Stability) -> String {
-    let mut lines = vec![format!(
-        "largest stable steps as given, and over {} conditions:",
-        stability.conditions.len()
-    )];
-    let micro = |step: Option<f64>| {
-        step.map_or_else(
-            || "–".to_owned(),
-            |step| format!("{} µs", significant(1e6 * step, 3)),
-        )
-    };
+    let mut lines = vec![format!("largest stable steps as given, and over {} conditions:", stability.conditions.len())];
+    let micro =
+        |step: Option<f64>| step.map_or_else(|| "–".to_owned(), |step| format!("{} µs", significant(1e6 * step, 3)));
     let given = stability.conditions.first();
     let methods = given.and_then(|of| of.methods.as_ref().ok());
-    for of in methods
-        .into_iter()
-        .flatten()
-        .filter(|of| !of.steps.is_empty())
-    {
+    for of in methods.into_iter().flatten().filter(|of| !of.steps.is_empty()) {
         let conditions = stability.conditions.iter();
         let measured = conditions.filter_map(|condition| {
             let all = condition.methods.as_ref().ok()?;
-            all.iter()
-                .find(|other| other.method == of.method)?
-                .measured_limit_s
+            all.iter().find(|other| other.method == of.method)?.measured_limit_s
         });
-        let (low, high) = measured.fold((f64::INFINITY, 0.0_f64), |(low, high), limit| {
-            (low.min(limit), high.max(limit))
-        });
+        let (low, high) =
+            measured.fold((f64::INFINITY, 0.0_f64), |(low, high), limit| (low.min(limit), high.max(limit)));
         let range = if high > 0.0 {
             format!("{} to {}", micro(Some(low)), micro(Some(high)))
         } else {

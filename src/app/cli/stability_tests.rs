@@ -46,12 +46,7 @@ fn a_map_has_its_files_and_limits() {
         let mut equal = methods.filter(|of| of["by_tolerance"] == false);
         equal.find(|of| of["method"] == name).unwrap().clone()
     };
-    for name in [
-        "exponential",
-        "exponential-adams",
-        "newmark-explicit",
-        "splitting",
-    ] {
+    for name in ["exponential", "exponential-adams", "newmark-explicit", "splitting"] {
         let method = of(0, name);
         let ratio = limit(&method, "measured_limit_s") / limit(&method, "predicted_limit_s");
         // all balls stay in contact: motions are small to the end; the bisection ends within 0.7 %, and runs of 600 steps do not
@@ -76,18 +71,13 @@ fn a_map_has_its_files_and_limits() {
     let reason = conditions[3]["reason"].as_str().unwrap();
     assert!(reason.contains("radial_play"), "{reason}");
     let lines = stability_lines(&map);
-    assert!(
-        lines.contains("  newmark: predicted –, measured –; none found"),
-        "{lines}"
-    );
+    assert!(lines.contains("  newmark: predicted –, measured –; none found"), "{lines}");
     let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
     let written: Value = serde_json::from_str(&read("stability.json")).unwrap();
     assert_eq!(written["conditions"][0]["condition"], "as given");
     assert!(read("stability.svg").contains("predicted limit"));
     assert!(read("resonance.svg").starts_with("<svg "));
-    let report = stability_report(&case, &map, "plummer chart")
-        .to_html()
-        .unwrap();
+    let report = stability_report(&case, &map, "plummer chart").to_html().unwrap();
     assert!(report.contains("Stability map") && report.contains("radial play 200 µm"));
     fs::remove_dir_all(out).unwrap();
 }

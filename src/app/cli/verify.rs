@@ -38,11 +38,7 @@ fn conclude(
     wall_s: f64,
 ) -> Result<Outcome, CliError> {
     progress.stage("write");
-    let command = if full {
-        "plummer verify --full"
-    } else {
-        "plummer verify"
-    };
+    let command = if full { "plummer verify --full" } else { "plummer verify" };
     let report = report(sections, command);
     let files = ReportFiles::without_case(folder, "verify", report)?;
     let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
@@ -52,16 +48,10 @@ fn conclude(
         full,
         checks: checks.iter().map(|check| check.summary()).collect(),
         information: information.collect(),
-        orders: sections
-            .iter()
-            .find_map(|section| section.orders.as_deref()),
+        orders: sections.iter().find_map(|section| section.orders.as_deref()),
     };
     let (path, json) = folder.write_json("verify.json", &result)?;
-    let failed: Vec<String> = checks
-        .iter()
-        .filter(|check| !check.ok())
-        .map(|check| check.line())
-        .collect();
+    let failed: Vec<String> = checks.iter().filter(|check| !check.ok()).map(|check| check.line()).collect();
     Ok(Outcome {
         summary: summary(sections),
         result: json,
@@ -158,15 +148,8 @@ mod tests {
         let Verdict::Bad { what, .. } = &outcome.verdict else {
             panic!("{outcome:?}");
         };
-        assert!(
-            what.starts_with("judged: 2.0") && !what.contains("right"),
-            "{what}"
-        );
-        assert!(
-            outcome.summary.ends_with("1 of 2 checks pass"),
-            "{}",
-            outcome.summary
-        );
+        assert!(what.starts_with("judged: 2.0") && !what.contains("right"), "{what}");
+        assert!(outcome.summary.ends_with("1 of 2 checks pass"), "{}", outcome.summary);
         let text = std::fs::read_to_string(folder.path().join("verify.json")).unwrap();
         let json: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(json["checks"][0]["ok"], true);

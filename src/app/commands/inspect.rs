@@ -2,9 +2,7 @@
 
 use crate::fe::element::continuum::{measure, quality, surface_weights};
 use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::fe::model::{
-    Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind,
-};
+use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
 use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -165,10 +163,7 @@ impl Inspection {
     }
 }
 
-pub(crate) fn elements_of(
-    mesh: &Mesh,
-    dimension: usize,
-) -> impl Iterator<Item = ElementId> + Clone + '_ {
+pub(crate) fn elements_of(mesh: &Mesh, dimension: usize) -> impl Iterator<Item = ElementId> + Clone + '_ {
     let blocks = mesh.blocks.iter().enumerate();
     blocks
         .filter(move |(_, block)| block.kind.dimension() == dimension)
@@ -185,10 +180,7 @@ pub(crate) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f6
     let mut seen = BTreeSet::new();
     elements
         .filter(|id| {
-            let mut nodes = mesh.blocks[id.block]
-                .element(id.index)
-                .unwrap_or_default()
-                .to_vec();
+            let mut nodes = mesh.blocks[id.block].element(id.index).unwrap_or_default().to_vec();
             nodes.sort_unstable();
             seen.insert(nodes)
         })

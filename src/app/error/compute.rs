@@ -4,9 +4,7 @@ use super::import::ImportError;
 use super::unfinished::UnfinishedError;
 use crate::app::case::CaseError;
 use crate::bearing::defect::DefectError;
-use crate::bearing::{
-    CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError,
-};
+use crate::bearing::{CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError};
 use crate::fe::element::ElementError;
 use crate::fe::material::{MaterialError, SectionError};
 use crate::fe::mesh::MeshError;
@@ -98,9 +96,7 @@ pub enum ComputeError {
         source: Box<ComputeError>,
     },
     /// A mesh of something else.
-    #[error(
-        "expected a mesh of the same body, of area or volume {own:.4e} (m^2, m^3), found {found:.4e}"
-    )]
+    #[error("expected a mesh of the same body, of area or volume {own:.4e} (m^2, m^3), found {found:.4e}")]
     OtherBody {
         /// Area or volume of the case's mesh, m^2 or m^3.
         own: f64,
@@ -256,9 +252,7 @@ pub enum ComputeError {
         support: String,
     },
     /// A sensor on a group without a housing.
-    #[error(
-        "{name} stands on {place}, but the case has no housing: use ring_deg for a place on the ring"
-    )]
+    #[error("{name} stands on {place}, but the case has no housing: use ring_deg for a place on the ring")]
     SensorNeedsHousing {
         /// What stands there, with its name.
         name: String,
@@ -288,9 +282,7 @@ pub enum ComputeError {
     #[error("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")]
     TieFrame,
     /// A case without an interface.
-    #[error(
-        "nothing to condense the housing on: expected ring.tie, or condense.interface = {{ group = \"NAME\" }}"
-    )]
+    #[error("nothing to condense the housing on: expected ring.tie, or condense.interface = {{ group = \"NAME\" }}")]
     NothingToCondense,
     /// An interface that the ring is not attached by.
     #[error(
@@ -405,10 +397,7 @@ impl From<ModalError> for ComputeError {
 impl ComputeError {
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
-        Self::InterfaceHeld {
-            displacements: nodes.held.len(),
-            holders: nodes.holders(model),
-        }
+        Self::InterfaceHeld { displacements: nodes.held.len(), holders: nodes.holders(model) }
     }
 
     /// What to do about it, where the message does not say it already.
@@ -465,10 +454,7 @@ impl ComputeError {
                     | SystemError::NoModesKept { .. }
             ),
             Self::Transient(error) => !matches!(error, TransientError::BlewUp(_)),
-            Self::Linalg(error) => matches!(
-                error,
-                LinalgError::TooManyModes { .. } | LinalgError::NoFrequency { .. }
-            ),
+            Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. } | LinalgError::NoFrequency { .. }),
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,

@@ -38,9 +38,7 @@ pub enum ImportError {
         found: usize,
     },
     /// A bore of another radius.
-    #[error(
-        "ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")"
-    )]
+    #[error("ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")")]
     OuterRadius {
         /// That of the case, m.
         case: f64,
@@ -58,9 +56,7 @@ pub enum ImportError {
         found: String,
     },
     /// A node or an axis that is elsewhere.
-    #[error(
-        "interface coordinate {row} (from 0), {what} of {label}: expected {expected:?}, found {found:?}"
-    )]
+    #[error("interface coordinate {row} (from 0), {what} of {label}: expected {expected:?}, found {found:?}")]
     Place {
         /// Which one, from 0.
         row: usize,

@@ -64,13 +64,8 @@ impl UnfinishedError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Nothing { .. } => Some("leave --resume out to begin a run".to_owned()),
-            Self::InTheWay { .. } => {
-                Some("go on with --resume, or give it up and begin anew with --force".to_owned())
-            }
-            Self::Changed { .. } => Some(format!(
-                "go on with what it was begun with, or {}",
-                Self::ANEW
-            )),
+            Self::InTheWay { .. } => Some("go on with --resume, or give it up and begin anew with --force".to_owned()),
+            Self::Changed { .. } => Some(format!("go on with what it was begun with, or {}", Self::ANEW)),
             Self::Model | Self::Damaged { .. } => Some(Self::ANEW.to_owned()),
             Self::File(_) | Self::Folder { .. } => None,
         }

@@ -49,11 +49,7 @@ impl Scene {
         Self::with_modes(run, usize::MAX, watch)
     }
 
-    fn with_modes(
-        run: RunCase<'_>,
-        count: usize,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    fn with_modes(run: RunCase<'_>, count: usize, watch: &impl Watch) -> Result<Self, ComputeError> {
         refuse_structural_damping(run.case)?;
         let stage = CoupledStructure::around_ring(run.case, run.ring, count, watch)?;
         watch.stage("equilibrium");
@@ -94,10 +90,7 @@ impl Scene {
     /// # Errors
     /// [`ComputeError::System`] for a model that does not fit it.
     pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, ComputeError> {
-        let setup = BearingSetup {
-            balls_inertia: model.balls_inertia,
-            ..self.setup.clone()
-        };
+        let setup = BearingSetup { balls_inertia: model.balls_inertia, ..self.setup.clone() };
         Ok(CoupledSystem::new(
             &self.stage.structure,
             &self.stage.modes,

@@ -4,9 +4,7 @@ use super::bearing_defects::{Defects, defects, waves};
 use super::bearing_motion::{shaft, slip, speed};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
-use crate::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts,
-};
+use crate::bearing::{BearingDimensions, BearingGeometry, Cage, ContactMaterial, ContactStiffness, RaceContacts};
 use crate::system::BearingSetup;
 
 /// The bearing with its loads and motion; `None` without `[bearing]` or `[shaft]`.
@@ -15,9 +13,7 @@ use crate::system::BearingSetup;
 /// [`ComputeError`] naming what is out of range.
 pub fn bearing_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> {
     let parts = case.bearing.as_ref().zip(case.shaft.as_ref());
-    parts
-        .map(|(asked, shaft)| setup_of(case, asked, shaft))
-        .transpose()
+    parts.map(|(asked, shaft)| setup_of(case, asked, shaft)).transpose()
 }
 
 /// The bearing that is asked for, with its loads and motion.
@@ -34,17 +30,9 @@ pub(crate) fn setup_of(
         case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
         case::ContactStiffness::Given { inner, outer } => ContactStiffness::given(inner, outer)?,
     };
-    let Defects {
-        race_defects,
-        flats,
-    } = defects(&asked.defects, &geometry, stiffness)?;
+    let Defects { race_defects, flats } = defects(&asked.defects, &geometry, stiffness)?;
     Ok(BearingSetup {
-        cage: Cage::new(
-            &geometry,
-            speed(case)?,
-            slip(&asked.slip)?,
-            asked.first_ball_deg.to_radians(),
-        )?,
+        cage: Cage::new(&geometry, speed(case)?, slip(&asked.slip)?, asked.first_ball_deg.to_radians())?,
         geometry,
         stiffness,
         contact_damping: asked.contact_damping,
@@ -73,10 +61,7 @@ pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, ComputeError> 
 ///
 /// # Errors
 /// [`ComputeError`] naming what is out of range.
-pub(crate) fn contacts_of(
-    case: &Case,
-    asked: &case::Bearing,
-) -> Result<RaceContacts, ComputeError> {
+pub(crate) fn contacts_of(case: &Case, asked: &case::Bearing) -> Result<RaceContacts, ComputeError> {
     hertz(case, asked, &geometry(case, asked)?)
 }
 
@@ -105,17 +90,10 @@ fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, Compu
     }
 }
 
-fn hertz(
-    case: &Case,
-    asked: &case::Bearing,
-    geometry: &BearingGeometry,
-) -> Result<RaceContacts, ComputeError> {
+fn hertz(case: &Case, asked: &case::Bearing, geometry: &BearingGeometry) -> Result<RaceContacts, ComputeError> {
     let contact = |key: &str, name: &str| -> Result<ContactMaterial, ComputeError> {
         let material = super::housing::material(case, key, name)?;
-        Ok(ContactMaterial {
-            young: material.young,
-            poisson: material.poisson,
-        })
+        Ok(ContactMaterial { young: material.young, poisson: material.poisson })
     };
     Ok(RaceContacts::new(
         geometry,

@@ -2,9 +2,7 @@
 
 use crate::app::case::{self, Defect, DentProfile};
 use crate::app::error::ComputeError;
-use crate::bearing::defect::{
-    BallFlat, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect, SurfaceDent, reduced,
-};
+use crate::bearing::defect::{BallFlat, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect, SurfaceDent, reduced};
 use crate::bearing::{BearingGeometry, ContactStiffness, Wave};
 use crate::system::FlatOnBall;
 use std::path::Path;
@@ -39,23 +37,17 @@ pub(crate) fn defects(
                     curvature: dent.curvature,
                 };
                 let dent = match dent.profile {
-                    DentProfile::InPlane => {
-                        Dent::new(geometry, dent.on, shape, stiffness).map(RaceDefect::Dent)
+                    DentProfile::InPlane => Dent::new(geometry, dent.on, shape, stiffness).map(RaceDefect::Dent),
+                    DentProfile::Surface => {
+                        SurfaceDent::new(geometry, dent.on, shape, stiffness).map(RaceDefect::SurfaceDent)
                     }
-                    DentProfile::Surface => SurfaceDent::new(geometry, dent.on, shape, stiffness)
-                        .map(RaceDefect::SurfaceDent),
                 };
                 race_defects.push((index, dent.map_err(refused)?));
             }
             Defect::Measured(measured) => {
                 let samples = read_profile(index, &measured.profile.csv)?;
-                let profile = MeasuredProfile::new(
-                    geometry,
-                    measured.on,
-                    measured.angle_deg.to_radians(),
-                    &samples,
-                    stiffness,
-                );
+                let profile =
+                    MeasuredProfile::new(geometry, measured.on, measured.angle_deg.to_radians(), &samples, stiffness);
                 let profile = RaceDefect::Measured(profile.map_err(refused)?);
                 race_defects.push((index, profile));
             }
@@ -75,27 +67,17 @@ pub(crate) fn defects(
         }
     }
     check_apart(&race_defects)?;
-    Ok(Defects {
-        race_defects: race_defects.into_iter().map(|(_, defect)| defect).collect(),
-        flats,
-    })
+    Ok(Defects { race_defects: race_defects.into_iter().map(|(_, defect)| defect).collect(), flats })
 }
 
 /// Waves of the races.
 ///
 /// # Errors
 /// [`ComputeError::Wave`] naming the wave.
-pub(crate) fn waves(
-    asked: &[case::Wave],
-    geometry: &BearingGeometry,
-) -> Result<Vec<Wave>, ComputeError> {
+pub(crate) fn waves(asked: &[case::Wave], geometry: &BearingGeometry) -> Result<Vec<Wave>, ComputeError> {
     let wave = |(index, wave): (usize, &case::Wave)| {
-        let wave = Wave {
-            race: wave.on,
-            order: wave.order,
-            amplitude: wave.amplitude,
-            phase: wave.phase_deg.to_radians(),
-        };
+        let wave =
+            Wave { race: wave.on, order: wave.order, amplitude: wave.amplitude, phase: wave.phase_deg.to_radians() };
         let checked = wave.checked(geometry);
         checked.map_err(|source| ComputeError::Wave { index, source })
     };
@@ -138,15 +120,10 @@ fn read_profile(index: usize, path: &Path) -> Result<Vec<(f64, f64)>, ComputeErr
         .trim(csv::Trim::All)
         .from_path(path)
         .map_err(|error| refused(None, error.to_string()))?;
-    let header = reader
-        .headers()
-        .map_err(|error| refused(Some(1), error.to_string()))?;
+    let header = reader.headers().map_err(|error| refused(Some(1), error.to_string()))?;
     if header.iter().ne(COLUMNS) {
         let found = header.iter().collect::<Vec<_>>().join(",");
-        let what = format!(
-            "found the header \"{found}\", expected \"{}\"",
-            COLUMNS.join(",")
-        );
+        let what = format!("found the header \"{found}\", expected \"{}\"", COLUMNS.join(","));
         return Err(refused(Some(1), what));
     }
     let mut samples = Vec::new();

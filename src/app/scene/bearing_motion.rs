@@ -37,9 +37,5 @@ pub(crate) fn shaft(asked: &case::Shaft) -> Shaft {
             LoadProfile::through(&points)
         }
     };
-    Shaft {
-        mass: asked.mass,
-        unbalance: asked.unbalance,
-        loads: asked.loads.iter().map(load).collect(),
-    }
+    Shaft { mass: asked.mass, unbalance: asked.unbalance, loads: asked.loads.iter().map(load).collect() }
 }

@@ -22,18 +22,11 @@ impl Bodies {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model, elements, ring and tie.
-    pub fn assemble(
-        case: &Case,
-        watch: &impl Watch,
-    ) -> Result<(Self, CoupledMatrices), ComputeError> {
+    pub fn assemble(case: &Case, watch: &impl Watch) -> Result<(Self, CoupledMatrices), ComputeError> {
         let Some(asked) = &case.ring else {
             let housing = AssembledHousing::of(case, watch)?;
             let matrices = CoupledMatrices::of_housing(housing.matrices, &housing.model);
-            let bodies = Self {
-                housing: Some((housing.mesh, housing.model)),
-                ring: None,
-                tie: None,
-            };
+            let bodies = Self { housing: Some((housing.mesh, housing.model)), ring: None, tie: None };
             return Ok((bodies, matrices));
         };
         let housing = AssembledHousing::build(case, watch)?;
@@ -43,11 +36,7 @@ impl Bodies {
             (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, &ring),
             _ => CoupledMatrices::of_ring(&ring),
         };
-        let bodies = Self {
-            housing: housing.map(|housing| (housing.mesh, housing.model)),
-            ring: Some(ring),
-            tie,
-        };
+        let bodies = Self { housing: housing.map(|housing| (housing.mesh, housing.model)), ring: Some(ring), tie };
         Ok((bodies, matrices))
     }
 
@@ -56,10 +45,7 @@ impl Bodies {
         let all = modes.over_all_rows();
         let housing = self.housing.as_ref();
         let moved = housing.map(|(_, model)| modes.motions().housing(model, &all));
-        let of_ring = self
-            .ring
-            .as_ref()
-            .map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions().ring(&all)));
+        let of_ring = self.ring.as_ref().map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions().ring(&all)));
         let with_shapes = housing.zip(moved.as_ref());
         let own = OwnModes {
             frequencies_hz: &modes.basis.frequencies_hz,

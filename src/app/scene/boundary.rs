@@ -26,9 +26,7 @@ impl Boundary {
 
     pub(crate) fn matrices<'h>(&self, housing: &'h AssembledHousing) -> Cow<'h, SystemMatrices> {
         match self.ring() {
-            Some((_, tie)) if tie.rotation().is_some() => {
-                Cow::Owned(housing.matrices.clone().for_tie(tie))
-            }
+            Some((_, tie)) if tie.rotation().is_some() => Cow::Owned(housing.matrices.clone().for_tie(tie)),
             _ => Cow::Borrowed(&housing.matrices),
         }
     }
@@ -36,10 +34,7 @@ impl Boundary {
     /// What sits on the interface.
     pub fn attached(&self) -> Option<Attached<'_>> {
         match self {
-            Self::Ring(bodies) => Some(Attached {
-                stiffness: bodies.0.stiffness(),
-                mass: bodies.0.mass(),
-            }),
+            Self::Ring(bodies) => Some(Attached { stiffness: bodies.0.stiffness(), mass: bodies.0.mass() }),
             Self::Nodes(_) => None,
         }
     }

@@ -75,10 +75,7 @@ impl CondensedHousing {
             },
             (Interface::Ring, None) => return Ok(None),
             (Interface::Group(group), _) => {
-                let group =
-                    housing
-                        .model
-                        .group_on_housing(&housing.mesh, group, "the interface")?;
+                let group = housing.model.group_on_housing(&housing.mesh, group, "the interface")?;
                 let used = |node: &usize| housing.model.is_used(*node);
                 let nodes: Vec<usize> = group.nodes.iter().copied().filter(used).collect();
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
@@ -95,13 +92,8 @@ impl CondensedHousing {
         }
         check_interior(&housing, &boundary)?;
         watch.stage("condense");
-        let condensed = craig_bampton(
-            &boundary.matrices(&housing),
-            boundary.partition(),
-            choice,
-            boundary.attached(),
-        )
-        .map_err(|error| located(error, &housing.model))?;
+        let condensed = craig_bampton(&boundary.matrices(&housing), boundary.partition(), choice, boundary.attached())
+            .map_err(|error| located(error, &housing.model))?;
         let structural = StructuralStiffness::assemble(&housing.model)?;
         let stage = Self {
             structural: structural.map(|structural| match boundary.ring() {
@@ -193,11 +185,9 @@ impl CondensedHousing {
             Boundary::Nodes(nodes) => {
                 let driven = &nodes.partition.driven;
                 RigidMotions {
-                    interface: DenseMatrix::from_fn(
-                        driven.len(),
-                        motions.ncols(),
-                        |row, motion| motions[(driven[row], motion)],
-                    ),
+                    interface: DenseMatrix::from_fn(driven.len(), motions.ncols(), |row, motion| {
+                        motions[(driven[row], motion)]
+                    }),
                     housing: motions,
                 }
             }
@@ -211,9 +201,7 @@ impl CondensedHousing {
 
     /// Matrices of the whole, nothing condensed.
     pub fn full_matrices(&self) -> CoupledMatrices {
-        let AssembledHousing {
-            model, matrices, ..
-        } = &self.housing;
+        let AssembledHousing { model, matrices, .. } = &self.housing;
         match self.boundary.ring() {
             Some((ring, tie)) => CoupledMatrices::new(matrices, tie, ring),
             None => CoupledMatrices::of_housing(matrices.clone(), model),
@@ -224,19 +212,10 @@ impl CondensedHousing {
 /// Indices of the nodes with these tags.
 fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, ComputeError> {
     let model = &housing.model;
-    let place: HashMap<u64, usize> = model
-        .node_tags
-        .iter()
-        .enumerate()
-        .map(|(index, &tag)| (tag, index))
-        .collect();
+    let place: HashMap<u64, usize> = model.node_tags.iter().enumerate().map(|(index, &tag)| (tag, index)).collect();
     let found = |(index, tag): (usize, &u64)| match place.get(tag) {
         Some(&node) if model.is_used(node) => Ok(node),
-        other => Err(ComputeError::InterfaceNode {
-            index,
-            tag: *tag,
-            in_mesh: other.is_some(),
-        }),
+        other => Err(ComputeError::InterfaceNode { index, tag: *tag, in_mesh: other.is_some() }),
     };
     tags.iter().enumerate().map(found).collect()
 }

@@ -30,36 +30,16 @@ struct Contact<'c> {
     groove: f64,
 }
 
-fn contacts<'c>(
-    setup: &BearingSetup,
-    contacts: &'c RaceContacts,
-    equilibrium: &Equilibrium,
-) -> [Contact<'c>; 2] {
+fn contacts<'c>(setup: &BearingSetup, contacts: &'c RaceContacts, equilibrium: &Equilibrium) -> [Contact<'c>; 2] {
     let dimensions = setup.geometry.dimensions();
     let of = |race, hertz: &'c HertzStiffness, force: fn(&BallLoad) -> f64, groove| {
         let force = equilibrium.balls.iter().map(force).fold(0.0, f64::max);
         let patch = hertz.patch(force);
-        Contact {
-            race,
-            hertz,
-            force,
-            patch,
-            groove,
-        }
+        Contact { race, hertz, force, patch, groove }
     };
     [
-        of(
-            Race::Inner,
-            &contacts.inner,
-            |ball| ball.inner,
-            dimensions.inner_groove_radius,
-        ),
-        of(
-            Race::Outer,
-            &contacts.outer,
-            |ball| ball.outer,
-            dimensions.outer_groove_radius,
-        ),
+        of(Race::Inner, &contacts.inner, |ball| ball.inner, dimensions.inner_groove_radius),
+        of(Race::Outer, &contacts.outer, |ball| ball.outer, dimensions.outer_groove_radius),
     ]
 }
 
@@ -78,9 +58,7 @@ pub(crate) fn accept_contacts(
     }
     let ball_radius = setup.geometry.ball_radius();
     for contact in contacts(setup, hertz, equilibrium) {
-        let Contact {
-            race, force, patch, ..
-        } = contact;
+        let Contact { race, force, patch, .. } = contact;
         if patch.longer >= ball_radius {
             return Err(ComputeError::WidePatch {
                 race,
@@ -92,29 +70,18 @@ pub(crate) fn accept_contacts(
         }
         let limit = STRENGTH * contact.hertz.effective_modulus;
         if patch.peak_pressure > limit {
-            return Err(ComputeError::Pressure {
-                race,
-                force,
-                pressure: patch.peak_pressure,
-                limit,
-            });
+            return Err(ComputeError::Pressure { race, force, pressure: patch.peak_pressure, limit });
         }
     }
     Ok(())
 }
 
 /// What of the contacts is possible and in doubt, a sentence each.
-pub(crate) fn contact_doubts(
-    setup: &BearingSetup,
-    hertz: &RaceContacts,
-    equilibrium: &Equilibrium,
-) -> Vec<String> {
+pub(crate) fn contact_doubts(setup: &BearingSetup, hertz: &RaceContacts, equilibrium: &Equilibrium) -> Vec<String> {
     let ball_radius = setup.geometry.ball_radius();
     let mut found = Vec::new();
     for contact in contacts(setup, hertz, equilibrium) {
-        let Contact {
-            race, force, patch, ..
-        } = contact;
+        let Contact { race, force, patch, .. } = contact;
         let conformity = 0.5 * contact.groove / ball_radius;
         if !(CONFORMITY[0]..=CONFORMITY[1]).contains(&conformity) {
             found.push(format!(

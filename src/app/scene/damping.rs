@@ -14,14 +14,10 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
     let damping = match &case.damping {
         None => ModeDamping::Modal(0.0),
         Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
-        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh {
-            alpha: *alpha,
-            beta: *beta,
-        },
-        Some(case::Damping::Ratios([first, second])) => ModeDamping::rayleigh_through(
-            (first.frequency_hz, first.ratio),
-            (second.frequency_hz, second.ratio),
-        ),
+        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh { alpha: *alpha, beta: *beta },
+        Some(case::Damping::Ratios([first, second])) => {
+            ModeDamping::rayleigh_through((first.frequency_hz, first.ratio), (second.frequency_hz, second.ratio))
+        }
     };
     match damping {
         ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
@@ -36,20 +32,12 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
 /// # Errors
 /// [`ComputeError::StructuralDamping`].
 pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), ComputeError> {
-    let parts = case
-        .meshed_housing()
-        .into_iter()
-        .flat_map(|housing| &housing.parts);
+    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
     for part in parts {
-        let loss_factor = case
-            .material(&part.material)
-            .map_or(0.0, case::Material::loss_factor);
+        let loss_factor = case.material(&part.material).map_or(0.0, case::Material::loss_factor);
         if loss_factor > 0.0 {
             let material = part.material.clone();
-            return Err(ComputeError::StructuralDamping {
-                material,
-                loss_factor,
-            });
+            return Err(ComputeError::StructuralDamping { material, loss_factor });
         }
     }
     Ok(())
@@ -81,11 +69,7 @@ pub(crate) fn mass_damping(case: &Case) -> Result<f64, ComputeError> {
 ///
 /// # Errors
 /// As [`damping`], and what the dense eigenvalue solver reports.
-pub(crate) fn viscous_matrix(
-    case: &Case,
-    k: &DenseMatrix,
-    m: &DenseMatrix,
-) -> Result<DenseMatrix, ComputeError> {
+pub(crate) fn viscous_matrix(case: &Case, k: &DenseMatrix, m: &DenseMatrix) -> Result<DenseMatrix, ComputeError> {
     Ok(match modal_damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => m * faer::Scale(alpha) + k * faer::Scale(beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => DenseMatrix::zeros(k.nrows(), k.ncols()),

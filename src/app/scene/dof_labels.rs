@@ -10,11 +10,7 @@ pub(crate) fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<Dof
     let d = model.dimension();
     // a sliding tie turns all components of the bore's nodes
     let sliding = tie.filter(|tie| tie.rotation().is_some());
-    let bore: BTreeSet<usize> = sliding
-        .iter()
-        .flat_map(|tie| &tie.partition().driven)
-        .map(|dof| dof / d)
-        .collect();
+    let bore: BTreeSet<usize> = sliding.iter().flat_map(|tie| &tie.partition().driven).map(|dof| dof / d).collect();
     let nodes = model.coordinates().iter().zip(&model.node_tags).enumerate();
     let labels = nodes.flat_map(|(index, (&position, &node))| {
         let polar = bore.contains(&index);
@@ -41,11 +37,7 @@ pub(crate) fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
     use DofDirection::{About, Along};
     let in_plane = [(Along(0), 0), (Along(1), 1), (About(2), 2)];
     let out_of_plane = [(Along(2), 2), (About(0), 0), (About(1), 1)];
-    let blocks = if ring.is_in_space() {
-        vec![in_plane, out_of_plane]
-    } else {
-        vec![in_plane]
-    };
+    let blocks = if ring.is_in_space() { vec![in_plane, out_of_plane] } else { vec![in_plane] };
     let mut labels = Vec::with_capacity(ring.dof());
     for block in blocks {
         for node in 0..ring.nodes() {

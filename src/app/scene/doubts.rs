@@ -85,10 +85,7 @@ pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
 
 fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let overlaps = model.overlaps().iter().map(|overlap| {
-        format!(
-            "{}; housing.overlap allows it, mass and stiffness count twice there",
-            overlap.sentence()
-        )
+        format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence())
     });
     let touching = model.touching().iter().map(|touching| {
         let [a, b] = &touching.parts;
@@ -179,11 +176,7 @@ fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, Compute
         }
     }
     for pair in sections.windows(2) {
-        let [
-            (inner, low, [inner_height, _]),
-            (outer, high, [outer_height, _]),
-        ] = pair
-        else {
+        let [(inner, low, [inner_height, _]), (outer, high, [outer_height, _])] = pair else {
             continue;
         };
         let gap = (high - 0.5 * outer_height) - (low + 0.5 * inner_height);
@@ -254,21 +247,14 @@ fn ring_doubts(
 }
 
 /// Whether the bore is of bodies that nothing but the ring joins.
-fn bore_in_pieces(
-    mesh: &Mesh,
-    model: &HousingModel,
-    bore: &str,
-) -> Result<Option<String>, ComputeError> {
+fn bore_in_pieces(mesh: &Mesh, model: &HousingModel, bore: &str) -> Result<Option<String>, ComputeError> {
     let group = model.group_on_housing(mesh, bore, "the tie")?;
     // bodies that are too many to be looked at are told with the modes
     let pieces = pieces_at(mesh, model, &group.nodes).unwrap_or_default();
     if pieces.len() < 2 {
         return Ok(None);
     }
-    let named: Vec<String> = pieces
-        .iter()
-        .map(|parts| format!("\"{}\"", parts.join("\", \"")))
-        .collect();
+    let named: Vec<String> = pieces.iter().map(|parts| format!("\"{}\"", parts.join("\", \""))).collect();
     Ok(Some(format!(
         "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add a link to housing.links",
         pieces.len(),
@@ -285,13 +271,7 @@ fn race_in_ring(case: &Case) -> Result<Option<String>, ComputeError> {
     let Some(first) = sections.next() else {
         return Ok(None);
     };
-    let innermost = sections.fold(first, |least, next| {
-        if next.radius < least.radius {
-            next
-        } else {
-            least
-        }
-    });
+    let innermost = sections.fold(first, |least, next| if next.radius < least.radius { next } else { least });
     let layer = layer(case, innermost)?;
     let [height, _] = layer.rectangle();
     let (race, half) = (bearing.outer_race_radius, 0.5 * height);

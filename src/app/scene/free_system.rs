@@ -43,11 +43,7 @@ impl FreeSystem {
             let modes = (0..imported.element.modal_dof() as u64).map(DofLabel::modal);
             let mut rows = of_ring(structure.ring(), &imported.frame);
             rows.extend(modes);
-            return Ok(Self {
-                stiffness: matrices.stiffness,
-                mass: matrices.mass,
-                rows,
-            });
+            return Ok(Self { stiffness: matrices.stiffness, mass: matrices.mass, rows });
         }
         let (bodies, matrices) = Bodies::assemble(case, watch)?;
         let mut labels = Vec::with_capacity(matrices.mass.rows());

@@ -12,12 +12,8 @@ use crate::numerics::linalg::{SparseMatrix, sparse_times_dense};
 /// A case beside the example meshes; the tie's axes are turned against the mesh's.
 fn case(text: &str) -> Case {
     let root = env!("CARGO_MANIFEST_DIR");
-    Case::from_source(Source {
-        path: format!("{root}/meshes/a.toml").into(),
-        text: text.to_owned(),
-        set: Vec::new(),
-    })
-    .unwrap()
+    Case::from_source(Source { path: format!("{root}/meshes/a.toml").into(), text: text.to_owned(), set: Vec::new() })
+        .unwrap()
 }
 
 const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\
@@ -82,12 +78,7 @@ fn rows_move_as_their_labels_say() {
         (solid(&tied("sliding", "[0, 0, -1]", "1e-6")), true),
     ] {
         let system = FreeSystem::build(&case(&text), &Unwatched).unwrap();
-        let stiffest = system
-            .stiffness
-            .diag()
-            .iter()
-            .map(|(_, &k)| k)
-            .fold(0.0, f64::max);
+        let stiffest = system.stiffness.diag().iter().map(|(_, &k)| k).fold(0.0, f64::max);
         let mut motions = vec![([1.0, 0.0, 0.0], [0.0; 3]), ([0.0, 1.0, 0.0], [0.0; 3])];
         motions.push(([0.0; 3], [0.0, 0.0, 100.0]));
         if in_space {
@@ -100,23 +91,13 @@ fn rows_move_as_their_labels_say() {
             let x = rigid(&system.rows, shift, turn);
             let strain = energy(&system.stiffness, &x);
             // roundings of about 1e4 terms of the largest stiffness
-            assert!(
-                strain.abs() < 1e-10 * stiffest,
-                "{text} {shift:?} {turn:?}: {strain:e}"
-            );
+            assert!(strain.abs() < 1e-10 * stiffest, "{text} {shift:?} {turn:?}: {strain:e}");
         }
         let masses: Vec<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
             .map(|shift| energy(&system.mass, &rigid(&system.rows, shift, [0.0; 3])))
             .to_vec();
-        assert!(
-            (masses[0] / masses[1] - 1.0).abs() < 1e-12,
-            "{text} {masses:?}"
-        );
-        let ring = if text.contains("[ring]") {
-            ring_mass
-        } else {
-            0.0
-        };
+        assert!((masses[0] / masses[1] - 1.0).abs() < 1e-12, "{text} {masses:?}");
+        let ring = if text.contains("[ring]") { ring_mass } else { 0.0 };
         let housing = masses[0] - ring;
         let expected = match text.contains("[housing]") {
             false => 0.0,
@@ -129,10 +110,7 @@ fn rows_move_as_their_labels_say() {
                 2700.0 * 1e-9 * (10.0 * section - 40.0 * pi)
             }
         };
-        assert!(
-            (housing - expected).abs() < 2e-4 * expected.max(ring),
-            "{text} {housing} {expected}"
-        );
+        assert!((housing - expected).abs() < 2e-4 * expected.max(ring), "{text} {housing} {expected}");
     }
 }
 
@@ -141,38 +119,23 @@ fn rows_move_as_their_labels_say() {
 fn the_frequencies_are_those_of_the_case() {
     let modes = "\n[modes]\ncount = 8\n";
     for text in [
-        format!(
-            "{RING}supports = [{{ from_deg = 180, to_deg = 360, spring = {{ x = 1e5, y = 1e5 }} }}]{modes}"
-        ),
+        format!("{RING}supports = [{{ from_deg = 180, to_deg = 360, spring = {{ x = 1e5, y = 1e5 }} }}]{modes}"),
         plane(&format!("{}{modes}", tied("bonded", "[0, 0, 1]", "1e5"))),
     ] {
         let case = case(&text);
         let system = FreeSystem::build(&case, &Unwatched).unwrap();
         let (_, shapes) = compute_mode_shapes(&case, &Unwatched).unwrap();
         let n = system.rows.len();
-        let dense = |a: &SparseMatrix| {
-            DMatrix::from_fn(n, n, |row, column| {
-                a.get(row, column).copied().unwrap_or(0.0)
-            })
-        };
+        let dense = |a: &SparseMatrix| DMatrix::from_fn(n, n, |row, column| a.get(row, column).copied().unwrap_or(0.0));
         let factor = dense(&system.mass).cholesky().unwrap();
-        let half = factor
-            .l()
-            .solve_lower_triangular(&dense(&system.stiffness))
-            .unwrap();
-        let whole = factor
-            .l()
-            .solve_lower_triangular(&half.transpose())
-            .unwrap();
+        let half = factor.l().solve_lower_triangular(&dense(&system.stiffness)).unwrap();
+        let whole = factor.l().solve_lower_triangular(&half.transpose()).unwrap();
         let mut values: Vec<f64> = whole.symmetric_eigenvalues().iter().copied().collect();
         values.sort_by(f64::total_cmp);
         for (value, expected) in values.iter().zip(&shapes.frequencies_hz) {
             let found = value.max(0.0).sqrt() / std::f64::consts::TAU;
             // dense eigenvalues are good to 1e-15 of the largest, (2 pi 1e7 Hz)^2: half a hertz for rigid modes
-            assert!(
-                (found - expected).abs() < 1e-8 * expected + 1.0,
-                "{found} {expected}"
-            );
+            assert!((found - expected).abs() < 1e-8 * expected + 1.0, "{found} {expected}");
         }
     }
 }

@@ -7,8 +7,7 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame,
-    SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare,
 };
 use crate::numerics::Watch;
 
@@ -39,11 +38,7 @@ impl AssembledHousing {
         watch.stage("assemble");
         let model = HousingModel::new(&mesh, description(case, housing)?)?;
         let matrices = SystemMatrices::assemble(&model)?;
-        Ok(Some(Self {
-            mesh,
-            model,
-            matrices,
-        }))
+        Ok(Some(Self { mesh, model, matrices }))
     }
 }
 
@@ -62,16 +57,11 @@ impl AssembledHousing {
 ///
 /// # Errors
 /// [`ComputeError`] of materials and of the tie's frame.
-pub(crate) fn description(
-    case: &Case,
-    housing: &case::Housing,
-) -> Result<HousingDescription, ComputeError> {
-    let parts = housing.parts.iter().map(|part| {
-        Ok(HousingPart {
-            group: part.group.clone(),
-            material: elastic_material(case, &part.material)?,
-        })
-    });
+pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<HousingDescription, ComputeError> {
+    let parts = housing
+        .parts
+        .iter()
+        .map(|part| Ok(HousingPart { group: part.group.clone(), material: elastic_material(case, &part.material)? }));
     Ok(HousingDescription {
         parts: parts.collect::<Result<_, ComputeError>>()?,
         plane: housing.plane,
@@ -88,9 +78,7 @@ pub(crate) fn description(
 fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
     match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         None => Ok(RingFrame::default()),
-        Some(tie) => {
-            RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(ComputeError::TieFrame)
-        }
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(ComputeError::TieFrame),
     }
 }
 
@@ -109,15 +97,7 @@ fn checked(name: &str, given: &IsotropicMaterial) -> Result<Material, ComputeErr
 fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
     match case.known_material("housing.parts", name)? {
         case::Material::Orthotropic(given) => {
-            let case::OrthotropicMaterial {
-                young,
-                poisson,
-                shear,
-                density,
-                loss_factor,
-                x_axis,
-                y_axis,
-            } = *given;
+            let case::OrthotropicMaterial { young, poisson, shear, density, loss_factor, x_axis, y_axis } = *given;
             OrthotropicMaterial::new(young, poisson, shear, density, x_axis, y_axis)
                 .and_then(|material| material.with_loss_factor(loss_factor))
                 .map(ElasticMaterial::Orthotropic)
@@ -138,15 +118,10 @@ fn named(name: &str, source: MaterialError) -> ComputeError {
 fn support(support: &case::Support) -> HousingSupport {
     let (constraint, share) = match &support.hold {
         Hold::Fixed(axes) => {
-            let fixed =
-                [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
+            let fixed = [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
             (Constraint::Fixed(fixed), SupportShare::PerNode)
         }
         Hold::Spring(stiffness, share) => (Constraint::Spring(*stiffness), *share),
     };
-    HousingSupport {
-        group: support.group.clone(),
-        constraint,
-        share,
-    }
+    HousingSupport { group: support.group.clone(), constraint, share }
 }

@@ -8,9 +8,7 @@ use crate::app::error::ComputeError;
 use crate::app::error::ImportError;
 use crate::fe::model::{Ring, RingFrame};
 use crate::fe::reduction::{Check, Superelement, check_matrices};
-use crate::formats::{
-    DofBody, DofLabel, SuperelementRecord, read_superelement_npz, read_superelement_op4,
-};
+use crate::formats::{DofBody, DofLabel, SuperelementRecord, read_superelement_npz, read_superelement_op4};
 use crate::numerics::linalg::DenseMatrix;
 use crate::report::significant;
 use std::path::{Path, PathBuf};
@@ -52,15 +50,8 @@ impl ImportedHousing {
     /// # Errors
     /// [`ComputeError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`ComputeError`]
     /// of the ring.
-    pub fn read(
-        case: &Case,
-        asked: &case::Ring,
-        path: &Path,
-    ) -> Result<(Self, Ring), ComputeError> {
-        let fault = |source: ImportError| ComputeError::Import {
-            path: path.to_owned(),
-            source: Box::new(source),
-        };
+    pub fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), ComputeError> {
+        let fault = |source: ImportError| ComputeError::Import { path: path.to_owned(), source: Box::new(source) };
         let record = record(path, asked.nodes).map_err(fault)?;
         if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
             && (case - file).abs() > ROUND_OFF * file
@@ -126,10 +117,9 @@ impl ImportedHousing {
         let (end, whose) = match self.record.band_hz {
             Some(band) => (band, "the band that it was condensed for"),
             None if self.record.modal_hz.is_empty() => return None,
-            None => (
-                last_mode_hz(&self.record.modal_hz) / 1.5,
-                "two thirds of its last vector that is close to others",
-            ),
+            None => {
+                (last_mode_hz(&self.record.modal_hz) / 1.5, "two thirds of its last vector that is close to others")
+            }
         };
         (top_hz > end * (1.0 + ROUND_OFF)).then(|| {
             format!(
@@ -161,9 +151,7 @@ impl ImportedHousing {
     /// [`ImportError::StructuralDamping`].
     pub fn refuse_structural_damping(&self) -> Result<(), ComputeError> {
         match &self.record.structural {
-            Some(matrix) if matrix.norm_max() > 0.0 => {
-                Err(self.fault(ImportError::StructuralDamping))
-            }
+            Some(matrix) if matrix.norm_max() > 0.0 => Err(self.fault(ImportError::StructuralDamping)),
             _ => Ok(()),
         }
     }
@@ -193,12 +181,7 @@ impl ImportedHousing {
         direction: [f64; 3],
         ring: &Ring,
     ) -> Result<Vec<f64>, ComputeError> {
-        let bodies = PlaceBodies {
-            housing: None,
-            ring: Some(ring),
-            tie: None,
-            frame: self.frame,
-        };
+        let bodies = PlaceBodies { housing: None, ring: Some(ring), tie: None, frame: self.frame };
         match spot {
             SensorSpot::Recovered(row) => self.recovered(name, row),
             spot => {
@@ -225,10 +208,7 @@ impl ImportedHousing {
     }
 
     fn fault(&self, source: ImportError) -> ComputeError {
-        ComputeError::Import {
-            path: self.path.clone(),
-            source: Box::new(source),
-        }
+        ComputeError::Import { path: self.path.clone(), source: Box::new(source) }
     }
 }
 
@@ -237,9 +217,7 @@ fn last_mode_hz(modal_hz: &[f64]) -> f64 {
     let mut sorted = modal_hz.to_vec();
     sorted.sort_by(f64::total_cmp);
     let mut pairs = sorted.windows(2).rev();
-    let last = pairs
-        .find(|pair| pair[1] <= CLOSE * pair[0])
-        .map(|pair| pair[1]);
+    let last = pairs.find(|pair| pair[1] <= CLOSE * pair[0]).map(|pair| pair[1]);
     last.or(sorted.first().copied()).unwrap_or(0.0)
 }
 
@@ -252,10 +230,7 @@ fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> 
             let record = read_superelement_npz(path)?;
             let found = record.interface.len();
             if let Some(recovery) = &record.interface_recovery {
-                return Err(ImportError::InterfaceModes {
-                    modes: found,
-                    coordinates: recovery.labels.len(),
-                });
+                return Err(ImportError::InterfaceModes { modes: found, coordinates: recovery.labels.len() });
             }
             match fits(found) {
                 true => Ok(record),
@@ -266,10 +241,7 @@ fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> 
             let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes])?;
             match fits(record.interface.len()) {
                 true => Ok(record),
-                false => Err(ImportError::Count {
-                    nodes,
-                    found: record.order(),
-                }),
+                false => Err(ImportError::Count { nodes, found: record.order() }),
             }
         }
         _ => Err(ImportError::Format),
@@ -278,9 +250,7 @@ fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> 
 
 /// Whether a file says what its interface coordinates are.
 fn labelled(interface: &[DofLabel]) -> bool {
-    interface
-        .iter()
-        .any(|label| label.body != DofBody::Interface)
+    interface.iter().any(|label| label.body != DofBody::Interface)
 }
 
 /// The frame of the first node's axes about the mean of the nodes; the file's axes where it has none.
@@ -312,25 +282,14 @@ fn check_labels(interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Resul
     let reach = POSITION * ring.section().radius;
     for (row, (own, label)) in of_ring(ring, frame).iter().zip(interface).enumerate() {
         if (own.body, own.node, own.direction) != (label.body, label.node, label.direction) {
-            return Err(ImportError::Label {
-                row,
-                expected: name(own),
-                found: name(label),
-            });
+            return Err(ImportError::Label { row, expected: name(own), found: name(label) });
         }
-        for (what, limit, expected, found) in [
-            ("position in m", reach, own.position, label.position),
-            ("axis", AXIS, own.axis, label.axis),
-        ] {
+        for (what, limit, expected, found) in
+            [("position in m", reach, own.position, label.position), ("axis", AXIS, own.axis, label.axis)]
+        {
             // not so for what is not known
             if (0..3).any(|k| (expected[k] - found[k]).abs() > limit) {
-                return Err(ImportError::Place {
-                    row,
-                    what,
-                    label: name(own),
-                    expected,
-                    found,
-                });
+                return Err(ImportError::Place { row, what, label: name(own), expected, found });
             }
         }
     }
@@ -353,12 +312,10 @@ fn weight(record: &SuperelementRecord, frame: &RingFrame) -> DenseMatrix {
 
 /// That the case's damping takes the place of the file's.
 fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option<String> {
-    record.damping.as_ref().map(|_| {
-        format!(
-            "The viscous damping in {} is not used: [damping] of the case counts.",
-            path.display()
-        )
-    })
+    record
+        .damping
+        .as_ref()
+        .map(|_| format!("The viscous damping in {} is not used: [damping] of the case counts.", path.display()))
 }
 
 fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
@@ -380,33 +337,21 @@ fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
     let idle = [
         (
             "ring.outer_radius",
-            record.outer_radius.is_none()
-                && case
-                    .ring
-                    .as_ref()
-                    .is_some_and(|ring| ring.outer_radius.is_some()),
+            record.outer_radius.is_none() && case.ring.as_ref().is_some_and(|ring| ring.outer_radius.is_some()),
         ),
-        (
-            "condense.fixed_interface_modes",
-            case.condense.fixed_interface_modes != case::FixedInterfaceModes::Auto,
-        ),
+        ("condense.fixed_interface_modes", case.condense.fixed_interface_modes != case::FixedInterfaceModes::Auto),
         ("condense.enhanced", !case.condense.enhanced),
     ];
     for (key, _) in idle.iter().filter(|(_, given)| *given) {
-        notes.push(format!(
-            "{key} of the case does not act: {file} was condensed before, and does not say with which."
-        ));
+        notes
+            .push(format!("{key} of the case does not act: {file} was condensed before, and does not say with which."));
     }
     if record.weight.is_none() && case.shaft.is_some() {
-        notes.push(format!(
-            "{file} has no array \"weight\": the weight of the housing does not act."
-        ));
+        notes.push(format!("{file} has no array \"weight\": the weight of the housing does not act."));
     }
     notes.extend(unused_damping(path, record));
     if record.structural.is_some() {
-        notes.push(format!(
-            "The structural damping in {file} is not used: modes are undamped."
-        ));
+        notes.push(format!("The structural damping in {file} is not used: modes are undamped."));
     }
     notes
 }

@@ -13,8 +13,7 @@ use crate::app::commands::modes::compute_modes;
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::commands::run::compute_run;
 use crate::formats::{
-    DofDirection, DofLabel, Op4Format, SuperelementRecord, write_superelement_npz,
-    write_superelement_op4,
+    DofDirection, DofLabel, Op4Format, SuperelementRecord, write_superelement_npz, write_superelement_op4,
 };
 use crate::numerics::Unwatched;
 use crate::numerics::linalg::DenseMatrix;
@@ -23,8 +22,7 @@ const RING: &str = "outer_radius = 6e-3\n\
     sections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n";
 
 /// The bearing's angle 0 points up the mesh.
-const TIE: &str =
-    "tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [0, 1, 0] }\n";
+const TIE: &str = "tie = { group = \"bore\", centre = [0, 0, 0], axis = [0, 0, 1], zero_deg = [0, 1, 0] }\n";
 
 const REST: &str = "[bearing]\nballs = 7\nball_radius = 1e-3\nball_mass = 3.29e-5\n\
     inner_race_radius = 2.754e-3\nouter_race_radius = 4.7565e-3\ninner_groove_radius = 1.04e-3\n\
@@ -51,25 +49,17 @@ const SIX: &str = "[condense]\nfixed_interface_modes = 6\n";
 
 fn case(text: &str) -> Case {
     let root = env!("CARGO_MANIFEST_DIR");
-    Case::from_source(Source {
-        path: format!("{root}/meshes/a.toml").into(),
-        text: text.to_owned(),
-        set: Vec::new(),
-    })
-    .unwrap()
+    Case::from_source(Source { path: format!("{root}/meshes/a.toml").into(), text: text.to_owned(), set: Vec::new() })
+        .unwrap()
 }
 
 fn original(housing: &str, nodes: usize, sensors: &str) -> Case {
-    case(&format!(
-        "[housing]\n{housing}[ring]\nnodes = {nodes}\n{RING}{TIE}{REST}{sensors}"
-    ))
+    case(&format!("[housing]\n{housing}[ring]\nnodes = {nodes}\n{RING}{TIE}{REST}{sensors}"))
 }
 
 fn imported(path: &Path, nodes: usize, rest: &str, sensors: &str) -> Case {
     let path = path.display();
-    case(&format!(
-        "[housing]\nsuperelement = \"{path}\"\n[ring]\nnodes = {nodes}\n{RING}{rest}{sensors}"
-    ))
+    case(&format!("[housing]\nsuperelement = \"{path}\"\n[ring]\nnodes = {nodes}\n{RING}{rest}{sensors}"))
 }
 
 fn record_of(case: &Case) -> SuperelementRecord {
@@ -113,15 +103,11 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
 /// move nothing of its coarse bore.
 #[test]
 fn a_superelement_takes_the_place_of_the_housing_that_it_came_from() {
-    let of_housing =
-        |place: &str| format!("[[sensors]]\nname = \"foot\"\n{place}\ndirection = [1, 1, 0]\n");
+    let of_housing = |place: &str| format!("[[sensors]]\nname = \"foot\"\n{place}\ndirection = [1, 1, 0]\n");
     let of_file = "[[sensors]]\nname = \"foot\"\nrecovered = \"foot\"\n";
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.npz");
-    for (housing, nodes, place) in [
-        (PLANE, 24, "group = \"lower\""),
-        (SOLID, 72, "point = [0, 10e-3, 0]"),
-    ] {
+    for (housing, nodes, place) in [(PLANE, 24, "group = \"lower\""), (SOLID, 72, "point = [0, 10e-3, 0]")] {
         let sensors = format!("{ON_RING}{}{SIX}", of_housing(place));
         let before = original(housing, nodes, &sensors);
         write_superelement_npz(&path, &record_of(&before)).unwrap();
@@ -135,24 +121,16 @@ fn a_superelement_takes_the_place_of_the_housing_that_it_came_from() {
             assert_eq!(new.name, old.name);
             assert!(apart(&new.row, &old.row) < 1e-14, "{}", new.name);
         }
-        let (of_old, of_new) = (
-            compute_modes(&before, &Unwatched).unwrap(),
-            compute_modes(&after, &Unwatched).unwrap(),
-        );
+        let (of_old, of_new) =
+            (compute_modes(&before, &Unwatched).unwrap(), compute_modes(&after, &Unwatched).unwrap());
         let condensed: Vec<f64> = (0..12).map(|mode| old.modes.frequency_hz(mode)).collect();
         // two solvers of the same matrices
         assert!(apart(&of_new.base.unloaded_hz, &condensed) < 1e-10);
         assert!(apart(&of_new.base.frequencies_hz(), &of_old.base.frequencies_hz()) < 1e-10);
         assert!(of_new.survey.mass.is_none() && of_new.base.condensation_difference.is_none());
-        assert_eq!(
-            of_new.mode_shapes().points.unwrap().len(),
-            nodes,
-            "the ring alone"
-        );
-        let (of_old, of_new) = (
-            compute_run(&before, &Unwatched).unwrap().simulation,
-            compute_run(&after, &Unwatched).unwrap().simulation,
-        );
+        assert_eq!(of_new.mode_shapes().points.unwrap().len(), nodes, "the ring alone");
+        let (of_old, of_new) =
+            (compute_run(&before, &Unwatched).unwrap().simulation, compute_run(&after, &Unwatched).unwrap().simulation);
         assert!(of_new.statistics.steps > 200);
         assert_eq!(of_new.record.time_s, of_old.record.time_s);
         for (new, old) in of_new.record.sensors.iter().zip(&of_old.record.sensors) {
@@ -175,10 +153,7 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
             write_superelement_op4(&path, &record, format).unwrap();
             let stage = structure(&imported(&path, nodes, REST, ""));
             let old = structure(&before);
-            assert_eq!(
-                stage.modes.squared_frequencies,
-                old.modes.squared_frequencies
-            );
+            assert_eq!(stage.modes.squared_frequencies, old.modes.squared_frequencies);
             let found = stage.imported.unwrap();
             assert_eq!(found.record.interface.len(), record.interface.len());
             let file = path.display();
@@ -192,21 +167,11 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
                     format!(
                         "ring.outer_radius of the case does not act: {file} was condensed before, and does not say with which."
                     ),
-                    format!(
-                        "{file} has no array \"weight\": the weight of the housing does not act."
-                    ),
-                    format!(
-                        "The viscous damping in {file} is not used: [damping] of the case counts."
-                    ),
+                    format!("{file} has no array \"weight\": the weight of the housing does not act."),
+                    format!("The viscous damping in {file} is not used: [damping] of the case counts."),
                 ]
             );
-            assert!(
-                found
-                    .element
-                    .gravity_load([1.0, 1.0])
-                    .iter()
-                    .all(|&force| force == 0.0)
-            );
+            assert!(found.element.gravity_load([1.0, 1.0]).iter().all(|&force| force == 0.0));
         }
     }
     let record = record_of(&original(PLANE, 8, ""));
@@ -243,9 +208,7 @@ fn an_interface_that_is_not_the_ring_s_is_named() {
         "interface coordinate 3 (from 0): expected ring node 1, x, found ring node 1, y"
     );
     assert_eq!(
-        changed(|labels| labels
-            .iter_mut()
-            .for_each(|l| l.body = crate::formats::DofBody::Housing)),
+        changed(|labels| labels.iter_mut().for_each(|l| l.body = crate::formats::DofBody::Housing)),
         "interface coordinate 0 (from 0): expected ring node 0, x, found housing node 0, x"
     );
     assert_eq!(
@@ -253,27 +216,17 @@ fn an_interface_that_is_not_the_ring_s_is_named() {
         "interface coordinate 7 (from 0): expected ring node 2, y, found ring node 2, z"
     );
     let moved = changed(|labels| {
-        labels
-            .iter_mut()
-            .for_each(|label| label.position = label.position.map(|x| 1.01 * x));
+        labels.iter_mut().for_each(|label| label.position = label.position.map(|x| 1.01 * x));
     });
     assert!(
-        moved.starts_with(
-            "interface coordinate 0 (from 0), position in m of ring node 0, x: expected ["
-        ),
+        moved.starts_with("interface coordinate 0 (from 0), position in m of ring node 0, x: expected ["),
         "{moved}"
     );
     // a left-handed frame
     let turned = changed(|labels| labels[1].axis = labels[1].axis.map(|part| -part));
-    assert!(
-        turned.starts_with("interface coordinate 1 (from 0), axis of ring node 0, y: expected ["),
-        "{turned}"
-    );
+    assert!(turned.starts_with("interface coordinate 1 (from 0), axis of ring node 0, y: expected ["), "{turned}");
     let flat = changed(|labels| labels[2].axis = labels[0].axis);
-    assert!(
-        flat.starts_with("expected axes x and z of ring node 0 at right angles, found ["),
-        "{flat}"
-    );
+    assert!(flat.starts_with("expected axes x and z of ring node 0 at right angles, found ["), "{flat}");
     // what is not known passes
     let mut bare = whole.clone();
     for label in &mut bare.interface {
@@ -303,9 +256,7 @@ fn matrices_are_checked_at_the_door() {
     let case = imported(&path, 8, "", "");
     let ring = case.ring.as_ref().unwrap();
     let (found, _) = ImportedHousing::read(&case, ring, &path).unwrap();
-    let failed: Vec<&str> = (found.checks.iter().filter(|check| !check.ok()))
-        .map(|check| check.name)
-        .collect();
+    let failed: Vec<&str> = (found.checks.iter().filter(|check| !check.ok())).map(|check| check.name).collect();
     assert!(failed.contains(&"k_bq = 0"), "{failed:?}");
     let mut record = whole.clone();
     record.mass[(1, 1)] *= -1.0;
@@ -326,16 +277,10 @@ fn matrices_are_checked_at_the_door() {
     let other = path.with_extension("mat");
     fs::copy(&path, &other).unwrap();
     let error = CoupledStructure::build(&imported(&other, 8, "", ""), &Unwatched).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .ends_with(": expected a file that ends in .npz or .op4")
-    );
+    assert!(error.to_string().ends_with(": expected a file that ends in .npz or .op4"));
     let mut record = whole;
     let order = record.order();
-    record.structural = Some(DenseMatrix::from_fn(order, order, |i, j| {
-        1e-2 * record.stiffness[(i, j)]
-    }));
+    record.structural = Some(DenseMatrix::from_fn(order, order, |i, j| 1e-2 * record.stiffness[(i, j)]));
     write_superelement_npz(&path, &record).unwrap();
     let case = imported(&path, 8, REST, ON_RING);
     compute_modes(&case, &Unwatched).unwrap();
@@ -361,11 +306,7 @@ fn the_field_of_a_record_moves_the_nodes() {
     let found = &field.recovery * &coordinates;
     for node in 0..160 {
         for axis in 0..3 {
-            let expected = if axis < 2 {
-                expected[(2 * node + axis, 0)]
-            } else {
-                0.0
-            };
+            let expected = if axis < 2 { expected[(2 * node + axis, 0)] } else { 0.0 };
             // sums of a hundred terms in another order
             assert!((found[(3 * node + axis, 0)] - expected).abs() < 1e-12);
         }
@@ -410,9 +351,7 @@ fn a_run_says_what_its_superelement_leaves_out() {
         assert!((part.estimated_error.unwrap() / expected - 1.0).abs() < 1e-12);
         let warnings = choice.warnings();
         println!("{vectors}: {expected:e}, {warnings:?}");
-        let told = warnings
-            .iter()
-            .any(|text| text.contains("most of it of the superelement"));
+        let told = warnings.iter().any(|text| text.contains("most of it of the superelement"));
         assert_eq!(told, largest);
         assert_eq!(expected > choice.target, largest);
     }
@@ -423,10 +362,7 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
     let (_kept, path, record) = small();
     let nodes = record.interface.len() / 3;
     let doubts = |band_hz: Option<f64>| {
-        let record = SuperelementRecord {
-            band_hz,
-            ..record.clone()
-        };
+        let record = SuperelementRecord { band_hz, ..record.clone() };
         write_superelement_npz(&path, &record).unwrap();
         let case = imported(&path, nodes, REST, "");
         compute_modes(&case, &Unwatched).unwrap().doubts.join(" ")
@@ -436,11 +372,7 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
     assert!(!doubts(Some(1e9)).contains("superelement"));
     // a file that does not say its band: two thirds of its last vector close to others, and the twelve modes go up to 237 kHz
     let highest = |modal_hz: &[f64]| {
-        let record = SuperelementRecord {
-            band_hz: None,
-            modal_hz: modal_hz.to_vec(),
-            ..record.clone()
-        };
+        let record = SuperelementRecord { band_hz: None, modal_hz: modal_hz.to_vec(), ..record.clone() };
         let asked = imported(&path, nodes, REST, "");
         write_superelement_npz(&path, &record_of(&original(PLANE, 8, ""))).unwrap();
         let ring = asked.ring.as_ref().unwrap();
@@ -470,8 +402,7 @@ fn another_bore_than_the_condensed_one_is_refused() {
     };
     assert!(of(file).is_ok());
     let refused = of(1.0).unwrap_err();
-    let words =
-        format!("ring.outer_radius is 1 m, but the superelement was condensed with {file} m");
+    let words = format!("ring.outer_radius is 1 m, but the superelement was condensed with {file} m");
     assert!(refused.to_string().contains(&words), "{refused}");
     assert!(refused.help().expect("help").contains("condense again"));
 }

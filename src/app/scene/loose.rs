@@ -13,21 +13,15 @@ use crate::fe::reduction::{Check, ReductionError};
 ///
 /// # Errors
 /// [`ComputeError::LooseInterior`].
-pub(crate) fn check_interior(
-    housing: &AssembledHousing,
-    boundary: &Boundary,
-) -> Result<(), ComputeError> {
+pub(crate) fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(), ComputeError> {
     let partition = boundary.partition();
     if partition.driven.is_empty() || partition.interior.is_empty() {
         return Ok(()); // refused for this
     }
     let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
-    let found =
-        Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
+    let found = Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
     match unless_too_many_bodies(found)? {
-        Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior {
-            what: found.sentences(),
-        }),
+        Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior { what: found.sentences() }),
         _ => Ok(()),
     }
 }
@@ -35,9 +29,7 @@ pub(crate) fn check_interior(
 /// A reduction that failed at a degree of freedom of the housing, with the part that it belongs to.
 pub(crate) fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
     let dof = match error {
-        ReductionError::FloatingInterior { dof, .. } | ReductionError::SoftInterior { dof, .. } => {
-            dof
-        }
+        ReductionError::FloatingInterior { dof, .. } | ReductionError::SoftInterior { dof, .. } => dof,
         other => return other.into(),
     };
     let node = dof / model.dimension();
@@ -45,11 +37,7 @@ pub(crate) fn located(error: ReductionError, model: &HousingModel) -> ComputeErr
     let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
     let part = of_node.and_then(|element| model.part_names().get(element.part));
     match (part, model.node_tags.get(node)) {
-        (Some(part), Some(&tag)) => ComputeError::SoftPart {
-            part: part.clone(),
-            tag,
-            source: error,
-        },
+        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.clone(), tag, source: error },
         _ => error.into(),
     }
 }
@@ -63,10 +51,7 @@ pub(crate) fn name_mechanisms(
     housing: &AssembledHousing,
     boundary: &Boundary,
 ) -> Result<(), ComputeError> {
-    let Some(held) = checks
-        .iter_mut()
-        .find(|check| check.name == "held" && !check.ok())
-    else {
+    let Some(held) = checks.iter_mut().find(|check| check.name == "held" && !check.ok()) else {
         return Ok(());
     };
     let (mesh, model) = (&housing.mesh, &housing.model);

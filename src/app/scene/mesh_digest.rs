@@ -12,10 +12,7 @@ use crate::report::MeshFile;
 
 impl From<&FileDigest> for MeshFile {
     fn from(digest: &FileDigest) -> Self {
-        Self {
-            path: digest.path.display().to_string(),
-            hash: Some(format!("SHA-256 {}", digest.sha256)),
-        }
+        Self { path: digest.path.display().to_string(), hash: Some(format!("SHA-256 {}", digest.sha256)) }
     }
 }
 
@@ -25,10 +22,7 @@ impl From<&FileDigest> for MeshFile {
 /// [`ComputeError::Mesh`].
 pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
     let path = &housing.mesh;
-    let bytes = files::read(path).map_err(|cause| MeshError::Read {
-        path: path.clone(),
-        cause,
-    })?;
+    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
     Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
 }
@@ -79,17 +73,12 @@ mod tests {
             parts = [{ group = \"housing\", material = \"steel\" }]\n\
             [modes]\nvariants = [{ what = \"softer\", set = [\"housing.parts[0].material=aluminium\"] }, \
             { what = \"finer\", set = [\"housing.mesh=b.msh\"] }]\n";
-        let case = Case::from_source(Source {
-            path: folder.path().join("a.toml"),
-            text: text.to_owned(),
-            set: Vec::new(),
-        })
-        .unwrap();
+        let case =
+            Case::from_source(Source { path: folder.path().join("a.toml"), text: text.to_owned(), set: Vec::new() })
+                .unwrap();
         let found = mesh_digests(&case).unwrap();
-        let expected = [("a.msh", abc), ("b.msh", empty)].map(|(name, sha256)| FileDigest {
-            path: folder.path().join(name),
-            sha256: sha256.to_owned(),
-        });
+        let expected = [("a.msh", abc), ("b.msh", empty)]
+            .map(|(name, sha256)| FileDigest { path: folder.path().join(name), sha256: sha256.to_owned() });
         assert_eq!(found, expected);
         let file = MeshFile::from(&found[0]);
         assert_eq!(file.hash, Some(format!("SHA-256 {abc}")));

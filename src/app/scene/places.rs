@@ -76,22 +76,15 @@ impl Place {
         spot: &SensorSpot,
         direction: [f64; 3],
     ) -> Result<Self, ComputeError> {
-        let needs_housing = |place: String| ComputeError::SensorNeedsHousing {
-            name: name.to_string(),
-            place,
-        };
+        let needs_housing = |place: String| ComputeError::SensorNeedsHousing { name: name.to_string(), place };
         let (nodes, housing) = match (spot, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
-                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing {
-                    name: name.to_string(),
-                })?;
+                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing { name: name.to_string() })?;
                 let direction = unit(bodies.frame.vector(direction));
                 if !ring.is_in_space() {
                     in_plane(name, direction)?;
                 }
-                return Ok(Self::Ring(
-                    ring.displacement_row(degrees.to_radians(), direction),
-                ));
+                return Ok(Self::Ring(ring.displacement_row(degrees.to_radians(), direction)));
             }
             (SensorSpot::Recovered(row), _) => {
                 return Err(needs_housing(format!("row \"{row}\" of a superelement")));
@@ -205,20 +198,13 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
 fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], ComputeError> {
     let [x, y, across] = direction;
     if across.abs() > ACROSS {
-        return Err(ComputeError::SensorDirection {
-            name: name.to_string(),
-            across: (across * 1e6).round() / 1e6,
-        });
+        return Err(ComputeError::SensorDirection { name: name.to_string(), across: (across * 1e6).round() / 1e6 });
     }
     Ok([x, y, 0.0])
 }
 
 /// Something in a place's row can move.
-fn check_moves(
-    housing: &AssembledHousing,
-    name: Named<'_>,
-    entries: &[(usize, f64)],
-) -> Result<(), ComputeError> {
+fn check_moves(housing: &AssembledHousing, name: Named<'_>, entries: &[(usize, f64)]) -> Result<(), ComputeError> {
     let model = &housing.model;
     let d = model.dimension();
     let mut holder = None;
@@ -230,10 +216,7 @@ fn check_moves(
     }
     match holder {
         None => Ok(()),
-        Some(support) => Err(ComputeError::SensorHeld {
-            name: name.to_string(),
-            support: support.clone(),
-        }),
+        Some(support) => Err(ComputeError::SensorHeld { name: name.to_string(), support: support.clone() }),
     }
 }
 
@@ -255,45 +238,25 @@ pub(crate) fn nodes_at(
 }
 
 fn of_group(housing: &AssembledHousing, group: &str) -> Result<Vec<usize>, ComputeError> {
-    let group = housing
-        .model
-        .group_on_housing(&housing.mesh, group, "the sensor")?;
+    let group = housing.model.group_on_housing(&housing.mesh, group, "the sensor")?;
     let used = |node: &usize| housing.model.is_used(*node);
     Ok(group.nodes.iter().copied().filter(used).collect())
 }
 
-fn tagged_node(
-    housing: &AssembledHousing,
-    name: Named<'_>,
-    tag: u64,
-) -> Result<usize, ComputeError> {
-    let place = housing
-        .model
-        .node_tags
-        .iter()
-        .position(|&found| found == tag);
-    place
-        .filter(|&node| housing.model.is_used(node))
-        .ok_or_else(|| ComputeError::SensorNode {
-            name: name.to_string(),
-            tag,
-            in_mesh: place.is_some(),
-        })
+fn tagged_node(housing: &AssembledHousing, name: Named<'_>, tag: u64) -> Result<usize, ComputeError> {
+    let place = housing.model.node_tags.iter().position(|&found| found == tag);
+    place.filter(|&node| housing.model.is_used(node)).ok_or_else(|| ComputeError::SensorNode {
+        name: name.to_string(),
+        tag,
+        in_mesh: place.is_some(),
+    })
 }
 
-fn nearest_node(
-    housing: &AssembledHousing,
-    name: Named<'_>,
-    point: &[f64; 3],
-) -> Result<usize, ComputeError> {
+fn nearest_node(housing: &AssembledHousing, name: Named<'_>, point: &[f64; 3]) -> Result<usize, ComputeError> {
     let across = housing.model.dimension() == 3;
     let distance = |node: &[f64; 3]| {
         let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
-        if across {
-            plane.hypot(node[2] - point[2])
-        } else {
-            plane
-        }
+        if across { plane.hypot(node[2] - point[2]) } else { plane }
     };
     let bounds = BoundingBox::of(housing.mesh.nodes.iter().copied()).extent();
     let nodes = housing.mesh.nodes.iter().enumerate();
@@ -308,15 +271,7 @@ fn nearest_node(
             }
         }
     }
-    let missed = |distance| ComputeError::SensorPlace {
-        name: name.to_string(),
-        point: *point,
-        distance,
-    };
+    let missed = |distance| ComputeError::SensorPlace { name: name.to_string(), point: *point, distance };
     let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;
-    if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) {
-        Ok(index)
-    } else {
-        Err(missed(away))
-    }
+    if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) { Ok(index) } else { Err(missed(away)) }
 }

@@ -4,9 +4,7 @@ use super::condensed::CondensedHousing;
 use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::reduction::{
-    CharacteristicModes, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility,
-};
+use crate::fe::reduction::{CharacteristicModes, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility};
 
 /// A reduced interface and what it costs.
 #[derive(Debug, Clone)]
@@ -45,11 +43,7 @@ impl ReducedInterface {
         let attached = stage.boundary.attached();
         let (estimate, rises) = reduction.estimate(&stage.condensed, attached, estimate)?;
         let lost = modes.lost_flexibility(reduction.kept());
-        let reduced = Self {
-            reduction,
-            rises,
-            lost,
-        };
+        let reduced = Self { reduction, rises, lost };
         Ok(Some((reduced, estimate)))
     }
 }
@@ -62,12 +56,6 @@ pub(crate) fn characteristic_modes(
     stage: &CondensedHousing,
     matrices: &SystemMatrices,
 ) -> Result<CharacteristicModes, ComputeError> {
-    let rigid = stage
-        .rigid_motions()
-        .free_interface(&stage.condensed, matrices)?;
-    Ok(CharacteristicModes::of(
-        &stage.condensed.substructure,
-        stage.boundary.attached(),
-        &rigid,
-    )?)
+    let rigid = stage.rigid_motions().free_interface(&stage.condensed, matrices)?;
+    Ok(CharacteristicModes::of(&stage.condensed.substructure, stage.boundary.attached(), &rigid)?)
 }

@@ -69,14 +69,9 @@ impl CoupledStructure {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub(crate) fn with_modes(
-        case: &Case,
-        count: usize,
-        watch: &impl Watch,
-    ) -> Result<Option<Self>, ComputeError> {
+    pub(crate) fn with_modes(case: &Case, count: usize, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         let ring = case.ring.as_ref();
-        ring.map(|asked| Self::around_ring(case, asked, count, watch))
-            .transpose()
+        ring.map(|asked| Self::around_ring(case, asked, count, watch)).transpose()
     }
 
     /// The same around the ring that is asked for.
@@ -89,10 +84,7 @@ impl CoupledStructure {
         count: usize,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
-        let gravity = case
-            .shaft
-            .as_ref()
-            .map_or([0.0, -9.81], |shaft| shaft.gravity);
+        let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
         if case.condense.interface != Interface::Ring {
             return Err(ComputeError::InterfaceOfRing);
         }
@@ -121,12 +113,8 @@ impl CoupledStructure {
         let Some(stage) = CondensedHousing::with_basis(case, choice, watch)? else {
             let ring = ring(case, asked, false)?;
             let mut structure = Structure::ring_alone(ring, gravity);
-            let bodies = PlaceBodies {
-                housing: None,
-                ring: Some(structure.ring()),
-                tie: None,
-                frame: RingFrame::default(),
-            };
+            let bodies =
+                PlaceBodies { housing: None, ring: Some(structure.ring()), tie: None, frame: RingFrame::default() };
             let mut rows = Vec::with_capacity(case.sensors.len());
             for sensor in &case.sensors {
                 let name = Named::Sensor(&sensor.name);
@@ -141,12 +129,7 @@ impl CoupledStructure {
             rows.push(stage.place_of(sensor)?.reduced(&stage.condensed));
         }
         let complete_hz = stage.condensed.basis.complete_below().sqrt() / TAU;
-        let CondensedHousing {
-            housing,
-            boundary,
-            condensed,
-            ..
-        } = stage;
+        let CondensedHousing { housing, boundary, condensed, .. } = stage;
         let Boundary::Ring(bodies) = boundary else {
             return Err(ComputeError::InterfaceOfRing);
         };
@@ -155,18 +138,10 @@ impl CoupledStructure {
         add_sensors(&mut structure, &case.sensors, rows)?;
         let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
         let solved = Self::solved(structure, around, count, watch)?;
-        Ok(Self {
-            complete_hz,
-            ..solved
-        })
+        Ok(Self { complete_hz, ..solved })
     }
 
-    fn solved(
-        structure: Structure,
-        around: Around,
-        modes: usize,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    fn solved(structure: Structure, around: Around, modes: usize, watch: &impl Watch) -> Result<Self, ComputeError> {
         watch.stage("eigen");
         let mut stage = Self {
             modes: structure.lowest_modes(modes)?,
@@ -226,16 +201,9 @@ enum Around {
     Imported(Box<ImportedHousing>),
 }
 
-fn add_sensors(
-    structure: &mut Structure,
-    sensors: &[case::Sensor],
-    rows: Vec<Vec<f64>>,
-) -> Result<(), ComputeError> {
+fn add_sensors(structure: &mut Structure, sensors: &[case::Sensor], rows: Vec<Vec<f64>>) -> Result<(), ComputeError> {
     for (sensor, row) in sensors.iter().zip(rows) {
-        structure.add_sensor(Sensor {
-            name: sensor.name.clone(),
-            row,
-        })?;
+        structure.add_sensor(Sensor { name: sensor.name.clone(), row })?;
     }
     Ok(())
 }

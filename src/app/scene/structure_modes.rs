@@ -12,33 +12,20 @@ impl CoupledStructure {
     ///
     /// # Errors
     /// [`ComputeError`] of eigenvalue computation and analysis.
-    pub fn survey(
-        &self,
-        extent: ModeRange,
-        watch: &impl Watch,
-    ) -> Result<ModalSurvey, ComputeError> {
+    pub fn survey(&self, extent: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
         let ring = self.structure.ring();
         let range = extent;
         Ok(match (&self.housing, &self.tie) {
-            (
-                Some(AssembledHousing {
-                    mesh,
-                    model,
-                    matrices,
-                }),
-                Some(tie),
-            ) => ModalSurvey::of_coupled((mesh, model, matrices), tie, ring, range, watch)?,
+            (Some(AssembledHousing { mesh, model, matrices }), Some(tie)) => {
+                ModalSurvey::of_coupled((mesh, model, matrices), tie, ring, range, watch)?
+            }
             _ if self.imported.is_some() => self.survey_of_imported(range, watch)?,
             _ => ModalSurvey::of_ring(ring, range, watch)?,
         })
     }
 
     /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
-    fn survey_of_imported(
-        &self,
-        range: ModeRange,
-        watch: &impl Watch,
-    ) -> Result<ModalSurvey, ComputeError> {
+    fn survey_of_imported(&self, range: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
         let ring = self.structure.ring();
         let modes = FullModes::of(self.full_matrices(), range, watch)?;
         let of_ring = modes.motions().ring(&modes.over_all_rows());
@@ -61,10 +48,7 @@ impl CoupledStructure {
     /// [`ComputeError`] of eigenvalue computation.
     pub(crate) fn unloaded_modes(&self, extent: ModeRange) -> Result<UnloadedModes, ComputeError> {
         let basis = FullModes::of(self.full_matrices(), extent, &Unwatched)?.basis;
-        Ok(UnloadedModes {
-            frequencies_hz: basis.frequencies_hz,
-            rigid: basis.rigid_modes,
-        })
+        Ok(UnloadedModes { frequencies_hz: basis.frequencies_hz, rigid: basis.rigid_modes })
     }
 
     /// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.

@@ -87,18 +87,8 @@ fn thin_pinched() -> Result<Vec<Check>, VerificationError> {
         reason: "Stretch and shear, which the thin formula leaves out, add 1.8e-6.",
     };
     Ok(vec![
-        kind.check(
-            "Thin pinched ring: shortening",
-            shortening,
-            THIN_SHORTENING * unit,
-            3e-6,
-        ),
-        kind.check(
-            "Thin pinched ring: widening",
-            widening,
-            THIN_WIDENING * unit,
-            3e-6,
-        ),
+        kind.check("Thin pinched ring: shortening", shortening, THIN_SHORTENING * unit, 3e-6),
+        kind.check("Thin pinched ring: widening", widening, THIN_WIDENING * unit, 3e-6),
     ])
 }
 
@@ -120,17 +110,7 @@ fn thick_pinched() -> Result<Vec<Check>, VerificationError> {
         reason: "The element is exact at its nodes: rounding is left.",
     };
     Ok(vec![
-        kind.check(
-            "Thick pinched ring: shortening",
-            shortening,
-            exact.shortening,
-            1e-10,
-        ),
-        kind.check(
-            "Thick pinched ring: widening",
-            widening,
-            exact.widening,
-            1e-10,
-        ),
+        kind.check("Thick pinched ring: shortening", shortening, exact.shortening, 1e-10),
+        kind.check("Thick pinched ring: widening", widening, exact.widening, 1e-10),
     ])
 }

@@ -10,8 +10,8 @@ use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
-    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    Ring, RingTie, SpringStiffness, SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingTie,
+    SpringStiffness, SupportShare,
 };
 use crate::fe::reduction::{BasisChoice, BasisSize, Superelement, craig_bampton};
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, SparseCholesky, SparseMatrix, submatrix};
@@ -50,10 +50,7 @@ impl Housing {
                 group: "housing".to_owned(),
                 material: Material::new(72e9, 0.33, 2700.0)?.into(),
             }],
-            plane: Some(PlaneModel {
-                assumption: PlaneAssumption::Stress,
-                thickness: WIDTH,
-            }),
+            plane: Some(PlaneModel { assumption: PlaneAssumption::Stress, thickness: WIDTH }),
             supports: if supported { vec![springs] } else { Vec::new() },
             ..HousingDescription::default()
         };
@@ -71,34 +68,18 @@ impl Housing {
         let ring = Ring::new(72, section, RingInterpolation::ExactArc)?;
         let tie = RingTie::new(&mesh, &model, "bore", &ring, RADII[0], Fit::Bonded)?;
         let matrices = SystemMatrices::assemble(&model)?.for_tie(&tie);
-        Ok(Self {
-            model,
-            ring,
-            tie,
-            matrices,
-        })
+        Ok(Self { model, ring, tie, matrices })
     }
 
-    fn superelement(
-        &self,
-        fixed_interface_modes: usize,
-    ) -> Result<Superelement, VerificationError> {
-        let choice = BasisChoice {
-            size: BasisSize::Count(fixed_interface_modes),
-            enhanced: false,
-            band_hz: 40e3,
-        };
+    fn superelement(&self, fixed_interface_modes: usize) -> Result<Superelement, VerificationError> {
+        let choice = BasisChoice { size: BasisSize::Count(fixed_interface_modes), enhanced: false, band_hz: 40e3 };
         let condensed = craig_bampton(&self.matrices, self.tie.partition(), choice, None)?;
         Ok(condensed.superelement)
     }
 
     fn structure(&self, fixed_interface_modes: usize) -> Result<Structure, VerificationError> {
         let element = self.superelement(fixed_interface_modes)?;
-        Ok(Structure::with_housing(
-            self.ring.clone(),
-            &element,
-            GRAVITY,
-        )?)
+        Ok(Structure::with_housing(self.ring.clone(), &element, GRAVITY)?)
     }
 
     /// Ring and housing without any reduction: (K, M) over ring displacements, then interior ones.
@@ -106,8 +87,7 @@ impl Housing {
         let matrices = SystemMatrices::assemble(&self.model)?;
         let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring);
         let first = coupled.stiffness.rows() - self.ring.dof();
-        let (interior, ring): (Vec<usize>, Vec<usize>) =
-            coupled.free_dofs.iter().partition(|&&dof| dof < first);
+        let (interior, ring): (Vec<usize>, Vec<usize>) = coupled.free_dofs.iter().partition(|&&dof| dof < first);
         let order = [ring, interior].concat();
         let part = |whole: &SparseMatrix| submatrix(whole, &order, &order);
         Ok((part(&coupled.stiffness), part(&coupled.mass)))
@@ -127,14 +107,9 @@ pub(super) fn condensation() -> Result<SectionResult, VerificationError> {
     Ok(SectionResult::of_checks(TITLE, checks))
 }
 
-const MODEL: &str =
-    "Aluminium annulus 6-9 mm of Quad8, 4 mm wide, bonded to a steel ring of 72 beams";
+const MODEL: &str = "Aluminium annulus 6-9 mm of Quad8, 4 mm wide, bonded to a steel ring of 72 beams";
 
-fn frequencies(
-    housing: &Housing,
-    k: &SparseMatrix,
-    m: &SparseMatrix,
-) -> Result<Vec<Check>, VerificationError> {
+fn frequencies(housing: &Housing, k: &SparseMatrix, m: &SparseMatrix) -> Result<Vec<Check>, VerificationError> {
     let full = EigenProblem::new(k, m)?.lowest(6)?;
     let reduced = housing.structure(100)?.modes()?;
     let assumptions = format!("{MODEL}, on springs; 100 fixed-interface modes.");
@@ -167,27 +142,16 @@ fn statics(housing: &Housing, k: &SparseMatrix) -> Result<Check, VerificationErr
     SparseCholesky::new(k)?.solve_columns(&mut full)?;
     let structure = housing.structure(0)?;
     let reduced = structure.static_response(&load(structure.dof()))?;
-    let at = |x: &DenseMatrix| -> f64 {
-        rows.dofs
-            .iter()
-            .zip(rows.radial)
-            .map(|(&row, factor)| factor * x[(row, 0)])
-            .sum()
-    };
-    let assumptions =
-        format!("{MODEL}, on springs; no fixed-interface mode; radial force of 1 N at 63 degrees.");
+    let at =
+        |x: &DenseMatrix| -> f64 { rows.dofs.iter().zip(rows.radial).map(|(&row, factor)| factor * x[(row, 0)]).sum() };
+    let assumptions = format!("{MODEL}, on springs; no fixed-interface mode; radial force of 1 N at 63 degrees.");
     let kind = Kind {
         unit: "m",
         source: "the model that is not reduced, through the same tie",
         assumptions: &assumptions,
         reason: "Static response of the interface is exact: rounding times the condition of K is left.",
     };
-    Ok(kind.check(
-        "Condensed housing: static displacement",
-        at(&reduced),
-        at(&full),
-        1e-9,
-    ))
+    Ok(kind.check("Condensed housing: static displacement", at(&reduced), at(&full), 1e-9))
 }
 
 fn mass() -> Result<Vec<Check>, VerificationError> {
@@ -200,36 +164,15 @@ fn mass() -> Result<Vec<Check>, VerificationError> {
         (motion.transpose() * &element.mass * &motion)[(0, 0)]
     };
     let drawn = PI * (RADII[1].powi(2) - RADII[0].powi(2)) * WIDTH * 2700.0;
-    let assumptions =
-        format!("{MODEL}, free; 10 fixed-interface modes; mass in a rigid translation.");
-    let kind = |source, reason| Kind {
-        unit: "kg",
-        source,
-        assumptions: &assumptions,
-        reason,
-    };
-    let own = kind(
-        "the mesh's own mass",
-        "Constraint modes carry rigid motions to rounding times the condition of K_ii.",
-    );
-    let geometry = kind(
-        "closed form: rho pi (r_o^2 - r_i^2) w",
-        "Parabolas in the place of arcs: 2e-5 of the area.",
-    );
+    let assumptions = format!("{MODEL}, free; 10 fixed-interface modes; mass in a rigid translation.");
+    let kind = |source, reason| Kind { unit: "kg", source, assumptions: &assumptions, reason };
+    let own =
+        kind("the mesh's own mass", "Constraint modes carry rigid motions to rounding times the condition of K_ii.");
+    let geometry = kind("closed form: rho pi (r_o^2 - r_i^2) w", "Parabolas in the place of arcs: 2e-5 of the area.");
     let mesh = free.matrices.total_mass();
     Ok(vec![
-        own.check(
-            "Condensed housing: mass along x",
-            weigh(1.0, 0.0),
-            mesh,
-            1e-10,
-        ),
-        own.check(
-            "Condensed housing: mass along y",
-            weigh(0.0, 1.0),
-            mesh,
-            1e-10,
-        ),
+        own.check("Condensed housing: mass along x", weigh(1.0, 0.0), mesh, 1e-10),
+        own.check("Condensed housing: mass along y", weigh(0.0, 1.0), mesh, 1e-10),
         geometry.check("Mass of the annulus", mesh, drawn, 5e-5),
     ])
 }

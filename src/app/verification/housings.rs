@@ -12,8 +12,7 @@ use crate::fe::material::Material;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ModeRange, housing_modes};
 use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, SupportShare,
 };
 use crate::numerics::units::LengthUnit;
 
@@ -71,12 +70,7 @@ const SDLS109: Model = Model {
 pub(super) fn housings() -> Result<SectionResult, VerificationError> {
     let mut checks = fv32()?;
     checks.extend(fv52()?);
-    checks.extend(other_program(
-        "Pillow block",
-        "pedestal_10k",
-        "feet",
-        &PILLOW_BLOCK,
-    )?);
+    checks.extend(other_program("Pillow block", "pedestal_10k", "feet", &PILLOW_BLOCK)?);
     checks.extend(other_program("Annulus", "ring2d_quad8", "free", &ANNULUS)?);
     checks.extend(sdls109()?);
     Ok(SectionResult::of_checks(TITLE, checks))
@@ -87,10 +81,7 @@ fn elastic(model: &Model, count: usize) -> Result<Vec<f64>, VerificationError> {
     let mesh = Mesh::from_gmsh_bytes(model.mesh, Path::new("built-in mesh"), LengthUnit::Metre)?;
     let [young, poisson, density] = model.material;
     // the group that holds all elements of the highest dimension
-    let body = mesh
-        .groups
-        .iter()
-        .max_by_key(|group| (group.dimension, group.elements.len()));
+    let body = mesh.groups.iter().max_by_key(|group| (group.dimension, group.elements.len()));
     let supports = model.fixed.map(|(group, components)| HousingSupport {
         group: group.to_owned(),
         constraint: Constraint::Fixed(components),
@@ -101,21 +92,14 @@ fn elastic(model: &Model, count: usize) -> Result<Vec<f64>, VerificationError> {
             group: body.map_or_else(String::new, |group| group.name.clone()),
             material: Material::new(young, poisson, density)?.into(),
         }],
-        plane: model.thickness.map(|thickness| PlaneModel {
-            assumption: PlaneAssumption::Stress,
-            thickness,
-        }),
-        formulation: Formulation {
-            integration: Integration::FourPoint,
-            linear: LinearFormulation::Plain,
-        },
+        plane: model.thickness.map(|thickness| PlaneModel { assumption: PlaneAssumption::Stress, thickness }),
+        formulation: Formulation { integration: Integration::FourPoint, linear: LinearFormulation::Plain },
         supports: supports.into_iter().collect(),
         ..HousingDescription::default()
     };
     let housing = HousingModel::new(&mesh, description)?;
     let matrices = SystemMatrices::assemble(&housing)?;
-    let modes = housing_modes(&housing, matrices, ModeRange::Count(count + 6))
-        .map_err(ComputeError::from)?;
+    let modes = housing_modes(&housing, matrices, ModeRange::Count(count + 6)).map_err(ComputeError::from)?;
     let elastic = modes.frequencies_hz.into_iter().skip(modes.rigid_modes);
     Ok(elastic.take(count).collect())
 }
@@ -130,9 +114,7 @@ fn fv32() -> Result<Vec<Check>, VerificationError> {
     };
     let found = elastic(&FV32, published.len())?;
     let rows = (1..).zip(found.into_iter().zip(published));
-    Ok(rows
-        .map(|(mode, (found, hz))| kind.check(&format!("FV32, mode {mode}"), found, hz, 5e-5))
-        .collect())
+    Ok(rows.map(|(mode, (found, hz))| kind.check(&format!("FV32, mode {mode}"), found, hz, 5e-5)).collect())
 }
 
 fn fv52() -> Result<Vec<Check>, VerificationError> {
@@ -145,18 +127,11 @@ fn fv52() -> Result<Vec<Check>, VerificationError> {
     };
     let found = elastic(&FV52, published.len())?;
     let rows = (1..).zip(found.into_iter().zip(published));
-    Ok(rows
-        .map(|(mode, (found, hz))| kind.check(&format!("FV52, mode {mode}"), found, hz, 1e-3))
-        .collect())
+    Ok(rows.map(|(mode, (found, hz))| kind.check(&format!("FV52, mode {mode}"), found, hz, 1e-3)).collect())
 }
 
 /// The first five elastic frequencies against CalculiX's, as it prints them.
-fn other_program(
-    name: &str,
-    mesh: &str,
-    condition: &str,
-    model: &Model,
-) -> Result<Vec<Check>, VerificationError> {
+fn other_program(name: &str, mesh: &str, condition: &str, model: &Model) -> Result<Vec<Check>, VerificationError> {
     let all: Value = serde_json::from_str(FREQUENCIES).unwrap_or_default();
     let mut entries = all.as_array().into_iter().flatten();
     let entry = entries.find(|entry| entry["mesh"] == mesh && entry["bc"] == condition);
@@ -172,9 +147,7 @@ fn other_program(
     };
     let found = elastic(model, 5)?;
     let rows = (1..).zip(found.into_iter().zip(given));
-    Ok(rows
-        .map(|(mode, (found, hz))| kind.check(&format!("{name}, mode {mode}"), found, hz, 1e-5))
-        .collect())
+    Ok(rows.map(|(mode, (found, hz))| kind.check(&format!("{name}, mode {mode}"), found, hz, 1e-5)).collect())
 }
 
 fn sdls109() -> Result<Vec<Check>, VerificationError> {
@@ -188,7 +161,5 @@ fn sdls109() -> Result<Vec<Check>, VerificationError> {
     let found = elastic(&SDLS109, 8)?;
     let pairs = found.chunks_exact(2).map(|pair| pair[0]);
     let rows = (1..).zip(pairs.zip(elasticity));
-    Ok(rows
-        .map(|(pair, (found, hz))| kind.check(&format!("SDLS109, pair {pair}"), found, hz, 8e-4))
-        .collect())
+    Ok(rows.map(|(pair, (found, hz))| kind.check(&format!("SDLS109, pair {pair}"), found, hz, 8e-4)).collect())
 }

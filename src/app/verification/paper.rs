@@ -70,32 +70,14 @@ fn orders() -> Result<Vec<Check>, VerificationError> {
     };
     let unit = 1e-3;
     Ok(vec![
-        kind.check(
-            "Defect order, outer race",
-            orders.outer,
-            2.568,
-            unit / 2.568,
-        ),
-        kind.check(
-            "Defect order, inner race",
-            orders.inner,
-            4.432,
-            unit / 4.432,
-        ),
-        kind.check(
-            "Defect order, ball",
-            orders.ball_defect,
-            3.488,
-            unit / 3.488,
-        ),
+        kind.check("Defect order, outer race", orders.outer, 2.568, unit / 2.568),
+        kind.check("Defect order, inner race", orders.inner, 4.432, unit / 4.432),
+        kind.check("Defect order, ball", orders.ball_defect, 3.488, unit / 3.488),
     ])
 }
 
 fn contacts() -> Result<Vec<Check>, VerificationError> {
-    let steel = ContactMaterial {
-        young: 206e9,
-        poisson: 0.3,
-    };
+    let steel = ContactMaterial { young: 206e9, poisson: 0.3 };
     let geometry = BearingGeometry::new(BEARING)?;
     let contacts = RaceContacts::new(&geometry, steel, steel, steel)?;
     let kind = |unit, reason| Kind {
@@ -104,55 +86,22 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
         assumptions: "Table 1's radii, grooves concave across the rolling direction, inner race convex and outer race concave along it; ball and races of steel, 206 GPa, nu 0.3.",
         reason,
     };
-    let k = kind(
-        "N/m^1.5",
-        "The reference has four digits and is asked to 0.1 %.",
-    );
+    let k = kind("N/m^1.5", "The reference has four digits and is asked to 0.1 %.");
     let shape = kind("", "Half a unit in the reference's last digit.");
     let (inner, outer) = (contacts.inner, contacts.outer);
     Ok(vec![
-        k.check(
-            "Hertz stiffness, inner race",
-            inner.stiffness,
-            1.257e10,
-            1e-3,
-        ),
-        k.check(
-            "Hertz stiffness, outer race",
-            outer.stiffness,
-            1.129e10,
-            1e-3,
-        ),
+        k.check("Hertz stiffness, inner race", inner.stiffness, 1.257e10, 1e-3),
+        k.check("Hertz stiffness, outer race", outer.stiffness, 1.129e10, 1e-3),
         kind("N/m^1.5", "Half a unit in the last of three digits.").check(
             "Both contacts in series",
             contacts.stiffness().series(),
             4.21e9,
             0.5e-2 / 4.21,
         ),
-        shape.check(
-            "Curvature difference F, inner race",
-            inner.curvature_difference,
-            0.9451,
-            0.5e-4 / 0.9451,
-        ),
-        shape.check(
-            "Curvature difference F, outer race",
-            outer.curvature_difference,
-            0.8470,
-            0.5e-4 / 0.8470,
-        ),
-        shape.check(
-            "Ellipticity, inner race",
-            inner.ellipticity,
-            9.818,
-            0.5e-3 / 9.818,
-        ),
-        shape.check(
-            "Ellipticity, outer race",
-            outer.ellipticity,
-            5.065,
-            0.5e-3 / 5.065,
-        ),
+        shape.check("Curvature difference F, inner race", inner.curvature_difference, 0.9451, 0.5e-4 / 0.9451),
+        shape.check("Curvature difference F, outer race", outer.curvature_difference, 0.8470, 0.5e-4 / 0.8470),
+        shape.check("Ellipticity, inner race", inner.ellipticity, 9.818, 0.5e-3 / 9.818),
+        shape.check("Ellipticity, outer race", outer.ellipticity, 5.065, 0.5e-3 / 5.065),
     ])
 }
 
@@ -170,30 +119,15 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
     };
     let exact = "Seven digits are given; 1e-6.";
     Ok(vec![
-        kind("N/m^1.5", exact).check(
-            "Sphere on a flat: stiffness",
-            contact.stiffness,
-            1.087_857e10,
-            1e-6,
-        ),
-        kind("m", exact).check(
-            "Sphere on a flat: indentation",
-            peak.indentation,
-            1.171_042e-5,
-            1e-6,
-        ),
+        kind("N/m^1.5", exact).check("Sphere on a flat: stiffness", contact.stiffness, 1.087_857e10, 1e-6),
+        kind("m", exact).check("Sphere on a flat: indentation", peak.indentation, 1.171_042e-5, 1e-6),
         kind("N", "Half a unit in the last of five digits.").check(
             "Sphere on a flat: force",
             peak.force,
             435.94,
             0.5e-2 / 435.94,
         ),
-        kind("s", exact).check(
-            "Sphere on a flat: contact time",
-            peak.contact_time,
-            3.446_700e-5,
-            1e-6,
-        ),
+        kind("s", exact).check("Sphere on a flat: contact time", peak.contact_time, 3.446_700e-5, 1e-6),
     ])
 }
 
@@ -235,10 +169,7 @@ fn frequencies(result: &ModesResult) -> Vec<Check> {
 /// Section 4.1 has another figure for the ring than section 4.2.
 fn ring_at_35(result: &ModesResult) -> Option<Information> {
     let loaded = result.base.loaded.as_ref()?;
-    let lower = loaded
-        .modes
-        .iter()
-        .find(|mode| !mode.is_ball_mode() && mode.frequency_hz > 20e3)?;
+    let lower = loaded.modes.iter().find(|mode| !mode.is_ball_mode() && mode.frequency_hz > 20e3)?;
     Some(Information {
         name: "Eigenfrequency: ring, two waves, the lower of the pair".to_owned(),
         section: TITLE.to_owned(),
@@ -275,9 +206,7 @@ fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, Verific
     let spacing = 2.0 * PI / f64::from(BEARING.balls);
     let equilibria = |result: &ModesResult| {
         let statics = result.statics.iter();
-        statics
-            .flat_map(|statics| statics.equilibria.clone())
-            .collect::<Vec<_>>()
+        statics.flat_map(|statics| statics.equilibria.clone()).collect::<Vec<_>>()
     };
     let kind = |unit, source, reason| Kind {
         unit,
@@ -286,16 +215,11 @@ fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, Verific
         reason,
     };
     let share = weight / (2.0 * (0.5 * spacing).cos());
-    let balance = kind(
-        "N",
-        "statics",
-        "Balls above rest on the inner race: 7e-4 N in all, 5e-4 of the weight.",
-    );
+    let balance = kind("N", "statics", "Balls above rest on the inner race: 7e-4 N in all, 5e-4 of the weight.");
     let shared = equilibria(two);
     let force = |ball: usize| {
         let rest = shared.first();
-        rest.and_then(|rest| rest.balls.get(ball))
-            .map_or(f64::NAN, |ball| ball.inner)
+        rest.and_then(|rest| rest.balls.get(ball)).map_or(f64::NAN, |ball| ball.inner)
     };
     let last = BEARING.balls as usize - 1;
     let over_one = equilibria(one);
@@ -316,18 +240,8 @@ fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, Verific
     );
     Ok(vec![
         balance.check("Two balls below: force on the one", force(0), share, 1e-3),
-        balance.check(
-            "Two balls below: force on the other",
-            force(last),
-            share,
-            1e-3,
-        ),
-        balance.check(
-            "One ball below (a saddle): its force",
-            below.map_or(f64::NAN, |ball| ball.inner),
-            weight,
-            1e-3,
-        ),
+        balance.check("Two balls below: force on the other", force(last), share, 1e-3),
+        balance.check("One ball below (a saddle): its force", below.map_or(f64::NAN, |ball| ball.inner), weight, 1e-3),
         geometry.check("One ball below: the shaft leans by", lean, expected, 1e-2),
     ])
 }

@@ -187,13 +187,7 @@ impl SectionResult {
         for check in &mut checks {
             title.clone_into(&mut check.section);
         }
-        Self {
-            title: title.to_owned(),
-            checks,
-            information: Vec::new(),
-            report: Vec::new(),
-            orders: None,
-        }
+        Self { title: title.to_owned(), checks, information: Vec::new(), report: Vec::new(), orders: None }
     }
 
     /// The checks as a table for the report and the terminal.
@@ -257,8 +251,7 @@ impl SectionResult {
             table = table.row([
                 Cell::text(&row.name),
                 Cell::number(row.computed, 5),
-                row.source_value
-                    .map_or_else(|| Cell::text("–"), |value| Cell::number(value, 4)),
+                row.source_value.map_or_else(|| Cell::text("–"), |value| Cell::number(value, 4)),
                 Cell::text(&row.unit),
                 Cell::text(&row.assumptions),
             ]);
@@ -270,9 +263,7 @@ impl SectionResult {
     pub(crate) fn sections(&self) -> Vec<Section> {
         let mut first = Section::new(&self.title);
         if !self.checks.is_empty() {
-            first = first
-                .table(self.check_table())
-                .table(self.assumption_table());
+            first = first.table(self.check_table()).table(self.assumption_table());
         }
         if let Some(table) = self.information_table() {
             first = first.table(table);
@@ -287,11 +278,7 @@ impl SectionResult {
 
 /// A number of per cent with its sign, two significant digits.
 pub(super) fn signed(value: f64) -> String {
-    if value > 0.0 {
-        format!("+{}", significant(value, 2))
-    } else {
-        significant(value, 2)
-    }
+    if value > 0.0 { format!("+{}", significant(value, 2)) } else { significant(value, 2) }
 }
 
 #[cfg(test)]

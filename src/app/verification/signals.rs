@@ -14,7 +14,8 @@ use crate::signal::{Butterworth, FilterBand, WindowFunction, amplitude_spectrum,
 /// Title of the section.
 const TITLE: &str = "Signals";
 /// The source's dent in the outer race.
-const DENT: &str = "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
+const DENT: &str =
+    "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
 
 /// Carries the section out.
 ///
@@ -48,21 +49,13 @@ fn sine() -> Result<Vec<Check>, VerificationError> {
     };
     let of = |pick: fn(&crate::signal::Peak) -> f64| peak.as_ref().map_or(f64::NAN, pick);
     Ok(vec![
-        kind(
-            "Hz",
-            "An eighth of the bins' distance over the frequency: 1e-4.",
-        )
-        .check(
+        kind("Hz", "An eighth of the bins' distance over the frequency: 1e-4.").check(
             "Sine: frequency of the peak",
             of(|peak| peak.frequency_hz),
             hz,
             1e-4,
         ),
-        kind(
-            "m/s^2",
-            "A bin beside the top of Hann's main lobe, 4 Hz wide, loses up to 2e-3.",
-        )
-        .check(
+        kind("m/s^2", "A bin beside the top of Hann's main lobe, 4 Hz wide, loses up to 2e-3.").check(
             "Sine: amplitude of the peak",
             of(|peak| peak.amplitude),
             2.0,
@@ -147,10 +140,7 @@ fn dent() -> Result<Vec<Check>, VerificationError> {
     let orders = BallRow::new(BEARING.balls, 2.0 * BEARING.ball_radius, pitch, 0.0)?.orders();
     let found = run.windows.first().and_then(|window| {
         let verdict = window.diagnosis.as_ref().ok()?;
-        let named = verdict
-            .faults
-            .iter()
-            .find(|fault| fault.fault == Fault::OuterRace)?;
+        let named = verdict.faults.iter().find(|fault| fault.fault == Fault::OuterRace)?;
         named.order
     });
     let kind = Kind {
@@ -160,10 +150,5 @@ fn dent() -> Result<Vec<Check>, VerificationError> {
         reason: "Half the resolution of 8 turns, over four harmonics and the order: 1 %.",
     };
     let found = found.unwrap_or(f64::NAN);
-    Ok(vec![kind.check(
-        "Dent in the outer race: order found",
-        found,
-        orders.outer,
-        0.01,
-    )])
+    Ok(vec![kind.check("Dent in the outer race: order found", found, orders.outer, 0.01)])
 }

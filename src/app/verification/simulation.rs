@@ -78,33 +78,16 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
     };
     let mut checks = Vec::new();
     let spectral_radius = 0.8;
-    for method in [
-        Method::Exponential,
-        Method::NewmarkExplicit,
-        Method::Newmark,
-        Method::GeneralizedAlpha { spectral_radius },
-    ] {
+    for method in
+        [Method::Exponential, Method::NewmarkExplicit, Method::Newmark, Method::GeneralizedAlpha { spectral_radius }]
+    {
         let mut sphere = Sphere {
-            linear: [LinearCoordinate {
-                squared_frequency: 0.0,
-                damping: 0.0,
-            }],
-            law: HertzContact {
-                stiffness,
-                damping: 0.0,
-            },
+            linear: [LinearCoordinate { squared_frequency: 0.0, damping: 0.0 }],
+            law: HertzContact { stiffness, damping: 0.0 },
             mass,
         };
-        let mut state = State {
-            t: 0.0,
-            y: vec![0.0],
-            v: vec![1.0],
-        };
-        let schedule = Schedule {
-            interval: 1.1 * expected.contact_time,
-            steps_per_interval: 1100,
-            intervals: 1,
-        };
+        let mut state = State { t: 0.0, y: vec![0.0], v: vec![1.0] };
+        let schedule = Schedule { interval: 1.1 * expected.contact_time, steps_per_interval: 1100, intervals: 1 };
         let mut peak = Peak::default();
         let go_on = |_, _| Stepping::Continue;
         integrate(&mut sphere, method, &schedule, &mut state, &mut peak, go_on)?;
@@ -142,20 +125,14 @@ fn energy() -> Result<Vec<Check>, VerificationError> {
             "A force on damage of the outer race is taken at a displacement that may be wrong by 1e-5 of itself.",
         ),
     ] {
-        let run = compute_run(
-            &built_in(&format!("{name}.toml"), text, &precise)?,
-            &Unwatched,
-        )?;
+        let run = compute_run(&built_in(&format!("{name}.toml"), text, &precise)?, &Unwatched)?;
         let kind = Kind {
             unit: "of all that flowed",
             source: "first law: loads and prescribed rotation, less damping, is what is stored",
             assumptions: "examples/scenes, 0.5 ms from rest by dop853, seven modes and the residual; 1 is a balance that closes.",
             reason,
         };
-        let error = run
-            .simulation
-            .energy
-            .map_or(f64::NAN, |energy| energy.error());
+        let error = run.simulation.energy.map_or(f64::NAN, |energy| energy.error());
         let name = format!("Balance of energy, scene {name}");
         checks.push(kind.check(&name, 1.0 + error, 1.0, limit));
     }

@@ -14,10 +14,7 @@ use crate::numerics::Watch;
 ///
 /// # Errors
 /// [`VerificationError`] if something built in cannot be computed; a number that is wrong is no error.
-pub(crate) fn suite(
-    full: bool,
-    watch: &impl Watch,
-) -> Result<Vec<SectionResult>, VerificationError> {
+pub(crate) fn suite(full: bool, watch: &impl Watch) -> Result<Vec<SectionResult>, VerificationError> {
     watch.stage("beams");
     let mut sections = vec![beams()?];
     watch.stage("housings");
@@ -43,17 +40,9 @@ mod tests {
 
     /// The sections without the paper's numbers, which have tests of their own.
     fn checks() -> Vec<Check> {
-        let sections = [
-            beams().unwrap(),
-            housings().unwrap(),
-            condensation().unwrap(),
-            simulation().unwrap(),
-            signals().unwrap(),
-        ];
-        sections
-            .into_iter()
-            .flat_map(|section| section.checks)
-            .collect()
+        let sections =
+            [beams().unwrap(), housings().unwrap(), condensation().unwrap(), simulation().unwrap(), signals().unwrap()];
+        sections.into_iter().flat_map(|section| section.checks).collect()
     }
 
     #[test]
@@ -64,13 +53,7 @@ mod tests {
             assert!(check.ok(), "{}", check.line());
             // a limit that nothing could exceed says nothing
             assert!(check.limit < 0.05, "{}", check.line());
-            for text in [
-                &check.name,
-                &check.section,
-                &check.source,
-                &check.assumptions,
-                &check.reason,
-            ] {
+            for text in [&check.name, &check.section, &check.source, &check.assumptions, &check.reason] {
                 assert!(!text.is_empty(), "{check:?}");
             }
         }

@@ -18,8 +18,6 @@ const GROUP_N: [(f64, f64, f64, f64); 7] = [
 pub fn normal_clearance(bore: f64) -> Option<[f64; 2]> {
     // bores of the table are whole millimetres: rounding must not put one into the next row
     let bore = 1e3 * bore - 1e-6;
-    let row = GROUP_N
-        .iter()
-        .find(|&&(above, up_to, ..)| bore > above && bore <= up_to);
+    let row = GROUP_N.iter().find(|&&(above, up_to, ..)| bore > above && bore <= up_to);
     row.map(|&(_, _, least, most)| [1e-6 * least, 1e-6 * most])
 }

@@ -26,12 +26,8 @@ impl Source {
     #[must_use]
     pub fn citation(self) -> &'static str {
         match self {
-            Self::Gmn => {
-                "GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), pp. 52-55"
-            }
-            Self::Timken => {
-                "Timken, Products catalog (2014), section D: MM9100K p. D84, MM200K p. D96, MM300K p. D106"
-            }
+            Self::Gmn => "GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), pp. 52-55",
+            Self::Timken => "Timken, Products catalog (2014), section D: MM9100K p. D84, MM200K p. D96, MM300K p. D106",
         }
     }
 }

@@ -58,11 +58,6 @@ impl OuterRingSection {
         let second = self.inertia + self.area * self.radius.powi(2)
             - (cut_second + 2.0 * centre * cut_first + cut * centre.powi(2));
         let radius = first / area;
-        Self {
-            area,
-            radius,
-            inertia: second - area * radius.powi(2),
-            axial_inertia: self.axial_inertia - across,
-        }
+        Self { area, radius, inertia: second - area * radius.powi(2), axial_inertia: self.axial_inertia - across }
     }
 }

@@ -102,10 +102,7 @@ impl CatalogueBearing {
             return Vec::new();
         }
         let off = |bearing: &Self| bearing.outer_diameter / outer_diameter - 1.0;
-        let least = Self::all()
-            .iter()
-            .map(|bearing| off(bearing).abs())
-            .fold(f64::INFINITY, f64::min);
+        let least = Self::all().iter().map(|bearing| off(bearing).abs()).fold(f64::INFINITY, f64::min);
         let near = Self::all().iter().filter(|bearing| {
             // equal diameters are equal numbers of the table
             off(bearing).abs() <= least * (1.0 + 1e-9)

@@ -14,21 +14,14 @@ fn every_bearing_is_one_that_can_be_built() {
         let name = bearing.name;
         let (race, inner) = (bearing.outer_race_diameter(), bearing.inner_race_diameter());
         // the rings have material at the grooves' bottoms; 607 has the balls of 626 and a thinner inner ring
-        assert!(
-            inner > bearing.bore + 0.8e-3 && race < bearing.outer_diameter - 1e-3,
-            "{name}"
-        );
+        assert!(inner > bearing.bore + 0.8e-3 && race < bearing.outer_diameter - 1e-3, "{name}");
         // balls fit, with room for a cage
-        let pitch =
-            bearing.pitch_diameter * (std::f64::consts::PI / f64::from(bearing.balls)).sin();
+        let pitch = bearing.pitch_diameter * (std::f64::consts::PI / f64::from(bearing.balls)).sin();
         assert!(pitch > 1.05 * bearing.ball_diameter, "{name}");
         assert!(bearing.ball_diameter < 0.9 * bearing.width, "{name}");
         // the shoulders lie between the balls' centres and the groove's bottom
         if let Some(shoulder) = bearing.shoulder_diameter {
-            assert!(
-                shoulder > bearing.pitch_diameter && shoulder < race,
-                "{name}"
-            );
+            assert!(shoulder > bearing.pitch_diameter && shoulder < race, "{name}");
         }
         // a bearing is steel and air
         let around = bearing.outer_diameter.powi(2) - bearing.bore.powi(2);
@@ -57,26 +50,13 @@ fn bores_follow_from_the_names() {
 /// 6203 with 8 balls 3.053, 4.947 and 0.3816.
 #[test]
 fn orders_are_those_of_published_measurements() {
-    for (name, outer, inner, cage) in [
-        ("6205", 3.585, 5.415, 0.3983),
-        ("6203", 3.053, 4.947, 0.3816),
-    ] {
+    for (name, outer, inner, cage) in [("6205", 3.585, 5.415, 0.3983), ("6203", 3.053, 4.947, 0.3816)] {
         let bearing = named(name);
-        let (balls, ratio) = (
-            f64::from(bearing.balls),
-            bearing.ball_diameter / bearing.pitch_diameter,
-        );
-        let orders = [
-            0.5 * balls * (1.0 - ratio),
-            0.5 * balls * (1.0 + ratio),
-            0.5 * (1.0 - ratio),
-        ];
+        let (balls, ratio) = (f64::from(bearing.balls), bearing.ball_diameter / bearing.pitch_diameter);
+        let orders = [0.5 * balls * (1.0 - ratio), 0.5 * balls * (1.0 + ratio), 0.5 * (1.0 - ratio)];
         for (found, expected) in orders.into_iter().zip([outer, inner, cage]) {
             // pitch diameters of 39.1 and 39.04 mm differ by 1.5e-3, which the orders feel by a fifth
-            assert!(
-                (found / expected - 1.0).abs() < 5e-4,
-                "{name}: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 5e-4, "{name}: {found} {expected}");
         }
     }
 }
@@ -99,9 +79,7 @@ fn the_mean_of_bore_and_outer_diameter_is_near_the_pitch_diameter() {
 fn names_are_found_with_suffixes_and_once() {
     for bearing in CatalogueBearing::all() {
         assert_eq!(CatalogueBearing::named(bearing.name), Some(bearing));
-        let twice = CatalogueBearing::all()
-            .iter()
-            .filter(|b| b.name == bearing.name);
+        let twice = CatalogueBearing::all().iter().filter(|b| b.name == bearing.name);
         assert_eq!(twice.count(), 1);
     }
     for name in [" 6205 ", "6205-2RS", "6205 2Z", "6205/C3"] {
@@ -145,20 +123,13 @@ fn clearances_are_those_of_the_row() {
     ] {
         let found = normal_clearance(bore);
         let near = match (found, expected) {
-            (Some(found), Some(expected)) => found
-                .iter()
-                .zip(expected)
-                .all(|(a, b)| (a - b).abs() < 1e-12),
+            (Some(found), Some(expected)) => found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12),
             (None, None) => true,
             _ => false,
         };
         assert!(near, "{bore}: {found:?}");
     }
-    assert!(
-        CatalogueBearing::all()
-            .iter()
-            .all(|b| normal_clearance(b.bore).is_some())
-    );
+    assert!(CatalogueBearing::all().iter().all(|b| normal_clearance(b.bore).is_some()));
 }
 
 /// Against strips of the section across the radius, added up.
@@ -166,10 +137,7 @@ fn clearances_are_those_of_the_row() {
 fn the_section_is_the_rectangle_less_the_groove() {
     let bearing = named("6205");
     let section = OuterRingSection::of(bearing);
-    let (outer, shoulder) = (
-        0.5 * bearing.outer_diameter,
-        0.5 * bearing.shoulder_diameter.unwrap(),
-    );
+    let (outer, shoulder) = (0.5 * bearing.outer_diameter, 0.5 * bearing.shoulder_diameter.unwrap());
     let groove = GROOVES[1] * bearing.ball_diameter;
     let centre = 0.5 * bearing.outer_race_diameter() - groove;
     let strips = 200_000;
@@ -200,10 +168,6 @@ fn the_section_is_the_rectangle_less_the_groove() {
         let mass = STEEL * section.area * std::f64::consts::TAU * section.radius;
         let share = mass / bearing.mass;
         assert!((0.25..0.65).contains(&share), "{}: {share}", bearing.name);
-        assert!(
-            section.inertia > 0.0 && section.axial_inertia > section.inertia,
-            "{}",
-            bearing.name
-        );
+        assert!(section.inertia > 0.0 && section.axial_inertia > section.inertia, "{}", bearing.name);
     }
 }

@@ -34,23 +34,14 @@ impl Arc {
         let centre_depth = radius - carrier + depth;
         let square = depth * (2.0 * radius + depth) / (4.0 * carrier * centre_depth);
         let half_angle = 2.0 * square.clamp(0.0, 1.0).sqrt().asin();
-        Self {
-            radius,
-            centre_depth,
-            half_angle,
-            wall: (carrier * half_angle.sin() / radius).asin(),
-            loss,
-        }
+        Self { radius, centre_depth, half_angle, wall: (carrier * half_angle.sin() / radius).asin(), loss }
     }
 
     #[inline]
     pub(super) fn at(&self, t: f64) -> CurvePoint {
         let out = Vector::radial(t).scaled(self.radius);
         CurvePoint {
-            point: Vector {
-                along: out.along,
-                outward: out.outward - self.centre_depth,
-            },
+            point: Vector { along: out.along, outward: out.outward - self.centre_depth },
             first: out.tangent(),
             second: out.scaled(-1.0),
         }
@@ -68,10 +59,7 @@ impl Arc {
     pub(super) fn polar_radius(&self, offset: f64) -> f64 {
         let (sin, cos) = offset.sin_cos();
         let across = self.centre_depth * sin;
-        (self.radius * self.radius - across * across)
-            .max(0.0)
-            .sqrt()
-            - self.centre_depth * cos
+        (self.radius * self.radius - across * across).max(0.0).sqrt() - self.centre_depth * cos
     }
 }
 

@@ -62,15 +62,9 @@ impl Brackets {
                 cut(profile, number, stretch, &mut nodes);
             }
         }
-        let windows: Vec<Option<[f64; 2]>> = nodes
-            .windows(2)
-            .map(|pair| pair[0].piece.map(|_| window(&profile.circles, pair)))
-            .collect();
-        let half_angle = windows
-            .iter()
-            .flatten()
-            .flatten()
-            .fold(profile_angle, |most, angle| most.max(angle.abs()));
+        let windows: Vec<Option<[f64; 2]>> =
+            nodes.windows(2).map(|pair| pair[0].piece.map(|_| window(&profile.circles, pair))).collect();
+        let half_angle = windows.iter().flatten().flatten().fold(profile_angle, |most, angle| most.max(angle.abs()));
         let count = (2 * nodes.len()).clamp(16, 4096);
         let mut found = Self {
             nodes,
@@ -99,13 +93,7 @@ impl Brackets {
     /// Calls `touched` for every foot of `centre`, which lies at `offset` (rad) within the half angle, in order;
     /// feet that are seen to be out of the ball's reach are left out.
     #[inline]
-    pub(super) fn feet(
-        &self,
-        profile: &Profile,
-        centre: Vector,
-        offset: f64,
-        mut touched: impl FnMut(CurvePoint),
-    ) {
+    pub(super) fn feet(&self, profile: &Profile, centre: Vector, offset: f64, mut touched: impl FnMut(CurvePoint)) {
         let [first, past] = self.cells[self.cell(offset)];
         let Some(nodes) = self.nodes.get(first..past) else {
             return;
@@ -136,17 +124,9 @@ impl Brackets {
     fn slope(&self, index: usize, node: &Node, centre: Vector, offset: f64) -> f64 {
         let g = node.point.minus(centre).dot(node.first);
         if index == 0 {
-            if offset >= -self.profile_angle {
-                g.min(0.0)
-            } else {
-                g.max(f64::MIN_POSITIVE)
-            }
+            if offset >= -self.profile_angle { g.min(0.0) } else { g.max(f64::MIN_POSITIVE) }
         } else if index + 1 == self.nodes.len() {
-            if offset < self.profile_angle {
-                g.max(f64::MIN_POSITIVE)
-            } else {
-                g.min(0.0)
-            }
+            if offset < self.profile_angle { g.max(f64::MIN_POSITIVE) } else { g.min(0.0) }
         } else {
             g
         }
@@ -198,12 +178,7 @@ fn cut(profile: &Profile, number: usize, [low, high]: [f64; 2], nodes: &mut Vec<
     let piece = &profile.pieces[number];
     let node = |angle: f64, piece_behind| {
         let CurvePoint { point, first, .. } = profile.at(piece, angle);
-        Node {
-            point,
-            first,
-            angle,
-            piece: piece_behind,
-        }
+        Node { point, first, angle, piece: piece_behind }
     };
     match nodes.last_mut() {
         Some(last) if last.angle.to_bits() == low.to_bits() => last.piece = Some(number),
@@ -223,10 +198,7 @@ fn window(circles: &Circles, ends: &[Node]) -> [f64; 2] {
     let angle = |vector: Vector| vector.along.atan2(vector.outward);
     let mut window = [f64::INFINITY, f64::NEG_INFINITY];
     for node in ends {
-        let inward = node
-            .first
-            .normal()
-            .scaled(circles.side / node.first.length());
+        let inward = node.first.normal().scaled(circles.side / node.first.length());
         let farthest = angle(node.point.minus(inward.scaled(circles.roller)));
         for angle in [node.angle, farthest] {
             window = [window[0].min(angle), window[1].max(angle)];

@@ -74,10 +74,7 @@ impl DefectContacts {
             normal_tangential: 0.0,
             stiffness: 0.0,
         };
-        Self {
-            items: [blank; MOST_CONTACTS],
-            count: 0,
-        }
+        Self { items: [blank; MOST_CONTACTS], count: 0 }
     }
 
     /// Takes all contacts out.
@@ -129,9 +126,7 @@ impl DefectContacts {
     /// The contacts that press, δ > 0, in order of angle; a NaN overlap is passed on, to show itself in the force.
     #[inline]
     pub fn pressing(&self) -> impl Iterator<Item = &DefectContact> {
-        self.as_slice()
-            .iter()
-            .filter(|contact| contact.delta > 0.0 || contact.delta.is_nan())
+        self.as_slice().iter().filter(|contact| contact.delta > 0.0 || contact.delta.is_nan())
     }
 }
 
@@ -144,10 +139,7 @@ mod tests {
         let mut found = DefectContacts::none();
         let overlaps = [5.0, 3.0, 9.0, 1.0, 7.0, 2.0, 8.0, 6.0];
         for delta in overlaps.into_iter().chain([4.0, 0.5, 10.0]) {
-            found.push(DefectContact {
-                delta,
-                ..DefectContacts::none().items[0]
-            });
+            found.push(DefectContact { delta, ..DefectContacts::none().items[0] });
         }
         let kept: Vec<f64> = found.pressing().map(|c| c.delta).collect();
         assert_eq!(kept, [5.0, 3.0, 9.0, 7.0, 8.0, 6.0, 4.0, 10.0]);

@@ -33,9 +33,7 @@ impl CurvePoint {
         Self {
             point: e.scaled(r),
             first: e.scaled(r_1).plus(e_phi.scaled(r * phi_1)),
-            second: e
-                .scaled(r_2 - r * phi_1 * phi_1)
-                .plus(e_phi.scaled(2.0 * r_1 * phi_1 + r * phi_2)),
+            second: e.scaled(r_2 - r * phi_1 * phi_1).plus(e_phi.scaled(2.0 * r_1 * phi_1 + r * phi_2)),
         }
     }
 

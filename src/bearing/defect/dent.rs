@@ -68,10 +68,7 @@ impl DentShape {
         positive("depth", self.depth)?;
         positive("rim_radius", self.rim_radius)?;
         if self.depth > DEPTH_LIMIT * self.length {
-            return Err(DefectError::TooDeep {
-                depth: self.depth,
-                length: self.length,
-            });
+            return Err(DefectError::TooDeep { depth: self.depth, length: self.length });
         }
         Ok(())
     }

@@ -27,9 +27,7 @@ pub(super) fn rim_rules(circles: &Circles, rim_radius: f64) -> Result<(), Defect
         Err(DefectError::Value { key, value, rule })
     };
     if rim_radius < LEAST_RIM * circles.carrier {
-        return refused(
-            "must be at least a millionth of the radius of the race or ball that it rounds",
-        );
+        return refused("must be at least a millionth of the radius of the race or ball that it rounds");
     }
     if circles.side < 0.0 && rim_radius > RIM_LIMIT * circles.carrier {
         return refused("must be at most half the radius of the race or ball that it rounds");
@@ -73,29 +71,16 @@ impl Depression {
         let length = floor.length(&circles);
         let limit = 2.0 * FRAC_PI_4 * circles.carrier;
         if length > limit {
-            return Err(DefectError::TooLong {
-                length,
-                opened: length,
-                limit,
-            });
+            return Err(DefectError::TooLong { length, opened: length, limit });
         }
         rim_rules(&circles, rim_radius)?;
         let rim = Rim::new(&circles, &floor, rim_radius);
         let opened = 2.0 * rim.angle * circles.carrier;
         if opened > OPENING_LIMIT * length {
-            return Err(DefectError::RimTooLarge {
-                rim_radius,
-                length,
-                opened,
-                limit: OPENING_LIMIT,
-            });
+            return Err(DefectError::RimTooLarge { rim_radius, length, opened, limit: OPENING_LIMIT });
         }
         if opened > limit {
-            return Err(DefectError::TooLong {
-                length,
-                opened,
-                limit,
-            });
+            return Err(DefectError::TooLong { length, opened, limit });
         }
         let reach = floor.reach(&circles, rim.joint);
         let shortfall = (circles.relative - floor_base).max(0.0);
@@ -143,9 +128,7 @@ impl Depression {
         if offset >= self.rim.angle {
             self.circles.carrier
         } else {
-            self.rim
-                .polar_radius(&self.circles, offset)
-                .unwrap_or_else(|| self.floor.polar_radius(offset))
+            self.rim.polar_radius(&self.circles, offset).unwrap_or_else(|| self.floor.polar_radius(offset))
         }
     }
 }

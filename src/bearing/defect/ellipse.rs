@@ -48,8 +48,7 @@ impl Ellipse {
     #[inline]
     pub(super) fn foot(&self, centre: Vector, limit: f64) -> (f64, CurvePoint) {
         let bottom = self.carrier + self.side * self.depth;
-        let concavity =
-            self.side / self.carrier + self.depth / (self.half_length * self.half_length);
+        let concavity = self.side / self.carrier + self.depth / (self.half_length * self.half_length);
         // Linear about the middle: the foot moves 1/(1 − κ d) times as far as the ball.
         let stretch = 1.0 - concavity * self.side * (bottom - centre.outward);
         let start = centre.along / (self.half_length * stretch.max(0.2));
@@ -70,27 +69,14 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    const OUTER: Ellipse = Ellipse {
-        carrier: 4.7565e-3,
-        side: 1.0,
-        half_length: 0.375e-3,
-        depth: 15e-6,
-    };
-    const INNER: Ellipse = Ellipse {
-        carrier: 2.754e-3,
-        side: -1.0,
-        half_length: 0.4e-3,
-        depth: 15e-6,
-    };
+    const OUTER: Ellipse = Ellipse { carrier: 4.7565e-3, side: 1.0, half_length: 0.375e-3, depth: 15e-6 };
+    const INNER: Ellipse = Ellipse { carrier: 2.754e-3, side: -1.0, half_length: 0.4e-3, depth: 15e-6 };
 
     /// Radii 3.16 mm (concave) and 3.71 mm (convex) where depth is measured from the race. The exact polar
     /// curve differs by twice b/R_0 where the race's curvature is larger than the ellipse's: 1 % for the inner race.
     #[test]
     fn bottoms_of_the_source_dents() {
-        for (floor, bottom, radius, concavity) in [
-            (OUTER, 4.7715e-3, 3.16e-3, 1.0),
-            (INNER, 2.739e-3, 3.71e-3, -1.0),
-        ] {
+        for (floor, bottom, radius, concavity) in [(OUTER, 4.7715e-3, 3.16e-3, 1.0), (INNER, 2.739e-3, 3.71e-3, -1.0)] {
             let at = floor.at(0.0);
             assert_relative_eq!(at.point.outward, bottom, max_relative = 1e-14);
             let total = floor.side / floor.carrier + floor.curvature(0.0);

@@ -59,9 +59,7 @@ pub enum DefectError {
         limit: f64,
     },
     /// The defect, rims included, is longer than a quarter of the race (or ball) that carries it.
-    #[error(
-        "defect length {length} m ({opened} m with its rims) is more than a quarter of the race, {limit} m"
-    )]
+    #[error("defect length {length} m ({opened} m with its rims) is more than a quarter of the race, {limit} m")]
     TooLong {
         /// Length without rims, m.
         length: f64,
@@ -125,10 +123,6 @@ pub(super) fn finite_angle(angle: f64) -> Result<(), DefectError> {
     if angle.is_finite() {
         Ok(())
     } else {
-        Err(DefectError::Value {
-            key: "angle_deg",
-            value: angle.to_degrees(),
-            rule: "must be finite",
-        })
+        Err(DefectError::Value { key: "angle_deg", value: angle.to_degrees(), rule: "must be finite" })
     }
 }

@@ -21,10 +21,7 @@ impl Fade {
     /// Gone `early` (1/m) before the roller's own curvature.
     pub(super) fn new(circles: &Circles, early: f64) -> Self {
         let roller = circles.roller_curvature();
-        Self {
-            gone: roller - early,
-            width: (1.0 - FLOOR_FADE) * (roller - circles.carrier_concavity()),
-        }
+        Self { gone: roller - early, width: (1.0 - FLOOR_FADE) * (roller - circles.carrier_concavity()) }
     }
 
     /// Whether a profile of this concave curvature is touched at all.

@@ -57,11 +57,7 @@ impl BallFlat {
     /// # Errors
     /// [`DefectError`]: values that are not positive or R_2 out of range; a flat longer than a quarter of the
     /// ball, or nearly taken away by its rims.
-    pub fn new(
-        bearing: &BearingGeometry,
-        shape: FlatShape,
-        stiffness: ContactStiffness,
-    ) -> Result<Self, DefectError> {
+    pub fn new(bearing: &BearingGeometry, shape: FlatShape, stiffness: ContactStiffness) -> Result<Self, DefectError> {
         positive("flat_radius", shape.radius)?;
         positive("depth", shape.depth)?;
         positive("rim_radius", shape.rim_radius)?;
@@ -87,12 +83,7 @@ impl BallFlat {
             let base = circles.relative;
             Depression::new(bearing, race, circles, floor, shape.rim_radius, base)
         };
-        Ok(Self {
-            shape,
-            included_angle: 2.0 * arc.half_angle,
-            inner: solve(Race::Inner)?,
-            outer: solve(Race::Outer)?,
-        })
+        Ok(Self { shape, included_angle: 2.0 * arc.half_angle, inner: solve(Race::Inner)?, outer: solve(Race::Outer)? })
     }
 
     /// What was asked for.
@@ -151,13 +142,7 @@ impl BallFlat {
 
     /// [`Self::contacts`] in the place of what was found before.
     #[inline]
-    pub fn contacts_into(
-        &self,
-        race: Race,
-        spin_angle: f64,
-        radius: f64,
-        found: &mut DefectContacts,
-    ) {
+    pub fn contacts_into(&self, race: Race, spin_angle: f64, radius: f64, found: &mut DefectContacts) {
         let offset = offset(race, spin_angle);
         self.on(race).contacts_into(radius, offset, found);
     }

@@ -83,17 +83,8 @@ impl Floor {
             return None;
         }
         let meets_rim = touchable(joint);
-        let parameter = if meets_rim {
-            joint
-        } else {
-            bisect(0.0, joint, touchable)
-        };
+        let parameter = if meets_rim { joint } else { bisect(0.0, joint, touchable) };
         let end = self.at(parameter);
-        Some(Reach {
-            parameter,
-            end_point: end.point,
-            end_tangent: end.tangent(),
-            meets_rim,
-        })
+        Some(Reach { parameter, end_point: end.point, end_tangent: end.tangent(), meets_rim })
     }
 }

@@ -59,14 +59,8 @@ impl MeasuredProfile {
         let circles = Circles::race(bearing, race, stiffness);
         let [first, last] = samples_check::span(samples, FRAC_PI_2 * circles.carrier)?;
         let start = 0.5 * (first + last);
-        let knots: Vec<(f64, f64)> = samples
-            .iter()
-            .map(|&(s, depth)| ((s - start) / circles.carrier, depth))
-            .collect();
-        let profile = Profile {
-            circles,
-            pieces: spline::through(&knots),
-        };
+        let knots: Vec<(f64, f64)> = samples.iter().map(|&(s, depth)| ((s - start) / circles.carrier, depth)).collect();
+        let profile = Profile { circles, pieces: spline::through(&knots) };
         let sharpest = sharpest(&profile)?;
         let half_angle = 0.5 * (last - first) / circles.carrier;
         let most = circles.relative + (sharpest + circles.carrier_concavity()).max(0.0);
@@ -190,11 +184,6 @@ fn sharpest(profile: &Profile) -> Result<f64, DefectError> {
     if steepest <= STEEPEST {
         Ok(sharpest)
     } else {
-        Err(DefectError::Steep {
-            sample: sample + 1,
-            next: sample + 2,
-            slope: steepest,
-            limit: STEEPEST,
-        })
+        Err(DefectError::Steep { sample: sample + 1, next: sample + 2, slope: steepest, limit: STEEPEST })
     }
 }

@@ -43,12 +43,7 @@ impl Depression {
 
     /// Contact on the floor, if the roller's foot lies where it can touch.
     #[inline]
-    fn floor_contact(
-        &self,
-        centre: Vector,
-        mirrored: Vector,
-        direction: Vector,
-    ) -> Option<DefectContact> {
+    fn floor_contact(&self, centre: Vector, mirrored: Vector, direction: Vector) -> Option<DefectContact> {
         let reach = self.reach.as_ref()?;
         let circles = &self.circles;
         let inside = |centre: Vector| {
@@ -64,12 +59,8 @@ impl Depression {
         let (t, foot) = self.floor.foot(circles, centre, reach.parameter);
         let inward = foot.inward(circles.side);
         let distance = foot.point.minus(centre).dot(inward);
-        let weight = if reach.meets_rim {
-            1.0
-        } else {
-            self.fade
-                .weight(foot.concavity(circles.side) + self.shortfall)
-        };
+        let weight =
+            if reach.meets_rim { 1.0 } else { self.fade.weight(foot.concavity(circles.side) + self.shortfall) };
         let stiffness = weight * self.stiffness.at(self.floor_curvature(t));
         let delta = circles.roller - distance;
         Some(circles.contact(Feature::Floor, delta, inward, direction, stiffness))

@@ -64,9 +64,7 @@ impl Rim {
             at.point.plus(at.inward(side).scaled(radius))
         };
         let level = circles.carrier + side * radius;
-        let joint = bisect(0.0, floor.wall(), |t| {
-            side * (centre(t).length() - level) > 0.0
-        });
+        let joint = bisect(0.0, floor.wall(), |t| side * (centre(t).length() - level) > 0.0);
         let at = floor.at(joint);
         let found = centre(joint);
         let angle = found.along.atan2(found.outward);
@@ -129,9 +127,7 @@ impl Rim {
         }
         let ray = Vector::radial(offset);
         let across = self.centre.dot(ray.tangent());
-        let half_chord = (self.radius * self.radius - across * across)
-            .max(0.0)
-            .sqrt();
+        let half_chord = (self.radius * self.radius - across * across).max(0.0).sqrt();
         Some(self.centre.dot(ray) - circles.side * half_chord)
     }
 
@@ -253,12 +249,7 @@ mod tests {
             (circles, Floor::Arc(Arc::new(1e-3, 2e-3, 10e-6, 0.0)), 5e-5)
         };
         let mut turning = 0;
-        for (circles, floor, radius) in [
-            steep(Race::Outer),
-            steep(Race::Inner),
-            flat(Race::Outer),
-            flat(Race::Inner),
-        ] {
+        for (circles, floor, radius) in [steep(Race::Outer), steep(Race::Inner), flat(Race::Outer), flat(Race::Inner)] {
             let rim = Rim::new(&circles, &floor, radius);
             let end = rim.sine_end.asin();
             let mut farthest = f64::NEG_INFINITY;

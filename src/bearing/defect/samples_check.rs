@@ -41,11 +41,7 @@ pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], Defec
     }
     let length = last.0 - first.0;
     if length > limit {
-        return Err(DefectError::TooLong {
-            length,
-            opened: length,
-            limit,
-        });
+        return Err(DefectError::TooLong { length, opened: length, limit });
     }
     let deep = |&(_, depth): &(f64, f64)| depth.abs() > DEPTH_LIMIT * length;
     if let Some(index) = samples.iter().position(deep) {
@@ -56,19 +52,11 @@ pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], Defec
 }
 
 fn too_few(count: usize) -> DefectError {
-    DefectError::TooFewSamples {
-        count,
-        least: LEAST_KNOTS,
-    }
+    DefectError::TooFewSamples { count, least: LEAST_KNOTS }
 }
 
 fn refused(index: usize, what: &'static str, value: f64, rule: &'static str) -> DefectError {
-    DefectError::Sample {
-        sample: index + 1,
-        what,
-        value,
-        rule,
-    }
+    DefectError::Sample { sample: index + 1, what, value, rule }
 }
 
 #[cfg(test)]
@@ -83,30 +71,16 @@ mod tests {
     fn every_rule_names_the_sample() {
         let good = [(0.0, 0.0), (1e-4, 1e-6), (2e-4, 2e-6), (3e-4, 0.0)];
         assert_eq!(span(&good, 1e-2), Ok([0.0, 3e-4]));
-        assert_eq!(
-            message(&[]),
-            "defect profile has 0 samples: it needs at least 4"
-        );
-        assert_eq!(
-            message(&good[..3]),
-            "defect profile has 3 samples: it needs at least 4"
-        );
+        assert_eq!(message(&[]), "defect profile has 0 samples: it needs at least 4");
+        assert_eq!(message(&good[..3]), "defect profile has 3 samples: it needs at least 4");
         let with = |index: usize, sample| {
             let mut samples = good;
             samples[index] = sample;
             message(&samples)
         };
         for (index, sample, expected) in [
-            (
-                2,
-                (f64::NAN, 0.0),
-                "defect profile, sample 3: arc length NaN m must be finite",
-            ),
-            (
-                1,
-                (1e-4, f64::INFINITY),
-                "defect profile, sample 2: depth inf m must be finite",
-            ),
+            (2, (f64::NAN, 0.0), "defect profile, sample 3: arc length NaN m must be finite"),
+            (1, (1e-4, f64::INFINITY), "defect profile, sample 2: depth inf m must be finite"),
             (
                 2,
                 (1e-4, 0.0),

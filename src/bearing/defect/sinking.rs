@@ -30,11 +30,7 @@ pub(super) fn deepest(profile: &Profile, half_angle: f64) -> f64 {
         points.iter().fold(f64::INFINITY, |least, point| {
             let across = point.dot(e.tangent());
             let rest = circles.roller * circles.roller - across * across;
-            if rest > 0.0 {
-                least.min(circles.side * point.dot(e) - rest.sqrt() - plain)
-            } else {
-                least
-            }
+            if rest > 0.0 { least.min(circles.side * point.dot(e) - rest.sqrt() - plain) } else { least }
         })
     };
     let step = 2.0 * half_angle / POSITIONS as f64;

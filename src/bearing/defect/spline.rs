@@ -33,11 +33,7 @@ impl Piece {
     pub(super) fn at(&self, angle: f64) -> [f64; 3] {
         let x = angle - self.ends[0];
         let [c0, c1, c2, c3] = self.coefficients;
-        [
-            c0 + x * (c1 + x * (c2 + x * c3)),
-            c1 + x * (2.0 * c2 + x * (3.0 * c3)),
-            2.0 * c2 + x * (6.0 * c3),
-        ]
+        [c0 + x * (c1 + x * (c2 + x * c3)), c1 + x * (2.0 * c2 + x * (3.0 * c3)), 2.0 * c2 + x * (6.0 * c3)]
     }
 }
 
@@ -59,16 +55,8 @@ pub(super) fn through(knots: &[(f64, f64)]) -> Vec<Piece> {
     let (h, y) = (width(0), depth(1));
     let end = EndPair::new(h, y, bend[1]);
     let middle = knots[0].0 + 0.5 * h;
-    pieces.push(Piece {
-        ends: [knots[0].0, middle],
-        coefficients: [0.0, 0.0, 0.0, end.c],
-        sample: 0,
-    });
-    pieces.push(Piece {
-        ends: [middle, knots[1].0],
-        coefficients: end.past_half(1.0, end.c + end.e),
-        sample: 0,
-    });
+    pieces.push(Piece { ends: [knots[0].0, middle], coefficients: [0.0, 0.0, 0.0, end.c], sample: 0 });
+    pieces.push(Piece { ends: [middle, knots[1].0], coefficients: end.past_half(1.0, end.c + end.e), sample: 0 });
     for i in 1..last - 1 {
         let h = width(i);
         pieces.push(Piece {
@@ -87,19 +75,10 @@ pub(super) fn through(knots: &[(f64, f64)]) -> Vec<Piece> {
     let middle = knots[last].0 - 0.5 * h;
     pieces.push(Piece {
         ends: [knots[last - 1].0, middle],
-        coefficients: [
-            y,
-            -3.0 * h * h * (end.c + 0.25 * end.e),
-            0.5 * bend[last - 1],
-            -(end.c + end.e),
-        ],
+        coefficients: [y, -3.0 * h * h * (end.c + 0.25 * end.e), 0.5 * bend[last - 1], -(end.c + end.e)],
         sample: last - 1,
     });
-    pieces.push(Piece {
-        ends: [middle, knots[last].0],
-        coefficients: end.past_half(-1.0, -end.c),
-        sample: last - 1,
-    });
+    pieces.push(Piece { ends: [middle, knots[last].0], coefficients: end.past_half(-1.0, -end.c), sample: last - 1 });
     pieces
 }
 
@@ -114,11 +93,7 @@ impl EndPair {
     /// From depth and second derivative at the sample next to the end.
     fn new(h: f64, depth: f64, bend: f64) -> Self {
         let e = (bend - 6.0 * depth / (h * h)) * 4.0 / (9.0 * h);
-        Self {
-            h,
-            c: depth / (h * h * h) - 0.125 * e,
-            e,
-        }
+        Self { h, c: depth / (h * h * h) - 0.125 * e, e }
     }
 
     /// Coefficients from the middle knot on, `way` +1 away from the start of the profile, −1 towards its end.
@@ -174,11 +149,7 @@ impl Profile {
     pub(super) fn at(&self, piece: &Piece, angle: f64) -> CurvePoint {
         let [depth, slope, bend] = piece.at(angle);
         let Circles { carrier, side, .. } = self.circles;
-        CurvePoint::polar(
-            Vector::radial(angle),
-            [carrier + side * depth, side * slope, side * bend],
-            [1.0, 0.0],
-        )
+        CurvePoint::polar(Vector::radial(angle), [carrier + side * depth, side * slope, side * bend], [1.0, 0.0])
     }
 }
 

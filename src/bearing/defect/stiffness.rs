@@ -49,12 +49,7 @@ impl CurvatureStiffness {
     ///
     /// # Errors
     /// [`HertzError`] if Hertz theory refuses a node.
-    pub(super) fn new(
-        bearing: &BearingGeometry,
-        race: Race,
-        circles: &Circles,
-        most: f64,
-    ) -> Result<Self, HertzError> {
+    pub(super) fn new(bearing: &BearingGeometry, race: Race, circles: &Circles, most: f64) -> Result<Self, HertzError> {
         let least = LEAST_RELATIVE * circles.relative;
         Self::over(bearing, race, circles, [least, most])
     }
@@ -88,19 +83,10 @@ impl CurvatureStiffness {
             let value = per_modulus(bearing, race, log.exp())?;
             let above = per_modulus(bearing, race, (log + SLOPE_STEP).exp())?;
             let below = per_modulus(bearing, race, (log - SLOPE_STEP).exp())?;
-            nodes.push(Node {
-                value,
-                rise: (above - below) / (2.0 * SLOPE_STEP) * step,
-            });
+            nodes.push(Node { value, rise: (above - below) / (2.0 * SLOPE_STEP) * step });
         }
-        let mut table = Self {
-            least,
-            most,
-            across: across(bearing, race),
-            log_least: least.ln(),
-            per_log: 1.0 / step,
-            nodes,
-        };
+        let mut table =
+            Self { least, most, across: across(bearing, race), log_least: least.ln(), per_log: 1.0 / step, nodes };
         let scale = circles.stiffness / table.at(circles.relative);
         for node in &mut table.nodes {
             node.value *= scale;
@@ -117,8 +103,7 @@ impl CurvatureStiffness {
         let x = place - index as f64;
         let (from, to) = (self.nodes[index], self.nodes[index + 1]);
         let y = 1.0 - x;
-        (from.value * (1.0 + 2.0 * x) + from.rise * x) * (y * y)
-            + (to.value * (1.0 + 2.0 * y) - to.rise * y) * (x * x)
+        (from.value * (1.0 + 2.0 * x) + from.rise * x) * (y * y) + (to.value * (1.0 + 2.0 * y) - to.rise * y) * (x * x)
     }
 
     /// k of two relative principal curvatures (1/m, in any order), N/m^{3/2}; the lesser counts as no less than
@@ -141,15 +126,8 @@ pub(super) fn across(bearing: &BearingGeometry, race: Race) -> f64 {
 ///
 /// # Errors
 /// [`HertzError`] for a curvature that is zero or negative: the surfaces conform.
-pub(super) fn per_modulus(
-    bearing: &BearingGeometry,
-    race: Race,
-    curvature: f64,
-) -> Result<f64, HertzError> {
-    let bodies = PrincipalCurvatures {
-        plane_1: across(bearing, race),
-        plane_2: curvature,
-    };
+pub(super) fn per_modulus(bearing: &BearingGeometry, race: Race, curvature: f64) -> Result<f64, HertzError> {
+    let bodies = PrincipalCurvatures { plane_1: across(bearing, race), plane_2: curvature };
     Ok(hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0)?.stiffness)
 }
 
@@ -166,13 +144,7 @@ mod tests {
     }
 
     fn table_of(stiffness: ContactStiffness) -> CurvatureStiffness {
-        CurvatureStiffness::new(
-            &source_bearing(),
-            Race::Outer,
-            &circles(stiffness),
-            21_000.0,
-        )
-        .unwrap()
+        CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles(stiffness), 21_000.0).unwrap()
     }
 
     fn table() -> CurvatureStiffness {
@@ -187,28 +159,17 @@ mod tests {
     #[test]
     fn race_itself_and_a_given_stiffness() {
         let race = 1e3 - 1.0 / 4.7565e-3;
-        assert_relative_eq!(
-            table().at(race),
-            source_stiffness().outer(),
-            max_relative = 1e-14
-        );
+        assert_relative_eq!(table().at(race), source_stiffness().outer(), max_relative = 1e-14);
         let given = table_of(ContactStiffness::given(1e9, 3.867e9).unwrap());
         assert_relative_eq!(given.at(race), 3.867e9, max_relative = 1e-14);
         let ratio = given.at(5e3) / table().at(5e3);
-        assert_relative_eq!(
-            ratio,
-            3.867e9 / source_stiffness().outer(),
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(ratio, 3.867e9 / source_stiffness().outer(), max_relative = 1e-12);
     }
 
     #[test]
     fn a_conforming_pair_is_refused() {
         let refused = per_modulus(&source_bearing(), Race::Inner, 0.0);
-        assert!(matches!(
-            refused,
-            Err(HertzError::CurvatureDifference { .. })
-        ));
+        assert!(matches!(refused, Err(HertzError::CurvatureDifference { .. })));
         let refused = per_modulus(&source_bearing(), Race::Inner, -50.0);
         assert!(matches!(refused, Err(HertzError::CurvatureSum { .. })));
     }
@@ -216,9 +177,7 @@ mod tests {
     #[test]
     fn table_falls_and_is_held_at_its_ends() {
         let table = table();
-        let k: Vec<f64> = (0..4000)
-            .map(|i| table.at(8.0 * (f64::from(i) / 500.0).exp()))
-            .collect();
+        let k: Vec<f64> = (0..4000).map(|i| table.at(8.0 * (f64::from(i) / 500.0).exp())).collect();
         assert!(k.windows(2).all(|pair| pair[1] <= pair[0]));
         assert_relative_eq!(table.at(-50.0), table.at(7.8));
         assert_relative_eq!(table.at(1e9), table.at(21_000.0));
@@ -244,25 +203,15 @@ mod tests {
     #[test]
     fn pairs_agree_with_hertz() {
         let circles = circles(source_stiffness());
-        let table =
-            CurvatureStiffness::for_pairs(&source_bearing(), Race::Outer, &circles, 21_000.0)
-                .unwrap();
+        let table = CurvatureStiffness::for_pairs(&source_bearing(), Race::Outer, &circles, 21_000.0).unwrap();
         let modulus = hertz::effective_modulus([206e9; 2], [0.3; 2]).unwrap();
         let least = LEAST_RELATIVE * (1e3 - 1.0 / 1.07e-3);
         for one in [1.0, 20.0, 65.0, 790.0, 21_000.0] {
             for other in [0.1, 3.0, 65.0, 400.0, 20_000.0] {
-                let bodies = PrincipalCurvatures {
-                    plane_1: one,
-                    plane_2: f64::max(other, least),
-                };
-                let direct =
-                    hertz::stiffness(bodies, PrincipalCurvatures::flat(), modulus).unwrap();
+                let bodies = PrincipalCurvatures { plane_1: one, plane_2: f64::max(other, least) };
+                let direct = hertz::stiffness(bodies, PrincipalCurvatures::flat(), modulus).unwrap();
                 // 80 intervals over a ratio of 3e5
-                assert_relative_eq!(
-                    table.of_pair([one, other]),
-                    direct.stiffness,
-                    max_relative = 2e-7
-                );
+                assert_relative_eq!(table.of_pair([one, other]), direct.stiffness, max_relative = 2e-7);
                 assert_relative_eq!(table.of_pair([other, one]), table.of_pair([one, other]));
             }
         }

@@ -18,43 +18,28 @@ impl Vector {
     /// A quarter turn clockwise: the counter-clockwise tangent of a radial vector.
     #[inline]
     pub(super) fn tangent(self) -> Self {
-        Self {
-            along: self.outward,
-            outward: -self.along,
-        }
+        Self { along: self.outward, outward: -self.along }
     }
 
     /// A quarter turn counter-clockwise: the outward normal of a tangent.
     #[inline]
     pub(super) fn normal(self) -> Self {
-        Self {
-            along: -self.outward,
-            outward: self.along,
-        }
+        Self { along: -self.outward, outward: self.along }
     }
 
     #[inline]
     pub(super) fn scaled(self, factor: f64) -> Self {
-        Self {
-            along: factor * self.along,
-            outward: factor * self.outward,
-        }
+        Self { along: factor * self.along, outward: factor * self.outward }
     }
 
     #[inline]
     pub(super) fn plus(self, other: Self) -> Self {
-        Self {
-            along: self.along + other.along,
-            outward: self.outward + other.outward,
-        }
+        Self { along: self.along + other.along, outward: self.outward + other.outward }
     }
 
     #[inline]
     pub(super) fn minus(self, other: Self) -> Self {
-        Self {
-            along: self.along - other.along,
-            outward: self.outward - other.outward,
-        }
+        Self { along: self.along - other.along, outward: self.outward - other.outward }
     }
 
     #[inline]
@@ -70,9 +55,6 @@ impl Vector {
     /// Mirror image in the defect's middle.
     #[inline]
     pub(super) fn mirrored(self) -> Self {
-        Self {
-            along: -self.along,
-            outward: self.outward,
-        }
+        Self { along: -self.along, outward: self.outward }
     }
 }

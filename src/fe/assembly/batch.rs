@@ -47,21 +47,14 @@ pub(super) fn in_batches(
             for (to, &node) in coordinates.iter_mut().zip(nodes) {
                 *to = model.coordinates[node];
             }
-            compute(element, &coordinates[..nodes.len()], out)
-                .err()
-                .map(|source| (element.tag, Box::new(source)))
+            compute(element, &coordinates[..nodes.len()], out).err().map(|source| (element.tag, Box::new(source)))
         });
         if let Some((tag, source)) = failed {
             let path = model.path.clone();
             return Err(ModelError::Element { path, tag, source });
         }
-        let locals: Vec<Local<'_>> = work
-            .iter()
-            .map(|(element, out)| Local {
-                nodes: model.elements.nodes(element),
-                matrix: out,
-            })
-            .collect();
+        let locals: Vec<Local<'_>> =
+            work.iter().map(|(element, out)| Local { nodes: model.elements.nodes(element), matrix: out }).collect();
         consume(&locals);
     }
     Ok(())

@@ -3,8 +3,7 @@
 use super::SystemMatrices;
 use crate::fe::model::{HousingModel, Ring, RingTie};
 use crate::numerics::linalg::{
-    DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense,
-    transpose_times_dense,
+    DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, transpose_times_dense,
 };
 
 /// Stiffness and mass over the housing's degrees of freedom, then the ring's; one of the two may be missing. Rows and
@@ -60,17 +59,8 @@ impl CoupledMatrices {
         Self {
             stiffness: with_ring(&matrices.stiffness, ring.stiffness()),
             mass: with_ring(&matrices.mass, ring.mass()),
-            free_dofs: partition
-                .interior
-                .iter()
-                .copied()
-                .chain(ring_dofs)
-                .collect(),
-            motions: CoupledMotions {
-                recovery,
-                housing_dof,
-                ring_dof: ring.dof(),
-            },
+            free_dofs: partition.interior.iter().copied().chain(ring_dofs).collect(),
+            motions: CoupledMotions { recovery, housing_dof, ring_dof: ring.dof() },
         }
     }
 }
@@ -103,11 +93,7 @@ impl CoupledMatrices {
             stiffness: placed(stiffness, 0, order),
             mass: placed(mass, 0, order),
             free_dofs: (0..order).collect(),
-            motions: CoupledMotions {
-                recovery: TripletBuilder::new(0, order).build(),
-                housing_dof: 0,
-                ring_dof,
-            },
+            motions: CoupledMotions { recovery: TripletBuilder::new(0, order).build(), housing_dof: 0, ring_dof },
         }
     }
 }
@@ -131,8 +117,7 @@ impl CoupledMotions {
 
     /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
     pub fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
-        x.submatrix(self.housing_dof, 0, self.ring_dof, x.ncols())
-            .to_owned()
+        x.submatrix(self.housing_dof, 0, self.ring_dof, x.ncols()).to_owned()
     }
 
     /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the ring

@@ -77,18 +77,13 @@ impl SystemMatrices {
         let fall = DenseMatrix::from_fn(model.dof(), 2, |dof, column| falls[column][dof % d]);
         self.weight = crate::numerics::linalg::sparse_times_dense(&self.mass, &fall);
         // tied nodes have empty rows and columns, so their mass counts once, where it was taken
-        self.total_mass = (0..model.dof())
-            .map(|dof| fall[(dof, 0)] * self.weight[(dof, 0)])
-            .sum();
+        self.total_mass = (0..model.dof()).map(|dof| fall[(dof, 0)] * self.weight[(dof, 0)]).sum();
     }
 }
 
 /// Which nodes an element, a spring or a point mass couples.
 fn node_graph(model: &HousingModel) -> NodeGraph {
-    let elements = model
-        .elements
-        .iter()
-        .map(|element| model.elements.nodes(element));
+    let elements = model.elements.iter().map(|element| model.elements.nodes(element));
     let extra = model.springs.iter().chain(&model.masses);
     let groups = elements.chain(extra.map(|extra| extra.nodes.as_slice()));
     NodeGraph::new(model.coordinates.len(), &groups.collect::<Vec<_>>())
@@ -101,13 +96,7 @@ fn stiffness(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, Mo
         |kind| kind.dof() * kind.dof(),
         |element, coordinates, out| {
             let properties = &model.properties[element.part];
-            stiffness_into(
-                element.kind,
-                coordinates,
-                properties,
-                model.formulation,
-                out,
-            )
+            stiffness_into(element.kind, coordinates, properties, model.formulation, out)
         },
         |locals| k.add(locals),
     )?;
@@ -120,14 +109,7 @@ fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelEr
     in_batches(
         model,
         |kind| kind.nodes() * kind.nodes(),
-        |element, coordinates, out| {
-            nodal_mass_into(
-                element.kind,
-                coordinates,
-                &model.properties[element.part],
-                out,
-            )
-        },
+        |element, coordinates, out| nodal_mass_into(element.kind, coordinates, &model.properties[element.part], out),
         |locals| m.add(locals),
     )?;
     m.add(&locals(&model.masses));
@@ -135,11 +117,5 @@ fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelEr
 }
 
 fn locals(matrices: &[NodalMatrix]) -> Vec<Local<'_>> {
-    matrices
-        .iter()
-        .map(|NodalMatrix { nodes, matrix, .. }| Local {
-            nodes,
-            matrix: matrix.as_slice(),
-        })
-        .collect()
+    matrices.iter().map(|NodalMatrix { nodes, matrix, .. }| Local { nodes, matrix: matrix.as_slice() }).collect()
 }

@@ -59,13 +59,8 @@ impl NodeGraph {
             ends.push(total);
         }
         let mut neighbours = Vec::with_capacity(total);
-        lists
-            .iter()
-            .for_each(|(_, found)| neighbours.extend_from_slice(found));
-        Self {
-            starts: ends,
-            neighbours,
-        }
+        lists.iter().for_each(|(_, found)| neighbours.extend_from_slice(found));
+        Self { starts: ends, neighbours }
     }
 
     fn nodes(&self) -> usize {
@@ -105,12 +100,7 @@ pub(super) struct Local<'a> {
 impl<'g> BlockMatrix<'g> {
     pub(super) fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
         let entries = dimension * rows_a_neighbour(dimension, coupling) * graph.neighbours.len();
-        Self {
-            graph,
-            dimension,
-            coupling,
-            values: vec![0.0; entries],
-        }
+        Self { graph, dimension, coupling, values: vec![0.0; entries] }
     }
 
     /// Adds matrices in their order. The columns are shared out among threads, every entry is summed by one of
@@ -154,10 +144,7 @@ impl<'g> BlockMatrix<'g> {
         offsets.push(0);
         for node in 0..graph.nodes() {
             for component in 0..d {
-                let list = graph
-                    .neighbours(node)
-                    .iter()
-                    .map(|&other| d * other as usize);
+                let list = graph.neighbours(node).iter().map(|&other| d * other as usize);
                 match self.coupling {
                     Coupling::Full => rows.extend(list.flat_map(|first| first..first + d)),
                     Coupling::Same => rows.extend(list.map(|first| first + component)),
@@ -209,9 +196,7 @@ fn add_same(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize, dimens
 /// Ranges of a few thousand nodes.
 fn chunks(nodes: usize) -> Vec<Range<usize>> {
     const LENGTH: usize = 4096;
-    (0..nodes.div_ceil(LENGTH))
-        .map(|chunk| chunk * LENGTH..((chunk + 1) * LENGTH).min(nodes))
-        .collect()
+    (0..nodes.div_ceil(LENGTH)).map(|chunk| chunk * LENGTH..((chunk + 1) * LENGTH).min(nodes)).collect()
 }
 
 /// Ranges of nodes with about as many neighbours each.
@@ -219,10 +204,7 @@ fn balanced(graph: &NodeGraph, count: usize) -> Vec<Range<usize>> {
     let count = count.max(1);
     let cut = |part: usize| {
         let target = part * graph.neighbours.len() / count;
-        graph
-            .starts
-            .partition_point(|&start| start < target)
-            .min(graph.nodes())
+        graph.starts.partition_point(|&start| start < target).min(graph.nodes())
     };
     let mut cuts: Vec<usize> = (0..count).map(cut).collect();
     cuts.push(graph.nodes());

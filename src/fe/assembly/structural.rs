@@ -57,9 +57,7 @@ impl StructuralStiffness {
     pub fn for_tie(self, tie: &RingTie) -> Self {
         match tie.rotation() {
             None => self,
-            Some(rotation) => Self {
-                matrix: congruence(&self.matrix, rotation),
-            },
+            Some(rotation) => Self { matrix: congruence(&self.matrix, rotation) },
         }
     }
 

@@ -80,9 +80,7 @@ pub enum ElementError {
         found: usize,
     },
     /// An output buffer of the wrong length.
-    #[error(
-        "the matrix of a {kind} element has {order} x {order} entries, the buffer holds {found}"
-    )]
+    #[error("the matrix of a {kind} element has {order} x {order} entries, the buffer holds {found}")]
     BufferLength {
         /// Name of the element kind.
         kind: &'static str,
@@ -135,9 +133,7 @@ fn cause(dimension: usize) -> &'static str {
 
 fn remedy(dimension: usize) -> &'static str {
     match dimension {
-        2 => {
-            "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)"
-        }
+        2 => "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)",
         _ => "the mesh was mirrored or the node order is not gmsh's",
     }
 }

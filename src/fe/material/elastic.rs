@@ -75,14 +75,7 @@ mod tests {
         let steel = ElasticMaterial::from(Material::new(208e9, 0.3, 7800.0)?);
         assert!((steel.density() - 7800.0).abs() < 1e-12);
         let c = steel.stiffness_matrix();
-        let strain = [
-            1.0 / 208e9,
-            -0.3 / 208e9,
-            -0.3 / 208e9,
-            0.0,
-            1.0 / 80e9,
-            0.0,
-        ];
+        let strain = [1.0 / 208e9, -0.3 / 208e9, -0.3 / 208e9, 0.0, 1.0 / 80e9, 0.0];
         for (i, expected) in [1.0, 0.0, 0.0, 0.0, 1.0, 0.0].into_iter().enumerate() {
             let stress: f64 = (0..6).map(|j| c[i][j] * strain[j]).sum();
             assert!((stress - expected).abs() < 1e-15, "{i}: {stress}");

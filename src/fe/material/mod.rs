@@ -85,12 +85,7 @@ impl Material {
         let stable = poisson > -1.0 && poisson < 0.5;
         check(stable, "Poisson's ratio", "between -1 and 0.5", poisson)?;
         check(density > 0.0, "density (kg/m^3)", positive, density)?;
-        Ok(Self {
-            young,
-            poisson,
-            density,
-            loss_factor: 0.0,
-        })
+        Ok(Self { young, poisson, density, loss_factor: 0.0 })
     }
 
     /// The same material with a structural loss factor, 0 <= eta < 2.
@@ -99,10 +94,7 @@ impl Material {
     /// [`MaterialError::OutOfRange`].
     pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
         check_loss_factor(loss_factor)?;
-        Ok(Self {
-            loss_factor,
-            ..self
-        })
+        Ok(Self { loss_factor, ..self })
     }
 
     /// Shear modulus `G = E / (2 (1 + nu))`, Pa.
@@ -122,21 +114,8 @@ fn check_loss_factor(value: f64) -> Result<(), MaterialError> {
     check((0.0..2.0).contains(&value), quantity, rule, value)
 }
 
-fn check(
-    in_range: bool,
-    quantity: &'static str,
-    rule: &'static str,
-    value: f64,
-) -> Result<(), MaterialError> {
-    if in_range && value.is_finite() {
-        Ok(())
-    } else {
-        Err(MaterialError::OutOfRange {
-            quantity,
-            rule,
-            value,
-        })
-    }
+fn check(in_range: bool, quantity: &'static str, rule: &'static str, value: f64) -> Result<(), MaterialError> {
+    if in_range && value.is_finite() { Ok(()) } else { Err(MaterialError::OutOfRange { quantity, rule, value }) }
 }
 
 #[cfg(test)]
@@ -160,14 +139,8 @@ mod tests {
     #[test]
     fn a_loss_factor_is_below_two() -> Result<(), MaterialError> {
         let steel = Material::new(208e9, 0.3, 7800.0)?;
-        let wood = OrthotropicMaterial::new(
-            [10e9, 1e9, 1e9],
-            [0.3; 3],
-            [1e9; 3],
-            500.0,
-            [1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-        )?;
+        let wood =
+            OrthotropicMaterial::new([10e9, 1e9, 1e9], [0.3; 3], [1e9; 3], 500.0, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])?;
         let kept = [
             ElasticMaterial::from(steel.with_loss_factor(1.9)?).loss_factor(),
             ElasticMaterial::from(wood.with_loss_factor(0.02)?).loss_factor(),
@@ -176,10 +149,7 @@ mod tests {
         assert_eq!(kept.map(|factor| factor.to_string()), ["1.9", "0.02", "0"]);
         for value in [-0.01, 2.0, f64::NAN] {
             let expected = format!("loss factor must be from 0 to below 2, found {value}");
-            let found = [
-                steel.with_loss_factor(value).err(),
-                wood.with_loss_factor(value).err(),
-            ];
+            let found = [steel.with_loss_factor(value).err(), wood.with_loss_factor(value).err()];
             for error in found {
                 assert_eq!(error.map(|error| error.to_string()), Some(expected.clone()));
             }

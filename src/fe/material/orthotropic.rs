@@ -55,10 +55,7 @@ impl OrthotropicMaterial {
         towards_y: [f64; 3],
     ) -> Result<Self, MaterialError> {
         let positive = "positive and finite";
-        let names = [
-            ["E_x (Pa)", "E_y (Pa)", "E_z (Pa)"],
-            ["G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"],
-        ];
+        let names = [["E_x (Pa)", "E_y (Pa)", "E_z (Pa)"], ["G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"]];
         for (values, names) in [young, shear].iter().zip(names) {
             for (&value, name) in values.iter().zip(names) {
                 check(value > 0.0, name, positive, value)?;
@@ -66,14 +63,7 @@ impl OrthotropicMaterial {
         }
         check_ratios(young, poisson)?;
         check(density > 0.0, "density (kg/m^3)", positive, density)?;
-        Ok(Self {
-            young,
-            poisson,
-            shear,
-            density,
-            loss_factor: 0.0,
-            axes: orthonormal(axis_x, towards_y)?,
-        })
+        Ok(Self { young, poisson, shear, density, loss_factor: 0.0, axes: orthonormal(axis_x, towards_y)? })
     }
 
     /// The same material with a structural loss factor, 0 <= eta < 2.
@@ -82,10 +72,7 @@ impl OrthotropicMaterial {
     /// [`MaterialError::OutOfRange`].
     pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
         check_loss_factor(loss_factor)?;
-        Ok(Self {
-            loss_factor,
-            ..self
-        })
+        Ok(Self { loss_factor, ..self })
     }
 
     /// See [`super::ElasticMaterial::stiffness_matrix`]: the inverse of the compliance
@@ -135,11 +122,7 @@ impl OrthotropicMaterial {
 /// `nu_ij sqrt(E_j / E_i)` for xy, yz, xz: symmetric in i and j, and of magnitude below 1.
 fn normalised_ratios(young: [f64; 3], poisson: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = young;
-    [
-        poisson[0] * (y / x).sqrt(),
-        poisson[1] * (z / y).sqrt(),
-        poisson[2] * (z / x).sqrt(),
-    ]
+    [poisson[0] * (y / x).sqrt(), poisson[1] * (z / y).sqrt(), poisson[2] * (z / x).sqrt()]
 }
 
 /// Determinant of the normalised compliance.
@@ -159,11 +142,7 @@ fn check_ratios(young: [f64; 3], poisson: [f64; 3]) -> Result<(), MaterialError>
         check(normalised[i].abs() < 1.0, names[i], rules[i], poisson[i])?;
     }
     let determinant = determinant(normalised);
-    if determinant > 0.0 {
-        Ok(())
-    } else {
-        Err(MaterialError::Unstable { determinant })
-    }
+    if determinant > 0.0 { Ok(()) } else { Err(MaterialError::Unstable { determinant }) }
 }
 
 /// Right-handed orthonormal axes, x first (Gram-Schmidt).
@@ -195,11 +174,7 @@ fn length([x, y, z]: [f64; 3]) -> f64 {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// T (6 x 6): strains in the axes from strains in the mesh, engineering shear on both sides. Source: Auld,

@@ -43,9 +43,7 @@ impl Mesh {
             }
         }
         faces.sort_unstable();
-        let once = faces
-            .chunk_by(|a, b| a.0 == b.0)
-            .filter(|same| same.len() == 1);
+        let once = faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
         let mut once: Vec<(usize, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
         once.sort_unstable();
         let describe = |(position, number): (usize, u8)| {
@@ -53,11 +51,7 @@ impl Mesh {
             let block = &self.blocks[element.block];
             let face = block.kind.faces()[usize::from(number)];
             let nodes = block.nodes_of(element.index);
-            BoundaryFace {
-                element,
-                kind: face.kind,
-                nodes: face.nodes.iter().map(|&local| nodes[local]).collect(),
-            }
+            BoundaryFace { element, kind: face.kind, nodes: face.nodes.iter().map(|&local| nodes[local]).collect() }
         };
         once.into_iter().map(describe).collect()
     }

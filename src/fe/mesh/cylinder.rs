@@ -51,11 +51,7 @@ const STEPS: usize = 30;
 /// group. `None`: flat, round in two directions, or too few points.
 pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
     let curves = facets.iter().all(|facet| facet.corners.len() == 2);
-    let axis = if curves {
-        Vector3::z()
-    } else {
-        axis_across(facets)?
-    };
+    let axis = if curves { Vector3::z() } else { axis_across(facets)? };
     let mut points: Vec<Vector3<f64>> = Vec::new();
     for facet in facets {
         points.extend(facet.corners.iter().map(|&corner| Vector3::from(corner)));
@@ -64,10 +60,7 @@ pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
         return None;
     }
     let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
-    let size = points
-        .iter()
-        .map(|point| (point - mean).norm())
-        .fold(0.0, f64::max);
+    let size = points.iter().map(|point| (point - mean).norm()).fold(0.0, f64::max);
     if !(size.is_finite() && size > 0.0) {
         return None;
     }
@@ -143,10 +136,7 @@ fn across(axis: Vector3<f64>) -> [Vector3<f64>; 3] {
 /// Kasa's circle through the points seen along the axis: linear in its unknowns, near enough to start from.
 fn circle(points: &[Vector3<f64>], frame: &[Vector3<f64>; 3]) -> Option<(Vector3<f64>, f64)> {
     let rows = points.len();
-    let seen: Vec<[f64; 2]> = points
-        .iter()
-        .map(|point| [frame[0].dot(point), frame[1].dot(point)])
-        .collect();
+    let seen: Vec<[f64; 2]> = points.iter().map(|point| [frame[0].dot(point), frame[1].dot(point)]).collect();
     let matrix = DMatrix::from_fn(rows, 3, |row, column| match column {
         2 => 1.0,
         axis => 2.0 * seen[row][axis],
@@ -164,18 +154,8 @@ struct Best {
     radius: f64,
 }
 
-fn refine(
-    points: &[Vector3<f64>],
-    axis: Vector3<f64>,
-    centre: Vector3<f64>,
-    radius: f64,
-    tilts: bool,
-) -> Option<Best> {
-    let mut best = Best {
-        axis,
-        centre,
-        radius,
-    };
+fn refine(points: &[Vector3<f64>], axis: Vector3<f64>, centre: Vector3<f64>, radius: f64, tilts: bool) -> Option<Best> {
+    let mut best = Best { axis, centre, radius };
     let unknowns = if tilts { 5 } else { 3 };
     for _ in 0..STEPS {
         let frame = across(best.axis);
@@ -218,11 +198,7 @@ fn refine(
 
 /// With its largest component positive.
 fn positive(axis: Vector3<f64>) -> Vector3<f64> {
-    if axis[axis.iamax()] < 0.0 {
-        -axis
-    } else {
-        axis
-    }
+    if axis[axis.iamax()] < 0.0 { -axis } else { axis }
 }
 
 fn distance(point: &Vector3<f64>, centre: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
@@ -245,12 +221,8 @@ fn covered(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Opti
             continue;
         };
         // around the first corner, so that a facet across the cut at half a turn stays in one piece
-        let turned = angles
-            .iter()
-            .map(|angle| (angle - first + PI).rem_euclid(TAU) - PI);
-        let (low, high) = turned.fold((0.0_f64, 0.0_f64), |(low, high), angle| {
-            (low.min(angle), high.max(angle))
-        });
+        let turned = angles.iter().map(|angle| (angle - first + PI).rem_euclid(TAU) - PI);
+        let (low, high) = turned.fold((0.0_f64, 0.0_f64), |(low, high), angle| (low.min(angle), high.max(angle)));
         if high - low > WIDEST {
             return None;
         }
@@ -281,8 +253,7 @@ fn hole(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Option<
         let count = facet.corners.len() as f64;
         let corners = facet.corners.iter().map(|&corner| Vector3::from(corner));
         let middle = corners.sum::<Vector3<f64>>() / count;
-        outwards +=
-            distance(&Vector3::from(inside), centre, axis) - distance(&middle, centre, axis);
+        outwards += distance(&Vector3::from(inside), centre, axis) - distance(&middle, centre, axis);
         any = true;
     }
     any.then_some(outwards > 0.0)
@@ -345,11 +316,7 @@ mod tests {
                     let place = row * (round + 1) + step;
                     let corners = [place, place + 1, place + round + 2, place + round + 1];
                     let corners: Vec<[f64; 3]> = corners.iter().map(|&n| nodes[n]).collect();
-                    let middle = corners
-                        .iter()
-                        .map(|&c| Vector3::from(c))
-                        .sum::<Vector3<f64>>()
-                        / 4.0;
+                    let middle = corners.iter().map(|&c| Vector3::from(c)).sum::<Vector3<f64>>() / 4.0;
                     let axis = self.turn * Vector3::z();
                     let arm = middle - self.centre;
                     let out = arm - axis * axis.dot(&arm);
@@ -383,23 +350,12 @@ mod tests {
     fn any_axis_and_any_place() {
         let made = Made {
             centre: Vector3::new(300.0, -20.0, 1000.0),
-            turn: Rotation3::from_axis_angle(
-                &Unit::new_normalize(Vector3::new(1.0, 2.0, 0.3)),
-                1.1,
-            ),
+            turn: Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::new(1.0, 2.0, 0.3)), 1.1),
             ..Made::about_z()
         };
         let found = made.fit().unwrap();
         let axis = made.turn * Vector3::z();
-        near(
-            found.axis,
-            if axis[axis.iamax()] < 0.0 {
-                -axis
-            } else {
-                axis
-            },
-            1e-11,
-        );
+        near(found.axis, if axis[axis.iamax()] < 0.0 { -axis } else { axis }, 1e-11);
         near(found.centre, made.centre, 1e-9);
         assert!((found.radius / 6.0 - 1.0).abs() < 1e-11);
     }
@@ -420,28 +376,16 @@ mod tests {
         assert!((found.radius - 6.0).abs() < 4e-3, "{}", found.radius);
         assert!((found.turn - 0.5).abs() < 1e-2, "{}", found.turn);
         assert!((0.002..0.0046).contains(&found.rms), "{}", found.rms);
-        assert!(
-            (0.005..0.0075).contains(&found.farthest),
-            "{}",
-            found.farthest
-        );
+        assert!((0.005..0.0075).contains(&found.farthest), "{}", found.farthest);
     }
 
     #[test]
     fn planes_spheres_and_boxes_are_none() {
-        let flat = |corners: [[f64; 3]; 4]| Facet {
-            corners: corners.to_vec(),
-            inside: None,
-        };
+        let flat = |corners: [[f64; 3]; 4]| Facet { corners: corners.to_vec(), inside: None };
         let plane: Vec<Facet> = (0..9)
             .map(|n| {
                 let (x, y) = (f64::from(n % 3), f64::from(n / 3));
-                flat([
-                    [x, y, 0.0],
-                    [x + 1.0, y, 0.0],
-                    [x + 1.0, y + 1.0, 0.0],
-                    [x, y + 1.0, 0.0],
-                ])
+                flat([[x, y, 0.0], [x + 1.0, y, 0.0], [x + 1.0, y + 1.0, 0.0], [x, y + 1.0, 0.0]])
             })
             .collect();
         assert_eq!(fit(&plane, &[]), None);
@@ -466,12 +410,8 @@ mod tests {
             let angle = TAU * step as f64 / 12.0;
             [3.0 + 2.0 * angle.cos(), 1.0 + 2.0 * angle.sin(), 0.0]
         };
-        let facets: Vec<Facet> = (0..9)
-            .map(|step| Facet {
-                corners: vec![at(step), at(step + 1)],
-                inside: Some([3.0, 1.0, 0.0]),
-            })
-            .collect();
+        let facets: Vec<Facet> =
+            (0..9).map(|step| Facet { corners: vec![at(step), at(step + 1)], inside: Some([3.0, 1.0, 0.0]) }).collect();
         let nodes: Vec<[f64; 3]> = (0..10).map(at).collect();
         let found = fit(&facets, &nodes).unwrap();
         near(found.axis, Vector3::z(), 1e-15);

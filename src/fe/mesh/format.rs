@@ -53,10 +53,7 @@ mod tests {
 
     #[test]
     fn formats_are_named_as_gmsh_names_them() {
-        let format = MshFormat {
-            version: MshVersion::V22,
-            binary: true,
-        };
+        let format = MshFormat { version: MshVersion::V22, binary: true };
         assert_eq!(format.to_string(), "MSH 2.2 binary");
         assert_eq!(MshVersion::V41.to_string(), "4.1");
     }

@@ -38,10 +38,7 @@ impl Mesh {
             several => Err(MeshError::AmbiguousGroup {
                 path,
                 name,
-                groups: several
-                    .iter()
-                    .map(|group| [group.dimension as i32, group.tag])
-                    .collect(),
+                groups: several.iter().map(|group| [group.dimension as i32, group.tag]).collect(),
             }),
         }
     }

@@ -46,20 +46,8 @@ struct Row {
     nodes: usize,
 }
 
-const fn row(
-    kind: ElementKind,
-    gmsh_type: i32,
-    name: &'static str,
-    [dimension, order, nodes]: [usize; 3],
-) -> Row {
-    Row {
-        kind,
-        gmsh_type,
-        name,
-        dimension,
-        order,
-        nodes,
-    }
+const fn row(kind: ElementKind, gmsh_type: i32, name: &'static str, [dimension, order, nodes]: [usize; 3]) -> Row {
+    Row { kind, gmsh_type, name, dimension, order, nodes }
 }
 
 /// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
@@ -91,10 +79,7 @@ impl ElementKind {
 
     /// The kind with gmsh's element type number, if the program knows it.
     pub fn from_gmsh_type(gmsh_type: i32) -> Option<Self> {
-        TABLE
-            .iter()
-            .find(|row| row.gmsh_type == gmsh_type)
-            .map(|row| row.kind)
+        TABLE.iter().find(|row| row.gmsh_type == gmsh_type).map(|row| row.kind)
     }
 
     /// gmsh's element type number.

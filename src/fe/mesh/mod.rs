@@ -31,10 +31,7 @@ pub use format::{MshFormat, MshVersion};
 pub use gmsh::{MshError, Place};
 pub use group::PhysicalGroup;
 pub(crate) use inventory::Sets;
-pub use inventory::{
-    BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part,
-    UnusedNodes,
-};
+pub use inventory::{BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part, UnusedNodes};
 pub use kind::ElementKind;
 
 /// A checked mesh in metres.

@@ -17,8 +17,7 @@ impl Mesh {
         }
         let area = |mesh: &Self, id: &ElementId| mesh.signed_area(*id);
         let marks = self.blocks.iter().map(|block| vec![false; block.len()]);
-        let (mut grouped, mut turned): (Vec<_>, Vec<_>) =
-            marks.map(|none| (none.clone(), none)).unzip();
+        let (mut grouped, mut turned): (Vec<_>, Vec<_>) = marks.map(|none| (none.clone(), none)).unzip();
         let mark = |marks: &mut Vec<Vec<bool>>, ids: &[ElementId]| {
             ids.iter().for_each(|id| marks[id.block][id.index] = true);
         };
@@ -28,9 +27,7 @@ impl Mesh {
                 mark(&mut turned, &group.elements);
             }
         }
-        let alone = self
-            .element_ids(2)
-            .filter(|id| !grouped[id.block][id.index]);
+        let alone = self.element_ids(2).filter(|id| !grouped[id.block][id.index]);
         let alone: Vec<ElementId> = alone.collect();
         if alone.iter().all(|id| area(self, id) < 0.0) {
             mark(&mut turned, &alone);
@@ -50,10 +47,7 @@ impl Mesh {
     /// The first node that is off the plane z = const of the others, if there is one.
     pub(crate) fn node_off_plane(&self) -> Option<usize> {
         let first = self.nodes.first()?[2];
-        let sides = self
-            .nodes
-            .iter()
-            .map(|node| node[0].abs().max(node[1].abs()));
+        let sides = self.nodes.iter().map(|node| node[0].abs().max(node[1].abs()));
         let size = sides.fold(0.0, f64::max);
         let off = |node: &[f64; 3]| (node[2] - first).abs() > PLANE * size;
         self.nodes.iter().position(off)

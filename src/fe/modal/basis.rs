@@ -1,8 +1,6 @@
 //! Modes of a structure with everything that proves them.
 
-use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, symmetric_eigen,
-};
+use crate::numerics::linalg::{DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
 use std::f64::consts::TAU;
 
 /// Error bounds below which an eigenvalue counts as zero: the bound itself is an estimate.
@@ -113,9 +111,7 @@ impl ModalBasis {
     ) -> Result<Self, E> {
         let near = hz(NEAR_ZERO * problem.rounding_of_zero());
         let computed = match range {
-            ModeRange::UpToHz(high) | ModeRange::BandHz([_, high]) if high < near => {
-                ModeRange::UpToHz(near)
-            }
+            ModeRange::UpToHz(high) | ModeRange::BandHz([_, high]) if high < near => ModeRange::UpToHz(near),
             ModeRange::BandHz([low, high]) if low < near => ModeRange::UpToHz(high),
             _ => range,
         };
@@ -140,8 +136,7 @@ impl ModalBasis {
                 ModeRange::Count(count) | ModeRange::AtMost(count) => *mode < count,
                 ModeRange::UpToHz(high) => value - bound <= squared(high),
                 ModeRange::BandHz([low, high]) => {
-                    let begins =
-                        low <= 0.0 || *mode >= self.rigid_modes && value + bound >= squared(low);
+                    let begins = low <= 0.0 || *mode >= self.rigid_modes && value + bound >= squared(low);
                     begins && value - bound <= squared(high)
                 }
             }
@@ -150,19 +145,12 @@ impl ModalBasis {
         if kept.len() == self.count() {
             return;
         }
-        let numbers = [
-            &mut self.eigenvalues,
-            &mut self.bounds,
-            &mut self.rounding,
-            &mut self.residuals,
-        ];
+        let numbers = [&mut self.eigenvalues, &mut self.bounds, &mut self.rounding, &mut self.residuals];
         for numbers in numbers {
             *numbers = kept.iter().map(|&mode| numbers[mode]).collect();
         }
         let shapes = &self.shapes;
-        self.shapes = DenseMatrix::from_fn(shapes.nrows(), kept.len(), |row, mode| {
-            shapes[(row, kept[mode])]
-        });
+        self.shapes = DenseMatrix::from_fn(shapes.nrows(), kept.len(), |row, mode| shapes[(row, kept[mode])]);
         self.judge();
     }
 
@@ -235,12 +223,7 @@ impl ModalBasis {
             }
             .into());
         }
-        let finite = |column| {
-            energies
-                .col_as_slice(column)
-                .iter()
-                .all(|e: &f64| e.is_finite())
-        };
+        let finite = |column| energies.col_as_slice(column).iter().all(|e: &f64| e.is_finite());
         if !(0..count).all(finite) {
             return Err(LinalgError::DenseEigen { order: count }.into());
         }
@@ -259,9 +242,7 @@ impl ModalBasis {
             self.rounding[mode] = mixed + dense;
             self.bounds[mode] = others + mixed + dense;
             self.residuals[mode] = residual;
-            self.shapes
-                .col_as_slice_mut(mode)
-                .copy_from_slice(turned.col_as_slice(mode));
+            self.shapes.col_as_slice_mut(mode).copy_from_slice(turned.col_as_slice(mode));
         }
         self.judge();
         Ok(())
@@ -279,9 +260,7 @@ impl ModalBasis {
         let check = self.count_check;
         match self.eigenvalues.get(count) {
             Some(&next) => next,
-            None if check.above_hz.is_none() && check.found == count => {
-                (TAU * check.below_hz).powi(2)
-            }
+            None if check.above_hz.is_none() && check.found == count => (TAU * check.below_hz).powi(2),
             None => 0.0,
         }
     }

@@ -6,9 +6,8 @@ use crate::fe::model::{Constraint, HousingDescription, HousingModel, SpringStiff
 
 /// A block of 72 cells (plane: 12) with springs at one corner, in fractions of the largest diagonal entry of K.
 fn block(dimension: usize, scale: f64, spring: Option<f64>) -> Solved {
-    let cells = Cells::new(dimension, [0.03, 0.02, 0.01])
-        .block("b", 0, [0; 3], [4, 3, 2])
-        .points("corner", 0, &[[0, 0, 0]]);
+    let cells =
+        Cells::new(dimension, [0.03, 0.02, 0.01]).block("b", 0, [0; 3], [4, 3, 2]).points("corner", 0, &[[0, 0, 0]]);
     let stiffest = |scale| {
         let model = HousingModel::new(&cells.mesh, description(&cells, &["b"], scale));
         let matrices = SystemMatrices::assemble(&model.expect("a model")).expect("matrices");
@@ -17,15 +16,10 @@ fn block(dimension: usize, scale: f64, spring: Option<f64>) -> Solved {
     };
     let springs = spring.map(|fraction| {
         let k = fraction * stiffest(scale);
-        support(
-            "corner",
-            Constraint::Spring(SpringStiffness::Global([k; 3])),
-        )
+        support("corner", Constraint::Spring(SpringStiffness::Global([k; 3])))
     });
-    let description = HousingDescription {
-        supports: springs.into_iter().collect(),
-        ..description(&cells, &["b"], scale)
-    };
+    let description =
+        HousingDescription { supports: springs.into_iter().collect(), ..description(&cells, &["b"], scale) };
     solve(&cells.mesh, description)
 }
 
@@ -75,14 +69,10 @@ fn iterated_rigid_modes_are_recognised() {
 /// Turned modes are modes: normalised, and with the energy that their eigenvalue says.
 #[test]
 fn sharpened_modes_are_normal_modes() {
-    let cells = Cells::new(3, [0.03, 0.02, 0.01])
-        .block("b", 0, [0; 3], [6, 4, 3])
-        .points("corner", 0, &[[0, 0, 0]]);
+    let cells = Cells::new(3, [0.03, 0.02, 0.01]).block("b", 0, [0; 3], [6, 4, 3]).points("corner", 0, &[[0, 0, 0]]);
     let soft = Constraint::Spring(SpringStiffness::Global([1e-7, 1e-6, 0.0]));
-    let description = HousingDescription {
-        supports: vec![support("corner", soft)],
-        ..description(&cells, &["b"], 1.0)
-    };
+    let description =
+        HousingDescription { supports: vec![support("corner", soft)], ..description(&cells, &["b"], 1.0) };
     let model = HousingModel::new(&cells.mesh, description).expect("a model");
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
     let free = model.free_dofs();
@@ -91,11 +81,8 @@ fn sharpened_modes_are_normal_modes() {
     let rough = rough.expect("converges");
     let basis = sharp_modes(&model, &matrices, 10);
     assert_eq!((rough.rigid_modes, basis.rigid_modes), (6, 4));
-    let products = strain_products(
-        &model,
-        &over_all_dofs(&model, &free, &basis.shapes).expect("of its order"),
-    )
-    .expect("of its order");
+    let products = strain_products(&model, &over_all_dofs(&model, &free, &basis.shapes).expect("of its order"))
+        .expect("of its order");
     for a in 0..6 {
         for b in 0..6 {
             let expected = if a == b { basis.eigenvalues[a] } else { 0.0 };
@@ -128,20 +115,12 @@ fn what_the_energies_report_is_handed_on() {
     let error = basis.sharpen(|_| Err(ModalError::NoMass { mass: 0.0 }));
     assert!(matches!(error, Err(ModalError::NoMass { .. })));
     assert_eq!(basis.eigenvalues, before);
-    let error: Result<(), ModalError> = basis.sharpen(|space| {
-        Ok(DenseMatrix::from_fn(
-            space.ncols(),
-            space.ncols(),
-            |_, _| f64::NAN,
-        ))
-    });
+    let error: Result<(), ModalError> =
+        basis.sharpen(|space| Ok(DenseMatrix::from_fn(space.ncols(), space.ncols(), |_, _| f64::NAN)));
     let refused = LinalgError::DenseEigen { order: 3 };
     assert!(matches!(error, Err(ModalError::Linalg(found)) if found == refused));
     let error: Result<(), ModalError> = basis.sharpen(|_| Ok(DenseMatrix::zeros(1, 1)));
-    assert!(matches!(
-        error,
-        Err(ModalError::Linalg(LinalgError::Shape { .. }))
-    ));
+    assert!(matches!(error, Err(ModalError::Linalg(LinalgError::Shape { .. }))));
 }
 
 /// What is left of zero in matrices and in energies: rounding of the entries of K, sums over elements, against

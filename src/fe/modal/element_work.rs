@@ -44,11 +44,7 @@ impl ElementWork {
     ///
     /// # Errors
     /// [`ModelError::Element`] with its tag if it is inverted or degenerate.
-    pub(super) fn load(
-        &mut self,
-        model: &HousingModel,
-        element: &HousingElement,
-    ) -> Result<(), ModelError> {
+    pub(super) fn load(&mut self, model: &HousingModel, element: &HousingElement) -> Result<(), ModelError> {
         let mut coordinates = [[0.0; 3]; MAX_NODES];
         let nodes = model.elements.nodes(element);
         for (to, &node) in coordinates.iter_mut().zip(nodes) {
@@ -128,12 +124,7 @@ impl ElementWork {
     }
 
     /// `[phi_e^T K_e phi_e, phi_e^T M_e phi_e]`.
-    pub(super) fn energies(
-        &self,
-        model: &HousingModel,
-        element: &HousingElement,
-        shape: &[f64],
-    ) -> [f64; 2] {
+    pub(super) fn energies(&self, model: &HousingModel, element: &HousingElement, shape: &[f64]) -> [f64; 2] {
         let d = model.dimension;
         let (mut moves, mut force) = ([0.0; MAX_DOF], [0.0; MAX_DOF]);
         self.moves(model, element, shape, &mut moves);

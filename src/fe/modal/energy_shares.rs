@@ -106,33 +106,19 @@ impl EnergyShares {
         check_count("modes of the ring", shapes.ncols(), ring_shapes.ncols())?;
         let sums = HousingSums::new(mesh, model, shapes)?;
         let of_ring = RingSums::new(ring, ring_shapes)?;
-        Ok(Self::of(
-            Some(sums),
-            Some(of_ring),
-            shapes.ncols(),
-            rigid_modes,
-        ))
+        Ok(Self::of(Some(sums), Some(of_ring), shapes.ncols(), rigid_modes))
     }
 
     /// Shares of a ring alone and its springs.
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the modes [ring dof x count] do not belong to the ring.
-    pub fn of_ring(
-        ring: &Ring,
-        ring_shapes: &DenseMatrix,
-        rigid_modes: usize,
-    ) -> Result<Self, ModalError> {
+    pub fn of_ring(ring: &Ring, ring_shapes: &DenseMatrix, rigid_modes: usize) -> Result<Self, ModalError> {
         let sums = RingSums::new(ring, ring_shapes)?;
         Ok(Self::of(None, Some(sums), ring_shapes.ncols(), rigid_modes))
     }
 
-    fn of(
-        housing: Option<HousingSums>,
-        ring: Option<RingSums>,
-        count: usize,
-        rigid_modes: usize,
-    ) -> Self {
+    fn of(housing: Option<HousingSums>, ring: Option<RingSums>, count: usize, rigid_modes: usize) -> Self {
         let housing = housing.unwrap_or_default();
         let modes = (0..count).map(|mode| {
             let rows = |all: &[Vec<f64>]| all.get(mode).cloned().unwrap_or_default();
@@ -147,8 +133,7 @@ impl EnergyShares {
             };
             let strain = sum([&parts, &springs], of_ring.map(|ring| ring.strain));
             let kinetic = sum([&heavy_parts, &masses], of_ring.map(|ring| ring.kinetic));
-            let over =
-                |whole: f64, values: Vec<f64>| values.into_iter().map(|v| v / whole).collect();
+            let over = |whole: f64, values: Vec<f64>| values.into_iter().map(|v| v / whole).collect();
             ModeShares {
                 doubled_strain: strain,
                 doubled_kinetic: kinetic,
@@ -171,13 +156,7 @@ impl EnergyShares {
         if ring.is_some_and(|ring| ring.has_springs) {
             springs.push(RING_SPRINGS.to_owned());
         }
-        Self {
-            parts: housing.parts,
-            groups: housing.groups,
-            springs,
-            masses: housing.masses.names,
-            modes,
-        }
+        Self { parts: housing.parts, groups: housing.groups, springs, masses: housing.masses.names, modes }
     }
 }
 
@@ -195,11 +174,7 @@ struct HousingSums {
 impl HousingSums {
     fn new(mesh: &Mesh, model: &HousingModel, shapes: &DenseMatrix) -> Result<Self, ModalError> {
         check_count("rows of the modes", model.dof(), shapes.nrows())?;
-        check_count(
-            "nodes of the mesh",
-            model.coordinates.len(),
-            mesh.nodes.len(),
-        )?;
+        check_count("nodes of the mesh", model.coordinates.len(), mesh.nodes.len())?;
         let membership = Membership::new(mesh, model)?;
         let sums = element_sums(model, &membership, shapes)?;
         let modes = || (0..shapes.ncols()).map(|mode| sums.of_mode(mode));
@@ -212,9 +187,7 @@ impl HousingSums {
             ],
             kinetic: [
                 modes().map(|rows| rows.kinetic_parts().collect()).collect(),
-                modes()
-                    .map(|rows| rows.kinetic_groups().collect())
-                    .collect(),
+                modes().map(|rows| rows.kinetic_groups().collect()).collect(),
             ],
             springs: Attached::springs(model, shapes),
             masses: Attached::masses(model, shapes),
@@ -248,10 +221,7 @@ impl RingSums {
                 springs: ring.has_springs().then(|| own.springs[(0, 0)]),
             }
         };
-        Ok(Self {
-            has_springs: ring.has_springs(),
-            modes: (0..shapes.ncols()).map(energies).collect(),
-        })
+        Ok(Self { has_springs: ring.has_springs(), modes: (0..shapes.ncols()).map(energies).collect() })
     }
 }
 
@@ -294,20 +264,14 @@ impl Attached {
         sources.sort_unstable();
         sources.dedup();
         let mut sums = vec![vec![0.0; sources.len()]; shapes.ncols()];
-        for NodalMatrix {
-            nodes,
-            matrix,
-            source,
-        } in matrices
-        {
+        for NodalMatrix { nodes, matrix, source } in matrices {
             let Ok(place) = sources.binary_search(source) else {
                 continue;
             };
             // rows of a node: its components together (masses), or each by itself (springs)
             let rows = matrix.nrows() / nodes.len().max(1);
             for (mode, sums) in sums.iter_mut().enumerate() {
-                let at =
-                    |row: usize, i: usize| shapes[(d * nodes[row / rows] + row % rows + i, mode)];
+                let at = |row: usize, i: usize| shapes[(d * nodes[row / rows] + row % rows + i, mode)];
                 for b in 0..matrix.ncols() {
                     for a in 0..matrix.nrows() {
                         let components = if rows == d { 1 } else { d };
@@ -317,13 +281,7 @@ impl Attached {
                 }
             }
         }
-        Self {
-            names: sources
-                .into_iter()
-                .map(|source| name(source).unwrap_or_default())
-                .collect(),
-            sums,
-        }
+        Self { names: sources.into_iter().map(|source| name(source).unwrap_or_default()).collect(), sums }
     }
 }
 

@@ -1,11 +1,9 @@
-use super::super::samples::{
-    Cells, Solved, block_round_a_ring, description, ring_for_block, ringed, solve, support,
-};
+use super::super::samples::{Cells, Solved, block_round_a_ring, description, ring_for_block, ringed, solve, support};
 use super::*;
 use crate::fe::material::Material;
 use crate::fe::model::{
-    Connection, Constraint, Fit, HousingDescription, Link, PointMass, RingSupport, SpringShare,
-    SpringStiffness, SupportShare,
+    Connection, Constraint, Fit, HousingDescription, Link, PointMass, RingSupport, SpringShare, SpringStiffness,
+    SupportShare,
 };
 use crate::numerics::linalg::{SparseMatrix, sparse_times_dense};
 
@@ -22,10 +20,7 @@ fn blocks(dimension: usize, tied: bool) -> (Cells, Solved) {
         .face("cover", 1, up(2), to(3, 2))
         .points("top", 1, &[up(5)]);
     let stiffness = SpringStiffness::Global([2e8, 1e8, 3e8]);
-    let ground = |share| crate::fe::model::HousingSupport {
-        share,
-        ..support("under", Constraint::Spring(stiffness))
-    };
+    let ground = |share| crate::fe::model::HousingSupport { share, ..support("under", Constraint::Spring(stiffness)) };
     let between = ["cover", "seat"].map(str::to_owned);
     let connection = match tied {
         true => Connection::Tie,
@@ -33,14 +28,8 @@ fn blocks(dimension: usize, tied: bool) -> (Cells, Solved) {
     };
     let mut all = HousingDescription {
         supports: vec![ground(SupportShare::PerGroup)],
-        links: vec![Link {
-            between,
-            connection,
-        }],
-        masses: vec![PointMass {
-            group: "top".to_owned(),
-            mass: 0.5,
-        }],
+        links: vec![Link { between, connection }],
+        masses: vec![PointMass { group: "top".to_owned(), mass: 0.5 }],
         ..description(&cells, &["foot", "lid", "extra"], 1.0)
     };
     all.parts[1].material = Material::new(7e10, 0.33, 2700.0).expect("aluminium").into();
@@ -50,8 +39,7 @@ fn blocks(dimension: usize, tied: bool) -> (Cells, Solved) {
 
 fn shares(cells: &Cells, solved: &Solved) -> EnergyShares {
     let rigid = solved.rigid_modes;
-    EnergyShares::new(&cells.mesh, &solved.model, &solved.shapes, rigid)
-        .expect("modes of this model")
+    EnergyShares::new(&cells.mesh, &solved.model, &solved.shapes, rigid).expect("modes of this model")
 }
 
 /// Parts and springs together hold all of the energy, and that is the eigenvalue.
@@ -61,11 +49,7 @@ fn shares_add_up_to_the_eigenvalue() {
         let (cells, solved) = blocks(dimension, tied);
         let found = shares(&cells, &solved);
         assert_eq!(found.parts, ["foot", "lid", "extra"]);
-        let links: &[&str] = if tied {
-            &["under"]
-        } else {
-            &["under", "cover - seat"]
-        };
+        let links: &[&str] = if tied { &["under"] } else { &["under", "cover - seat"] };
         assert_eq!(found.springs, links);
         assert_eq!(found.masses, ["top"]);
         for (mode, shares) in found.modes.iter().enumerate() {
@@ -95,16 +79,10 @@ fn a_block_on_a_spring() {
     let cells = Cells::new(3, [0.1; 3])
         .block("left", 0, [0; 3], [1, 1, 1])
         .block("right", 0, [1, 0, 0], [3, 1, 1])
-        .points(
-            "all",
-            0,
-            &[[0, 0, 0], [3, 0, 0], [0, 1, 0], [3, 1, 1], [0, 0, 1]],
-        );
+        .points("all", 0, &[[0, 0, 0], [3, 0, 0], [0, 1, 0], [3, 1, 1], [0, 0, 1]]);
     let soft = Constraint::Spring(SpringStiffness::Global([1e3; 3]));
-    let description = HousingDescription {
-        supports: vec![support("all", soft)],
-        ..description(&cells, &["left", "right"], 1.0)
-    };
+    let description =
+        HousingDescription { supports: vec![support("all", soft)], ..description(&cells, &["left", "right"], 1.0) };
     let solved = solve(&cells.mesh, description);
     let found = shares(&cells, &solved);
     let translations = found.modes[..6].iter();
@@ -113,20 +91,10 @@ fn a_block_on_a_spring() {
         // the block is 1e6 times stiffer
         assert!((strain.springs[0] - 1.0).abs() < 1e-5, "{strain:?}");
     }
-    let sum: f64 = (0..6)
-        .map(|mode| {
-            found.modes[mode]
-                .kinetic
-                .as_ref()
-                .map_or(0.0, |k| k.parts[1])
-        })
-        .sum();
+    let sum: f64 = (0..6).map(|mode| found.modes[mode].kinetic.as_ref().map_or(0.0, |k| k.parts[1])).sum();
     // by the moments of a bar of three cubes of which two are the right part: three translations and the turn
     // about x with 2/3 each, the turns about y and z with (1.1667 + 0.1667) / (2.25 + 0.25); 1e-5 as above
-    assert!(
-        (sum / (8.0 / 3.0 + 16.0 / 15.0) - 1.0).abs() < 1e-5,
-        "{sum}"
-    );
+    assert!((sum / (8.0 / 3.0 + 16.0 / 15.0) - 1.0).abs() < 1e-5, "{sum}");
 }
 
 #[test]
@@ -144,14 +112,10 @@ fn rigid_modes_have_no_shares_of_strain() {
 fn the_number_of_threads_does_not_change_a_bit() {
     let cells = Cells::new(3, [0.01; 3]).block("b", 0, [0; 3], [12, 12, 8]);
     let model = HousingModel::new(&cells.mesh, description(&cells, &["b"], 1.0)).expect("a model");
-    let shapes = DenseMatrix::from_fn(model.dof(), 3, |dof, mode| {
-        (0.37 * (dof + 1) as f64 * (mode + 1) as f64).sin()
-    });
+    let shapes = DenseMatrix::from_fn(model.dof(), 3, |dof, mode| (0.37 * (dof + 1) as f64 * (mode + 1) as f64).sin());
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads")
-            .install(|| EnergyShares::new(&cells.mesh, &model, &shapes, 0))
-            .expect("shares")
+        pool.expect("threads").install(|| EnergyShares::new(&cells.mesh, &model, &shapes, 0)).expect("shares")
     };
     let one = on(1);
     for threads in [2, 3, 8] {
@@ -175,45 +139,24 @@ fn modes_of_another_model_are_refused() {
 /// Parts, ring and springs together hold all of it; ring and housing have what their own matrices say, uncoupled.
 #[test]
 fn a_ring_has_its_share() {
-    for (dimension, fit) in [
-        (2, Fit::Bonded),
-        (3, Fit::Bonded),
-        (2, Fit::Sliding),
-        (3, Fit::Sliding),
-    ] {
+    for (dimension, fit) in [(2, Fit::Bonded), (3, Fit::Bonded), (2, Fit::Sliding), (3, Fit::Sliding)] {
         let (cells, frame) = block_round_a_ring(dimension);
-        let cells = cells
-            .block("lid", 0, [2, 0, 0], [4, 2, 2])
-            .points("top", 0, &[[4, 1, 0]]);
+        let cells = cells.block("lid", 0, [2, 0, 0], [4, 2, 2]).points("top", 0, &[[4, 1, 0]]);
         let springs = Constraint::Spring(SpringStiffness::Global([2e8, 1e8, 3e8]));
         let all = HousingDescription {
             frame,
             supports: vec![support("top", springs)],
-            masses: vec![PointMass {
-                group: "top".to_owned(),
-                mass: 3.0,
-            }],
+            masses: vec![PointMass { group: "top".to_owned(), mass: 3.0 }],
             ..description(&cells, &["body", "lid"], 1.0)
         };
         let mut ring = ring_for_block(dimension);
-        let support = RingSupport {
-            from: 0.1,
-            to: 3.0,
-            spring: [3e7, 2e7, 1e7],
-            share: SpringShare::Total,
-            offset: 2e-3,
-        };
+        let support =
+            RingSupport { from: 0.1, to: 3.0, spring: [3e7, 2e7, 1e7], share: SpringShare::Total, offset: 2e-3 };
         ring.add_support(&support).expect("nodes there");
         let solved = ringed(&cells.mesh, all, ring, fit, 12);
         let (model, basis) = (&solved.model, &solved.basis);
         let (shapes, of_ring) = (&solved.housing, &solved.of_ring);
-        let found = EnergyShares::with_ring(
-            (&cells.mesh, model),
-            &solved.ring,
-            shapes,
-            of_ring,
-            basis.rigid_modes,
-        );
+        let found = EnergyShares::with_ring((&cells.mesh, model), &solved.ring, shapes, of_ring, basis.rigid_modes);
         let found = found.expect("modes of this model");
         assert_eq!(found.springs, ["top", "ring supports"]);
         let own = |k: &DenseMatrix, mode: usize| -> f64 {
@@ -235,10 +178,7 @@ fn a_ring_has_its_share() {
             let hz = basis.frequencies_hz[mode];
             let difference = (shares.doubled_strain.sqrt() / std::f64::consts::TAU - hz).abs();
             let allowed = basis.error_bounds_hz[mode] + 1e-10 * hz;
-            assert!(
-                difference < allowed,
-                "{dimension} {fit:?} {mode}: {difference:e} of {hz} Hz, allowed {allowed:e}"
-            );
+            assert!(difference < allowed, "{dimension} {fit:?} {mode}: {difference:e} of {hz} Hz, allowed {allowed:e}");
             assert!((shares.doubled_kinetic - 1.0).abs() < 1e-10);
             // matrices of ring and of housing by themselves, springs included; their round-off is that of their entries
             let close = |share: f64, energy: f64, whole: f64, entries: f64| {
@@ -268,18 +208,9 @@ fn a_ring_has_its_share() {
             close(share, energy, kinetic_sum, housing_entries(m));
         }
         // the ring is not for show
-        let most = found
-            .modes
-            .iter()
-            .filter_map(|mode| mode.strain.as_ref()?.ring);
+        let most = found.modes.iter().filter_map(|mode| mode.strain.as_ref()?.ring);
         assert!(most.fold(0.0, f64::max) > 0.05);
-        let other = EnergyShares::with_ring(
-            (&cells.mesh, model),
-            &solved.ring,
-            shapes,
-            &DenseMatrix::zeros(5, 12),
-            0,
-        );
+        let other = EnergyShares::with_ring((&cells.mesh, model), &solved.ring, shapes, &DenseMatrix::zeros(5, 12), 0);
         assert!(matches!(other, Err(ModalError::Shape { .. })));
     }
 }

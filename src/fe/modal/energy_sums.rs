@@ -23,11 +23,7 @@ pub(super) struct Rows<'s> {
 
 impl Sums {
     fn zeros(parts: usize, groups: usize, modes: usize) -> Self {
-        Self {
-            parts,
-            groups,
-            values: vec![0.0; 2 * (parts + groups) * modes],
-        }
+        Self { parts, groups, values: vec![0.0; 2 * (parts + groups) * modes] }
     }
 
     fn width(&self) -> usize {
@@ -35,10 +31,7 @@ impl Sums {
     }
 
     pub(super) fn of_mode(&self, mode: usize) -> Rows<'_> {
-        Rows {
-            sums: self,
-            first: 2 * self.width() * mode,
-        }
+        Rows { sums: self, first: 2 * self.width() * mode }
     }
 
     fn add(&mut self, mode: usize, part: usize, groups: &[usize], [strain, kinetic]: [f64; 2]) {
@@ -53,9 +46,7 @@ impl Sums {
 
 impl<'s> Rows<'s> {
     fn slice(self, from: usize, count: usize) -> impl Iterator<Item = f64> + 's {
-        self.sums.values[self.first + from..][..count]
-            .iter()
-            .copied()
+        self.sums.values[self.first + from..][..count].iter().copied()
     }
 
     pub(super) fn strain_parts(self) -> impl Iterator<Item = f64> + 's {

@@ -97,9 +97,7 @@ pub enum ModalError {
         found: usize,
     },
     /// Two meshes of the same size.
-    #[error(
-        "two meshes have sizes {finer:e} and {coarser:e}: expected them to differ by 1 % at least"
-    )]
+    #[error("two meshes have sizes {finer:e} and {coarser:e}: expected them to differ by 1 % at least")]
     SameSize {
         /// Smaller size.
         finer: f64,
@@ -122,17 +120,9 @@ pub(super) fn check_finite<'a>(
 }
 
 /// Equal, or an error with both numbers.
-pub(super) fn check_count(
-    what: &'static str,
-    expected: usize,
-    found: usize,
-) -> Result<(), ModalError> {
+pub(super) fn check_count(what: &'static str, expected: usize, found: usize) -> Result<(), ModalError> {
     if expected == found {
         return Ok(());
     }
-    Err(ModalError::Shape {
-        what,
-        expected,
-        found,
-    })
+    Err(ModalError::Shape { what, expected, found })
 }

@@ -36,17 +36,8 @@ impl FullModes {
     ///
     /// # Errors
     /// [`ModalError::Linalg`], [`ModalError::NoModes`].
-    pub fn of(
-        matrices: CoupledMatrices,
-        range: ModeRange,
-        watch: &impl Watch,
-    ) -> Result<Self, ModalError> {
-        Self::by(
-            matrices,
-            range,
-            |problem, _| Ok(ModalBasis::of(problem, range)?),
-            watch,
-        )
+    pub fn of(matrices: CoupledMatrices, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
+        Self::by(matrices, range, |problem, _| Ok(ModalBasis::of(problem, range)?), watch)
     }
 
     /// Modes with those near zero by the energies of elements. `products` gives `Phi^T K Phi` of shapes over all rows, element by element.
@@ -60,9 +51,7 @@ impl FullModes {
         watch: &impl Watch,
     ) -> Result<Self, ModalError> {
         let solve = |problem: &EigenProblem, rows: &Rows| {
-            ModalBasis::sharpened(problem, range, |shapes| {
-                products(&rows.motions, &rows.all(shapes))
-            })
+            ModalBasis::sharpened(problem, range, |shapes| products(&rows.motions, &rows.all(shapes)))
         };
         Self::by(matrices, range, solve, watch)
     }
@@ -74,17 +63,8 @@ impl FullModes {
         solve: impl FnOnce(&EigenProblem, &Rows) -> Result<ModalBasis, ModalError>,
         watch: &impl Watch,
     ) -> Result<Self, ModalError> {
-        let CoupledMatrices {
-            stiffness,
-            mass,
-            free_dofs: free,
-            motions,
-        } = matrices;
-        let rows = Rows {
-            motions,
-            free,
-            count: mass.rows(),
-        };
+        let CoupledMatrices { stiffness, mass, free_dofs: free, motions } = matrices;
+        let rows = Rows { motions, free, count: mass.rows() };
         watch.stage("order");
         let problem = EigenProblem::restricted(&stiffness, &mass, &rows.free)?;
         drop((stiffness, mass));
@@ -118,11 +98,7 @@ impl FullModes {
     ///
     /// # Errors
     /// [`ModalError::Linalg`].
-    pub fn lowest(
-        matrices: CoupledMatrices,
-        count: usize,
-        watch: &impl Watch,
-    ) -> Result<Self, ModalError> {
+    pub fn lowest(matrices: CoupledMatrices, count: usize, watch: &impl Watch) -> Result<Self, ModalError> {
         Self::of(matrices, ModeRange::AtMost(count), watch)
     }
 
@@ -135,8 +111,7 @@ impl FullModes {
         products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
     ) -> Result<(), ModalError> {
         let rows = &self.rows;
-        self.basis
-            .sharpen(|shapes| products(&rows.motions, &rows.all(shapes)))
+        self.basis.sharpen(|shapes| products(&rows.motions, &rows.all(shapes)))
     }
 
     /// What the coordinates mean.
@@ -166,9 +141,7 @@ pub fn housing_modes(
     range: ModeRange,
 ) -> Result<ModalBasis, ModalError> {
     let matrices = CoupledMatrices::of_housing(matrices, model);
-    let products = |motions: &CoupledMotions, all: &DenseMatrix| {
-        strain_products(model, &motions.housing(model, all))
-    };
+    let products = |motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all));
     Ok(FullModes::sharpened(matrices, range, products, &Unwatched)?.basis)
 }
 

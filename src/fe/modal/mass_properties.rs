@@ -82,8 +82,7 @@ impl MassProperties {
                 0.5 * (couples(2, 0) - couples(0, 2)),
                 0.5 * (couples(0, 1) - couples(1, 0)),
             );
-            let about_point =
-                Matrix3::from_fn(|i, j| 0.5 * (rigid[(3 + i, 3 + j)] + rigid[(3 + j, 3 + i)]));
+            let about_point = Matrix3::from_fn(|i, j| 0.5 * (rigid[(3 + i, 3 + j)] + rigid[(3 + j, 3 + i)]));
             MassDistribution::Space {
                 centroid: (Vector3::from(about) + s).into(),
                 inertia: rows(&(about_point - shift(mass, s))),
@@ -121,32 +120,17 @@ impl MassProperties {
         let share = other.mass / mass;
         let reduced = self.mass * share;
         let distribution = match (self.distribution, other.distribution) {
-            (
-                Plane { centroid, polar },
-                Plane {
-                    centroid: further,
-                    polar: more,
-                },
-            ) => {
+            (Plane { centroid, polar }, Plane { centroid: further, polar: more }) => {
                 let [x, y] = [further[0] - centroid[0], further[1] - centroid[1]];
                 Plane {
                     centroid: [centroid[0] + share * x, centroid[1] + share * y],
                     polar: polar + more + reduced * (x * x + y * y),
                 }
             }
-            (
-                Space { centroid, inertia },
-                Space {
-                    centroid: further,
-                    inertia: more,
-                },
-            ) => {
+            (Space { centroid, inertia }, Space { centroid: further, inertia: more }) => {
                 let between = Vector3::from(further) - Vector3::from(centroid);
                 let sum = matrix(&inertia) + matrix(&more) + shift(reduced, between);
-                Space {
-                    centroid: (Vector3::from(centroid) + between * share).into(),
-                    inertia: rows(&sum),
-                }
+                Space { centroid: (Vector3::from(centroid) + between * share).into(), inertia: rows(&sum) }
             }
             _ => return Err(ModalError::PlaneAndSpace),
         };
@@ -156,9 +140,7 @@ impl MassProperties {
     /// Coordinates of the centroid, m; z is `None` for a plane model.
     pub fn centroid(&self) -> [Option<f64>; 3] {
         match self.distribution {
-            MassDistribution::Plane { centroid, .. } => {
-                [Some(centroid[0]), Some(centroid[1]), None]
-            }
+            MassDistribution::Plane { centroid, .. } => [Some(centroid[0]), Some(centroid[1]), None],
             MassDistribution::Space { centroid, .. } => centroid.map(Some),
         }
     }
@@ -204,12 +186,7 @@ fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
 /// Mean of the coordinates of the nodes that an element uses, m.
 fn middle(model: &HousingModel) -> [f64; 3] {
     let (mut sum, mut count) = ([0.0; 3], 0);
-    for (point, _) in model
-        .coordinates
-        .iter()
-        .zip(&model.used)
-        .filter(|node| *node.1)
-    {
+    for (point, _) in model.coordinates.iter().zip(&model.used).filter(|node| *node.1) {
         count += 1;
         for (sum, x) in sum.iter_mut().zip(point) {
             *sum += x;

@@ -4,17 +4,11 @@ use crate::fe::model::{HousingDescription, PointMass};
 
 /// A block of 0.3 x 0.2 x 0.1 m with a corner at the origin, with or without a point mass.
 fn block(dimension: usize, mass: Option<f64>) -> MassProperties {
-    let cells = Cells::new(dimension, [0.1; 3])
-        .block("block", 0, [0, 0, 0], [3, 2, 1])
-        .points("corner", 0, &[[3, 2, 0]]);
-    let masses = mass.map(|mass| PointMass {
-        group: "corner".to_owned(),
-        mass,
-    });
-    let description = HousingDescription {
-        masses: masses.into_iter().collect(),
-        ..description(&cells, &["block"], 1.0)
-    };
+    let cells =
+        Cells::new(dimension, [0.1; 3]).block("block", 0, [0, 0, 0], [3, 2, 1]).points("corner", 0, &[[3, 2, 0]]);
+    let masses = mass.map(|mass| PointMass { group: "corner".to_owned(), mass });
+    let description =
+        HousingDescription { masses: masses.into_iter().collect(), ..description(&cells, &["block"], 1.0) };
     let model = HousingModel::new(&cells.mesh, description).expect("a model");
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
     MassProperties::of_housing(&matrices, &model).expect("properties")
@@ -53,10 +47,7 @@ fn a_plane_model_knows_its_polar_moment_alone() {
     assert!((centroid[0] - 0.15).abs() < ROUND_OFF && (centroid[1] - 0.1).abs() < ROUND_OFF);
     assert!((polar / (mass * 0.13 / 12.0) - 1.0).abs() < ROUND_OFF);
     assert_eq!((found.centroid()[2], found.principal()), (None, None));
-    assert!(matches!(
-        found.combined(&block(3, None)),
-        Err(ModalError::PlaneAndSpace)
-    ));
+    assert!(matches!(found.combined(&block(3, None)), Err(ModalError::PlaneAndSpace)));
 }
 
 /// A point mass in the mass matrix is the same as one added by hand.
@@ -67,37 +58,19 @@ fn bodies_add_up() {
         let point = MassProperties {
             mass: 5.0,
             distribution: match dimension {
-                2 => MassDistribution::Plane {
-                    centroid: [0.3, 0.2],
-                    polar: 0.0,
-                },
-                _ => MassDistribution::Space {
-                    centroid: [0.3, 0.2, 0.0],
-                    inertia: [[0.0; 3]; 3],
-                },
+                2 => MassDistribution::Plane { centroid: [0.3, 0.2], polar: 0.0 },
+                _ => MassDistribution::Space { centroid: [0.3, 0.2, 0.0], inertia: [[0.0; 3]; 3] },
             },
         };
         let sum = bare.combined(&point).expect("of one dimension");
         assert!((sum.mass / loaded.mass - 1.0).abs() < ROUND_OFF);
         match (sum.distribution, loaded.distribution) {
-            (
-                MassDistribution::Plane { centroid, polar },
-                MassDistribution::Plane {
-                    centroid: c,
-                    polar: p,
-                },
-            ) => {
+            (MassDistribution::Plane { centroid, polar }, MassDistribution::Plane { centroid: c, polar: p }) => {
                 assert!((centroid[0] - c[0]).abs() < ROUND_OFF);
                 assert!((centroid[1] - c[1]).abs() < ROUND_OFF);
                 assert!((polar / p - 1.0).abs() < ROUND_OFF);
             }
-            (
-                MassDistribution::Space { centroid, inertia },
-                MassDistribution::Space {
-                    centroid: c,
-                    inertia: i,
-                },
-            ) => {
+            (MassDistribution::Space { centroid, inertia }, MassDistribution::Space { centroid: c, inertia: i }) => {
                 for a in 0..3 {
                     assert!((centroid[a] - c[a]).abs() < ROUND_OFF);
                     for b in 0..3 {
@@ -135,10 +108,7 @@ fn principal_axes_of_a_turned_body() {
 #[test]
 fn nothing_weighs_nothing() {
     let rigid = DenseMatrix::zeros(6, 6);
-    assert!(matches!(
-        MassProperties::from_rigid_inertia(&rigid, [0.0; 3]),
-        Err(ModalError::NoMass { .. })
-    ));
+    assert!(matches!(MassProperties::from_rigid_inertia(&rigid, [0.0; 3]), Err(ModalError::NoMass { .. })));
     assert!(matches!(
         MassProperties::from_rigid_inertia(&DenseMatrix::zeros(4, 4), [0.0; 3]),
         Err(ModalError::Shape { .. })

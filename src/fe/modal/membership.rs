@@ -27,10 +27,7 @@ impl Membership {
             }
         }
         check_count("elements of the mesh", model.elements.len(), count)?;
-        let own = mesh
-            .groups
-            .iter()
-            .filter(|group| group.dimension == model.dimension);
+        let own = mesh.groups.iter().filter(|group| group.dimension == model.dimension);
         let mut pairs = Vec::new();
         let mut names = Vec::new();
         for group in own {
@@ -42,14 +39,8 @@ impl Membership {
             names.push(group.name.clone());
         }
         pairs.sort_unstable();
-        let starts = (0..=count)
-            .map(|element| pairs.partition_point(|pair| pair.0 < element))
-            .collect();
-        Ok(Self {
-            names,
-            starts,
-            groups: pairs.into_iter().map(|pair| pair.1).collect(),
-        })
+        let starts = (0..=count).map(|element| pairs.partition_point(|pair| pair.0 < element)).collect();
+        Ok(Self { names, starts, groups: pairs.into_iter().map(|pair| pair.1).collect() })
     }
 
     /// Groups of an element, as places in `names`.

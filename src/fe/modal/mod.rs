@@ -25,12 +25,8 @@ mod strain_products;
 mod survey;
 
 pub use basis::{FrequencyCount, ModalBasis, ModeRange};
-pub use comparison::{
-    ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet, PointMatch,
-};
-pub use convergence::{
-    Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson,
-};
+pub use comparison::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet, PointMatch};
+pub use convergence::{Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson};
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
 pub use full_modes::{FullModes, housing_modes};

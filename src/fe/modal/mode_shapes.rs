@@ -25,32 +25,22 @@ impl OwnModes<'_> {
         }
         let nodes = points.len();
         points.extend(self.ring.iter().flat_map(|ring| &ring.points));
-        let shapes =
-            DenseMatrix::from_fn(3 * points.len(), self.frequencies_hz.len(), |row, mode| {
-                let (point, axis) = (row / 3, row % 3);
-                match (self.housing, self.ring) {
-                    (Some((_, model, shapes)), _) if point < nodes => {
-                        let d = model.dimension();
-                        if axis < d {
-                            shapes[(d * point + axis, mode)]
-                        } else {
-                            0.0
-                        }
-                    }
-                    (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
-                    _ => 0.0,
+        let shapes = DenseMatrix::from_fn(3 * points.len(), self.frequencies_hz.len(), |row, mode| {
+            let (point, axis) = (row / 3, row % 3);
+            match (self.housing, self.ring) {
+                (Some((_, model, shapes)), _) if point < nodes => {
+                    let d = model.dimension();
+                    if axis < d { shapes[(d * point + axis, mode)] } else { 0.0 }
                 }
-            });
+                (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
+                _ => 0.0,
+            }
+        });
         let tags = match (self.housing, self.ring) {
             (Some((mesh, ..)), None) => Some(mesh.node_tags.clone()),
             _ => None,
         };
-        ModeSet {
-            frequencies_hz: self.frequencies_hz.to_vec(),
-            points,
-            node_tags: tags,
-            shapes,
-        }
+        ModeSet { frequencies_hz: self.frequencies_hz.to_vec(), points, node_tags: tags, shapes }
     }
 }
 
@@ -64,11 +54,7 @@ pub(crate) struct Partner {
 }
 
 /// What of `other` belongs to each mode of `own`: by shape, and repeated ones in their order within their group.
-pub(crate) fn partners(
-    own: &ModeSet,
-    other: &ModeSet,
-    found: &ModalComparison,
-) -> Vec<Option<Partner>> {
+pub(crate) fn partners(own: &ModeSet, other: &ModeSet, found: &ModalComparison) -> Vec<Option<Partner>> {
     let mut partners = vec![None; own.frequencies_hz.len()];
     for pair in &found.pairs {
         // a group that the end of the list cuts off has its lowest modes here
@@ -84,10 +70,7 @@ pub(crate) fn partners(
         let here = ascending(&pair.here, &own.frequencies_hz);
         let there = ascending(&pair.there, &other.frequencies_hz);
         for (here, there) in here.into_iter().zip(there) {
-            partners[here] = Some(Partner {
-                hz: other.frequencies_hz[there],
-                mac: pair.mac,
-            });
+            partners[here] = Some(Partner { hz: other.frequencies_hz[there], mac: pair.mac });
         }
     }
     partners
@@ -108,14 +91,9 @@ impl RingShapes {
         let displacements = (0..shapes.ncols())
             .map(|mode| {
                 let shape = shapes.col_as_slice(mode);
-                (0..ring.nodes())
-                    .map(|node| frame.vector_to_mesh(ring.node_displacement(node, shape)))
-                    .collect()
+                (0..ring.nodes()).map(|node| frame.vector_to_mesh(ring.node_displacement(node, shape))).collect()
             })
             .collect();
-        Self {
-            points: points.collect(),
-            displacements,
-        }
+        Self { points: points.collect(), displacements }
     }
 }

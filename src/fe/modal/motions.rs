@@ -72,11 +72,7 @@ pub(crate) fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> D
     let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
     let motion = |translation: [f64; 3], rotation: [f64; 3]| {
         let [x, y, z] = rotation;
-        let carried = [
-            y * arm[2] - z * arm[1],
-            z * arm[0] - x * arm[2],
-            x * arm[1] - y * arm[0],
-        ];
+        let carried = [y * arm[2] - z * arm[1], z * arm[0] - x * arm[2], x * arm[1] - y * arm[0]];
         let of_centre = [0, 1, 2].map(|axis| translation[axis] + carried[axis]);
         ring.rigid_motion_in_space(frame.vector(of_centre), frame.vector(rotation))
     };
@@ -94,9 +90,7 @@ pub(crate) fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> D
         let rotation = motion([0.0; 3], along(2));
         translations.chain([rotation]).collect()
     };
-    DenseMatrix::from_fn(ring.dof(), motions.len(), |row, column| {
-        motions[column][row]
-    })
+    DenseMatrix::from_fn(ring.dof(), motions.len(), |row, column| motions[column][row])
 }
 
 #[cfg(test)]

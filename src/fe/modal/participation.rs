@@ -29,11 +29,7 @@ impl Participation {
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the numbers of rows differ, [`ModalError::NoMass`] for a mode that moves no mass.
-    pub fn new(
-        mass: &SparseMatrix,
-        shapes: &DenseMatrix,
-        rigid: &DenseMatrix,
-    ) -> Result<Self, ModalError> {
+    pub fn new(mass: &SparseMatrix, shapes: &DenseMatrix, rigid: &DenseMatrix) -> Result<Self, ModalError> {
         check_count("columns of the mass matrix", mass.rows(), mass.cols())?;
         check_count("rows of the modes", mass.rows(), shapes.nrows())?;
         check_count("rows of the rigid motions", mass.rows(), rigid.nrows())?;
@@ -66,12 +62,7 @@ impl Participation {
         Ok(Self::with_masses(moved, shapes, rigid, &ones))
     }
 
-    fn with_masses(
-        moved: &DenseMatrix,
-        shapes: &DenseMatrix,
-        rigid: &DenseMatrix,
-        generalised: &[f64],
-    ) -> Self {
+    fn with_masses(moved: &DenseMatrix, shapes: &DenseMatrix, rigid: &DenseMatrix, generalised: &[f64]) -> Self {
         let factors = shapes.transpose() * moved;
         let effective = DenseMatrix::from_fn(factors.nrows(), factors.ncols(), |mode, j| {
             factors[(mode, j)].powi(2) / generalised[mode]
@@ -96,9 +87,7 @@ impl Participation {
     /// Share of the total that the modes up to and with this one move, 0 to 1; `None` as for
     /// [`Self::fraction`].
     pub fn cumulative_fraction(&self, mode: usize, direction: usize) -> Option<f64> {
-        (0..=mode)
-            .map(|earlier| self.fraction(earlier, direction))
-            .sum()
+        (0..=mode).map(|earlier| self.fraction(earlier, direction)).sum()
     }
 }
 

@@ -14,14 +14,14 @@ fn participation(solved: &Solved) -> (Participation, DenseMatrix) {
 
 /// A beam of Quad4 along x, clamped at the left end.
 fn cantilever(cells: i32) -> Solved {
-    let beam = Cells::new(2, [0.05, 0.05, 0.05])
-        .block("beam", 0, [0, 0, 0], [cells, 1, 0])
-        .points("wall", 0, &[[0, 0, 0], [0, 1, 0]]);
+    let beam = Cells::new(2, [0.05, 0.05, 0.05]).block("beam", 0, [0, 0, 0], [cells, 1, 0]).points(
+        "wall",
+        0,
+        &[[0, 0, 0], [0, 1, 0]],
+    );
     let fixed = Constraint::Fixed([true, true, false]);
-    let description = HousingDescription {
-        supports: vec![support("wall", fixed)],
-        ..description(&beam, &["beam"], 1.0)
-    };
+    let description =
+        HousingDescription { supports: vec![support("wall", fixed)], ..description(&beam, &["beam"], 1.0) };
     solve(&beam.mesh, description)
 }
 
@@ -33,14 +33,9 @@ fn rigid_modes_of_a_free_body_carry_everything() {
         let solved = solve(&body.mesh, description(&body, &["b"], 1.0));
         let (found, _) = participation(&solved);
         for direction in 0..rigid_modes {
-            let rigid = found
-                .cumulative_fraction(rigid_modes - 1, direction)
-                .expect("mass");
+            let rigid = found.cumulative_fraction(rigid_modes - 1, direction).expect("mass");
             // the solver's modes are orthogonal to 1e-12 or so, and that enters squared
-            assert!(
-                (rigid - 1.0).abs() < 1e-11,
-                "{dimension} {direction} {rigid}"
-            );
+            assert!((rigid - 1.0).abs() < 1e-11, "{dimension} {direction} {rigid}");
             let elastic = found.sums[direction] / found.totals[direction] - rigid;
             assert!(elastic.abs() < 1e-11, "{dimension} {direction} {elastic}");
         }
@@ -78,9 +73,8 @@ fn bending_modes_of_a_slender_cantilever() {
     let solved = cantilever(40);
     let (found, _) = participation(&solved);
     let largest = |direction: usize| {
-        let mut all: Vec<f64> = (0..solved.eigenvalues.len())
-            .filter_map(|mode| found.fraction(mode, direction))
-            .collect();
+        let mut all: Vec<f64> =
+            (0..solved.eigenvalues.len()).filter_map(|mode| found.fraction(mode, direction)).collect();
         all.sort_by(|a, b| b.total_cmp(a));
         all
     };
@@ -91,10 +85,7 @@ fn bending_modes_of_a_slender_cantilever() {
     }
     // linear elements along: 40 of them, error of the order (1/40)^2, and Poisson's clamp at the wall
     let along = largest(0)[0];
-    assert!(
-        (along - 8.0 / std::f64::consts::PI.powi(2)).abs() < 4e-3,
-        "{along}"
-    );
+    assert!((along - 8.0 / std::f64::consts::PI.powi(2)).abs() < 4e-3, "{along}");
 }
 
 #[test]

@@ -5,12 +5,10 @@ use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RingLayer};
-use crate::fe::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
-};
+use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use crate::fe::model::{
-    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel,
-    Ring, RingFrame, RingTie, SupportShare,
+    Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingFrame,
+    RingTie, SupportShare,
 };
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows};
 use std::collections::BTreeMap;
@@ -36,10 +34,7 @@ impl Cells {
                 node_tags: Vec::new(),
                 blocks: Vec::new(),
                 groups: Vec::new(),
-                format: MshFormat {
-                    version: MshVersion::V41,
-                    binary: false,
-                },
+                format: MshFormat { version: MshVersion::V41, binary: false },
                 source: PathBuf::from("cells.msh"),
             },
         }
@@ -49,8 +44,7 @@ impl Cells {
         let mesh = &mut self.mesh;
         let pitch = self.pitch;
         *self.nodes.entry((copy, at)).or_insert_with(|| {
-            mesh.nodes
-                .push([0, 1, 2].map(|i| f64::from(at[i]) * pitch[i]));
+            mesh.nodes.push([0, 1, 2].map(|i| f64::from(at[i]) * pitch[i]));
             mesh.node_tags.push(mesh.nodes.len() as u64);
             mesh.nodes.len() - 1
         })
@@ -58,28 +52,16 @@ impl Cells {
 
     fn add(&mut self, group: &str, kind: ElementKind, elements: &[Vec<usize>]) {
         let block = self.mesh.blocks.len();
-        let first = 1 + self
-            .mesh
-            .blocks
-            .iter()
-            .map(ElementBlock::len)
-            .sum::<usize>() as u64;
+        let first = 1 + self.mesh.blocks.iter().map(ElementBlock::len).sum::<usize>() as u64;
         let dimension = kind.dimension();
         self.mesh.blocks.push(ElementBlock {
             kind,
             tags: (first..).take(elements.len()).collect(),
             connectivity: elements.concat(),
-            entity: Entity {
-                dimension,
-                tag: block as i32 + 1,
-            },
+            entity: Entity { dimension, tag: block as i32 + 1 },
         });
         let ids = (0..elements.len()).map(|index| ElementId { block, index });
-        let known = self
-            .mesh
-            .groups
-            .iter()
-            .position(|known| known.name == group);
+        let known = self.mesh.groups.iter().position(|known| known.name == group);
         let place = known.unwrap_or_else(|| {
             self.mesh.groups.push(PhysicalGroup {
                 name: group.to_owned(),
@@ -106,18 +88,13 @@ impl Cells {
             for y in from[1]..to[1] {
                 for x in from[0]..to[0] {
                     let levels = if self.plane { 1 } else { 2 };
-                    let corners =
-                        (0..levels).flat_map(|up| RING.map(|[i, j]| [x + i, y + j, z + up]));
+                    let corners = (0..levels).flat_map(|up| RING.map(|[i, j]| [x + i, y + j, z + up]));
                     let corners: Vec<[i32; 3]> = corners.collect();
                     elements.push(corners.iter().map(|&at| self.node(copy, at)).collect());
                 }
             }
         }
-        let kind = if self.plane {
-            ElementKind::Quad4
-        } else {
-            ElementKind::Hex8
-        };
+        let kind = if self.plane { ElementKind::Quad4 } else { ElementKind::Hex8 };
         self.add(group, kind, &elements);
         self
     }
@@ -140,18 +117,10 @@ impl Cells {
             }
             for y in from[1]..to[1] {
                 let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
-                elements.push(
-                    corners
-                        .map(|[x, y]| self.node(copy, [x, y, from[2]]))
-                        .to_vec(),
-                );
+                elements.push(corners.map(|[x, y]| self.node(copy, [x, y, from[2]])).to_vec());
             }
         }
-        let kind = if self.plane {
-            ElementKind::Line2
-        } else {
-            ElementKind::Quad4
-        };
+        let kind = if self.plane { ElementKind::Line2 } else { ElementKind::Quad4 };
         self.add(group, kind, &elements);
         self
     }
@@ -160,27 +129,17 @@ impl Cells {
 /// A description with these parts, of steel times `scale` in stiffness.
 pub(super) fn description(cells: &Cells, parts: &[&str], scale: f64) -> HousingDescription {
     let material = Material::new(2.1e11 * scale, 0.3, 7800.0).expect("steel");
-    let part = |group: &&str| HousingPart {
-        group: (*group).to_owned(),
-        material: material.into(),
-    };
+    let part = |group: &&str| HousingPart { group: (*group).to_owned(), material: material.into() };
     HousingDescription {
         parts: parts.iter().map(part).collect(),
-        plane: cells.plane.then_some(PlaneModel {
-            assumption: PlaneAssumption::Stress,
-            thickness: 0.01,
-        }),
+        plane: cells.plane.then_some(PlaneModel { assumption: PlaneAssumption::Stress, thickness: 0.01 }),
         ..HousingDescription::default()
     }
 }
 
 /// A support with a value for each node.
 pub(super) fn support(group: &str, constraint: Constraint) -> HousingSupport {
-    HousingSupport {
-        group: group.to_owned(),
-        constraint,
-        share: SupportShare::PerNode,
-    }
+    HousingSupport { group: group.to_owned(), constraint, share: SupportShare::PerNode }
 }
 
 /// A model with its matrices and all its modes over all degrees of freedom.
@@ -207,18 +166,12 @@ pub(super) fn solve(mesh: &Mesh, description: HousingDescription) -> Solved {
 }
 
 /// The lowest modes over the free degrees of freedom, those near zero by the energies of elements.
-pub(super) fn sharp_modes(
-    model: &HousingModel,
-    matrices: &SystemMatrices,
-    count: usize,
-) -> ModalBasis {
+pub(super) fn sharp_modes(model: &HousingModel, matrices: &SystemMatrices, count: usize) -> ModalBasis {
     let free = model.free_dofs();
     let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, &free);
     let problem = problem.expect("an order");
     let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
-    basis
-        .sharpen(|shapes| strain_products(model, &over_all_dofs(model, &free, shapes)?))
-        .expect("of its order");
+    basis.sharpen(|shapes| strain_products(model, &over_all_dofs(model, &free, shapes)?)).expect("of its order");
     basis
 }
 
@@ -238,12 +191,12 @@ pub(super) struct Ringed {
 /// A block of 2 x 2 (x 2) cells of 0.1 m about the origin of its frame; its corners are the bore, 0.1414 m away.
 pub(super) fn block_round_a_ring(dimension: usize) -> (Cells, RingFrame) {
     let levels: &[i32] = if dimension == 2 { &[0] } else { &[0, 2] };
-    let corners = levels
-        .iter()
-        .flat_map(|&z| [[0, 0, z], [2, 0, z], [2, 2, z], [0, 2, z]]);
-    let cells = Cells::new(dimension, [0.1; 3])
-        .block("body", 0, [0; 3], [2, 2, 2])
-        .points("bore", 0, &corners.collect::<Vec<_>>());
+    let corners = levels.iter().flat_map(|&z| [[0, 0, z], [2, 0, z], [2, 2, z], [0, 2, z]]);
+    let cells = Cells::new(dimension, [0.1; 3]).block("body", 0, [0; 3], [2, 2, 2]).points(
+        "bore",
+        0,
+        &corners.collect::<Vec<_>>(),
+    );
     let frame = RingFrame::new([0.1, 0.1, 0.0], [0.0, 0.0, 1.0], [1.0, 0.5, 0.0]);
     (cells, frame.expect("two axes"))
 }
@@ -267,23 +220,12 @@ pub(super) fn ring_for_block(dimension: usize) -> Ring {
     ring.expect("24 nodes")
 }
 
-pub(super) fn ringed(
-    mesh: &Mesh,
-    description: HousingDescription,
-    ring: Ring,
-    fit: Fit,
-    count: usize,
-) -> Ringed {
+pub(super) fn ringed(mesh: &Mesh, description: HousingDescription, ring: Ring, fit: Fit, count: usize) -> Ringed {
     let model = HousingModel::new(mesh, description).expect("a model");
     let radius = 0.1 * 2.0_f64.sqrt();
     let tie = RingTie::new(mesh, &model, "bore", &ring, radius, fit).expect("at the ring");
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
-    let CoupledMatrices {
-        stiffness,
-        mass,
-        free_dofs,
-        motions,
-    } = CoupledMatrices::new(&matrices, &tie, &ring);
+    let CoupledMatrices { stiffness, mass, free_dofs, motions } = CoupledMatrices::new(&matrices, &tie, &ring);
     let problem = EigenProblem::restricted(&stiffness, &mass, &free_dofs).expect("an order");
     let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
     let over_all = |shapes: &DenseMatrix| scattered_rows(shapes, &free_dofs, mass.rows());
@@ -295,13 +237,5 @@ pub(super) fn ringed(
     };
     basis.sharpen(products).expect("of its order");
     let all = over_all(&basis.shapes);
-    Ringed {
-        housing: motions.housing(&model, &all),
-        of_ring: motions.ring(&all),
-        model,
-        matrices,
-        tie,
-        ring,
-        basis,
-    }
+    Ringed { housing: motions.housing(&model, &all), of_ring: motions.ring(&all), model, matrices, tie, ring, basis }
 }

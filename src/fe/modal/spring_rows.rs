@@ -76,9 +76,7 @@ mod tests {
         let rows = spring_rows(&k);
         assert_eq!(rows.len(), 3);
         let sum = DMatrix::from_fn(5, 5, |i, j| {
-            rows.iter()
-                .map(|row| row.stiffness * row.factors[i] * row.factors[j])
-                .sum::<f64>()
+            rows.iter().map(|row| row.stiffness * row.factors[i] * row.factors[j]).sum::<f64>()
         });
         // round-off of three subtractions
         assert!((sum - &k).amax() < 1e-14 * k.amax());

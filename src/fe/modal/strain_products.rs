@@ -19,10 +19,7 @@ use rayon::prelude::*;
 /// # Errors
 /// [`ModalError::Shape`] for another number of rows, [`ModalError::Model`] with the tag of an element that is inverted
 /// or degenerate.
-pub fn strain_products(
-    model: &HousingModel,
-    shapes: &DenseMatrix,
-) -> Result<DenseMatrix, ModalError> {
+pub fn strain_products(model: &HousingModel, shapes: &DenseMatrix) -> Result<DenseMatrix, ModalError> {
     check_count("rows of the modes", model.dof(), shapes.nrows())?;
     let count = shapes.ncols();
     let chunks: Vec<Result<DenseMatrix, ModelError>> = model
@@ -66,9 +63,7 @@ fn add_springs(total: &mut DenseMatrix, model: &HousingModel, shapes: &DenseMatr
             let stretch = |mode: usize| -> f64 {
                 let shape = shapes.col_as_slice(mode);
                 let entries = row.factors.iter().enumerate();
-                entries
-                    .map(|(place, factor)| factor * shape[d * spring.nodes[place / d] + place % d])
-                    .sum()
+                entries.map(|(place, factor)| factor * shape[d * spring.nodes[place / d] + place % d]).sum()
             };
             let stretches: Vec<f64> = (0..count).map(stretch).collect();
             for (b, own) in stretches.iter().enumerate() {

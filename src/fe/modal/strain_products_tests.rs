@@ -2,8 +2,7 @@ use super::super::rigid_motions;
 use super::super::samples::{Cells, description, solve, support};
 use super::*;
 use crate::fe::model::{
-    Connection, Constraint, HousingDescription, HousingModel, HousingSupport, Link,
-    SpringStiffness, SupportShare,
+    Connection, Constraint, HousingDescription, HousingModel, HousingSupport, Link, SpringStiffness, SupportShare,
 };
 use crate::numerics::linalg::sparse_times_dense;
 
@@ -55,10 +54,7 @@ fn products_are_those_of_the_matrix() {
 fn rigid_motions_have_no_energy() {
     for dimension in [2, 3] {
         let (cells, all) = on_springs(dimension);
-        let free = HousingDescription {
-            supports: Vec::new(),
-            ..all
-        };
+        let free = HousingDescription { supports: Vec::new(), ..all };
         let model = HousingModel::new(&cells.mesh, free).expect("a model");
         for about in [[0.0; 3], [1.0, 2.0, 3.0]] {
             let r = rigid_motions(model.coordinates(), dimension, about);
@@ -67,10 +63,7 @@ fn rigid_motions_have_no_energy() {
             for motion in 0..r.ncols() {
                 let relative = found[(motion, motion)].abs() / (size * f64::EPSILON.powi(2));
                 // 20 elements of up to 24 rows, each displacement off by half an eps or so
-                assert!(
-                    relative < 1e4,
-                    "{dimension} {about:?} {motion}: {relative:e} eps^2"
-                );
+                assert!(relative < 1e4, "{dimension} {about:?} {motion}: {relative:e} eps^2");
             }
         }
     }
@@ -80,14 +73,10 @@ fn rigid_motions_have_no_energy() {
 fn the_number_of_threads_does_not_change_a_bit() {
     let cells = Cells::new(3, [0.01; 3]).block("b", 0, [0; 3], [12, 12, 8]);
     let model = HousingModel::new(&cells.mesh, description(&cells, &["b"], 1.0)).expect("a model");
-    let shapes = DenseMatrix::from_fn(model.dof(), 3, |dof, mode| {
-        (0.37 * (dof + 1) as f64 * (mode + 1) as f64).sin()
-    });
+    let shapes = DenseMatrix::from_fn(model.dof(), 3, |dof, mode| (0.37 * (dof + 1) as f64 * (mode + 1) as f64).sin());
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads")
-            .install(|| strain_products(&model, &shapes))
-            .expect("products")
+        pool.expect("threads").install(|| strain_products(&model, &shapes)).expect("products")
     };
     let one = on(1);
     assert!(one == on(2) && one == on(8));

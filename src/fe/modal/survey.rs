@@ -3,8 +3,8 @@
 use super::full_modes::FullModes;
 use super::mode_shapes::{OwnModes, RingShapes};
 use super::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, Participation,
-    rigid_motions, ring_motions, strain_products,
+    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, Participation, rigid_motions,
+    ring_motions, strain_products,
 };
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
@@ -52,20 +52,15 @@ impl ModalSurvey {
         let mass = MassProperties::of_housing(&matrices, model)?;
         let rigid = rigid_motions(model.coordinates(), model.dimension(), centroid(&mass));
         let matrices = CoupledMatrices::of_housing(matrices, model);
-        let products = |motions: &CoupledMotions, all: &DenseMatrix| {
-            strain_products(model, &motions.housing(model, all))
-        };
-        let (modes, all, participation) =
-            FullModes::analysed(matrices, range, &rigid, products, watch)?;
+        let products =
+            |motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all));
+        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
         watch.stage("analyse");
         let shapes = modes.motions().housing(model, &all);
         let groups = mesh.groups.iter();
         let groups = groups.filter(|group| group.dimension == model.dimension());
-        let several =
-            model.part_names().len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
-        let shares = several
-            .then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes))
-            .transpose()?;
+        let several = model.part_names().len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
+        let shares = several.then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes)).transpose()?;
         let mechanisms = unless_too_many_bodies(Mechanisms::find(mesh, model))?;
         Ok(Self {
             dof: model.dof(),
@@ -81,15 +76,10 @@ impl ModalSurvey {
     }
 
     /// The modes at the nodes of the mesh and of the ring; `housing` is what they are of.
-    pub(crate) fn own_modes<'a>(
-        &'a self,
-        housing: Option<(&'a Mesh, &'a HousingModel)>,
-    ) -> OwnModes<'a> {
+    pub(crate) fn own_modes<'a>(&'a self, housing: Option<(&'a Mesh, &'a HousingModel)>) -> OwnModes<'a> {
         OwnModes {
             frequencies_hz: &self.basis.frequencies_hz,
-            housing: housing
-                .zip(self.housing.as_ref())
-                .map(|((mesh, model), shapes)| (mesh, model, shapes)),
+            housing: housing.zip(self.housing.as_ref()).map(|((mesh, model), shapes)| (mesh, model, shapes)),
             ring: self.ring.as_ref(),
         }
     }
@@ -125,15 +115,13 @@ impl ModalSurvey {
             let of_housing = strain_products(model, &motions.housing(model, all))?;
             Ok(of_housing + of_ring.beams + of_ring.springs)
         };
-        let (modes, all, participation) =
-            FullModes::analysed(matrices, range, &rigid, products, watch)?;
+        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
         watch.stage("analyse");
         let shapes = modes.motions().housing(model, &all);
         let of_ring = modes.motions().ring(&all);
         let rigid_modes = modes.basis.rigid_modes;
         let shares = EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, rigid_modes)?;
-        let mechanisms =
-            unless_too_many_bodies(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
+        let mechanisms = unless_too_many_bodies(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
         Ok(Self {
             dof: model.dof() + ring.dof(),
             free_dof: modes.free_dof(),
@@ -161,12 +149,9 @@ impl ModalSurvey {
             let strain = ring.strain_products(all);
             Ok(strain.beams + strain.springs)
         };
-        let (modes, all, participation) =
-            FullModes::analysed(matrices, range, &rigid, products, watch)?;
-        let shares = ring
-            .has_springs()
-            .then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes))
-            .transpose()?;
+        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
+        let shares =
+            ring.has_springs().then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes)).transpose()?;
         Ok(Self {
             dof: ring.dof(),
             free_dof: modes.free_dof(),
@@ -186,9 +171,7 @@ fn centroid(mass: &MassProperties) -> [f64; 3] {
 }
 
 /// A mesh in too many bodies is worth no error where only reasons were asked for.
-pub(crate) fn unless_too_many_bodies(
-    found: Result<Mechanisms, ModalError>,
-) -> Result<Option<Mechanisms>, ModalError> {
+pub(crate) fn unless_too_many_bodies(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechanisms>, ModalError> {
     match found {
         Ok(found) => Ok(Some(found)),
         Err(ModalError::TooManyBodies { .. }) => Ok(None),

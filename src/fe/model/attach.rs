@@ -14,22 +14,14 @@ impl HousingModel {
         let group = self.group_on_housing(mesh, &mass.group, "the mass")?;
         for Share { nodes, matrix } in shares(mesh, group, &self.used, "the mass")? {
             let matrix = matrix * mass.mass;
-            self.masses.push(NodalMatrix {
-                nodes,
-                matrix,
-                source: NodalSource::Mass(index),
-            });
+            self.masses.push(NodalMatrix { nodes, matrix, source: NodalSource::Mass(index) });
         }
         Ok(())
     }
 
     /// Point masses on nodes that supports hold in every direction.
     pub fn held_masses(&self) -> impl Iterator<Item = &PointMass> {
-        let is_held = |node: &usize| {
-            self.fixed[*node][..self.dimension]
-                .iter()
-                .all(Option::is_some)
-        };
+        let is_held = |node: &usize| self.fixed[*node][..self.dimension].iter().all(Option::is_some);
         let numbered = self.point_masses.iter().enumerate();
         let held = numbered.filter(move |(index, _)| {
             let of_mass = |matrix: &&NodalMatrix| matches!(matrix.source, NodalSource::Mass(own) if own == *index);
@@ -62,11 +54,7 @@ impl HousingModel {
         };
         for share in shares {
             let matrix = self.spring_matrix(&share, stiffness);
-            self.springs.push(NodalMatrix {
-                nodes: share.nodes,
-                matrix,
-                source: NodalSource::Support(index),
-            });
+            self.springs.push(NodalMatrix { nodes: share.nodes, matrix, source: NodalSource::Support(index) });
         }
         Ok(())
     }
@@ -75,20 +63,14 @@ impl HousingModel {
     pub(super) fn spring_matrix(&self, share: &Share, stiffness: SpringStiffness) -> DMatrix<f64> {
         let d = self.dimension;
         let radial = |node: usize| self.frame.polar_axes(self.coordinates[node])[0];
-        DMatrix::from_fn(
-            d * share.nodes.len(),
-            d * share.nodes.len(),
-            |row, column| {
-                let (a, b, i, j) = (row / d, column / d, row % d, column % d);
-                let weight = share.matrix[(a, b)];
-                match stiffness {
-                    SpringStiffness::Global(along) if i == j => weight * along[i],
-                    SpringStiffness::Global(_) => 0.0,
-                    SpringStiffness::Radial(k) => {
-                        weight * k * radial(share.nodes[a])[i] * radial(share.nodes[b])[j]
-                    }
-                }
-            },
-        )
+        DMatrix::from_fn(d * share.nodes.len(), d * share.nodes.len(), |row, column| {
+            let (a, b, i, j) = (row / d, column / d, row % d, column % d);
+            let weight = share.matrix[(a, b)];
+            match stiffness {
+                SpringStiffness::Global(along) if i == j => weight * along[i],
+                SpringStiffness::Global(_) => 0.0,
+                SpringStiffness::Radial(k) => weight * k * radial(share.nodes[a])[i] * radial(share.nodes[b])[j],
+            }
+        })
     }
 }

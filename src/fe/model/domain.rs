@@ -13,11 +13,8 @@ pub(super) struct Domain {
 impl Domain {
     pub(super) fn of(kind: SurfaceKind) -> Self {
         const ENDS: [[[f64; 2]; 2]; 2] = [[[-1.0, 0.0]; 2], [[1.0, 0.0]; 2]];
-        const TRIANGLE: [[[f64; 2]; 2]; 3] = [
-            [[0.0, 0.0], [1.0, 0.0]],
-            [[1.0, 0.0], [0.0, 1.0]],
-            [[0.0, 1.0], [0.0, 0.0]],
-        ];
+        const TRIANGLE: [[[f64; 2]; 2]; 3] =
+            [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [0.0, 0.0]]];
         const SQUARE: [[[f64; 2]; 2]; 4] = [
             [[-1.0, -1.0], [1.0, -1.0]],
             [[1.0, -1.0], [1.0, 1.0]],
@@ -30,12 +27,7 @@ impl Domain {
             SurfaceKind::Quad4 | SurfaceKind::Quad8 => (2, false, &SQUARE),
         };
         let centre = if triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
-        Self {
-            dimension,
-            centre,
-            triangle,
-            sides,
-        }
+        Self { dimension, centre, triangle, sides }
     }
 
     fn within(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {

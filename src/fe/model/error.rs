@@ -247,9 +247,7 @@ pub enum ModelError {
         to: String,
     },
     /// A ring of elements that has no section where a ring of beams has a node.
-    #[error(
-        "springs at {nodes} ring nodes need as many sections of the solid ring or a multiple, found {sections}"
-    )]
+    #[error("springs at {nodes} ring nodes need as many sections of the solid ring or a multiple, found {sections}")]
     RingSections {
         /// Nodes of the ring of beams.
         nodes: usize,

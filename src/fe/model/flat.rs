@@ -83,12 +83,7 @@ impl HousingModel {
                 match &mut found {
                     Some(found) if found.flatness >= flatness => found.faces = faces,
                     _ => {
-                        found = Some(FlatLayer {
-                            faces,
-                            tag: element.tag,
-                            flatness,
-                            place: self.mean(&face).into(),
-                        });
+                        found = Some(FlatLayer { faces, tag: element.tag, flatness, place: self.mean(&face).into() });
                     }
                 }
             }
@@ -117,11 +112,7 @@ impl HousingModel {
         let d = self.dimension;
         for spring in &self.springs {
             let modulus = match spring.source {
-                NodalSource::Link(_) => spring
-                    .nodes
-                    .iter()
-                    .map(|&node| own[node])
-                    .fold(0.0, f64::max),
+                NodalSource::Link(_) => spring.nodes.iter().map(|&node| own[node]).fold(0.0, f64::max),
                 _ => f64::INFINITY,
             };
             for (row, &node) in spring.nodes.iter().enumerate() {
@@ -150,9 +141,7 @@ impl HousingModel {
         }
         let nodes = self.elements.nodes(element);
         let faces = element_kind(element.kind).faces().iter();
-        faces
-            .map(|face| face.nodes.iter().map(|&local| nodes[local]).collect())
-            .collect()
+        faces.map(|face| face.nodes.iter().map(|&local| nodes[local]).collect()).collect()
     }
 
     fn elements_behind_faces(&self) -> BTreeMap<Corners, [Option<usize>; 2]> {
@@ -219,8 +208,7 @@ impl HousingModel {
             }
             let next = behind.get(&sorted(&opposite))?.iter().flatten();
             let next = next.copied().find(|&next| next != index);
-            let goes_on =
-                |&next: &usize| STIFFER * self.modulus(&self.elements.as_slice()[next]) > modulus;
+            let goes_on = |&next: &usize| STIFFER * self.modulus(&self.elements.as_slice()[next]) > modulus;
             match next.filter(goes_on) {
                 Some(next) => (index, face) = (next, opposite),
                 None => return told(FLAT),

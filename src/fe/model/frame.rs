@@ -15,10 +15,7 @@ pub struct RingFrame {
 impl Default for RingFrame {
     /// The mesh's own frame.
     fn default() -> Self {
-        Self {
-            centre: Vector3::zeros(),
-            turn: Matrix3::identity(),
-        }
+        Self { centre: Vector3::zeros(), turn: Matrix3::identity() }
     }
 }
 
@@ -87,16 +84,12 @@ mod tests {
 
     #[test]
     fn components_of_a_frame_along_y() {
-        let frame =
-            RingFrame::new([1.0, 2.0, 3.0], [0.0, 2.0, 0.0], [0.0, 5.0, 1.0]).expect("a frame");
+        let frame = RingFrame::new([1.0, 2.0, 3.0], [0.0, 2.0, 0.0], [0.0, 5.0, 1.0]).expect("a frame");
         // z' = y, x' = z, so y' = z' x x' = y x z = x
         assert!(near(frame.point([1.5, 2.25, 3.125]), [0.125, 0.5, 0.25]));
         assert!(near(frame.vector_to_mesh([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]));
         assert!(near(frame.axis(), [0.0, 1.0, 0.0]));
-        assert!(near(
-            frame.point_to_mesh([0.125, 0.5, 0.25]),
-            [1.5, 2.25, 3.125]
-        ));
+        assert!(near(frame.point_to_mesh([0.125, 0.5, 0.25]), [1.5, 2.25, 3.125]));
         let [radial, tangential, axial] = frame.polar_axes([2.0, 7.0, 3.0]);
         assert!(near(radial, [1.0, 0.0, 0.0]));
         assert!(near(tangential, [0.0, 0.0, -1.0]));

@@ -101,25 +101,13 @@ impl HousingModel {
     pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
         let path = mesh.source.display().to_string();
         let dimension = highest_dimension(mesh);
-        let HousingDescription {
-            parts,
-            plane,
-            formulation,
-            supports,
-            masses,
-            links,
-            overlap,
-            frame,
-        } = description;
+        let HousingDescription { parts, plane, formulation, supports, masses, links, overlap, frame } = description;
         check_plane(mesh, dimension, plane, &frame, &path)?;
         let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
         let elements = HousingElements::of_parts(mesh, &groups, &path)?;
         let part_groups: Vec<String> = parts.iter().map(|part| part.group.clone()).collect();
         let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
-        let properties = parts
-            .iter()
-            .map(|part| properties(part, plane, &path))
-            .collect::<Result<Vec<_>, _>>()?;
+        let properties = parts.iter().map(|part| properties(part, plane, &path)).collect::<Result<Vec<_>, _>>()?;
         let mut used = vec![false; mesh.nodes.len()];
         for element in elements.iter() {
             for &node in elements.nodes(element) {
@@ -132,10 +120,7 @@ impl HousingModel {
             coordinates: mesh.nodes.clone(),
             elements,
             properties,
-            loss_factors: parts
-                .iter()
-                .map(|part| part.material.loss_factor())
-                .collect(),
+            loss_factors: parts.iter().map(|part| part.material.loss_factor()).collect(),
             part_groups,
             formulation,
             springs: Vec::new(),
@@ -280,20 +265,11 @@ impl HousingModel {
         let group = mesh.group(name)?;
         let (path, name) = (self.path.clone(), name.to_owned());
         if !group.nodes.iter().any(|&node| self.used[node]) {
-            return Err(ModelError::NotOnHousing {
-                path,
-                group: name,
-                purpose,
-            });
+            return Err(ModelError::NotOnHousing { path, group: name, purpose });
         }
         match self.bodies().without_middle_nodes(mesh, group) {
             None => Ok(group),
-            Some(mixed) => Err(ModelError::GroupOrder {
-                path,
-                group: name,
-                purpose,
-                mixed: Box::new(mixed),
-            }),
+            Some(mixed) => Err(ModelError::GroupOrder { path, group: name, purpose, mixed: Box::new(mixed) }),
         }
     }
 }
@@ -313,37 +289,24 @@ fn accepted_overlaps(
     let path = || path.to_owned();
     let bodies = Bodies::of_housing(&mesh.nodes, elements, parts);
     if let Some(doubled) = bodies.doubled().map(Box::new) {
-        return Err(ModelError::Doubled {
-            path: path(),
-            doubled,
-        });
+        return Err(ModelError::Doubled { path: path(), doubled });
     }
     if let Some(mixed) = bodies.mixed_orders().map(Box::new) {
-        return Err(ModelError::MixedOrders {
-            path: path(),
-            mixed,
-        });
+        return Err(ModelError::MixedOrders { path: path(), mixed });
     }
     let overlaps = bodies.overlaps();
     match (rule, overlaps.first()) {
-        (OverlapRule::Refuse, Some(first)) => Err(ModelError::Overlap {
-            path: path(),
-            overlap: Box::new(first.clone()),
-        }),
+        (OverlapRule::Refuse, Some(first)) => {
+            Err(ModelError::Overlap { path: path(), overlap: Box::new(first.clone()) })
+        }
         _ => Ok(overlaps),
     }
 }
 
-fn properties(
-    part: &HousingPart,
-    plane: Option<PlaneModel>,
-    path: &str,
-) -> Result<ContinuumProperties, ModelError> {
+fn properties(part: &HousingPart, plane: Option<PlaneModel>, path: &str) -> Result<ContinuumProperties, ModelError> {
     let found = match plane {
         None => Ok(ContinuumProperties::solid(&part.material)),
-        Some(plane) => {
-            ContinuumProperties::plane(&part.material, plane.assumption, plane.thickness)
-        }
+        Some(plane) => ContinuumProperties::plane(&part.material, plane.assumption, plane.thickness),
     };
     found.map_err(|source| ModelError::Part {
         path: path.to_owned(),
@@ -369,10 +332,7 @@ fn check_plane(
     }
     let [x, y, z] = frame.axis();
     if x.hypot(y) > 1e-9 * z.abs() {
-        return Err(ModelError::AxisInPlane {
-            path: path(),
-            axis: [x, y, z],
-        });
+        return Err(ModelError::AxisInPlane { path: path(), axis: [x, y, z] });
     }
     match mesh.node_off_plane() {
         Some(index) => Err(ModelError::NotPlane {

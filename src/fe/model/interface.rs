@@ -32,14 +32,8 @@ impl NodeInterface {
         let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
         let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
         let groups = supports.iter().map(|&place| &model.supports[place].group);
-        let mut words: Vec<String> = groups
-            .map(|group| format!("the support \"{group}\""))
-            .collect();
-        if self
-            .held
-            .iter()
-            .any(|held| model.tied.contains_key(&held.0))
-        {
+        let mut words: Vec<String> = groups.map(|group| format!("the support \"{group}\"")).collect();
+        if self.held.iter().any(|held| model.tied.contains_key(&held.0)) {
             words.push("a link".to_owned());
         }
         words.join(" and ")
@@ -49,15 +43,10 @@ impl NodeInterface {
     pub fn new(model: &HousingModel, nodes: &[usize]) -> Self {
         let d = model.dimension();
         let free = model.free_dofs();
-        let wanted = nodes
-            .iter()
-            .flat_map(|&node| (0..d).map(move |component| (node, component)));
-        let (coordinates, held): (Vec<_>, Vec<_>) = wanted
-            .partition(|&(node, component)| free.binary_search(&(d * node + component)).is_ok());
-        let driven: Vec<usize> = coordinates
-            .iter()
-            .map(|&(node, component)| d * node + component)
-            .collect();
+        let wanted = nodes.iter().flat_map(|&node| (0..d).map(move |component| (node, component)));
+        let (coordinates, held): (Vec<_>, Vec<_>) =
+            wanted.partition(|&(node, component)| free.binary_search(&(d * node + component)).is_ok());
+        let driven: Vec<usize> = coordinates.iter().map(|&(node, component)| d * node + component).collect();
         let mut on_interface = vec![false; model.dof()];
         let mut identity = TripletBuilder::new(driven.len(), driven.len());
         for (row, &dof) in driven.iter().enumerate() {

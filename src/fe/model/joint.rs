@@ -41,24 +41,18 @@ impl Side {
         let is_body = groups.map(|group| Some(group.dimension) == body);
         let whole = [0, 1].map(|k| Self::whole(mesh, groups[k], is_body[k], used));
         let [first, second] = &whole;
-        let sides = [
-            first.touching(mesh, second, is_body[0]),
-            second.touching(mesh, first, is_body[1]),
-        ];
+        let sides = [first.touching(mesh, second, is_body[0]), second.touching(mesh, first, is_body[1])];
         match sides.iter().any(|side| side.faces.is_empty()) {
             false => Ok(sides),
-            true => Err(ModelError::LinkApart {
-                path: path.to_owned(),
-                groups: groups.map(|group| group.name.clone()),
-            }),
+            true => {
+                Err(ModelError::LinkApart { path: path.to_owned(), groups: groups.map(|group| group.name.clone()) })
+            }
         }
     }
 
     fn whole(mesh: &Mesh, group: &PhysicalGroup, is_body: bool, used: &[bool]) -> Self {
         let faces: Vec<SideFace> = if is_body {
-            let boundary = mesh
-                .boundary_faces(group.elements.iter().copied())
-                .into_iter();
+            let boundary = mesh.boundary_faces(group.elements.iter().copied()).into_iter();
             boundary
                 .map(|face| SideFace {
                     kind: face.kind,
@@ -69,11 +63,7 @@ impl Side {
         } else {
             let elements = group.elements.iter().filter_map(|id| {
                 let block = mesh.blocks.get(id.block)?;
-                Some(SideFace {
-                    kind: block.kind,
-                    nodes: block.element(id.index)?.to_vec(),
-                    tag: block.tags[id.index],
-                })
+                Some(SideFace { kind: block.kind, nodes: block.element(id.index)?.to_vec(), tag: block.tags[id.index] })
             });
             elements.collect()
         };
@@ -96,8 +86,7 @@ impl Side {
 
     /// The search for the point of this side that is nearest to another one.
     pub(super) fn search<'m>(&self, mesh: &'m Mesh) -> impl Fn([f64; 3]) -> Option<Foot> + use<'m> {
-        let [touching, whole] =
-            [&self.faces, &self.boundary].map(|faces| Surface::new(mesh, faces));
+        let [touching, whole] = [&self.faces, &self.boundary].map(|faces| Surface::new(mesh, faces));
         move |point| {
             let foot = touching.nearest(point)?;
             if foot.distance <= BESIDE * foot.size {
@@ -124,15 +113,11 @@ impl Side {
         };
         let touches = |face: &&SideFace| {
             let size = extent(mesh, &face.nodes);
-            let on_other =
-                |node: &usize| near[*node].is_some_and(|distance| distance <= TOUCH * size);
+            let on_other = |node: &usize| near[*node].is_some_and(|distance| distance <= TOUCH * size);
             face.nodes.iter().all(on_other)
         };
         let faces = self.faces.iter().filter(touches).cloned().collect();
-        Self {
-            boundary: self.faces.clone(),
-            ..Self::of_faces(&self.name, faces)
-        }
+        Self { boundary: self.faces.clone(), ..Self::of_faces(&self.name, faces) }
     }
 }
 
@@ -140,9 +125,7 @@ impl Side {
 fn extent(mesh: &Mesh, nodes: &[usize]) -> f64 {
     let side = |axis: usize| {
         let along = nodes.iter().map(|&node| mesh.nodes[node][axis]);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         high - low
     };
     [0, 1, 2].map(side).into_iter().fold(0.0, f64::max)

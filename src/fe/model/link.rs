@@ -94,21 +94,12 @@ impl HousingModel {
     ) -> Result<(), ModelError> {
         let shares = match share {
             SupportShare::PerGroup => side.spread(mesh)?.0,
-            SupportShare::PerNode => side
-                .nodes
-                .iter()
-                .map(|&node| Share::of_node(node))
-                .collect(),
+            SupportShare::PerNode => side.nodes.iter().map(|&node| Share::of_node(node)).collect(),
         };
         let nearest = other.search(mesh);
         for share in shares {
-            let feet: Vec<Foot> = share
-                .nodes
-                .iter()
-                .filter_map(|&node| nearest(mesh.nodes[node]))
-                .collect();
-            self.springs
-                .push(self.relative_springs(&share, &feet, stiffness, source));
+            let feet: Vec<Foot> = share.nodes.iter().filter_map(|&node| nearest(mesh.nodes[node])).collect();
+            self.springs.push(self.relative_springs(&share, &feet, stiffness, source));
         }
         Ok(())
     }
@@ -140,24 +131,14 @@ impl HousingModel {
         }
         let spring = self.spring_matrix(share, stiffness);
         let matrix = relative.transpose() * spring * &relative;
-        NodalMatrix {
-            nodes,
-            matrix,
-            source,
-        }
+        NodalMatrix { nodes, matrix, source }
     }
 
     /// The nodes of a side with the faces of the other that they follow.
     ///
     /// # Errors
     /// [`ModelError::TieGap`] if some of them are not near it.
-    fn feet(
-        &self,
-        mesh: &Mesh,
-        link: usize,
-        side: &Side,
-        to: &Side,
-    ) -> Result<TiedNodes, ModelError> {
+    fn feet(&self, mesh: &Mesh, link: usize, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
         let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
         let (mut far, mut worst) = (0, (0.0, 0));
@@ -175,13 +156,7 @@ impl HousingModel {
                     worst = (foot.distance, node);
                 }
             }
-            let of_node = TiedNode {
-                nodes: foot.nodes,
-                follow: foot.follow,
-                foot: foot.place,
-                size: foot.size,
-                link,
-            };
+            let of_node = TiedNode { nodes: foot.nodes, follow: foot.follow, foot: foot.place, size: foot.size, link };
             tied.insert(node, of_node);
         }
         if far == 0 {
@@ -205,29 +180,18 @@ impl HousingModel {
     pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
         let ties = self.links.iter().enumerate();
         let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
-        let density: Vec<f64> = self
-            .properties
-            .iter()
-            .map(|part| part.density() * part.thickness())
-            .collect();
+        let density: Vec<f64> = self.properties.iter().map(|part| part.density() * part.thickness()).collect();
         let found = ties.filter_map(|(index, link)| {
             let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
-            let own = own.map(|(&node, tied)| Tied {
-                node,
-                face: &tied.nodes,
-                foot: tied.foot,
-                size: tied.size,
-            });
+            let own = own.map(|(&node, tied)| Tied { node, face: &tied.nodes, foot: tied.foot, size: tied.size });
             let own: Vec<Tied> = own.collect();
-            self.bodies()
-                .apart(&link.between, &own, &self.node_tags, &density)
+            self.bodies().apart(&link.between, &own, &self.node_tags, &density)
         });
         let found: Vec<Apart> = found.collect();
         match found.iter().find(|apart| apart.inside > 0) {
-            Some(apart) if rule == OverlapRule::Refuse => Err(ModelError::TieInside {
-                path: self.path.clone(),
-                apart: Box::new(apart.clone()),
-            }),
+            Some(apart) if rule == OverlapRule::Refuse => {
+                Err(ModelError::TieInside { path: self.path.clone(), apart: Box::new(apart.clone()) })
+            }
             _ => Ok(found),
         }
     }
@@ -279,9 +243,7 @@ impl HousingModel {
     pub(crate) fn displacement_row(&self, node: usize, direction: [f64; 3]) -> Vec<(usize, f64)> {
         let d = self.dimension;
         let entries = self.tied_entries(node).into_iter();
-        entries
-            .map(|(component, dof, factor)| (dof, factor * direction[component % d]))
-            .collect()
+        entries.map(|(component, dof, factor)| (dof, factor * direction[component % d])).collect()
     }
 
     /// The rows of T that belong to a node, as (row, column, factor).
@@ -319,9 +281,6 @@ fn finer_first<'s>(mesh: &Mesh, [a, b]: &'s [Side; 2]) -> Result<[&'s Side; 2], 
 impl Side {
     fn spread(&self, mesh: &Mesh) -> Result<(Vec<Share>, f64), ModelError> {
         let faces = self.faces.iter();
-        spread(
-            mesh,
-            faces.map(|face| (face.kind, face.nodes.as_slice(), face.tag)),
-        )
+        spread(mesh, faces.map(|face| (face.kind, face.nodes.as_slice(), face.tag)))
     }
 }

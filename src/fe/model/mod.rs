@@ -31,11 +31,7 @@ pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 pub use interface::{HousingPartition, NodeInterface};
 pub(crate) use nodal::{NodalMatrix, NodalSource};
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
-pub use ring::{
-    RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare,
-};
+pub use ring::{RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
 pub use solid_ring::{MeshedRing, SolidRing};
-pub use support::{
-    Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare,
-};
+pub use support::{Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare};
 pub use tie::{Fit, RingTie};

@@ -15,9 +15,7 @@ impl HousingElements {
         let mut found = Self::default();
         let (mut unassigned, mut first_tag) = (0, 0);
         for (block, owners) in mesh.blocks.iter().zip(&owner) {
-            let Some(kind) =
-                continuum_kind(block.kind).filter(|kind| kind.dimension() == dimension)
-            else {
+            let Some(kind) = continuum_kind(block.kind).filter(|kind| kind.dimension() == dimension) else {
                 continue;
             };
             for ((nodes, &tag), owner) in block.elements().zip(&block.tags).zip(owners) {
@@ -25,12 +23,7 @@ impl HousingElements {
                     Some(part) => {
                         let (part, first) = (*part, found.connectivity.len());
                         found.connectivity.extend_from_slice(nodes);
-                        found.list.push(HousingElement {
-                            tag,
-                            kind,
-                            part,
-                            first,
-                        });
+                        found.list.push(HousingElement { tag, kind, part, first });
                     }
                     None => {
                         first_tag = if unassigned == 0 { tag } else { first_tag };
@@ -59,17 +52,8 @@ pub(super) fn highest_dimension(mesh: &Mesh) -> usize {
 }
 
 /// The part of each element of each block.
-fn owners(
-    mesh: &Mesh,
-    groups: &[&str],
-    dimension: usize,
-    path: &str,
-) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
-    let mut owner: Vec<Vec<Option<usize>>> = mesh
-        .blocks
-        .iter()
-        .map(|block| vec![None; block.len()])
-        .collect();
+fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
+    let mut owner: Vec<Vec<Option<usize>>> = mesh.blocks.iter().map(|block| vec![None; block.len()]).collect();
     for (part, &name) in groups.iter().enumerate() {
         let group = mesh.group(name)?;
         if group.dimension != dimension {

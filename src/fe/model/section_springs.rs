@@ -28,19 +28,12 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::RingSections`] if they do not.
-    pub fn attach_ring_springs(
-        &mut self,
-        solid: &MeshedRing,
-        ring: &Ring,
-    ) -> Result<(), ModelError> {
+    pub fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
         for spring in ring.springs() {
             let (node, in_plane) = ring.node_of(spring.dofs[0]);
             let stations = solid.sections.len();
             if !(node * stations).is_multiple_of(ring.nodes()) {
-                return Err(ModelError::RingSections {
-                    nodes: ring.nodes(),
-                    sections: stations,
-                });
+                return Err(ModelError::RingSections { nodes: ring.nodes(), sections: stations });
             }
             let section = &solid.sections[node * stations / ring.nodes()];
             let motion = self.section_motion(section, ring.node_angle(node), solid.radius);
@@ -81,9 +74,7 @@ impl HousingModel {
                 (weight, x.hypot(y) - radius, height)
             })
             .collect();
-        let sum = |term: &dyn Fn(f64, f64) -> f64| -> f64 {
-            places.iter().map(|&(w, x, z)| w * term(x, z)).sum()
-        };
+        let sum = |term: &dyn Fn(f64, f64) -> f64| -> f64 { places.iter().map(|&(w, x, z)| w * term(x, z)).sum() };
         let (xx, zz) = (sum(&|x, _| x * x), sum(&|_, z| z * z));
         // a section without width has no such rotation
         let over = |value: f64, moment: f64| if moment > 0.0 { value / moment } else { 0.0 };
@@ -101,13 +92,9 @@ impl HousingModel {
                 0.0, about_z, 0.0,
             );
             let own = to_frame * from * axes;
-            rows.view_mut((0, d * place), (6, d))
-                .copy_from(&own.columns(0, d));
+            rows.view_mut((0, d * place), (6, d)).copy_from(&own.columns(0, d));
         }
-        SectionMotion {
-            nodes: section.iter().map(|&(node, _)| node).collect(),
-            rows,
-        }
+        SectionMotion { nodes: section.iter().map(|&(node, _)| node).collect(), rows }
     }
 }
 

@@ -2,9 +2,7 @@ use super::*;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RingLayer};
 use crate::fe::mesh::{Mesh, MshFormat, MshVersion};
-use crate::fe::model::{
-    HousingDescription, HousingPart, PlaneModel, RingFrame, RingSupport, SolidRing, SpringShare,
-};
+use crate::fe::model::{HousingDescription, HousingPart, PlaneModel, RingFrame, RingSupport, SolidRing, SpringShare};
 use crate::numerics::linalg::DenseMatrix;
 use std::path::PathBuf;
 
@@ -32,13 +30,8 @@ fn ring(in_space: bool) -> Ring {
         false => Ring::new(12, section, RingInterpolation::ExactArc),
     };
     let mut ring = ring.expect("twelve nodes");
-    let support = RingSupport {
-        from: 0.3,
-        to: 4.0,
-        spring: [3e6, 2e6, 1e6],
-        share: SpringShare::PerNode,
-        offset: 4e-3,
-    };
+    let support =
+        RingSupport { from: 0.3, to: 4.0, spring: [3e6, 2e6, 1e6], share: SpringShare::PerNode, offset: 4e-3 };
     ring.add_support(&support).expect("nodes there");
     ring
 }
@@ -49,26 +42,13 @@ fn solid(dimension: usize, around: usize, frame: RingFrame) -> (MeshedRing, Hous
         node_tags: Vec::new(),
         blocks: Vec::new(),
         groups: Vec::new(),
-        format: MshFormat {
-            version: MshVersion::V41,
-            binary: false,
-        },
+        format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("ring"),
     };
-    let solid = SolidRing {
-        radius: RADIUS,
-        height: SIDES[0],
-        width: SIDES[1],
-        around,
-        across: 2,
-        along: 2,
-    };
+    let solid = SolidRing { radius: RADIUS, height: SIDES[0], width: SIDES[1], around, across: 2, along: 2 };
     let solid = solid.added_to(&nothing, &frame, dimension);
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: solid.body.clone(),
-            material: steel().into(),
-        }],
+        parts: vec![HousingPart { group: solid.body.clone(), material: steel().into() }],
         plane: (dimension == 2).then_some(PlaneModel {
             assumption: crate::fe::element::continuum::PlaneAssumption::Stress,
             thickness: SIDES[1],
@@ -91,9 +71,7 @@ fn rigid_motions_stretch_the_same_springs() {
         let frame = RingFrame::new([0.5, -1.0, 2.0], axis, zero).expect("a frame");
         let ring = ring(dimension == 3);
         let (solid, mut model) = solid(dimension, 24, frame);
-        model
-            .attach_ring_springs(&solid, &ring)
-            .expect("a section at each node");
+        model.attach_ring_springs(&solid, &ring).expect("a section at each node");
         for motion in 0..6 {
             let unit = |k: usize| f64::from(u8::from(motion == k));
             let along = Vector3::new(unit(0), unit(1), unit(2));
@@ -120,10 +98,7 @@ fn rigid_motions_stretch_the_same_springs() {
             let expected = on_beams.springs[(0, 0)];
             assert!(expected > 1e6);
             // sums of a few hundred products
-            assert!(
-                (on_elements / expected - 1.0).abs() < 1e-12,
-                "{dimension} {motion}: {on_elements} {expected}"
-            );
+            assert!((on_elements / expected - 1.0).abs() < 1e-12, "{dimension} {motion}: {on_elements} {expected}");
         }
     }
 }
@@ -133,11 +108,5 @@ fn a_spring_between_two_sections_is_refused() {
     let ring = ring(false);
     let (solid, mut model) = solid(2, 16, RingFrame::default());
     let refused = model.attach_ring_springs(&solid, &ring);
-    assert!(matches!(
-        refused,
-        Err(ModelError::RingSections {
-            nodes: 12,
-            sections: 16
-        })
-    ));
+    assert!(matches!(refused, Err(ModelError::RingSections { nodes: 12, sections: 16 })));
 }

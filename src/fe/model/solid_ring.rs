@@ -7,16 +7,8 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 /// Corners of a cell, in halves of its sides: across, along, up. Plane cells take the first four.
-const CORNERS: [[usize; 3]; 8] = [
-    [0, 0, 0],
-    [2, 0, 0],
-    [2, 2, 0],
-    [0, 2, 0],
-    [0, 0, 2],
-    [2, 0, 2],
-    [2, 2, 2],
-    [0, 2, 2],
-];
+const CORNERS: [[usize; 3]; 8] =
+    [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
 
 /// A ring of rectangular section about the axis of a frame, its centroid line in the frame's plane z = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,9 +71,7 @@ impl SolidRing {
         let outer_face = add_group(&mut mesh, "solid ring, outside", face, faces);
         MeshedRing {
             radius: self.radius,
-            sections: (0..self.around)
-                .map(|station| grid.section(self, station, dimension))
-                .collect(),
+            sections: (0..self.around).map(|station| grid.section(self, station, dimension)).collect(),
             mesh,
             body,
             outer_face,
@@ -113,12 +103,9 @@ impl Grid {
                     if i % 2 + j % 2 + k % 2 > 1 {
                         continue; // neither a corner nor the middle of an edge
                     }
-                    let radius =
-                        ring.radius + ring.height * (j as f64 / (2 * ring.across) as f64 - 0.5);
+                    let radius = ring.radius + ring.height * (j as f64 / (2 * ring.across) as f64 - 0.5);
                     let (sin, cos) = (PI * i as f64 / ring.around as f64).sin_cos();
-                    let height = layers.map_or(0.0, |layers| {
-                        ring.width * (k as f64 / (2 * layers) as f64 - 0.5)
-                    });
+                    let height = layers.map_or(0.0, |layers| ring.width * (k as f64 / (2 * layers) as f64 - 0.5));
                     let mut point = frame.point_to_mesh([radius * cos, radius * sin, height]);
                     if let (None, Some(first)) = (layers, mesh.nodes.first()) {
                         point[2] = first[2];
@@ -137,15 +124,8 @@ impl Grid {
     }
 
     /// Nodes at corners given in halves from `origin`, then in the middles of `edges`.
-    fn element(
-        &self,
-        origin: [usize; 3],
-        corners: &[[usize; 3]],
-        edges: &[[usize; 2]],
-    ) -> impl Iterator<Item = usize> {
-        let middles = edges
-            .iter()
-            .map(|&[a, b]| [0, 1, 2].map(|axis| (corners[a][axis] + corners[b][axis]) / 2));
+    fn element(&self, origin: [usize; 3], corners: &[[usize; 3]], edges: &[[usize; 2]]) -> impl Iterator<Item = usize> {
+        let middles = edges.iter().map(|&[a, b]| [0, 1, 2].map(|axis| (corners[a][axis] + corners[b][axis]) / 2));
         let places = corners.iter().copied().chain(middles);
         places.filter_map(move |place| self.node([0, 1, 2].map(|axis| origin[axis] + place[axis])))
     }
@@ -169,17 +149,9 @@ impl Grid {
 
     fn cells(&self, ring: &SolidRing, dimension: usize) -> Vec<usize> {
         let mut connectivity = Vec::new();
-        for origin in origins([
-            ring.across,
-            ring.around,
-            ring.layers(dimension).unwrap_or(1),
-        ]) {
+        for origin in origins([ring.across, ring.around, ring.layers(dimension).unwrap_or(1)]) {
             match dimension {
-                3 => connectivity.extend(self.element(
-                    origin,
-                    &CORNERS,
-                    ContinuumKind::Hex20.edges(),
-                )),
+                3 => connectivity.extend(self.element(origin, &CORNERS, ContinuumKind::Hex20.edges())),
                 _ => {
                     // counter-clockwise in the mesh's x and y
                     let corners = [0, 1, 2, 3].map(|corner| {
@@ -189,11 +161,7 @@ impl Grid {
                             false => [across, along, up],
                         }
                     });
-                    connectivity.extend(self.element(
-                        origin,
-                        &corners,
-                        ContinuumKind::Quad8.edges(),
-                    ));
+                    connectivity.extend(self.element(origin, &corners, ContinuumKind::Quad8.edges()));
                 }
             }
         }
@@ -208,11 +176,7 @@ impl Grid {
                 3 => {
                     // outward normal: e_t x e_z
                     let corners = [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]];
-                    connectivity.extend(self.element(
-                        origin,
-                        &corners,
-                        ContinuumKind::Quad8.edges(),
-                    ));
+                    connectivity.extend(self.element(origin, &corners, ContinuumKind::Quad8.edges()));
                 }
                 _ => {
                     let ends = [[0, 0, 0], [0, 2, 0]];
@@ -240,17 +204,11 @@ fn add_group(mesh: &mut Mesh, name: &str, kind: ElementKind, connectivity: Vec<u
     let entities = blocks.map(|block| block.entity);
     let entities = entities.filter(|entity| entity.dimension == dimension);
     let entity = entities.map(|entity| entity.tag).max().unwrap_or(0) + 1;
-    let same = mesh
-        .groups
-        .iter()
-        .filter(|group| group.dimension == dimension);
+    let same = mesh.groups.iter().filter(|group| group.dimension == dimension);
     let tag = same.map(|group| group.tag).max().unwrap_or(0) + 1;
     let taken = |name: &str| mesh.groups.iter().any(|group| group.name == name);
     let numbered = (2..).map(|number| format!("{name} {number}"));
-    let name = std::iter::once(name.to_owned())
-        .chain(numbered)
-        .find(|name| !taken(name))
-        .unwrap_or_default();
+    let name = std::iter::once(name.to_owned()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
     let count = connectivity.len() / kind.nodes();
     let block = mesh.blocks.len();
     let mut nodes = connectivity.clone();
@@ -260,10 +218,7 @@ fn add_group(mesh: &mut Mesh, name: &str, kind: ElementKind, connectivity: Vec<u
         kind,
         tags: (first_tag..).take(count).collect(),
         connectivity,
-        entity: Entity {
-            dimension,
-            tag: entity,
-        },
+        entity: Entity { dimension, tag: entity },
     });
     mesh.groups.push(PhysicalGroup {
         name: name.clone(),
@@ -272,8 +227,7 @@ fn add_group(mesh: &mut Mesh, name: &str, kind: ElementKind, connectivity: Vec<u
         nodes,
         elements: (0..count).map(|index| ElementId { block, index }).collect(),
     });
-    mesh.groups
-        .sort_by_key(|group| (group.dimension, group.tag));
+    mesh.groups.sort_by_key(|group| (group.dimension, group.tag));
     name
 }
 

@@ -4,14 +4,7 @@ use crate::fe::mesh::{MshFormat, MshVersion};
 use crate::fe::model::continuum_kind;
 use std::path::PathBuf;
 
-const RING: SolidRing = SolidRing {
-    radius: 5.0,
-    height: 1.5,
-    width: 4.0,
-    around: 24,
-    across: 2,
-    along: 4,
-};
+const RING: SolidRing = SolidRing { radius: 5.0, height: 1.5, width: 4.0, around: 24, across: 2, along: 4 };
 
 fn empty() -> Mesh {
     Mesh {
@@ -19,10 +12,7 @@ fn empty() -> Mesh {
         node_tags: Vec::new(),
         blocks: Vec::new(),
         groups: Vec::new(),
-        format: MshFormat {
-            version: MshVersion::V41,
-            binary: false,
-        },
+        format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("ring"),
     }
 }
@@ -40,10 +30,7 @@ fn frame(dimension: usize) -> RingFrame {
 /// whose cells were turned inside out, or whose middle nodes were mixed up, has neither.
 #[test]
 fn the_elements_fill_the_ring() {
-    for (dimension, frames) in [
-        (2, [RingFrame::default(), frame(2)]),
-        (3, [RingFrame::default(), frame(3)]),
-    ] {
+    for (dimension, frames) in [(2, [RingFrame::default(), frame(2)]), (3, [RingFrame::default(), frame(3)])] {
         for frame in frames {
             let MeshedRing { mesh, body, .. } = RING.added_to(&empty(), &frame, dimension);
             let group = mesh.group(&body).expect("its body");
@@ -60,19 +47,12 @@ fn the_elements_fill_the_ring() {
                 volume += crate::fe::element::continuum::measure(kind, &places).expect("a size");
             }
             let area = 2.0 * PI * RING.radius * RING.height;
-            let expected = if dimension == 3 {
-                area * RING.width
-            } else {
-                area
-            };
+            let expected = if dimension == 3 { area * RING.width } else { area };
             // every arc is a parabola through its ends and its middle, half an arc is 7.5 degrees
             let half = PI / RING.around as f64;
             let bulge = half.sin() * (1.0 + (1.0 - half.cos()) / 3.0) / half;
             // what remains is round-off
-            assert!(
-                (volume / (bulge * expected) - 1.0).abs() < 1e-12,
-                "{dimension}: {volume} {expected}"
-            );
+            assert!((volume / (bulge * expected) - 1.0).abs() < 1e-12, "{dimension}: {volume} {expected}");
         }
     }
 }
@@ -119,10 +99,7 @@ fn the_outer_face_lies_outside_and_sections_balance_about_the_centroid_line() {
 fn a_second_ring_leaves_the_first_alone() {
     for dimension in [2, 3] {
         let first = RING.added_to(&empty(), &RingFrame::default(), dimension);
-        let smaller = SolidRing {
-            radius: 3.0,
-            ..RING
-        };
+        let smaller = SolidRing { radius: 3.0, ..RING };
         let both = smaller.added_to(&first.mesh, &RingFrame::default(), dimension);
         assert_ne!(both.body, first.body);
         assert_ne!(both.outer_face, first.outer_face);

@@ -59,16 +59,12 @@ pub(super) fn spread<'a>(
     let mut total = 0.0;
     let elements: Vec<_> = elements.collect();
     // a triangle on three corners of a quadrilateral of the group lies in it
-    let quads = elements
-        .iter()
-        .filter(|(kind, ..)| kind.dimension() == 2 && kind.corners() == 4);
+    let quads = elements.iter().filter(|(kind, ..)| kind.dimension() == 2 && kind.corners() == 4);
     let mut seen: BTreeSet<Vec<usize>> = quads
         .flat_map(|(_, nodes, _)| {
             (0..4).map(|left_out| {
-                let mut three: Vec<usize> = (0..4)
-                    .filter(|&local| local != left_out)
-                    .map(|local| nodes[local])
-                    .collect();
+                let mut three: Vec<usize> =
+                    (0..4).filter(|&local| local != left_out).map(|local| nodes[local]).collect();
                 three.sort_unstable();
                 three
             })
@@ -118,9 +114,6 @@ impl Spread {
 impl Share {
     /// A node that carries everything by itself.
     pub(super) fn of_node(node: usize) -> Self {
-        Self {
-            nodes: vec![node],
-            matrix: DMatrix::from_element(1, 1, 1.0),
-        }
+        Self { nodes: vec![node], matrix: DMatrix::from_element(1, 1, 1.0) }
     }
 }

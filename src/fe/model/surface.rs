@@ -57,10 +57,7 @@ impl<'m> Surface<'m> {
     /// The surface that these faces make.
     pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
         let face = |face: &SideFace| Face::new(mesh, surface_kind(face.kind), &face.nodes);
-        Self {
-            mesh,
-            faces: faces.iter().map(face).collect(),
-        }
+        Self { mesh, faces: faces.iter().map(face).collect() }
     }
 
     /// The point nearest to `point` (m); `None` if the surface is empty.
@@ -89,35 +86,22 @@ struct Local {
 
 impl Face {
     fn new(mesh: &Mesh, kind: Option<SurfaceKind>, nodes: &[usize]) -> Self {
-        let (mut low, mut high) = (
-            Vector3::repeat(f64::INFINITY),
-            Vector3::repeat(-f64::INFINITY),
-        );
+        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(-f64::INFINITY));
         for &node in nodes {
             let at = Vector3::from(mesh.nodes[node]);
             (low, high) = (low.inf(&at), high.sup(&at));
         }
         let bulge = Vector3::repeat(BULGE * (high - low).max());
-        Self {
-            kind,
-            nodes: nodes.to_vec(),
-            low: low - bulge,
-            high: high + bulge,
-        }
+        Self { kind, nodes: nodes.to_vec(), low: low - bulge, high: high + bulge }
     }
 
     fn box_distance(&self, point: &Vector3<f64>) -> f64 {
-        let outside = (self.low - point)
-            .sup(&(point - self.high))
-            .sup(&Vector3::zeros());
+        let outside = (self.low - point).sup(&(point - self.high)).sup(&Vector3::zeros());
         outside.norm()
     }
 
     fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
-        let mut local = Local {
-            place: Vector3::zeros(),
-            tangents: [Vector3::zeros(); 2],
-        };
+        let mut local = Local { place: Vector3::zeros(), tangents: [Vector3::zeros(); 2] };
         let Some(kind) = self.kind else {
             local.place = Vector3::from(mesh.nodes[self.nodes[0]]);
             return local;
@@ -143,30 +127,16 @@ impl Face {
         if let Some(inside) = self.descend(mesh, point, domain.centre, &domain) {
             return (inside, distance(inside));
         }
-        let on_sides = domain
-            .sides
-            .iter()
-            .map(|side| self.descend_side(mesh, point, *side));
+        let on_sides = domain.sides.iter().map(|side| self.descend_side(mesh, point, *side));
         let nearest = on_sides.map(|natural| (natural, distance(natural)));
-        nearest
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .unwrap_or((domain.centre, f64::INFINITY))
+        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((domain.centre, f64::INFINITY))
     }
 
     /// Gauss-Newton on the squared distance; `None` if it leads out of the face.
-    fn descend(
-        &self,
-        mesh: &Mesh,
-        point: &Vector3<f64>,
-        from: [f64; 2],
-        domain: &Domain,
-    ) -> Option<[f64; 2]> {
+    fn descend(&self, mesh: &Mesh, point: &Vector3<f64>, from: [f64; 2], domain: &Domain) -> Option<[f64; 2]> {
         let mut natural = from;
         for _ in 0..STEPS {
-            let Local {
-                place,
-                tangents: [s, t],
-            } = self.at(mesh, natural);
+            let Local { place, tangents: [s, t] } = self.at(mesh, natural);
             let gap = point - place;
             let step = match domain.dimension {
                 1 => [s.dot(&gap) / s.norm_squared(), 0.0],
@@ -174,10 +144,7 @@ impl Face {
                     let (ss, st, tt) = (s.norm_squared(), s.dot(&t), t.norm_squared());
                     let determinant = ss * tt - st * st;
                     let (a, b) = (s.dot(&gap), t.dot(&gap));
-                    [
-                        (tt * a - st * b) / determinant,
-                        (ss * b - st * a) / determinant,
-                    ]
+                    [(tt * a - st * b) / determinant, (ss * b - st * a) / determinant]
                 }
             };
             natural = [natural[0] + step[0], natural[1] + step[1]];
@@ -218,8 +185,7 @@ impl Face {
     fn foot(&self, mesh: &Mesh, point: &Vector3<f64>, natural: [f64; 2], distance: f64) -> Foot {
         let local = self.at(mesh, natural);
         let gap = (point - local.place).cross_matrix();
-        let turns =
-            |derivative: [f64; 2]| -> Matrix3<f64> { rotation_rows(&local.tangents, derivative) };
+        let turns = |derivative: [f64; 2]| -> Matrix3<f64> { rotation_rows(&local.tangents, derivative) };
         let follow = match self.kind {
             None => vec![Matrix3::identity()],
             Some(kind) => {
@@ -227,9 +193,7 @@ impl Face {
                 let nodes = self.nodes.len();
                 let pairs = values.into_iter().zip(derivatives).take(nodes);
                 pairs
-                    .map(|(value, derivative)| {
-                        Matrix3::from_diagonal_element(value) - gap * turns(derivative)
-                    })
+                    .map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative))
                     .collect()
             }
         };
@@ -275,48 +239,23 @@ mod tests {
             node_tags: (1..=nodes.len() as u64).collect(),
             blocks: Vec::new(),
             groups: Vec::new(),
-            format: MshFormat {
-                version: MshVersion::V41,
-                binary: false,
-            },
+            format: MshFormat { version: MshVersion::V41, binary: false },
             source: PathBuf::from("face"),
         }
     }
 
     fn face(kind: ElementKind) -> SideFace {
-        SideFace {
-            kind,
-            nodes: (0..kind.nodes()).collect(),
-            tag: 1,
-        }
+        SideFace { kind, nodes: (0..kind.nodes()).collect(), tag: 1 }
     }
 
     /// A warped quadrilateral, a curved triangle, an edge in the plane.
     const FACES: [(ElementKind, &[[f64; 3]]); 3] = [
-        (
-            ElementKind::Quad4,
-            &[
-                [0.0, 0.0, 0.0],
-                [2.0, 0.1, 0.2],
-                [2.2, 1.9, 0.0],
-                [-0.1, 2.0, 0.3],
-            ],
-        ),
+        (ElementKind::Quad4, &[[0.0, 0.0, 0.0], [2.0, 0.1, 0.2], [2.2, 1.9, 0.0], [-0.1, 2.0, 0.3]]),
         (
             ElementKind::Tri6,
-            &[
-                [0.0, 0.0, 0.0],
-                [2.0, 0.0, 0.0],
-                [0.0, 2.0, 0.0],
-                [1.0, 0.0, 0.2],
-                [1.0, 1.0, 0.25],
-                [0.0, 1.0, 0.15],
-            ],
+            &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 0.0, 0.2], [1.0, 1.0, 0.25], [0.0, 1.0, 0.15]],
         ),
-        (
-            ElementKind::Line3,
-            &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.3, 0.0]],
-        ),
+        (ElementKind::Line3, &[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.3, 0.0]]),
     ];
 
     #[test]
@@ -326,11 +265,7 @@ mod tests {
             let surface = Surface::new(&mesh, &[face(kind)]);
             let plane = kind.dimension() == 1;
             for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4]] {
-                let point = if plane {
-                    [point[0], point[1], 0.0]
-                } else {
-                    point
-                };
+                let point = if plane { [point[0], point[1], 0.0] } else { point };
                 let foot = surface.nearest(point).expect("one face");
                 for motion in 0..6 {
                     let unit = |k: usize| f64::from(u8::from(motion == k));
@@ -359,12 +294,7 @@ mod tests {
             let mesh = mesh(nodes);
             let faces = [face(kind)];
             let surface = Surface::new(&mesh, &faces);
-            for point in [
-                [0.7, 0.6, 0.5],
-                [0.4, 0.9, -0.3],
-                [3.0, -1.0, 0.4],
-                [-1.0, 0.5, 0.0],
-            ] {
+            for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4], [-1.0, 0.5, 0.0]] {
                 let at = Vector3::from(point);
                 let found = surface.nearest(point).expect("one face").distance;
                 let mut sampled = f64::INFINITY;
@@ -379,14 +309,8 @@ mod tests {
                         sampled = sampled.min((place - at).norm());
                     }
                 }
-                assert!(
-                    found <= sampled + 1e-12,
-                    "{kind:?} {point:?}: {found} {sampled}"
-                );
-                assert!(
-                    found > sampled - 2e-2,
-                    "{kind:?} {point:?}: {found} {sampled}"
-                );
+                assert!(found <= sampled + 1e-12, "{kind:?} {point:?}: {found} {sampled}");
+                assert!(found > sampled - 2e-2, "{kind:?} {point:?}: {found} {sampled}");
             }
         }
     }

@@ -65,9 +65,7 @@ impl RingTie {
         fit: Fit,
     ) -> Result<Self, ModelError> {
         if ring.is_in_space() != (housing.dimension == 3) {
-            return Err(ModelError::RingDimension {
-                path: housing.path.clone(),
-            });
+            return Err(ModelError::RingDimension { path: housing.path.clone() });
         }
         let bore = housing.group_on_housing(mesh, group, "the tie")?;
         let on_housing = |node: &usize| housing.used[*node];
@@ -107,11 +105,7 @@ impl RingTie {
         let free = housing.free_dofs().into_iter();
         let interior = free.filter(|&dof| !is_driven[dof]).collect();
         Ok(Self {
-            partition: HousingPartition {
-                driven,
-                interior,
-                tie: tie.build(),
-            },
+            partition: HousingPartition { driven, interior, tie: tie.build() },
             rotation: (fit == Fit::Sliding).then(|| polar_rotation(housing, &nodes)),
         })
     }
@@ -176,12 +170,7 @@ fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize,
     }
 }
 
-fn check_radius(
-    housing: &HousingModel,
-    group: &str,
-    nodes: &[usize],
-    outer_radius: f64,
-) -> Result<(), ModelError> {
+fn check_radius(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
     let radius = |&node: &usize| {
         let [x, y, _] = housing.frame.point(housing.coordinates[node]);
         x.hypot(y)
@@ -203,12 +192,7 @@ fn check_radius(
 }
 
 /// In space the ring's plane cuts the bore: a section that reached beyond it as a rigid arm would be stiffer than any bore.
-fn check_axial(
-    housing: &HousingModel,
-    group: &str,
-    nodes: &[usize],
-    outer_radius: f64,
-) -> Result<(), ModelError> {
+fn check_axial(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
     let along = |&node: &usize| housing.frame.point(housing.coordinates[node])[2];
     let lowest = nodes.iter().map(along).fold(f64::INFINITY, f64::min);
     let highest = nodes.iter().map(along).fold(f64::NEG_INFINITY, f64::max);

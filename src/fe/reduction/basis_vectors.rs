@@ -50,9 +50,7 @@ pub(super) fn filled(
     while basis.count() < count {
         let missing = count - basis.count();
         let spectrum = modes_of(&basis, missing)?;
-        let more = corrected(substructure, &basis, &spectrum, |elastic| {
-            (elastic..elastic + missing).collect()
-        })?;
+        let more = corrected(substructure, &basis, &spectrum, |elastic| (elastic..elastic + missing).collect())?;
         if more.count() == basis.count() {
             break;
         }
@@ -62,10 +60,7 @@ pub(super) fn filled(
 }
 
 /// The lowest modes, and one more to say up to where they are complete.
-pub(super) fn modes(
-    substructure: &Substructure,
-    count: usize,
-) -> Result<EigenPairs, ReductionError> {
+pub(super) fn modes(substructure: &Substructure, count: usize) -> Result<EigenPairs, ReductionError> {
     substructure.lowest_modes((count + 1).min(substructure.interior_dof()))
 }
 
@@ -83,8 +78,7 @@ pub(super) fn modes_to(
         if below > most {
             return Ok((pairs, most));
         }
-        if below + beyond < pairs.values.len() || pairs.values.len() == substructure.interior_dof()
-        {
+        if below + beyond < pairs.values.len() || pairs.values.len() == substructure.interior_dof() {
             return Ok((pairs, below));
         }
         asked = (2 * asked).max(below + beyond);
@@ -102,9 +96,7 @@ pub(super) fn with_residuals(
     choose: impl FnOnce(&SymmetricSpectrum, usize) -> Vec<usize>,
 ) -> Result<InteriorBasis, ReductionError> {
     let spectrum = coupled_modes(substructure, basis, attached)?;
-    corrected(substructure, basis, &spectrum, |elastic| {
-        choose(&spectrum, elastic)
-    })
+    corrected(substructure, basis, &spectrum, |elastic| choose(&spectrum, elastic))
 }
 
 fn corrected(

@@ -71,24 +71,17 @@ impl CharacteristicModes {
         let count = rigid.ncols();
         // a motion without mass has an infinite value; it moves nothing of the interior
         let finite = spectrum.values.partition_point(|value| value.is_finite());
-        let vectors =
-            DenseMatrix::from_fn(rigid.nrows(), finite.max(count), |row, mode| match mode {
-                mode if mode < count => rigid[(row, mode)],
-                mode => spectrum.vectors[(row, mode)],
-            });
+        let vectors = DenseMatrix::from_fn(rigid.nrows(), finite.max(count), |row, mode| match mode {
+            mode if mode < count => rigid[(row, mode)],
+            mode => spectrum.vectors[(row, mode)],
+        });
         let values = (0..vectors.ncols())
             .map(|mode| match mode {
                 mode if mode < count => 0.0,
                 mode => spectrum.values[mode],
             })
             .collect();
-        Ok(Self {
-            values,
-            vectors,
-            mass,
-            stiffness,
-            rigid: count,
-        })
+        Ok(Self { values, vectors, mass, stiffness, rigid: count })
     }
 
     /// Number of modes.
@@ -149,15 +142,8 @@ impl CharacteristicModes {
             }
         }
         let both = of_kept.iter().zip(&of_all);
-        let lost: Vec<f64> = both
-            .map(|(kept, all)| {
-                if *all > 0.0 {
-                    (1.0 - kept / all).max(0.0)
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let lost: Vec<f64> =
+            both.map(|(kept, all)| if *all > 0.0 { (1.0 - kept / all).max(0.0) } else { 0.0 }).collect();
         LostFlexibility {
             largest: lost.iter().copied().fold(0.0, f64::max),
             mean: lost.iter().sum::<f64>() / interface.max(1) as f64,
@@ -169,9 +155,7 @@ impl CharacteristicModes {
 fn orthonormal(motions: &DenseMatrix, mass: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
     let gram = symmetric_eigen(&(motions.transpose() * (mass * motions)))?;
     let longest = gram.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..gram.values.len())
-        .filter(|&place| gram.values[place] > DEPENDENT * longest)
-        .collect();
+    let kept: Vec<usize> = (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
     let normal = DenseMatrix::from_fn(motions.ncols(), kept.len(), |row, column| {
         gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
     });

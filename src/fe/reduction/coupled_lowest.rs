@@ -14,9 +14,7 @@
 //! attached.
 
 use super::{CharacteristicModes, InteriorBasis, ReductionError};
-use crate::numerics::linalg::{
-    DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen,
-};
+use crate::numerics::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen};
 
 /// Shift beside the lowest fixed-interface eigenvalue: below the elastic modes, and far from round-off.
 const SHIFT: f64 = 1e-3;
@@ -58,21 +56,14 @@ impl<'a> CoupledProblem<'a> {
     pub(super) fn new(interface: &'a CharacteristicModes) -> Self {
         let rigid = interface.vectors.subcols(0, interface.rigid());
         let held = rigid.transpose() * &interface.stiffness * &interface.vectors;
-        Self {
-            interface,
-            stiffness: held,
-        }
+        Self { interface, stiffness: held }
     }
 
     /// The lowest `count` modes in coordinates of the interface and the basis, or all if there are fewer.
     ///
     /// # Errors
     /// What the dense solvers report.
-    pub(super) fn lowest(
-        &self,
-        basis: &InteriorBasis,
-        count: usize,
-    ) -> Result<SymmetricSpectrum, ReductionError> {
+    pub(super) fn lowest(&self, basis: &InteriorBasis, count: usize) -> Result<SymmetricSpectrum, ReductionError> {
         let problem = self.bordered(basis);
         let (inner, rigid) = (problem.kappa.len(), self.interface.rigid());
         let found = problem.lowest(count, SHIFT * basis.lowest_value())?;
@@ -83,17 +74,13 @@ impl<'a> CoupledProblem<'a> {
             found.vectors[(place, mode)]
         });
         let moved = &self.interface.vectors * amplitudes;
-        let vectors =
-            DenseMatrix::from_fn(moved.nrows() + basis.count(), wanted, |row, mode| match row
-                .checked_sub(moved.nrows())
-            {
+        let vectors = DenseMatrix::from_fn(moved.nrows() + basis.count(), wanted, |row, mode| {
+            match row.checked_sub(moved.nrows()) {
                 None => moved[(row, mode)],
                 Some(q) => found.vectors[(inner + rigid + q, mode)],
-            });
-        Ok(SymmetricSpectrum {
-            values: found.values,
-            vectors,
-        })
+            }
+        });
+        Ok(SymmetricSpectrum { values: found.values, vectors })
     }
 
     fn bordered(&self, basis: &InteriorBasis) -> Bordered {
@@ -101,8 +88,7 @@ impl<'a> CoupledProblem<'a> {
         let inner = self.interface.count() - rigid;
         let driven = basis.participation() * &self.interface.vectors;
         let border = rigid + basis.count();
-        let across = |of_rigid: &dyn Fn(usize, usize) -> f64,
-                      of_vector: &dyn Fn(usize, usize) -> f64| {
+        let across = |of_rigid: &dyn Fn(usize, usize) -> f64, of_vector: &dyn Fn(usize, usize) -> f64| {
             DenseMatrix::from_fn(border, inner, |row, column| match row.checked_sub(rigid) {
                 None => of_rigid(row, rigid + column),
                 Some(q) => of_vector(q, rigid + column),
@@ -144,11 +130,9 @@ impl Bordered {
         let mut x = self.start(width);
         let scale: Vec<f64> = self.kappa.iter().map(|k| (k + shift).recip()).collect();
         let across = &self.across[0] + &self.across[1] * faer::Scale(shift);
-        let scaled = DenseMatrix::from_fn(across.nrows(), across.ncols(), |row, column| {
-            across[(row, column)] * scale[column]
-        });
-        let schur =
-            &self.border[0] + &self.border[1] * faer::Scale(shift) - &scaled * across.transpose();
+        let scaled =
+            DenseMatrix::from_fn(across.nrows(), across.ncols(), |row, column| across[(row, column)] * scale[column]);
+        let schur = &self.border[0] + &self.border[1] * faer::Scale(shift) - &scaled * across.transpose();
         let schur = DenseCholesky::new(&schur)?;
         let mut before = vec![f64::INFINITY; width];
         for _ in 0..ITERATIONS {
@@ -157,11 +141,9 @@ impl Bordered {
             let (inner, border) = self.split(&moved);
             let of_border = schur.solve(&(border - &scaled * &inner));
             let rest = inner - across.transpose() * &of_border;
-            let y = DenseMatrix::from_fn(order, x.ncols(), |row, column| {
-                match row.checked_sub(self.kappa.len()) {
-                    None => scale[row] * rest[(row, column)],
-                    Some(row) => of_border[(row, column)],
-                }
+            let y = DenseMatrix::from_fn(order, x.ncols(), |row, column| match row.checked_sub(self.kappa.len()) {
+                None => scale[row] * rest[(row, column)],
+                Some(row) => of_border[(row, column)],
             });
             let [k, m] = [0, 1].map(|which| symmetric(&(y.transpose() * self.times(which, &y))));
             let normal = orthonormal(&m)?;
@@ -179,10 +161,7 @@ impl Bordered {
         }
         let wanted = count.min(before.len());
         before.truncate(wanted);
-        Ok(SymmetricSpectrum {
-            values: before,
-            vectors: x.subcols(0, wanted).to_owned(),
-        })
+        Ok(SymmetricSpectrum { values: before, vectors: x.subcols(0, wanted).to_owned() })
     }
 
     /// Unit vectors of the softest coordinates, and a few of all.
@@ -194,11 +173,7 @@ impl Bordered {
         };
         let mut places: Vec<usize> = (0..order).collect();
         places.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
-        let units = if width == order {
-            order
-        } else {
-            width.saturating_sub(MIXED)
-        };
+        let units = if width == order { order } else { width.saturating_sub(MIXED) };
         let mut x = DenseMatrix::from_fn(order, width, |row, column| match column < units {
             true => 0.0,
             // irrational steps: no pattern
@@ -216,23 +191,18 @@ impl Bordered {
         let (across, own) = (&self.across[which], &self.border[which]);
         let above = across.transpose() * &border;
         let below = across * &inner + own * &border;
-        DenseMatrix::from_fn(x.nrows(), x.ncols(), |row, column| {
-            match row.checked_sub(self.kappa.len()) {
-                None => {
-                    let diagonal = if which == 0 { self.kappa[row] } else { 1.0 };
-                    diagonal * inner[(row, column)] + above[(row, column)]
-                }
-                Some(row) => below[(row, column)],
+        DenseMatrix::from_fn(x.nrows(), x.ncols(), |row, column| match row.checked_sub(self.kappa.len()) {
+            None => {
+                let diagonal = if which == 0 { self.kappa[row] } else { 1.0 };
+                diagonal * inner[(row, column)] + above[(row, column)]
             }
+            Some(row) => below[(row, column)],
         })
     }
 
     fn split(&self, x: &DenseMatrix) -> (DenseMatrix, DenseMatrix) {
         let inner = self.kappa.len();
-        (
-            x.subrows(0, inner).to_owned(),
-            x.subrows(inner, x.nrows() - inner).to_owned(),
-        )
+        (x.subrows(0, inner).to_owned(), x.subrows(inner, x.nrows() - inner).to_owned())
     }
 }
 
@@ -240,27 +210,18 @@ impl Bordered {
 /// step look alike: what is round-off of their differences is left out, high modes that nobody wants.
 fn orthonormal(m: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
     let lengths: Vec<f64> = (0..m.nrows()).map(|i| m[(i, i)].sqrt()).collect();
-    let scaled = DenseMatrix::from_fn(m.nrows(), m.ncols(), |row, column| {
-        m[(row, column)] / (lengths[row] * lengths[column])
-    });
+    let scaled =
+        DenseMatrix::from_fn(m.nrows(), m.ncols(), |row, column| m[(row, column)] / (lengths[row] * lengths[column]));
     let gram = symmetric_eigen(&scaled)?;
     let longest = gram.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..gram.values.len())
-        .filter(|&place| gram.values[place] > DEPENDENT * longest)
-        .collect();
-    Ok(DenseMatrix::from_fn(
-        m.nrows(),
-        kept.len(),
-        |row, column| {
-            gram.vectors[(row, kept[column])] / (gram.values[kept[column]].sqrt() * lengths[row])
-        },
-    ))
+    let kept: Vec<usize> = (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
+    Ok(DenseMatrix::from_fn(m.nrows(), kept.len(), |row, column| {
+        gram.vectors[(row, kept[column])] / (gram.values[kept[column]].sqrt() * lengths[row])
+    }))
 }
 
 fn symmetric(a: &DenseMatrix) -> DenseMatrix {
-    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| {
-        0.5 * (a[(row, column)] + a[(column, row)])
-    })
+    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| 0.5 * (a[(row, column)] + a[(column, row)]))
 }
 
 #[cfg(test)]

@@ -32,10 +32,7 @@ fn the_lowest_modes_are_those_of_the_dense_problem() {
             for mode in 0..8 {
                 let error = (found.values[mode] - expected.values[mode]).abs();
                 // the shift and the highest eigenvalue, about 1e-3 and 4, in units of round-off
-                assert!(
-                    error < 1e-11 * expected.values[7],
-                    "{held} {ground} {vectors} {mode}: {error:e}"
-                );
+                assert!(error < 1e-11 * expected.values[7], "{held} {ground} {vectors} {mode}: {error:e}");
                 for row in 0..k.nrows() {
                     let rest = stiff[(row, mode)] - found.values[mode] * moved[(row, mode)];
                     // values settle to 1e-13: vectors to the root of it
@@ -54,9 +51,7 @@ fn all_modes_are_there_when_asked_for() {
     let interface = interface.expect("finite");
     let pairs = substructure.lowest_modes(3).expect("definite");
     let basis = InteriorBasis::of_modes(&substructure, &pairs, 2);
-    let found = CoupledProblem::new(&interface)
-        .lowest(&basis, 100)
-        .expect("definite");
+    let found = CoupledProblem::new(&interface).lowest(&basis, 100).expect("definite");
     let expected = coupled_modes(&substructure, &basis, None).expect("definite");
     assert_eq!(found.values.len(), 6);
     for (found, expected) in found.values.iter().zip(&expected.values) {

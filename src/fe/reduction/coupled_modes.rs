@@ -13,19 +13,13 @@ pub struct Attached<'a> {
 }
 
 /// k_bb and m_bb of a housing with what is attached [interface x interface].
-pub(super) fn interface_matrices(
-    substructure: &Substructure,
-    attached: Option<Attached<'_>>,
-) -> [DenseMatrix; 2] {
+pub(super) fn interface_matrices(substructure: &Substructure, attached: Option<Attached<'_>>) -> [DenseMatrix; 2] {
     let with = |own: &DenseMatrix, more: Option<&DenseMatrix>| match more {
         Some(more) => own + more,
         None => own.clone(),
     };
     [
-        with(
-            substructure.stiffness(),
-            attached.map(|part| part.stiffness),
-        ),
+        with(substructure.stiffness(), attached.map(|part| part.stiffness)),
         with(substructure.mass(), attached.map(|part| part.mass)),
     ]
 }
@@ -95,9 +89,8 @@ pub(super) fn interior_residuals(
     modes: &SymmetricSpectrum,
     chosen: &[usize],
 ) -> DenseMatrix {
-    let coordinates = DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| {
-        modes.vectors[(row, chosen[column])]
-    });
+    let coordinates =
+        DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| modes.vectors[(row, chosen[column])]);
     let mut residual = interior_inertia(substructure, basis, &coordinates);
     let amplitudes = coordinates.subrows(substructure.interface_dof(), basis.count());
     let stiff = substructure.stiffness_times(&(basis.vectors() * amplitudes));

@@ -13,9 +13,7 @@ use super::selection::choose_basis;
 use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
-use crate::numerics::linalg::{
-    DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense,
-};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
 
 /// Columns that are condensed at once.
 const BLOCK: usize = 64;
@@ -58,11 +56,7 @@ impl CraigBampton {
             structural: None,
             interface_dof: substructure.interface_dof(),
         };
-        let mut condensed = Self {
-            substructure,
-            basis,
-            superelement,
-        };
+        let mut condensed = Self { substructure, basis, superelement };
         condensed.superelement.weight = condensed.project(weight);
         condensed
     }
@@ -77,24 +71,17 @@ impl CraigBampton {
     /// the mesh stays the weight of the mesh, whatever the basis keeps.
     pub fn project(&self, load: &DenseMatrix) -> DenseMatrix {
         let partition = self.substructure.partition();
-        let pick = |dofs: &[usize]| {
-            DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| {
-                load[(dofs[row], column)]
-            })
-        };
+        let pick =
+            |dofs: &[usize]| DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| load[(dofs[row], column)]);
         let (interior, driven) = (pick(&partition.interior), pick(&partition.driven));
         let interface = transpose_times_dense(&partition.tie, &driven)
             + self.substructure.constraint_modes().transpose() * &interior;
         let modal = self.basis.vectors().transpose() * &interior;
         let first = interface.nrows();
-        DenseMatrix::from_fn(
-            self.superelement.order(),
-            load.ncols(),
-            |row, column| match row.checked_sub(first) {
-                None => interface[(row, column)],
-                Some(mode) => modal[(mode, column)],
-            },
-        )
+        DenseMatrix::from_fn(self.superelement.order(), load.ncols(), |row, column| match row.checked_sub(first) {
+            None => interface[(row, column)],
+            Some(mode) => modal[(mode, column)],
+        })
     }
 
     /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
@@ -103,15 +90,11 @@ impl CraigBampton {
         let mut condensed = DenseMatrix::zeros(order, order);
         for first in (0..order).step_by(BLOCK) {
             let width = BLOCK.min(order - first);
-            let unit = DenseMatrix::from_fn(order, width, |row, column| {
-                f64::from(u8::from(row == first + column))
-            });
+            let unit = DenseMatrix::from_fn(order, width, |row, column| f64::from(u8::from(row == first + column)));
             let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
             let block = self.project(&moved);
             for column in 0..width {
-                condensed
-                    .col_as_slice_mut(first + column)
-                    .copy_from_slice(block.col_as_slice(column));
+                condensed.col_as_slice_mut(first + column).copy_from_slice(block.col_as_slice(column));
             }
         }
         condensed
@@ -123,15 +106,9 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub(crate) fn with_loads(
-        self,
-        loads: &DenseMatrix,
-        weight: &DenseMatrix,
-    ) -> Result<Self, ReductionError> {
+    pub(crate) fn with_loads(self, loads: &DenseMatrix, weight: &DenseMatrix) -> Result<Self, ReductionError> {
         let interior = &self.substructure.partition().interior;
-        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| {
-            loads[(interior[row], column)]
-        });
+        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| loads[(interior[row], column)]);
         self.with_forces(inside, weight)
     }
 
@@ -139,11 +116,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
-    pub(crate) fn with_forces(
-        self,
-        forces: DenseMatrix,
-        weight: &DenseMatrix,
-    ) -> Result<Self, ReductionError> {
+    pub(crate) fn with_forces(self, forces: DenseMatrix, weight: &DenseMatrix) -> Result<Self, ReductionError> {
         let static_response = self.substructure.solve_interior(forces)?;
         let basis = self.basis.extended(&self.substructure, static_response)?;
         Ok(Self::new(self.substructure, basis, weight))
@@ -153,11 +126,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`ErrorEstimate::of`].
-    pub fn estimate(
-        &self,
-        attached: Option<Attached<'_>>,
-        band_hz: f64,
-    ) -> Result<ErrorEstimate, ReductionError> {
+    pub fn estimate(&self, attached: Option<Attached<'_>>, band_hz: f64) -> Result<ErrorEstimate, ReductionError> {
         ErrorEstimate::of(&self.substructure, &self.basis, attached, band_hz)
     }
 
@@ -188,8 +157,7 @@ impl CraigBampton {
         let interface = self.superelement.interface_dof;
         let boundary = coordinates.subrows(0, interface);
         let amplitudes = coordinates.subrows(interface, self.basis.count());
-        let interior =
-            self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
+        let interior = self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
         let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
         let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
         for column in 0..coordinates.ncols() {

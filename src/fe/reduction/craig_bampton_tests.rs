@@ -6,11 +6,7 @@ use crate::numerics::linalg::{SymmetricSpectrum, TripletBuilder, symmetric_gener
 use std::f64::consts::TAU;
 
 const fn plain(size: BasisSize) -> BasisChoice {
-    BasisChoice {
-        size,
-        enhanced: false,
-        band_hz: 0.1,
-    }
+    BasisChoice { size, enhanced: false, band_hz: 0.1 }
 }
 
 fn condensed(nodes: usize, size: BasisSize) -> CraigBampton {
@@ -25,8 +21,7 @@ fn modes(element: &Superelement) -> SymmetricSpectrum {
 fn all_modes_kept_is_the_full_model() {
     let rod = rod(12);
     let found = modes(&condensed(12, BasisSize::Count(11)).superelement);
-    let full =
-        symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
+    let full = symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
     for mode in 0..12 {
         let error = (found.values[mode] - full.values[mode]).abs();
         assert!(error < 1e-11, "{mode}: {error:e}");
@@ -63,8 +58,7 @@ fn the_mass_of_a_long_interface_is_that_of_its_motions() {
 #[test]
 fn frequencies_converge_from_above() {
     let rod = rod(40);
-    let full =
-        symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
+    let full = symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass)).expect("free");
     let mut before = f64::INFINITY;
     for kept in [0, 2, 5, 10] {
         let modes = modes(&condensed(40, BasisSize::Count(kept)).superelement);
@@ -77,37 +71,20 @@ fn frequencies_converge_from_above() {
         }
     }
     // ten of 39 modes: the loop shows that the error falls, this how far
-    assert!(
-        before < 3e-4 * full.values[1],
-        "{:e}",
-        before / full.values[1]
-    );
+    assert!(before < 3e-4 * full.values[1], "{:e}", before / full.values[1]);
 }
 
 #[test]
 fn a_loose_piece_is_named() {
     let rod = rod(10);
-    let loose = HousingPartition {
-        interior: vec![5, 6, 7],
-        ..partition(10)
-    };
+    let loose = HousingPartition { interior: vec![5, 6, 7], ..partition(10) };
     // nodes 5 to 7 hang on nothing once 4 and 8 are neither driven nor interior: held by them
     assert!(craig_bampton(&rod, &loose, plain(BasisSize::Count(1)), None).is_ok());
     let mut springs = TripletBuilder::new(10, 10);
     springs.add(0, 0, 1.0);
-    let nothing = SystemMatrices {
-        stiffness: springs.build(),
-        ..rod
-    };
-    let error = craig_bampton(&nothing, &partition(10), plain(BasisSize::Count(1)), None)
-        .expect_err("no stiffness");
-    assert_eq!(
-        error,
-        ReductionError::FloatingInterior {
-            interior: 9,
-            dof: 1
-        }
-    );
+    let nothing = SystemMatrices { stiffness: springs.build(), ..rod };
+    let error = craig_bampton(&nothing, &partition(10), plain(BasisSize::Count(1)), None).expect_err("no stiffness");
+    assert_eq!(error, ReductionError::FloatingInterior { interior: 9, dof: 1 });
 }
 
 #[test]

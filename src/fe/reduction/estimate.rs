@@ -58,10 +58,7 @@ pub struct ErrorEstimate {
 impl ErrorEstimate {
     /// The largest error in the band; 0 without modes.
     pub fn largest(&self) -> f64 {
-        self.modes
-            .iter()
-            .map(|mode| mode.relative_error)
-            .fold(0.0, f64::max)
+        self.modes.iter().map(|mode| mode.relative_error).fold(0.0, f64::max)
     }
 
     /// Estimates the errors of a basis.
@@ -79,21 +76,11 @@ impl ErrorEstimate {
         let quasi_static = basis.quasi_static();
         let (mut refined, mut modes) = (basis.clone(), reduced.clone());
         let mut last_fall = Vec::new();
-        let mut estimate = Self {
-            band_hz,
-            modes: Vec::new(),
-            out_of_band: 0,
-            rounds: 0,
-            converged: false,
-        };
+        let mut estimate = Self { band_hz, modes: Vec::new(), out_of_band: 0, rounds: 0, converged: false };
         while estimate.rounds < ROUNDS && !estimate.converged {
-            let followed = modes
-                .values
-                .partition_point(|&value| value <= REACH * REACH * top);
+            let followed = modes.values.partition_point(|&value| value <= REACH * REACH * top);
             let count = modes.values.partition_point(|&value| value <= top);
-            let moving: Vec<usize> = (0..followed)
-                .filter(|&mode| modes.values[mode] > quasi_static)
-                .collect();
+            let moving: Vec<usize> = (0..followed).filter(|&mode| modes.values[mode] > quasi_static).collect();
             let before = modes.values.clone();
             if !moving.is_empty() {
                 let residual = interior_residuals(substructure, &refined, &modes, &moving);
@@ -103,9 +90,7 @@ impl ErrorEstimate {
             }
             estimate.rounds += 1;
             let now = modes.values.partition_point(|&value| value <= top);
-            last_fall = (0..now)
-                .map(|mode| fall(at(&before, mode), modes.values[mode]))
-                .collect();
+            last_fall = (0..now).map(|mode| fall(at(&before, mode), modes.values[mode])).collect();
             estimate.converged = now == count
                 && (0..now).all(|mode| {
                     let total = fall(at(&reduced.values, mode), modes.values[mode]);
@@ -147,9 +132,7 @@ impl ErrorEstimate {
         });
         let raised = Self {
             modes: modes.collect(),
-            out_of_band: (0..self.modes.len())
-                .filter(|&place| at(values, place) > top)
-                .count(),
+            out_of_band: (0..self.modes.len()).filter(|&place| at(values, place) > top).count(),
             ..*self
         };
         (raised, rises)
@@ -163,11 +146,7 @@ fn at(values: &[f64], mode: usize) -> f64 {
 
 /// `(f~ - f) / f` from the squares of both.
 fn fall(before: f64, after: f64) -> f64 {
-    if after > 0.0 {
-        ((before / after).max(1.0)).sqrt() - 1.0
-    } else {
-        0.0
-    }
+    if after > 0.0 { ((before / after).max(1.0)).sqrt() - 1.0 } else { 0.0 }
 }
 
 /// What further rounds would add, relative to the last one: a geometric series.

@@ -11,23 +11,11 @@ fn full_hz() -> Vec<f64> {
     let rod = rod(NODES);
     let full = symmetric_generalised_eigen(&dense(&rod.stiffness), &dense(&rod.mass));
     let values = full.expect("free").values;
-    values
-        .iter()
-        .map(|value| value.abs().sqrt() / TAU)
-        .collect()
+    values.iter().map(|value| value.abs().sqrt() / TAU).collect()
 }
 
-fn basis(
-    substructure: &Substructure,
-    size: BasisSize,
-    enhanced: bool,
-    band_hz: f64,
-) -> InteriorBasis {
-    let choice = BasisChoice {
-        size,
-        enhanced,
-        band_hz,
-    };
+fn basis(substructure: &Substructure, size: BasisSize, enhanced: bool, band_hz: f64) -> InteriorBasis {
+    let choice = BasisChoice { size, enhanced, band_hz };
     choose_basis(substructure, choice, None).expect("a basis")
 }
 
@@ -74,10 +62,7 @@ fn all_vectors_kept_leave_no_error() {
     let basis = basis(&substructure, BasisSize::Count(18), false, 0.2);
     assert!(basis.complete_below().is_infinite());
     let estimate = ErrorEstimate::of(&substructure, &basis, None, 0.2).expect("finite");
-    assert!(
-        estimate.converged && estimate.largest() < 1e-10,
-        "{estimate:?}"
-    );
+    assert!(estimate.converged && estimate.largest() < 1e-10, "{estimate:?}");
 }
 
 #[test]
@@ -90,12 +75,7 @@ fn a_residual_vector_a_mode_squares_the_error_away() {
         estimate.expect("finite").largest()
     };
     // six modes and six residual vectors against twelve modes
-    assert!(
-        largest(true) < 0.1 * largest(false),
-        "{:e} {:e}",
-        largest(true),
-        largest(false)
-    );
+    assert!(largest(true) < 0.1 * largest(false), "{:e} {:e}", largest(true), largest(false));
 }
 
 #[test]
@@ -114,12 +94,7 @@ fn auto_is_the_smallest_of_its_family() {
             assert!(error(&fewer) > target, "{count}");
         } else {
             let plain = basis(&substructure, BasisSize::Auto(target), false, 0.03);
-            assert!(
-                chosen.count() < plain.count(),
-                "{} {}",
-                chosen.count(),
-                plain.count()
-            );
+            assert!(chosen.count() < plain.count(), "{} {}", chosen.count(), plain.count());
         }
     }
 }
@@ -127,14 +102,7 @@ fn auto_is_the_smallest_of_its_family() {
 #[test]
 fn a_target_out_of_reach_is_an_error() {
     let substructure = Substructure::new(&rod(12), &both_ends(12)).expect("connected");
-    let choice = BasisChoice {
-        size: BasisSize::Auto(-1.0),
-        enhanced: false,
-        band_hz: 0.05,
-    };
+    let choice = BasisChoice { size: BasisSize::Auto(-1.0), enhanced: false, band_hz: 0.05 };
     let found = choose_basis(&substructure, choice, None);
-    assert!(
-        matches!(found, Err(ReductionError::TargetMissed { vectors: 10, .. })),
-        "{found:?}"
-    );
+    assert!(matches!(found, Err(ReductionError::TargetMissed { vectors: 10, .. })), "{found:?}");
 }

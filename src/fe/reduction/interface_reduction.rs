@@ -9,9 +9,7 @@
 //! static response of the interface is no longer exact, and a load on few of its coordinates meets too stiff an interface.
 
 use super::coupled_modes::Attached;
-use super::{
-    CharacteristicModes, CraigBampton, ErrorEstimate, InterfaceSize, ReductionError, Superelement,
-};
+use super::{CharacteristicModes, CraigBampton, ErrorEstimate, InterfaceSize, ReductionError, Superelement};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 
 /// A superelement on characteristic constraint modes, with the way back to the interface.
@@ -41,15 +39,13 @@ impl InterfaceReduction {
     ) -> Result<Self, ReductionError> {
         let whole = &condensed.superelement;
         let (interface, kept) = (whole.interface_dof, modes.kept(size)?);
-        let transform = DenseMatrix::from_fn(
-            whole.order(),
-            kept + whole.modal_dof(),
-            |row, column| match (row.checked_sub(interface), column.checked_sub(kept)) {
+        let transform = DenseMatrix::from_fn(whole.order(), kept + whole.modal_dof(), |row, column| {
+            match (row.checked_sub(interface), column.checked_sub(kept)) {
                 (None, None) => modes.vectors[(row, column)],
                 (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
                 _ => 0.0,
-            },
-        );
+            }
+        });
         let mut stiffness = congruent(&whole.stiffness, &transform);
         // rigid motions that nothing holds have no stiffness: what stands there is round-off of a sum of large terms
         for rigid in 0..modes.rigid() {
@@ -63,10 +59,7 @@ impl InterfaceReduction {
                 stiffness,
                 mass: congruent(&whole.mass, &transform),
                 weight: transform.transpose() * &whole.weight,
-                structural: whole
-                    .structural
-                    .as_ref()
-                    .map(|matrix| congruent(matrix, &transform)),
+                structural: whole.structural.as_ref().map(|matrix| congruent(matrix, &transform)),
                 interface_dof: kept,
             },
             inertia: &modes.mass * modes.vectors.subcols(0, kept),
@@ -113,34 +106,21 @@ impl InterfaceReduction {
     /// its mass: `p = R^T (m_bb + m_a) d`, no amplitudes of the interior.
     pub fn nearest(&self, motions: &DenseMatrix) -> DenseMatrix {
         let amplitudes = self.inertia.transpose() * motions;
-        DenseMatrix::from_fn(
-            self.superelement.order(),
-            motions.ncols(),
-            |row, column| match row < self.kept() {
-                true => amplitudes[(row, column)],
-                false => 0.0,
-            },
-        )
+        DenseMatrix::from_fn(self.superelement.order(), motions.ncols(), |row, column| match row < self.kept() {
+            true => amplitudes[(row, column)],
+            false => 0.0,
+        })
     }
 
     /// Squared frequencies with what is attached, 1/s^2, ascending.
     ///
     /// # Errors
     /// What the dense eigenvalue solver reports.
-    pub fn coupled_values(
-        &self,
-        attached: Option<Attached<'_>>,
-    ) -> Result<Vec<f64>, ReductionError> {
-        let (mut k, mut m) = (
-            self.superelement.stiffness.clone(),
-            self.superelement.mass.clone(),
-        );
+    pub fn coupled_values(&self, attached: Option<Attached<'_>>) -> Result<Vec<f64>, ReductionError> {
+        let (mut k, mut m) = (self.superelement.stiffness.clone(), self.superelement.mass.clone());
         if let Some(part) = attached {
             let modes = self.modes();
-            let own = [
-                congruent(part.stiffness, &modes),
-                congruent(part.mass, &modes),
-            ];
+            let own = [congruent(part.stiffness, &modes), congruent(part.mass, &modes)];
             for (whole, own) in [&mut k, &mut m].into_iter().zip(own) {
                 for column in 0..own.ncols() {
                     for row in 0..own.nrows() {

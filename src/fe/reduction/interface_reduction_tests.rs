@@ -13,11 +13,7 @@ fn condensed(held: bool) -> CraigBampton {
         true => grounded_rod(NODES, 0.1),
         false => rod(NODES),
     };
-    let choice = BasisChoice {
-        size: BasisSize::Count(8),
-        enhanced: false,
-        band_hz: 0.1,
-    };
+    let choice = BasisChoice { size: BasisSize::Count(8), enhanced: false, band_hz: 0.1 };
     craig_bampton(&matrices, &every_third(NODES), choice, None).expect("connected")
 }
 
@@ -60,10 +56,7 @@ fn all_modes_kept_change_nothing() {
             let found = all.coupled_values(attached).expect("definite");
             for (found, expected) in found.iter().zip(whole(&condensed, attached)) {
                 // the solver inverts with a shift of 1e-4 of the smallest k_ii / m_ii: the highest values keep eleven digits
-                assert!(
-                    (found - expected).abs() < 1e-11,
-                    "{held}: {found} {expected}"
-                );
+                assert!((found - expected).abs() < 1e-11, "{held}: {found} {expected}");
             }
             let modes = CharacteristicModes::of(&condensed.substructure, attached, &rigid);
             assert!(modes.expect("finite").lost_flexibility(INTERFACE).largest < 1e-12);
@@ -78,9 +71,8 @@ fn errors_fall_with_every_mode_kept() {
     let expected = whole(&condensed, with(&parts));
     let mut before = [f64::INFINITY; 6];
     for kept in 7..=INTERFACE {
-        let values = reduced(&condensed, with(&parts), &translation(), kept)
-            .coupled_values(with(&parts))
-            .expect("definite");
+        let values =
+            reduced(&condensed, with(&parts), &translation(), kept).coupled_values(with(&parts)).expect("definite");
         for mode in 1..6 {
             let error = values[mode] / expected[mode] - 1.0;
             // from above, but for round-off
@@ -100,10 +92,7 @@ fn the_rise_of_an_estimate_is_that_of_the_frequencies() {
     let estimate = condensed.estimate(None, 0.08).expect("converges");
     let few = reduced(&condensed, None, &translation(), 5);
     let (raised, rises) = few.estimate(&condensed, None, &estimate).expect("definite");
-    let (old, new) = (
-        whole(&condensed, None),
-        few.coupled_values(None).expect("definite"),
-    );
+    let (old, new) = (whole(&condensed, None), few.coupled_values(None).expect("definite"));
     assert_eq!(raised.modes.len(), estimate.modes.len());
     assert!(raised.modes.len() > 5 && rises[0] == 0.0);
     // the rod has more modes in the band than these coordinates below its top
@@ -147,9 +136,7 @@ fn rigid_motions_survive_a_ground_that_holds_what_is_attached() {
     let worst = |rigid: &DenseMatrix| {
         let few = reduced(&condensed, with(&parts), rigid, 6);
         let back = few.expanded(&few.nearest(&translation()));
-        (0..INTERFACE)
-            .map(|row| (back[(row, 0)] - 1.0).abs())
-            .fold(0.0, f64::max)
+        (0..INTERFACE).map(|row| (back[(row, 0)] - 1.0).abs()).fold(0.0, f64::max)
     };
     assert!(worst(&none()) > 1e-3);
     // round-off of products
@@ -169,9 +156,7 @@ fn modes_with_what_is_attached_are_better_than_without() {
     let error = |known: Option<Attached<'_>>| {
         let few = reduced(&condensed, known, &none(), 6);
         let values = few.coupled_values(with(&parts)).expect("definite");
-        (0..4)
-            .map(|mode| values[mode] / expected[mode] - 1.0)
-            .fold(0.0, f64::max)
+        (0..4).map(|mode| values[mode] / expected[mode] - 1.0).fold(0.0, f64::max)
     };
     let (alone, together) = (error(None), error(with(&parts)));
     // heavy masses on every fifth node: found 24 times
@@ -184,20 +169,14 @@ fn the_flexibility_lost_is_that_of_the_matrices() {
     let substructure = &condensed.substructure;
     let modes = CharacteristicModes::of(substructure, None, &none()).expect("finite");
     let unit = DenseMatrix::identity(INTERFACE, INTERFACE);
-    let all = DenseCholesky::new(substructure.stiffness())
-        .expect("held")
-        .solve(&unit);
+    let all = DenseCholesky::new(substructure.stiffness()).expect("held").solve(&unit);
     let mut before = 1.0;
     for kept in [1, 4, 10, 19] {
         let r = modes.vectors.subcols(0, kept).to_owned();
         let small = congruent(substructure.stiffness(), &r);
-        let inner = DenseCholesky::new(&small)
-            .expect("held")
-            .solve(&r.transpose().to_owned());
+        let inner = DenseCholesky::new(&small).expect("held").solve(&r.transpose().to_owned());
         let of_kept = &r * inner;
-        let lost: Vec<f64> = (0..INTERFACE)
-            .map(|row| 1.0 - of_kept[(row, row)] / all[(row, row)])
-            .collect();
+        let lost: Vec<f64> = (0..INTERFACE).map(|row| 1.0 - of_kept[(row, row)] / all[(row, row)]).collect();
         let found = modes.lost_flexibility(kept);
         let largest = lost.iter().copied().fold(0.0, f64::max);
         let mean = lost.iter().sum::<f64>() / INTERFACE as f64;
@@ -225,18 +204,11 @@ fn too_few_modes_are_named() {
     let condensed = condensed(true);
     let modes = CharacteristicModes::of(&condensed.substructure, None, &none()).expect("finite");
     let error = modes.kept(InterfaceSize::UpTo(1e-6)).expect_err("none");
-    assert!(
-        error
-            .to_string()
-            .starts_with("0 modes of the interface are kept, expected at least 1"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("0 modes of the interface are kept, expected at least 1"), "{error}");
     // two motions that nothing holds, as far as the caller says
     let two = DenseMatrix::from_fn(INTERFACE, 2, |row, motion| (row as f64).powi(motion as i32));
     let modes = CharacteristicModes::of(&condensed.substructure, None, &two).expect("finite");
     let error = modes.kept(InterfaceSize::Count(1)).expect_err("one of two");
-    let ReductionError::FewInterfaceModes { found, least, .. } = error else {
-        panic!("{error}")
-    };
+    let ReductionError::FewInterfaceModes { found, least, .. } = error else { panic!("{error}") };
     assert_eq!((found, least), (1, 2));
 }

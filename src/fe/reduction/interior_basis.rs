@@ -93,11 +93,7 @@ impl InteriorBasis {
     ///
     /// # Errors
     /// [`ReductionError::Linalg`] for vectors that are not finite.
-    pub(crate) fn extended(
-        &self,
-        substructure: &Substructure,
-        mut z: DenseMatrix,
-    ) -> Result<Self, ReductionError> {
+    pub(crate) fn extended(&self, substructure: &Substructure, mut z: DenseMatrix) -> Result<Self, ReductionError> {
         // what is left of vectors that lie almost in the basis is made long again, and with it what round-off left in
         // the basis; twice is enough (Parlett, The Symmetric Eigenvalue Problem, section 6.9)
         for _ in 0..2 {
@@ -107,26 +103,17 @@ impl InteriorBasis {
     }
 
     /// Of vectors `z` [interior x k] what is orthogonal to the basis, orthonormal.
-    fn independent(
-        &self,
-        substructure: &Substructure,
-        mut z: DenseMatrix,
-    ) -> Result<DenseMatrix, ReductionError> {
+    fn independent(&self, substructure: &Substructure, mut z: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
         let before = lengths(&substructure.mass_times(&z), &z);
         let inside = self.vectors.transpose() * substructure.mass_times(&z);
         z -= &self.vectors * inside;
         let after = lengths(&substructure.mass_times(&z), &z);
-        let new: Vec<usize> = (0..z.ncols())
-            .filter(|&column| after[column] > CONTAINED * before[column])
-            .collect();
-        let z = DenseMatrix::from_fn(z.nrows(), new.len(), |row, column| {
-            z[(row, new[column])] / after[new[column]]
-        });
+        let new: Vec<usize> = (0..z.ncols()).filter(|&column| after[column] > CONTAINED * before[column]).collect();
+        let z = DenseMatrix::from_fn(z.nrows(), new.len(), |row, column| z[(row, new[column])] / after[new[column]]);
         let gram = symmetric_eigen(&(z.transpose() * substructure.mass_times(&z)))?;
         let longest = gram.values.last().copied().unwrap_or(0.0);
-        let kept: Vec<usize> = (0..gram.values.len())
-            .filter(|&place| gram.values[place] > DEPENDENT * longest)
-            .collect();
+        let kept: Vec<usize> =
+            (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
         let normal = DenseMatrix::from_fn(z.ncols(), kept.len(), |row, column| {
             gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
         });
@@ -139,25 +126,20 @@ impl InteriorBasis {
         let stiff = substructure.stiffness_times(z);
         let coupling = self.vectors.transpose() * &stiff;
         let own = z.transpose() * &stiff;
-        let stiffness = DenseMatrix::from_fn(count, count, |row, column| {
-            match (row.checked_sub(q), column.checked_sub(q)) {
+        let stiffness =
+            DenseMatrix::from_fn(count, count, |row, column| match (row.checked_sub(q), column.checked_sub(q)) {
                 (None, None) if row == column => self.values[row],
                 (None, None) => 0.0,
                 (None, Some(new)) => coupling[(row, new)],
                 (Some(new), None) => coupling[(column, new)],
                 (Some(new), Some(other)) => 0.5 * (own[(new, other)] + own[(other, new)]),
-            }
-        });
+            });
         let ritz = symmetric_eigen(&stiffness)?;
-        let (old, new) = (
-            ritz.vectors.subrows(0, q),
-            ritz.vectors.subrows(q, z.ncols()),
-        );
+        let (old, new) = (ritz.vectors.subrows(0, q), ritz.vectors.subrows(q, z.ncols()));
         let of_new = substructure.follow_transposed(z);
         Ok(Self {
             vectors: &self.vectors * old + z * new,
-            participation: old.transpose() * &self.participation
-                + new.transpose() * of_new.transpose(),
+            participation: old.transpose() * &self.participation + new.transpose() * of_new.transpose(),
             values: ritz.values,
             residual_vectors: self.residual_vectors + z.ncols(),
             complete_below: self.complete_below,

@@ -103,8 +103,6 @@ impl CraigBampton {
     pub(crate) fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
         let whole = sparse_times_dense(matrix, &self.field(motions, matrix.rows()));
         let interior = &self.substructure.partition().interior;
-        DenseMatrix::from_fn(interior.len(), whole.ncols(), |row, column| {
-            whole[(interior[row], column)]
-        })
+        DenseMatrix::from_fn(interior.len(), whole.ncols(), |row, column| whole[(interior[row], column)])
     }
 }

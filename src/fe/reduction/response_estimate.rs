@@ -6,8 +6,7 @@
 //! (2001) 1-102): see [`ResidualFlexibility`]. Relative to the response where it is read, it is largest beside zeros.
 
 use super::frf::{
-    FrequencyResponse, FrfError, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition,
-    ReducedSystem, direct_response,
+    FrequencyResponse, FrfError, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem, direct_response,
 };
 use super::residual_flexibility::ResidualFlexibility;
 use super::{CraigBampton, ReductionError};
@@ -73,9 +72,7 @@ impl ResponseEstimate {
     ) -> Result<Self, ReductionError> {
         let ends = Ends::new(system, modes, paths, frequencies_hz)?;
         let inertia = condensed.inertia_of(&ends.motions);
-        let losses = damping
-            .structural
-            .map(|matrix| condensed.force_of(matrix, &ends.motions));
+        let losses = damping.structural.map(|matrix| condensed.force_of(matrix, &ends.motions));
         let forces = beside(&inertia, losses.as_ref());
         let (substructure, basis) = (&condensed.substructure, &condensed.basis);
         let flexibility = ResidualFlexibility::new(substructure, basis, forces.clone())?;
@@ -94,9 +91,7 @@ impl ResponseEstimate {
         });
         let top = TAU * frequencies_hz.last().copied().unwrap_or(0.0);
         // modes that lie nearer to the band are the interior's own, or nearly so
-        let own = (RESONANT * top)
-            .powi(2)
-            .max(condensed.basis.complete_below());
+        let own = (RESONANT * top).powi(2).max(condensed.basis.complete_below());
         let (mut worst, mut lacking) = ((0.0, None), (0.0, None));
         let mut relative_errors = Vec::with_capacity(frequencies_hz.len());
         for (place, &hz) in frequencies_hz.iter().enumerate() {
@@ -112,9 +107,7 @@ impl ResponseEstimate {
                     let lacks = flexibility.missing(inertial(hz).norm(), &pushed, &pulled);
                     let level = ends.level(place, load, sensor);
                     let lacks = lacks.norm() / level;
-                    let ratios = by_mode
-                        .as_ref()
-                        .map_or(0.0, |all| all[(sensor, load)].norm());
+                    let ratios = by_mode.as_ref().map_or(0.0, |all| all[(sensor, load)].norm());
                     let relative = lacks + ratios / level;
                     if relative > largest {
                         largest = relative;
@@ -166,9 +159,7 @@ impl ResponseEstimate {
     /// The estimate at one of its frequencies.
     pub fn at(&self, hz: f64) -> Option<f64> {
         let frequencies = self.frequencies_hz.iter();
-        let place = frequencies
-            .map(|own| own.to_bits())
-            .position(|own| own == hz.to_bits())?;
+        let place = frequencies.map(|own| own.to_bits()).position(|own| own == hz.to_bits())?;
         self.relative_errors.get(place).copied()
     }
 
@@ -214,11 +205,9 @@ impl Ends {
         let order = system.order();
         let loads = paths.loads.ncols();
         let forces =
-            DenseMatrix::from_fn(order, loads + paths.sensors.nrows(), |row, end| {
-                match end.checked_sub(loads) {
-                    None => paths.loads[(row, end)],
-                    Some(sensor) => paths.sensors[(sensor, row)],
-                }
+            DenseMatrix::from_fn(order, loads + paths.sensors.nrows(), |row, end| match end.checked_sub(loads) {
+                None => paths.loads[(row, end)],
+                Some(sensor) => paths.sensors[(sensor, row)],
             });
         let top = frequencies_hz.last().copied().unwrap_or(0.0);
         let resonant = |hz: &f64| *hz <= RESONANT * top;
@@ -243,14 +232,12 @@ impl Ends {
         };
         let receptance = response(&between, forces.transpose().to_owned())?;
         Ok(Self {
-            motions: DenseMatrix::from_fn(
-                order,
-                modes + forces.ncols(),
-                |row, column| match column.checked_sub(modes) {
+            motions: DenseMatrix::from_fn(order, modes + forces.ncols(), |row, column| {
+                match column.checked_sub(modes) {
                     None => shapes[(row, column)],
                     Some(end) => statics.residual()[(row, end)],
-                },
-            ),
+                }
+            }),
             modes,
             amplitudes: response(&amplitudes, picked)?,
             receptance: receptance.receptance().to_vec(),
@@ -265,12 +252,8 @@ impl Ends {
     /// Amplitudes of the motions under a unit force at an end.
     fn amplitudes(&self, place: usize, end: usize) -> Vec<c64> {
         let of_modes = self.amplitudes.receptance()[place].col(end);
-        let statics =
-            (0..self.count()).map(|other| c64::new(f64::from(u8::from(other == end)), 0.0));
-        (0..self.modes)
-            .map(|mode| of_modes[mode])
-            .chain(statics)
-            .collect()
+        let statics = (0..self.count()).map(|other| c64::new(f64::from(u8::from(other == end)), 0.0));
+        (0..self.modes).map(|mode| of_modes[mode]).chain(statics).collect()
     }
 
     /// What an error is relative to; infinite where there is no path.
@@ -278,11 +261,7 @@ impl Ends {
         let between = &self.receptance[place];
         let level = between[(sensor, load)].norm();
         let ends = between[(load, load)].norm() * between[(sensor, sensor)].norm();
-        if level > NO_PATH * ends.sqrt() {
-            level
-        } else {
-            f64::INFINITY
-        }
+        if level > NO_PATH * ends.sqrt() { level } else { f64::INFINITY }
     }
 
     /// The largest response at both ends of a path that carries nothing; `None` for one that does.
@@ -304,14 +283,9 @@ impl Ends {
             let modes = &amplitudes[..self.modes];
             let squares: c64 = modes.iter().map(|amplitude| amplitude * amplitude).sum();
             let turn = c64::from_polar(1.0, -0.5 * squares.arg());
-            amplitudes
-                .iter()
-                .map(|amplitude| (amplitude * turn).re)
-                .collect::<Vec<f64>>()
+            amplitudes.iter().map(|amplitude| (amplitude * turn).re).collect::<Vec<f64>>()
         });
-        DenseMatrix::from_fn(self.motions.ncols(), ends.len(), |row, end| {
-            turned[end][row]
-        })
+        DenseMatrix::from_fn(self.motions.ncols(), ends.len(), |row, end| turned[end][row])
     }
 }
 

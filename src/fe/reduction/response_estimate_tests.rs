@@ -7,11 +7,7 @@ use crate::numerics::linalg::TripletBuilder;
 
 const NODES: usize = 80;
 /// Of stiffness-proportional damping statics lack nothing.
-const UNDAMPED: InteriorDamping<'_> = InteriorDamping {
-    structural: None,
-    mass: 0.0,
-    by_mode: false,
-};
+const UNDAMPED: InteriorDamping<'_> = InteriorDamping { structural: None, mass: 0.0, by_mode: false };
 /// Stiffness-proportional damping: 0.6 % at 0.02 Hz.
 const BETA: f64 = 0.1;
 
@@ -21,11 +17,7 @@ fn system(k: DenseMatrix, m: DenseMatrix) -> ReducedSystem {
 }
 
 fn condensed(modes: usize) -> CraigBampton {
-    let choice = BasisChoice {
-        size: BasisSize::Count(modes),
-        enhanced: false,
-        band_hz: 0.03,
-    };
+    let choice = BasisChoice { size: BasisSize::Count(modes), enhanced: false, band_hz: 0.03 };
     craig_bampton(&rod(NODES), &both_ends(NODES), choice, None).expect("connected")
 }
 
@@ -36,9 +28,7 @@ const SENSORS: [usize; 2] = [55, 0];
 fn full_paths() -> FrfPaths {
     FrfPaths {
         loads: DenseMatrix::from_fn(NODES, 1, |row, _| f64::from(u8::from(row == FORCE))),
-        sensors: DenseMatrix::from_fn(2, NODES, |sensor, row| {
-            f64::from(u8::from(row == SENSORS[sensor]))
-        }),
+        sensors: DenseMatrix::from_fn(2, NODES, |sensor, row| f64::from(u8::from(row == SENSORS[sensor]))),
     }
 }
 
@@ -57,10 +47,7 @@ fn reduced(condensed: &CraigBampton) -> (ReducedSystem, FrfPaths) {
         loads: DenseMatrix::from_fn(force.len(), 1, |place, _| force[place]),
         sensors: DenseMatrix::from_fn(2, force.len(), |sensor, place| sensors[sensor][place]),
     };
-    (
-        system(element.stiffness.clone(), element.mass.clone()),
-        paths,
-    )
+    (system(element.stiffness.clone(), element.mass.clone()), paths)
 }
 
 fn frequencies() -> Vec<f64> {
@@ -101,12 +88,8 @@ fn errors_of(
 /// Smallest and largest ratio of estimated to true errors that are no round-off.
 fn range(estimate: &ResponseEstimate, errors: &[f64]) -> [f64; 2] {
     let pairs = estimate.relative_errors.iter().zip(errors);
-    let ratios = pairs
-        .filter(|(_, error)| **error > 1e-9)
-        .map(|(estimated, error)| estimated / error);
-    ratios.fold([f64::INFINITY, 0.0], |[least, most], ratio| {
-        [least.min(ratio), most.max(ratio)]
-    })
+    let ratios = pairs.filter(|(_, error)| **error > 1e-9).map(|(estimated, error)| estimated / error);
+    ratios.fold([f64::INFINITY, 0.0], |[least, most], ratio| [least.min(ratio), most.max(ratio)])
 }
 
 /// A loss factor of 0.2 in one half of the rod and of 0.002 in the other couples its modes.
@@ -128,10 +111,7 @@ fn parts_of_unequal_losses_are_estimated() {
     let rod = rod(NODES);
     let full = ReducedSystem::new(dense(&rod.stiffness), dense(&rod.mass)).expect("square");
     let full = full.with_structural(dense(&losses)).expect("square");
-    let damping = InteriorDamping {
-        structural: Some(&losses),
-        ..UNDAMPED
-    };
+    let damping = InteriorDamping { structural: Some(&losses), ..UNDAMPED };
     let paths = reduced(&condensed).1;
     let (estimate, errors) = errors_of(&condensed, damping, (&own, &paths), &full);
     let [least, most] = range(&estimate, &errors);
@@ -146,9 +126,7 @@ fn ratios_of_made_up_modes_are_estimated() {
     let with_ratios = |system: ReducedSystem| {
         let modes = ModalBasis::new(&system).expect("finite");
         let matrix = modes.viscous_matrix(&system, &ModalDamping::Uniform(0.3));
-        system
-            .with_viscous(matrix.expect("damped"))
-            .expect("square")
+        system.with_viscous(matrix.expect("damped")).expect("square")
     };
     let element = &condensed.superelement;
     let own = ReducedSystem::new(element.stiffness.clone(), element.mass.clone());
@@ -158,10 +136,7 @@ fn ratios_of_made_up_modes_are_estimated() {
     let full = with_ratios(full.expect("square"));
     let paths = reduced(&condensed).1;
     let ratio = |by_mode: bool| {
-        let damping = InteriorDamping {
-            by_mode,
-            ..UNDAMPED
-        };
+        let damping = InteriorDamping { by_mode, ..UNDAMPED };
         let (estimate, errors) = errors_of(&condensed, damping, (&own, &paths), &full);
         let largest = errors.iter().copied().fold(0.0, f64::max);
         let estimated = estimate.largest().map_or(0.0, |(_, error)| error);
@@ -183,10 +158,7 @@ fn estimates_are_honest_at_every_frequency() {
             // above it the first order is not enough, below it round-off counts
             if (1e-9..0.01).contains(error) {
                 judged += 1;
-                range = [
-                    range[0].min(estimated / error),
-                    range[1].max(estimated / error),
-                ];
+                range = [range[0].min(estimated / error), range[1].max(estimated / error)];
             }
         }
     }
@@ -206,13 +178,8 @@ fn residual_vectors_of_responses_reach_any_target() {
         let (mut vectors, mut true_errors) = (0, Vec::new());
         while estimate.largest().is_some_and(|(_, error)| error > target) {
             vectors += 2;
-            assert!(
-                vectors <= 8,
-                "each pair takes an order of magnitude, found {estimate:?}"
-            );
-            condensed = condensed
-                .with_forces(estimate.forces().clone(), &weight)
-                .expect("finite");
+            assert!(vectors <= 8, "each pair takes an order of magnitude, found {estimate:?}");
+            condensed = condensed.with_forces(estimate.forces().clone(), &weight).expect("finite");
             (estimate, true_errors) = errors(&condensed);
         }
         // the estimate is right to a few per cent

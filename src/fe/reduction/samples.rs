@@ -6,10 +6,7 @@ use crate::numerics::linalg::{DenseMatrix, TripletBuilder};
 
 /// Rod of unit springs and masses, free at both ends.
 pub(super) fn rod(nodes: usize) -> SystemMatrices {
-    let (mut k, mut m) = (
-        TripletBuilder::new(nodes, nodes),
-        TripletBuilder::new(nodes, nodes),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(nodes, nodes), TripletBuilder::new(nodes, nodes));
     for node in 0..nodes {
         m.add(node, node, 1.0);
         if node + 1 < nodes {
@@ -30,11 +27,7 @@ pub(super) fn rod(nodes: usize) -> SystemMatrices {
 pub(super) fn partition(nodes: usize) -> HousingPartition {
     let mut tie = TripletBuilder::new(1, 1);
     tie.add(0, 0, 1.0);
-    HousingPartition {
-        driven: vec![0],
-        interior: (1..nodes).collect(),
-        tie: tie.build(),
-    }
+    HousingPartition { driven: vec![0], interior: (1..nodes).collect(), tie: tie.build() }
 }
 
 /// The rod held by both ends.
@@ -42,11 +35,7 @@ pub(super) fn both_ends(nodes: usize) -> HousingPartition {
     let mut tie = TripletBuilder::new(2, 2);
     tie.add(0, 0, 1.0);
     tie.add(1, 1, 1.0);
-    HousingPartition {
-        driven: vec![0, nodes - 1],
-        interior: (1..nodes - 1).collect(),
-        tie: tie.build(),
-    }
+    HousingPartition { driven: vec![0, nodes - 1], interior: (1..nodes - 1).collect(), tie: tie.build() }
 }
 
 /// The rod with a spring to the ground at its middle.
@@ -63,11 +52,7 @@ pub(super) fn every_third(nodes: usize) -> HousingPartition {
     let driven: Vec<usize> = (0..nodes).step_by(3).collect();
     let mut tie = TripletBuilder::new(driven.len(), driven.len());
     (0..driven.len()).for_each(|place| tie.add(place, place, 1.0));
-    HousingPartition {
-        interior: (0..nodes).filter(|node| node % 3 != 0).collect(),
-        tie: tie.build(),
-        driven,
-    }
+    HousingPartition { interior: (0..nodes).filter(|node| node % 3 != 0).collect(), tie: tie.build(), driven }
 }
 
 /// Stiffness and mass of masses that are attached to an interface, neighbours joined by springs; `ground` holds the first.
@@ -81,12 +66,10 @@ pub(super) fn train(interface: usize, mass: f64, spring: f64, ground: f64) -> [D
         }
     });
     // every fifth one is heavy
-    let mass = DenseMatrix::from_fn(interface, interface, |row, column| {
-        match (row == column, row % 5) {
-            (true, 0) => mass,
-            (true, _) => 0.1 * mass,
-            _ => 0.0,
-        }
+    let mass = DenseMatrix::from_fn(interface, interface, |row, column| match (row == column, row % 5) {
+        (true, 0) => mass,
+        (true, _) => 0.1 * mass,
+        _ => 0.0,
     });
     [stiffness, mass]
 }

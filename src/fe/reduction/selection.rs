@@ -25,9 +25,7 @@ pub fn choose_basis(
                 false => count,
             };
             let basis = InteriorBasis::of_modes(substructure, &pairs, basis);
-            filled(substructure, basis, count, |basis, _| {
-                coupled_modes(substructure, basis, attached)
-            })
+            filled(substructure, basis, count, |basis, _| coupled_modes(substructure, basis, attached))
         }
         BasisSize::UpTo(hz) => up_to(substructure, choice, hz, usize::MAX, attached),
         BasisSize::AtMost(hz, numbers) => {
@@ -51,10 +49,6 @@ fn up_to(
     let basis = InteriorBasis::of_modes(substructure, &pairs, count);
     with_residuals(substructure, &basis, attached, |spectrum, elastic| {
         let end = spectrum.values.partition_point(|&value| value <= band);
-        if choice.enhanced {
-            (elastic..end).collect()
-        } else {
-            Vec::new()
-        }
+        if choice.enhanced { (elastic..end).collect() } else { Vec::new() }
     })
 }

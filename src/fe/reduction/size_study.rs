@@ -66,9 +66,7 @@ pub fn size_study(
     for size in SIZES.into_iter().filter(|&size| size <= available) {
         let plain = InteriorBasis::of_modes(substructure, &pairs, size);
         let half = InteriorBasis::of_modes(substructure, &pairs, size - size / 2);
-        let enhanced = filled(substructure, half, size, |basis, missing| {
-            whole.lowest(basis, rigid + missing)
-        })?;
+        let enhanced = filled(substructure, half, size, |basis, missing| whole.lowest(basis, rigid + missing))?;
         let mut best: Option<ReducedSize> = None;
         for basis in &bases {
             let kept = size - basis.count();
@@ -85,12 +83,7 @@ pub fn size_study(
                 });
             }
         }
-        rows.push(SizeErrors {
-            size,
-            plain: of_whole(&plain)?,
-            enhanced: of_whole(&enhanced)?,
-            reduced: best,
-        });
+        rows.push(SizeErrors { size, plain: of_whole(&plain)?, enhanced: of_whole(&enhanced)?, reduced: best });
         bases.extend([plain, enhanced]);
     }
     Ok(rows)
@@ -106,30 +99,25 @@ impl OnModes {
     fn new(interface: &CharacteristicModes, most: usize) -> Self {
         let count = most.min(interface.count());
         let modes = interface.vectors.subcols(0, count).to_owned();
-        Self {
-            stiffness: congruent(&interface.stiffness, &modes),
-            modes,
-        }
+        Self { stiffness: congruent(&interface.stiffness, &modes), modes }
     }
 
     /// Squared frequencies on the first `kept` modes and a basis of the interior.
     fn values(&self, basis: &InteriorBasis, kept: usize) -> Result<Vec<f64>, ReductionError> {
         let order = kept + basis.count();
         let driven = basis.participation() * self.modes.subcols(0, kept);
-        let k = DenseMatrix::from_fn(order, order, |row, column| {
-            match (row.checked_sub(kept), column.checked_sub(kept)) {
+        let k =
+            DenseMatrix::from_fn(order, order, |row, column| match (row.checked_sub(kept), column.checked_sub(kept)) {
                 (None, None) => self.stiffness[(row, column)],
                 (Some(mode), Some(other)) if mode == other => basis.values()[mode],
                 _ => 0.0,
-            }
-        });
-        let m = DenseMatrix::from_fn(order, order, |row, column| {
-            match (row.checked_sub(kept), column.checked_sub(kept)) {
+            });
+        let m =
+            DenseMatrix::from_fn(order, order, |row, column| match (row.checked_sub(kept), column.checked_sub(kept)) {
                 (Some(mode), None) => driven[(mode, column)],
                 (None, Some(mode)) => driven[(mode, row)],
                 _ => f64::from(u8::from(row == column)),
-            }
-        });
+            });
         Ok(symmetric_generalised_eigen(&k, &m)?.values)
     }
 }
@@ -137,9 +125,7 @@ impl OnModes {
 /// Largest relative error of the frequencies beyond the rigid ones.
 fn largest_error(values: &[f64], full_hz: &[f64], rigid: usize) -> Option<f64> {
     let judged = values.get(..full_hz.len())?.iter().zip(full_hz).skip(rigid);
-    let error = |(value, hz): (&f64, &f64)| {
-        (value.max(0.0).sqrt() / std::f64::consts::TAU / hz - 1.0).abs()
-    };
+    let error = |(value, hz): (&f64, &f64)| (value.max(0.0).sqrt() / std::f64::consts::TAU / hz - 1.0).abs();
     let largest = judged.map(error).fold(0.0, f64::max);
     largest.is_finite().then_some(largest)
 }

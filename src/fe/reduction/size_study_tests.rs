@@ -26,9 +26,7 @@ fn errors_are_those_of_the_reductions_themselves() {
             m[(dof, other)] += mass[(row, column)];
         }
     }
-    let full = symmetric_generalised_eigen(&k, &m)
-        .expect("definite")
-        .values;
+    let full = symmetric_generalised_eigen(&k, &m).expect("definite").values;
     let full: Vec<f64> = full[..10].iter().map(|v| v.max(0.0).sqrt() / TAU).collect();
     let rows = size_study(&substructure, &interface, &full, 1).expect("definite");
     assert_eq!(rows.iter().map(|row| row.size).collect::<Vec<_>>(), SIZES);
@@ -36,11 +34,7 @@ fn errors_are_those_of_the_reductions_themselves() {
     assert!(rows[0].reduced.is_none() && rows[0].plain.is_some());
     for row in &rows {
         let basis = |count: usize, enhanced: bool| {
-            let choice = BasisChoice {
-                size: BasisSize::Count(count),
-                enhanced,
-                band_hz: 0.1,
-            };
+            let choice = BasisChoice { size: BasisSize::Count(count), enhanced, band_hz: 0.1 };
             choose_basis(&substructure, choice, attached).expect("definite")
         };
         let error = |values: Vec<f64>| largest_error(&values, &full, 1).expect("enough");
@@ -56,10 +50,7 @@ fn errors_are_those_of_the_reductions_themselves() {
         let enhanced = whole(basis(row.size, true));
         // the same vectors from modes of two solvers, each to 1e-6
         let found = row.enhanced.expect("enough");
-        assert!(
-            (found - enhanced).abs() < 1e-5 * enhanced + 1e-10,
-            "{row:?} {enhanced:e}"
-        );
+        assert!((found - enhanced).abs() < 1e-5 * enhanced + 1e-10, "{row:?} {enhanced:e}");
         let Some(split) = row.reduced else { continue };
         let vectors = split.fixed_interface_modes + split.residual_vectors;
         assert_eq!(split.interface_modes + vectors, row.size);
@@ -70,10 +61,7 @@ fn errors_are_those_of_the_reductions_themselves() {
         );
         let values = reduction.expect("enough").coupled_values(attached);
         let direct = error(values.expect("definite"));
-        assert!(
-            (split.error - direct).abs() < 1e-5 * direct + 1e-10,
-            "{row:?} {direct:e}"
-        );
+        assert!((split.error - direct).abs() < 1e-5 * direct + 1e-10, "{row:?} {direct:e}");
     }
     // more coordinates are never worse by plain modes, nor by the best of more splits
     let fell = |errors: Vec<f64>| errors.windows(2).all(|two| two[1] < two[0] + 1e-10);

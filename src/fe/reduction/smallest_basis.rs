@@ -23,35 +23,18 @@ pub(super) fn smallest_basis(
     attached: Option<Attached<'_>>,
 ) -> Result<InteriorBasis, ReductionError> {
     let all = substructure.interior_dof();
-    let (mut pairs, in_band) = modes_to(
-        substructure,
-        (TAU * choice.band_hz).powi(2),
-        BEYOND,
-        usize::MAX,
-    )?;
+    let (mut pairs, in_band) = modes_to(substructure, (TAU * choice.band_hz).powi(2), BEYOND, usize::MAX)?;
     let mut reached = f64::INFINITY;
     let mut least = in_band;
     for _ in 0..ENLARGEMENTS {
-        let count = if pairs.values.len() == all {
-            all
-        } else {
-            pairs.values.len() - 1
-        };
+        let count = if pairs.values.len() == all { all } else { pairs.values.len() - 1 };
         let largest = InteriorBasis::of_modes(substructure, &pairs, count);
         let estimate = ErrorEstimate::of(substructure, &largest, attached, choice.band_hz)?;
         let spectrum = coupled_modes(substructure, &largest, attached)?;
-        let size = smallest_size(
-            &largest,
-            &spectrum,
-            &estimate,
-            least,
-            target,
-            choice.enhanced,
-        );
+        let size = smallest_size(&largest, &spectrum, &estimate, least, target, choice.enhanced);
         if let Some((modes_kept, residuals)) = size {
             let basis = InteriorBasis::of_modes(substructure, &pairs, modes_kept);
-            let (basis, error) =
-                corrected(substructure, choice, target, attached, (basis, residuals))?;
+            let (basis, error) = corrected(substructure, choice, target, attached, (basis, residuals))?;
             if error <= target {
                 return Ok(basis);
             }
@@ -69,12 +52,7 @@ pub(super) fn smallest_basis(
             pairs = modes(substructure, 2 * count)?;
         }
     }
-    Err(ReductionError::TargetMissed {
-        vectors: least,
-        band_hz: choice.band_hz,
-        target,
-        reached,
-    })
+    Err(ReductionError::TargetMissed { vectors: least, band_hz: choice.band_hz, target, reached })
 }
 
 /// Number of modes, and the modes of the coupled structure that need a residual vector, for the smallest sum; `None`
@@ -99,8 +77,7 @@ fn smallest_size(
             .map(|(place, _)| place)
             .collect()
     };
-    let sizes =
-        (least.min(largest.count())..=largest.count()).map(|count| (count, too_large(count)));
+    let sizes = (least.min(largest.count())..=largest.count()).map(|count| (count, too_large(count)));
     if enhanced {
         sizes.min_by_key(|(count, residuals)| count + residuals.len())
     } else {
@@ -120,15 +97,9 @@ fn smallest_size(
 fn growth(largest: &InteriorBasis, spectrum: &SymmetricSpectrum, mode: usize, count: usize) -> f64 {
     let (lambda, p) = (spectrum.values[mode], largest.participation());
     let share = |left_out: usize| {
-        let push: f64 = (0..p.ncols())
-            .map(|column| p[(left_out, column)] * spectrum.vectors[(column, mode)])
-            .sum();
+        let push: f64 = (0..p.ncols()).map(|column| p[(left_out, column)] * spectrum.vectors[(column, mode)]).sum();
         let distance = largest.values()[left_out] - lambda;
-        if distance > 0.0 {
-            0.5 * lambda * push * push / distance
-        } else {
-            f64::INFINITY
-        }
+        if distance > 0.0 { 0.5 * lambda * push * push / distance } else { f64::INFINITY }
     };
     (count..largest.count()).map(share).sum()
 }
@@ -147,10 +118,7 @@ fn corrected(
         let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
         let error = estimate.largest();
         let modes = estimate.modes.iter().enumerate();
-        residuals = modes
-            .filter(|(_, mode)| mode.relative_error > target)
-            .map(|(place, _)| place)
-            .collect();
+        residuals = modes.filter(|(_, mode)| mode.relative_error > target).map(|(place, _)| place).collect();
         let stuck = basis.count() == before && before > 0;
         if error <= target || !choice.enhanced || stuck {
             return Ok((basis, error));

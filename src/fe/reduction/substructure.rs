@@ -15,8 +15,8 @@ use super::ReductionError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence,
-    sparse_times_dense, submatrix, transpose_times_dense,
+    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
+    submatrix, transpose_times_dense,
 };
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
@@ -46,10 +46,7 @@ impl Substructure {
     /// # Errors
     /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
     /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
-    pub fn new(
-        matrices: &SystemMatrices,
-        partition: &HousingPartition,
-    ) -> Result<Self, ReductionError> {
+    pub fn new(matrices: &SystemMatrices, partition: &HousingPartition) -> Result<Self, ReductionError> {
         let (k, m) = (&matrices.stiffness, &matrices.mass);
         let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
         if i.is_empty() {
@@ -66,13 +63,10 @@ impl Substructure {
             limit: LARGEST_CONTRACTION,
         };
         let floating = |error| match error {
-            LinalgError::NotPositiveDefinite { pivot, .. } => ReductionError::FloatingInterior {
-                interior: i.len(),
-                dof: dof(pivot),
-            },
-            LinalgError::IllConditioned {
-                row, contraction, ..
-            } => soft(row, contraction),
+            LinalgError::NotPositiveDefinite { pivot, .. } => {
+                ReductionError::FloatingInterior { interior: i.len(), dof: dof(pivot) }
+            }
+            LinalgError::IllConditioned { row, contraction, .. } => soft(row, contraction),
             other => other.into(),
         };
         let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
@@ -105,9 +99,7 @@ impl Substructure {
             modes *= faer::Scale(-1.0);
             self.factor.solve_columns(&mut modes)?;
             for column in 0..width {
-                self.constraint_modes
-                    .col_as_slice_mut(first + column)
-                    .copy_from_slice(modes.col_as_slice(column));
+                self.constraint_modes.col_as_slice_mut(first + column).copy_from_slice(modes.col_as_slice(column));
             }
             let k = transpose_times_dense(stiffness_ib, &modes);
             add_block(&mut self.stiffness, first, &k);
@@ -182,8 +174,7 @@ impl Substructure {
 
     /// `A^T X` for `X` [interior x k].
     pub(crate) fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.constraint_modes.transpose() * self.mass_times(x)
-            + transpose_times_dense(&self.mass_ib, x)
+        self.constraint_modes.transpose() * self.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
     }
 
     /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.

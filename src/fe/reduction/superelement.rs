@@ -31,8 +31,6 @@ impl Superelement {
 
     /// Weight on the coordinates for a gravity vector in m/s^2 \[order\].
     pub fn gravity_load(&self, gravity: [f64; 2]) -> Vec<f64> {
-        (0..self.order())
-            .map(|row| self.weight[(row, 0)] * gravity[0] + self.weight[(row, 1)] * gravity[1])
-            .collect()
+        (0..self.order()).map(|row| self.weight[(row, 0)] * gravity[0] + self.weight[(row, 1)] * gravity[1]).collect()
     }
 }

@@ -17,9 +17,7 @@ pub(super) const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
 pub(in crate::formats) fn line_of(text: &str, place: &Position) -> u64 {
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
-    let passed = rest
-        .lines()
-        .take_while(|line| line.is_empty() || line.starts_with('#'));
+    let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#'));
     place.line() + passed.count() as u64
 }
 
@@ -67,11 +65,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    fn fault(
-        &self,
-        expected: impl Into<Cow<'static, str>>,
-        found: impl std::fmt::Display,
-    ) -> Fault {
+    fn fault(&self, expected: impl Into<Cow<'static, str>>, found: impl std::fmt::Display) -> Fault {
         Fault::new(expected, format!("\"{found}\"")).line(self.line)
     }
 
@@ -102,9 +96,7 @@ impl Row<'_> {
 }
 
 fn read(text: &str) -> Result<ModeShapes, Fault> {
-    let header = text
-        .lines()
-        .find(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
     let semicolon = header.is_some_and(|line| line.contains(';'));
     let mut table = ReaderBuilder::new()
         .delimiter(if semicolon { b';' } else { b',' })
@@ -203,9 +195,7 @@ fn values(row: &Row, columns: &[&str]) -> Result<(Mode, Place, [f64; 3]), Fault>
 }
 
 fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
-    let short = modes
-        .iter()
-        .find(|mode| mode.shape.len() != 3 * places.len());
+    let short = modes.iter().find(|mode| mode.shape.len() != 3 * places.len());
     if let Some(mode) = short {
         let expected = format!("{} points in every mode", places.len());
         let found = format!("{} in mode {}", mode.shape.len() / 3, mode.number);

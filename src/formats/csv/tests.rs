@@ -18,27 +18,15 @@ fn read(text: &str) -> Result<ModeShapes, String> {
 fn modes_come_back_bit_by_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("modes.csv");
-    let by_node = ModeShapes {
-        points: None,
-        ..two_modes()
-    };
-    let by_point = ModeShapes {
-        node_tags: None,
-        ..two_modes()
-    };
+    let by_node = ModeShapes { points: None, ..two_modes() };
+    let by_point = ModeShapes { node_tags: None, ..two_modes() };
     write_modes_csv(&path, &two_modes()).unwrap();
     assert_eq!(read_modes_csv(&path).unwrap(), by_node);
     write_modes_csv(&path, &by_point).unwrap();
     assert_eq!(read_modes_csv(&path).unwrap(), by_point);
-    let nowhere = ModeShapes {
-        node_tags: None,
-        ..by_node
-    };
+    let nowhere = ModeShapes { node_tags: None, ..by_node };
     let error = write_modes_csv(&path, &nowhere).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "expected mode shapes with node labels or points, found neither"
-    );
+    assert_eq!(error, "expected mode shapes with node labels or points, found neither");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
@@ -48,10 +36,7 @@ fn comments_blank_lines_semicolons_and_decimal_commas_are_read() {
         frequencies_hz: vec![10.5, 20.0],
         node_tags: Some(vec![4, 2]),
         points: None,
-        shapes: vec![
-            vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
-            vec![-1.0, 0.5, 0.0, 1e-3, 0.0, 0.0],
-        ],
+        shapes: vec![vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0], vec![-1.0, 0.5, 0.0, 1e-3, 0.0, 0.0]],
     };
     let comma = "# bench; 3 March\n\n Mode, Frequency_Hz, node, ux, uy, uz\n1,10.5,4,1,2,3\n\n# half\n\
                  1,10.5,2,4,5,6\n7,20,4,-1,0.5,0\n7,20,2,1e-3,0,0\n";
@@ -71,53 +56,24 @@ fn errors_fire_with_their_exact_messages() {
             "m.csv:1: expected the header mode,frequency_hz,x,y,z,ux,uy,uz or mode,frequency_hz,node,ux,uy,uz, found \
              \"mode,node,ux\"",
         ),
-        (
-            format!("{node}1,10,5,1,2\n"),
-            "m.csv:3: expected 6 columns, found 5",
-        ),
-        (
-            format!("{node}1,10,5,1,two,3\n"),
-            "m.csv:3: expected a number for uy, found \"two\"",
-        ),
-        (
-            format!("{node}1,10,5,1,NaN,3\n"),
-            "m.csv:3: expected a number for uy, found \"NaN\"",
-        ),
-        (
-            format!("{node}1,10,-5,1,2,3\n"),
-            "m.csv:3: expected a whole number for node, found \"-5\"",
-        ),
-        (
-            format!("{node}# why\n1,11,5,1,2,3\n"),
-            "m.csv:4: expected 10 Hz as in line 2, found \"11\"",
-        ),
-        (
-            format!("{node}2,20,5,1,2,3\n"),
-            "m.csv:3: expected node 4 as in the first mode, found node 5",
-        ),
+        (format!("{node}1,10,5,1,2\n"), "m.csv:3: expected 6 columns, found 5"),
+        (format!("{node}1,10,5,1,two,3\n"), "m.csv:3: expected a number for uy, found \"two\""),
+        (format!("{node}1,10,5,1,NaN,3\n"), "m.csv:3: expected a number for uy, found \"NaN\""),
+        (format!("{node}1,10,-5,1,2,3\n"), "m.csv:3: expected a whole number for node, found \"-5\""),
+        (format!("{node}# why\n1,11,5,1,2,3\n"), "m.csv:4: expected 10 Hz as in line 2, found \"11\""),
+        (format!("{node}2,20,5,1,2,3\n"), "m.csv:3: expected node 4 as in the first mode, found node 5"),
         (
             format!("{node}2,20,4,1,2,3\n2,20,5,1,2,3\n"),
             "m.csv:4: expected 1 points as in the first mode, found node 5",
         ),
-        (
-            format!("{node}1,10,5,1,2,3\n2,20,4,1,2,3\n"),
-            "m.csv:4: expected 2 points in every mode, found 1 in mode 2",
-        ),
-        (
-            format!("{node}1,10,4,1,2,3\n"),
-            "m.csv: expected each node once, found node 4 twice",
-        ),
-        (
-            "# nothing\n".to_owned(),
-            "m.csv: expected at least one mode at one point, found 0 modes at 0 points",
-        ),
+        (format!("{node}1,10,5,1,2,3\n2,20,4,1,2,3\n"), "m.csv:4: expected 2 points in every mode, found 1 in mode 2"),
+        (format!("{node}1,10,4,1,2,3\n"), "m.csv: expected each node once, found node 4 twice"),
+        ("# nothing\n".to_owned(), "m.csv: expected at least one mode at one point, found 0 modes at 0 points"),
     ];
     for (text, expected) in cases {
         assert_eq!(read(&text).unwrap_err(), expected, "{text}");
     }
-    let error = read_modes_csv(Path::new("no/such.csv"))
-        .unwrap_err()
-        .to_string();
+    let error = read_modes_csv(Path::new("no/such.csv")).unwrap_err().to_string();
     assert!(error.starts_with("cannot read no/such.csv: "), "{error}");
 }
 

@@ -16,10 +16,7 @@ use crate::files::{Fault, write_atomic};
 pub fn write_modes_csv(path: &Path, modes: &ModeShapes) -> Result<(), FormatError> {
     modes.check().map_err(|fault| fault.of(path))?;
     let (header, places): (&[&str], Vec<Vec<String>>) = match (&modes.node_tags, &modes.points) {
-        (Some(tags), _) => (
-            &BY_NODE,
-            tags.iter().map(|tag| vec![tag.to_string()]).collect(),
-        ),
+        (Some(tags), _) => (&BY_NODE, tags.iter().map(|tag| vec![tag.to_string()]).collect()),
         (None, Some(points)) => {
             let place = |point: &[f64; 3]| point.iter().map(f64::to_string).collect();
             (&BY_POINT, points.iter().map(place).collect())
@@ -32,9 +29,7 @@ pub fn write_modes_csv(path: &Path, modes: &ModeShapes) -> Result<(), FormatErro
     let written = write_atomic(path, |to| {
         let mut table = ::csv::Writer::from_writer(&mut *to);
         table.write_record(header)?;
-        for (index, (frequency, shape)) in
-            modes.frequencies_hz.iter().zip(&modes.shapes).enumerate()
-        {
+        for (index, (frequency, shape)) in modes.frequencies_hz.iter().zip(&modes.shapes).enumerate() {
             let mode = [(index + 1).to_string(), frequency.to_string()];
             for (place, displacement) in places.iter().zip(shape.chunks_exact(3)) {
                 let displacement: Vec<String> = displacement.iter().map(f64::to_string).collect();

@@ -44,20 +44,10 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    pub(super) fn signal(
-        self,
-        path: &Path,
-        request: &SignalRequest,
-    ) -> Result<MeasuredSignal, MeasuredError> {
+    pub(super) fn signal(self, path: &Path, request: &SignalRequest) -> Result<MeasuredSignal, MeasuredError> {
         let (start_s, step_s) = self.clock.grid(path, request.rate_hz)?;
-        let series =
-            TimeSeries::new(start_s, step_s, self.unit, self.values).map_err(|source| {
-                MeasuredError::Series {
-                    path: path.to_owned(),
-                    channel: self.name.clone(),
-                    source,
-                }
-            })?;
+        let series = TimeSeries::new(start_s, step_s, self.unit, self.values)
+            .map_err(|source| MeasuredError::Series { path: path.to_owned(), channel: self.name.clone(), source })?;
         let peak = series.peak();
         let [least, most] = MAGNITUDES;
         if peak > 0.0 && !(least..=most).contains(&peak) {
@@ -66,28 +56,16 @@ impl Channel {
             let fault = fault.within(format!("channel \"{}\"", self.name));
             return Err(fault.of(path).into());
         }
-        Ok(MeasuredSignal {
-            name: self.name,
-            series,
-            speed_hz: self.speed_hz,
-            own_rate_hz: self.clock.rate_hz(),
-        })
+        Ok(MeasuredSignal { name: self.name, series, speed_hz: self.speed_hz, own_rate_hz: self.clock.rate_hz() })
     }
 }
 
 /// Places of the wanted channels among those that a file has.
-pub(super) fn choose(
-    path: &Path,
-    names: &[String],
-    request: &SignalRequest,
-) -> Result<Vec<usize>, MeasuredError> {
+pub(super) fn choose(path: &Path, names: &[String], request: &SignalRequest) -> Result<Vec<usize>, MeasuredError> {
     if request.channels.is_empty() {
         return match names.len() {
             1 => Ok(vec![0]),
-            _ => Err(MeasuredError::Choose {
-                path: path.to_owned(),
-                known: names.to_vec(),
-            }),
+            _ => Err(MeasuredError::Choose { path: path.to_owned(), known: names.to_vec() }),
         };
     }
     let place = |wanted: &String| {

@@ -23,22 +23,14 @@ pub(super) enum Clock {
 
 impl Clock {
     /// First instant and step, s.
-    pub(super) fn grid(
-        &self,
-        path: &Path,
-        rate_hz: Option<f64>,
-    ) -> Result<(f64, f64), MeasuredError> {
+    pub(super) fn grid(&self, path: &Path, rate_hz: Option<f64>) -> Result<(f64, f64), MeasuredError> {
         match (self, rate_hz) {
-            (Self::Times { times, .. }, Some(rate)) => {
-                Ok((times.first().copied().unwrap_or(0.0), 1.0 / rate))
-            }
+            (Self::Times { times, .. }, Some(rate)) => Ok((times.first().copied().unwrap_or(0.0), 1.0 / rate)),
             (Self::Even { start_s, .. }, Some(rate)) => Ok((*start_s, 1.0 / rate)),
             (Self::Unknown, Some(rate)) => Ok((0.0, 1.0 / rate)),
             (Self::Even { start_s, step_s }, None) => Ok((*start_s, *step_s)),
             (Self::Times { times, first_row }, None) => even(path, times, *first_row),
-            (Self::Unknown, None) => Err(MeasuredError::NoTime {
-                path: path.to_owned(),
-            }),
+            (Self::Unknown, None) => Err(MeasuredError::NoTime { path: path.to_owned() }),
         }
     }
 
@@ -46,30 +38,17 @@ impl Clock {
     pub(super) fn rate_hz(&self) -> Option<f64> {
         let step_s = match self {
             Self::Even { step_s, .. } => *step_s,
-            Self::Times { times, .. } => {
-                (times.last()? - times.first()?) / (times.len() - 1) as f64
-            }
+            Self::Times { times, .. } => (times.last()? - times.first()?) / (times.len() - 1) as f64,
             Self::Unknown => return None,
         };
         (step_s > 0.0).then(|| 1.0 / step_s)
     }
 
     /// Refuses a rate, an array's name and its value in Hz, that instants contradict.
-    pub(super) fn agrees(
-        &self,
-        path: &Path,
-        stated: Option<(&str, f64)>,
-    ) -> Result<(), MeasuredError> {
+    pub(super) fn agrees(&self, path: &Path, stated: Option<(&str, f64)>) -> Result<(), MeasuredError> {
         match (self.rate_hz(), stated) {
-            (Some(found_hz), Some((name, rate_hz)))
-                if (found_hz / rate_hz - 1.0).abs() > SAME_RATE =>
-            {
-                Err(MeasuredError::TwoRates {
-                    path: path.to_owned(),
-                    name: name.to_owned(),
-                    rate_hz,
-                    found_hz,
-                })
+            (Some(found_hz), Some((name, rate_hz))) if (found_hz / rate_hz - 1.0).abs() > SAME_RATE => {
+                Err(MeasuredError::TwoRates { path: path.to_owned(), name: name.to_owned(), rate_hz, found_hz })
             }
             _ => Ok(()),
         }
@@ -79,15 +58,11 @@ impl Clock {
 /// Checks that steps are equal. The step is that of the whole, (last - first) / (n - 1).
 fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), MeasuredError> {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
-        return Err(MeasuredError::NoTime {
-            path: path.to_owned(),
-        });
+        return Err(MeasuredError::NoTime { path: path.to_owned() });
     };
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if steps.is_empty() {
-        return Err(MeasuredError::NoTime {
-            path: path.to_owned(),
-        });
+        return Err(MeasuredError::NoTime { path: path.to_owned() });
     }
     let middle = steps.len() / 2;
     let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
@@ -107,9 +82,7 @@ fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), Measur
         return Err(uneven(place + 1, pair[1] - pair[0]));
     }
     let step = (last - first) / (times.len() - 1) as f64;
-    let drift = |(place, time): (usize, &f64)| {
-        (time - first - place as f64 * step).abs() > DRIFT_TOLERANCE * step
-    };
+    let drift = |(place, time): (usize, &f64)| (time - first - place as f64 * step).abs() > DRIFT_TOLERANCE * step;
     if let Some(place) = times.iter().enumerate().position(drift) {
         return Err(MeasuredError::Drift {
             path: path.to_owned(),

@@ -32,11 +32,7 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     from_bytes(&bytes_of(path)?, path, request)
 }
 
-pub(super) fn from_bytes(
-    bytes: &[u8],
-    path: &Path,
-    request: &SignalRequest,
-) -> Result<Vec<Channel>, MeasuredError> {
+pub(super) fn from_bytes(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     // comments may be in any encoding; header and numbers are text
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
@@ -77,10 +73,7 @@ impl Table<'_> {
             };
             if first_row == 0 {
                 // a row of units below the names
-                if record
-                    .iter()
-                    .all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell))
-                {
+                if record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
                     self.units(&record, columns)?;
                     continue;
                 }
@@ -118,11 +111,7 @@ impl Table<'_> {
         }
     }
 
-    fn header(
-        &self,
-        record: &StringRecord,
-        request: &SignalRequest,
-    ) -> Result<Columns, MeasuredError> {
+    fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
         let line = self.line(record);
         if let Some(cell) = record.iter().find(|cell| is_comma_number(cell)) {
             return Err(self.comma(line, cell));
@@ -137,10 +126,7 @@ impl Table<'_> {
         } else {
             let place = record.iter().position(|cell| time_unit(cell).is_some());
             let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
-            let others = record
-                .iter()
-                .enumerate()
-                .filter(|&(own, _)| Some(own) != place);
+            let others = record.iter().enumerate().filter(|&(own, _)| Some(own) != place);
             let named = others.map(|(own, cell)| {
                 let (name, unit) = name_and_unit(cell);
                 (own, name, unit)
@@ -148,20 +134,11 @@ impl Table<'_> {
             (named.collect(), time)
         };
         if time.is_none() && request.rate_hz.is_none() {
-            return Err(MeasuredError::NoTime {
-                path: self.path.to_owned(),
-            });
+            return Err(MeasuredError::NoTime { path: self.path.to_owned() });
         }
         let only: Vec<String> = names.iter().map(|(_, name, _)| name.clone()).collect();
         let wanted = choose(self.path, &only, request)?;
-        Ok(Columns {
-            count,
-            time,
-            wanted: wanted
-                .into_iter()
-                .map(|place| names[place].clone())
-                .collect(),
-        })
+        Ok(Columns { count, time, wanted: wanted.into_iter().map(|place| names[place].clone()).collect() })
     }
 
     /// Takes units from a row below the names.
@@ -172,9 +149,8 @@ impl Table<'_> {
         };
         if let Some((place, unit)) = &mut columns.time {
             let found = text(*place);
-            *unit = time_unit(&format!("time ({found})")).ok_or_else(|| {
-                self.content(self.line(record), "s, ms or us as unit of the time", &found)
-            })?;
+            *unit = time_unit(&format!("time ({found})"))
+                .ok_or_else(|| self.content(self.line(record), "s, ms or us as unit of the time", &found))?;
         }
         for (place, _, unit) in &mut columns.wanted {
             if unit.is_empty() {
@@ -204,12 +180,7 @@ impl Table<'_> {
         Ok(())
     }
 
-    fn number(
-        &self,
-        record: &StringRecord,
-        place: usize,
-        what: &str,
-    ) -> Result<f64, MeasuredError> {
+    fn number(&self, record: &StringRecord, place: usize, what: &str) -> Result<f64, MeasuredError> {
         let cell = record.get(place).unwrap_or_default();
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
@@ -222,9 +193,7 @@ impl Table<'_> {
     }
 
     fn line(&self, record: &StringRecord) -> u64 {
-        record
-            .position()
-            .map_or(0, |place| line_of(self.text, place))
+        record.position().map_or(0, |place| line_of(self.text, place))
     }
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
@@ -234,11 +203,7 @@ impl Table<'_> {
     }
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {
-        MeasuredError::DecimalComma {
-            path: self.path.to_owned(),
-            line,
-            found: found.to_owned(),
-        }
+        MeasuredError::DecimalComma { path: self.path.to_owned(), line, found: found.to_owned() }
     }
 
     fn damaged(&self, error: &::csv::Error) -> MeasuredError {

@@ -143,11 +143,7 @@ fn quoted(names: &[String]) -> String {
     if names.is_empty() {
         return "no signals".to_owned();
     }
-    let listed: Vec<String> = names
-        .iter()
-        .take(LISTED)
-        .map(|n| format!("\"{n}\""))
-        .collect();
+    let listed: Vec<String> = names.iter().take(LISTED).map(|n| format!("\"{n}\"")).collect();
     let more = match names.len().saturating_sub(LISTED) {
         0 => String::new(),
         more => format!(" and {more} more"),
@@ -161,19 +157,17 @@ impl MeasuredError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::NoTime { .. } => Some("give the sampling rate with --rate HZ".to_owned()),
-            Self::TwoRates { .. } => Some(
-                "--rate HZ takes the place of both; or leave the wrong one out of the file".to_owned(),
-            ),
+            Self::TwoRates { .. } => {
+                Some("--rate HZ takes the place of both; or leave the wrong one out of the file".to_owned())
+            }
             Self::Choose { .. } => Some("name it with --channel NAME (repeatable)".to_owned()),
             Self::NoChannel { wanted, known, .. } => {
-                let nearest = known
-                    .iter()
-                    .map(|name| (strsim::damerau_levenshtein(wanted, name), name))
-                    .min();
+                let nearest = known.iter().map(|name| (strsim::damerau_levenshtein(wanted, name), name)).min();
                 nearest.map(|(_, name)| format!("did you mean --channel '{name}'?"))
             }
             Self::Uneven { .. } | Self::Drift { .. } => Some(
-                "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place".to_owned(),
+                "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place"
+                    .to_owned(),
             ),
             Self::MatVersion { path, .. } => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -4,9 +4,7 @@
 pub(super) fn name_and_unit(text: &str) -> (String, String) {
     let text = text.trim();
     for (open, close) in [('(', ')'), ('[', ']')] {
-        let inside = text
-            .strip_suffix(close)
-            .and_then(|text| text.rsplit_once(open));
+        let inside = text.strip_suffix(close).and_then(|text| text.rsplit_once(open));
         if let Some((name, unit)) = inside
             && !name.trim().is_empty()
         {

@@ -43,15 +43,9 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             let unit = time_unit(name).unwrap_or(1.0);
             let mut times = archive.real(name)?.values;
             times.iter_mut().for_each(|time| *time *= unit);
-            Clock::Times {
-                times,
-                first_row: 0,
-            }
+            Clock::Times { times, first_row: 0 }
         }
-        (None, Some((_, rate))) => Clock::Even {
-            start_s: 0.0,
-            step_s: 1.0 / rate,
-        },
+        (None, Some((_, rate))) => Clock::Even { start_s: 0.0, step_s: 1.0 / rate },
         (None, None) => Clock::Unknown,
     };
     if request.rate_hz.is_none() {
@@ -60,11 +54,8 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     let speeds = speeds(&mut archive, &names);
     let speed_hz = one_speed(speeds.iter().map(|(_, hz)| *hz));
     let is_speed = |name: &String| speeds.iter().any(|(speed, _)| speed == name);
-    let channels: Vec<String> = names
-        .iter()
-        .filter(|name| Some(*name) != time && Some(*name) != rate && !is_speed(name))
-        .cloned()
-        .collect();
+    let channels: Vec<String> =
+        names.iter().filter(|name| Some(*name) != time && Some(*name) != rate && !is_speed(name)).cloned().collect();
     let rows = match &clock {
         Clock::Times { times, .. } => Some(times.len()),
         _ => None,

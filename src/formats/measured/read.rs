@@ -13,10 +13,7 @@ use super::{csv, mat, npz, wav};
 ///
 /// # Errors
 /// [`MeasuredError`]: file and line or array, what was found, what was expected.
-pub fn read_signals(
-    path: &Path,
-    request: &SignalRequest,
-) -> Result<Vec<MeasuredSignal>, MeasuredError> {
+pub fn read_signals(path: &Path, request: &SignalRequest) -> Result<Vec<MeasuredSignal>, MeasuredError> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let channels = match ending.to_ascii_lowercase().as_str() {
         "npz" => npz::read(path, request),
@@ -24,24 +21,16 @@ pub fn read_signals(
         "csv" | "txt" => csv::read(path, request),
         "wav" => wav::read(path, request),
         "uff" | "unv" => universal(path, request),
-        _ => Err(MeasuredError::Ending {
-            path: path.to_owned(),
-        }),
+        _ => Err(MeasuredError::Ending { path: path.to_owned() }),
     }?;
-    let made = channels
-        .into_iter()
-        .map(|channel| channel.signal(path, request));
+    let made = channels.into_iter().map(|channel| channel.signal(path, request));
     made.collect()
 }
 
 /// Reads the wanted channels of a universal file.
 fn universal(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let mut found: Vec<_> = read_times_uff(path)?.into_iter().map(Some).collect();
-    let names: Vec<String> = found
-        .iter()
-        .flatten()
-        .map(|signal| signal.name.clone())
-        .collect();
+    let names: Vec<String> = found.iter().flatten().map(|signal| signal.name.clone()).collect();
     let wanted = choose(path, &names, request)?;
     let mut channels = Vec::new();
     for place in wanted {
@@ -51,10 +40,7 @@ fn universal(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, Measu
         };
         let clock = match signal.axis {
             TimeAxis::Even { start_s, step_s } => Clock::Even { start_s, step_s },
-            TimeAxis::Uneven(times) => Clock::Times {
-                times,
-                first_row: 0,
-            },
+            TimeAxis::Uneven(times) => Clock::Times { times, first_row: 0 },
         };
         channels.push(Channel {
             name: signal.name,

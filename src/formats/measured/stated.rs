@@ -60,17 +60,7 @@ mod tests {
 
     #[test]
     fn names_say_rates_and_speeds() {
-        for name in [
-            "fs",
-            "Fs",
-            "FS",
-            "sr",
-            "rate_hz",
-            "sample_rate",
-            "SamplingRate",
-            "sampling_frequency",
-            "fs_Hz",
-        ] {
+        for name in ["fs", "Fs", "FS", "sr", "rate_hz", "sample_rate", "SamplingRate", "sampling_frequency", "fs_Hz"] {
             assert!(is_rate(name), "{name}");
         }
         for name in ["rate", "f", "fs_khz", "offs", "hz", "", "strain_rate"] {

@@ -18,10 +18,7 @@ pub(super) fn samples(count: usize) -> Vec<f64> {
 }
 
 pub(super) fn request(channels: &[&str], rate_hz: Option<f64>) -> SignalRequest {
-    SignalRequest {
-        channels: channels.iter().map(|&name| name.to_owned()).collect(),
-        rate_hz,
-    }
+    SignalRequest { channels: channels.iter().map(|&name| name.to_owned()).collect(), rate_hz }
 }
 
 pub(super) fn only(mut signals: Vec<MeasuredSignal>) -> MeasuredSignal {
@@ -30,37 +27,21 @@ pub(super) fn only(mut signals: Vec<MeasuredSignal>) -> MeasuredSignal {
 }
 
 /// A signal has these samples, to a part of their largest.
-pub(super) fn assert_samples(
-    signal: &MeasuredSignal,
-    start_s: f64,
-    step_s: f64,
-    values: &[f64],
-    part: f64,
-) {
+pub(super) fn assert_samples(signal: &MeasuredSignal, start_s: f64, step_s: f64, values: &[f64], part: f64) {
     let series = &signal.series;
     assert!((series.start_s() - start_s).abs() <= 1e-9 * step_s + part * start_s.abs());
-    assert!(
-        (series.step_s() / step_s - 1.0).abs() < 1e-9 + part,
-        "{}",
-        series.step_s()
-    );
+    assert!((series.step_s() / step_s - 1.0).abs() < 1e-9 + part, "{}", series.step_s());
     assert_eq!(series.values().len(), values.len());
     let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     for (found, expected) in series.values().iter().zip(values) {
-        assert!(
-            (found - expected).abs() <= part * largest,
-            "{found} {expected}"
-        );
+        assert!((found - expected).abs() <= part * largest, "{found} {expected}");
     }
 }
 
 fn table(text: &str, request: &SignalRequest) -> Result<Vec<MeasuredSignal>, MeasuredError> {
     let path = Path::new("m.csv");
     let channels = csv::from_bytes(text.as_bytes(), path, request)?;
-    channels
-        .into_iter()
-        .map(|channel| channel.signal(path, request))
-        .collect()
+    channels.into_iter().map(|channel| channel.signal(path, request)).collect()
 }
 
 fn refused(text: &str, request: &SignalRequest) -> String {
@@ -98,26 +79,11 @@ fn tables_are_read_with_names_units_and_separators() {
 fn tables_are_refused_with_line_and_reason() {
     let any = request(&[], None);
     let cases = [
-        (
-            "time;P1\n0,1;2,5\n",
-            "m.csv:2: expected numbers with a decimal point, found \"0,1\"",
-        ),
-        (
-            "0,0;2,5\n0,1;2,5\n",
-            "m.csv:1: expected numbers with a decimal point, found \"0,0\"",
-        ),
-        (
-            "time,P1\n0,1\n1,two\n",
-            "m.csv:3: expected a finite number for P1, found \"two\"",
-        ),
-        (
-            "time,P1\n0,1\n# a pause\n1,NaN\n",
-            "m.csv:4: expected a finite number for P1, found \"NaN\"",
-        ),
-        (
-            "time,P1\n0,1\n1,2,3\n",
-            "m.csv:3: expected 2 columns, as in the first line, found \"3\"",
-        ),
+        ("time;P1\n0,1;2,5\n", "m.csv:2: expected numbers with a decimal point, found \"0,1\""),
+        ("0,0;2,5\n0,1;2,5\n", "m.csv:1: expected numbers with a decimal point, found \"0,0\""),
+        ("time,P1\n0,1\n1,two\n", "m.csv:3: expected a finite number for P1, found \"two\""),
+        ("time,P1\n0,1\n# a pause\n1,NaN\n", "m.csv:4: expected a finite number for P1, found \"NaN\""),
+        ("time,P1\n0,1\n1,2,3\n", "m.csv:3: expected 2 columns, as in the first line, found \"3\""),
         (
             "time,P1\n0,1\n1,1\n2,1\n2,1\n3,1\n",
             "m.csv: row 5: expected equal time steps of 1 s (the median, within 10 %), found a step of 0 s",
@@ -126,39 +92,18 @@ fn tables_are_refused_with_line_and_reason() {
             "time,P1\n0,1\n1,1\n2,1\n4,1\n5,1\n",
             "m.csv: row 5: expected equal time steps of 1 s (the median, within 10 %), found a step of 2 s",
         ),
-        (
-            "P1,P2\n0,1\n",
-            "m.csv: expected a time or a sampling rate, found neither",
-        ),
-        (
-            "time,P1\n0,1\n",
-            "m.csv: expected a time or a sampling rate, found neither",
-        ),
-        (
-            "time,P1,P2\n0,1,2\n",
-            "m.csv: expected one signal or the name of one, found \"P1\", \"P2\"",
-        ),
-        (
-            "time_s\n0\n",
-            "m.csv: expected one signal or the name of one, found no signals",
-        ),
-        (
-            "# nothing\n",
-            "m.csv:1: expected a header and rows of numbers, found \"none\"",
-        ),
-        (
-            "time,P1\nmin,g\n0,1\n",
-            "m.csv:2: expected s, ms or us as unit of the time, found \"min\"",
-        ),
+        ("P1,P2\n0,1\n", "m.csv: expected a time or a sampling rate, found neither"),
+        ("time,P1\n0,1\n", "m.csv: expected a time or a sampling rate, found neither"),
+        ("time,P1,P2\n0,1,2\n", "m.csv: expected one signal or the name of one, found \"P1\", \"P2\""),
+        ("time_s\n0\n", "m.csv: expected one signal or the name of one, found no signals"),
+        ("# nothing\n", "m.csv:1: expected a header and rows of numbers, found \"none\""),
+        ("time,P1\nmin,g\n0,1\n", "m.csv:2: expected s, ms or us as unit of the time, found \"min\""),
     ];
     for (text, expected) in cases {
         assert_eq!(refused(text, &any), expected, "{text}");
     }
     let error = table("time,top\n0,1\n", &request(&["tip"], None)).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "m.csv: expected a channel \"tip\", found \"top\""
-    );
+    assert_eq!(error.to_string(), "m.csv: expected a channel \"tip\", found \"top\"");
     assert_eq!(error.help().unwrap(), "did you mean --channel 'top'?");
 }
 
@@ -178,14 +123,9 @@ fn a_clock_that_drifts_is_refused_and_a_rounded_one_is_not() {
     };
     let any = request(&[], None);
     let drifting = refused(&times(&|k| if k < 200 { 1.0 } else { 1.05 }), &any);
-    assert!(
-        drifting.starts_with("m.csv: row 23: expected equal time steps, so that t = "),
-        "{drifting}"
-    );
+    assert!(drifting.starts_with("m.csv: row 23: expected equal time steps, so that t = "), "{drifting}");
     // 48 kHz in microseconds: steps of 20 and 21
-    let rows: String = (0..500)
-        .map(|k| format!("{:.6},0\n", f64::from(k) / 48e3))
-        .collect();
+    let rows: String = (0..500).map(|k| format!("{:.6},0\n", f64::from(k) / 48e3)).collect();
     let found = only(table(&format!("t,P1\n{rows}"), &any).unwrap());
     // the last of 500 instants is rounded by half a microsecond
     assert!((found.series.rate_hz() / 48e3 - 1.0).abs() < 1e-4);
@@ -242,10 +182,7 @@ fn archives_are_read_with_a_time_or_a_rate() {
     }
     let (_kept, path) = archive("none.npz", |npz| put(npz, "x", &[50], &values));
     let error = read_signals(&path, &request(&[], None)).unwrap_err();
-    assert_eq!(
-        error.help().unwrap(),
-        "give the sampling rate with --rate HZ"
-    );
+    assert_eq!(error.help().unwrap(), "give the sampling rate with --rate HZ");
 }
 
 #[test]
@@ -256,13 +193,8 @@ fn a_time_and_a_rate_that_contradict_each_other_are_refused() {
         put(npz, "fs", &[1], &[2000.0]);
         put(npz, "x", &[64], &samples(64));
     });
-    let error = read_signals(&path, &request(&[], None))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("found 2000 Hz in \"fs\" and 1000"),
-        "{error}"
-    );
+    let error = read_signals(&path, &request(&[], None)).unwrap_err().to_string();
+    assert!(error.contains("found 2000 Hz in \"fs\" and 1000"), "{error}");
     let found = only(read_signals(&path, &request(&[], Some(2000.0))).unwrap());
     assert!((found.series.rate_hz() / 2000.0 - 1.0).abs() < 1e-12);
 }
@@ -298,12 +230,7 @@ fn sound_files_are_read_in_every_depth() {
     let values: Vec<f64> = (0..100).map(|k| 0.9 * (0.3 * f64::from(k)).sin()).collect();
     let write = |name: &str, bits: u16, format: hound::SampleFormat| {
         let path = folder.path().join(name);
-        let spec = hound::WavSpec {
-            channels: 2,
-            sample_rate: 44_100,
-            bits_per_sample: bits,
-            sample_format: format,
-        };
+        let spec = hound::WavSpec { channels: 2, sample_rate: 44_100, bits_per_sample: bits, sample_format: format };
         let mut to = hound::WavWriter::create(&path, spec).unwrap();
         for value in &values {
             match format {
@@ -335,9 +262,9 @@ fn sound_files_are_read_in_every_depth() {
         let part = (-f64::from(bits.min(24) - 1)).exp2();
         assert_samples(&found, 0.0, 1.0 / 44_100.0, &values, part);
         let error = read_signals(&path, &request(&[], None)).unwrap_err();
-        assert!(error.to_string().ends_with(
-            "expected one signal or the name of one, found \"channel 1\", \"channel 2\""
-        ));
+        assert!(
+            error.to_string().ends_with("expected one signal or the name of one, found \"channel 1\", \"channel 2\"")
+        );
     }
     // half a file, and a head that promises 4 GiB
     let mut bytes = fs::read(folder.path().join("16.wav")).unwrap();
@@ -395,11 +322,7 @@ fn sound_files_with_other_parts_and_longer_heads_are_read() {
     head.extend([22, 0, 24, 0, 0, 0, 0, 0, 1, 0]);
     head.extend([0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71]);
     let samples = [0, 0, 0, 0x80, 0, 0, 0, 0x40];
-    let found = read(&sound(&[
-        (b"LIST", b"odd"),
-        (b"fmt ", &head),
-        (b"data", &samples),
-    ]));
+    let found = read(&sound(&[(b"LIST", b"odd"), (b"fmt ", &head), (b"data", &samples)]));
     assert_samples(&only(found.unwrap()), 0.0, 1.0 / 8e3, &[-1.0, 0.5], 0.0);
     let pcm = sound_head(1, 2, 4, 16);
     for (bytes, found) in [
@@ -407,22 +330,10 @@ fn sound_files_with_other_parts_and_longer_heads_are_read() {
         (sound(&[]), "no format"),
         (sound(&[(b"fmt ", &pcm)]), "no samples"),
         (sound(&[(b"data", &[0; 4])]), "samples before their format"),
-        (
-            sound(&[(b"fmt ", &pcm), (b"data", &[0; 6])]),
-            "6 bytes of samples, 4 at each instant",
-        ),
-        (
-            sound(&[(b"fmt ", &sound_head(2, 2, 1, 4)), (b"data", &[])]),
-            "format 2 of 4 bits, 1 bytes for 2 channels",
-        ),
-        (
-            sound(&[(b"fmt ", &sound_head(1, 1, 4, 24)), (b"data", &[])]),
-            "format 1 of 24 bits, 4 bytes for 1 channels",
-        ),
-        (
-            sound(&[(b"fmt ", &sound_head(1, 0, 0, 16))]),
-            "8000 Hz and 0 channels",
-        ),
+        (sound(&[(b"fmt ", &pcm), (b"data", &[0; 6])]), "6 bytes of samples, 4 at each instant"),
+        (sound(&[(b"fmt ", &sound_head(2, 2, 1, 4)), (b"data", &[])]), "format 2 of 4 bits, 1 bytes for 2 channels"),
+        (sound(&[(b"fmt ", &sound_head(1, 1, 4, 24)), (b"data", &[])]), "format 1 of 24 bits, 4 bytes for 1 channels"),
+        (sound(&[(b"fmt ", &sound_head(1, 0, 0, 16))]), "8000 Hz and 0 channels"),
     ] {
         let error = read(&bytes).unwrap_err();
         let expected = format!(
@@ -437,13 +348,7 @@ fn sound_files_with_other_parts_and_longer_heads_are_read() {
 fn universal_files_of_pyuff_are_read_as_text_and_binary() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/uff/times.uff");
     let values = samples(11);
-    for (name, unit) in [
-        ("top", "m/s^2"),
-        ("uneven", "m/s^2"),
-        ("binary", "m/s^2"),
-        ("FOOT", "g"),
-        ("in g", "g"),
-    ] {
+    for (name, unit) in [("top", "m/s^2"), ("uneven", "m/s^2"), ("binary", "m/s^2"), ("FOOT", "g"), ("in g", "g")] {
         let found = only(read_signals(&path, &request(&[name], None)).unwrap());
         assert_eq!(found.series.unit(), unit, "{name}");
         // instants have six digits: 2e-6 of 2.5 s, 1e-4 of the step over ten steps; values have twelve
@@ -454,11 +359,7 @@ fn universal_files_of_pyuff_are_read_as_text_and_binary() {
         assert_samples(&found, series.start_s(), step, &values, 1e-11);
     }
     let error = read_signals(&path, &request(&[], None)).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .ends_with("found \"top\", \"uneven\", \"binary\", \"FOOT\", \"in g\"")
-    );
+    assert!(error.to_string().ends_with("found \"top\", \"uneven\", \"binary\", \"FOOT\", \"in g\""));
     let none = path.with_file_name("millimetre.uff");
     let error = read_signals(&none, &request(&[], None)).unwrap_err();
     assert!(error.to_string().ends_with("abscissa 17), found none"));
@@ -478,22 +379,13 @@ fn binary_times(first: &str, form: &str, bytes: &[u8]) -> Vec<u8> {
 fn binary_numbers_of_both_orders_and_precisions_are_read() {
     use super::super::uff::times_from_bytes;
     let values: Vec<f64> = (0..7).map(|k| f64::from(k) - 2.5).collect();
-    let form = |kind: u32, spacing: u32| {
-        format!(
-            "{kind:>10}{:>10}{spacing:>10}  0.00000e+00  2.50000e-01  0.00000e+00",
-            7
-        )
-    };
+    let form =
+        |kind: u32, spacing: u32| format!("{kind:>10}{:>10}{spacing:>10}  0.00000e+00  2.50000e-01  0.00000e+00", 7);
     let path = Path::new("b.uff");
     let big: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
-    let small: Vec<u8> = values
-        .iter()
-        .flat_map(|&v| (v as f32).to_le_bytes())
-        .collect();
+    let small: Vec<u8> = values.iter().flat_map(|&v| (v as f32).to_le_bytes()).collect();
     let pairs = (0_u8..).map(|k| 0.25 * f64::from(k)).zip(&values);
-    let uneven: Vec<u8> = pairs
-        .flat_map(|(t, v)| [t.to_le_bytes(), v.to_le_bytes()].concat())
-        .collect();
+    let uneven: Vec<u8> = pairs.flat_map(|(t, v)| [t.to_le_bytes(), v.to_le_bytes()].concat()).collect();
     for (first, form, bytes) in [
         ("2 2 11 56 0 0 0 0", form(4, 1), &big),
         ("1 2 11 28 0 0 0 0", form(2, 1), &small),
@@ -528,10 +420,7 @@ fn files_of_other_kinds_and_none_are_refused() {
     );
     for name in ["no.npz", "no.mat", "no.csv", "no.wav", "no.uff"] {
         let error = read_signals(Path::new(name), &any).unwrap_err().to_string();
-        assert!(
-            error.starts_with(&format!("cannot read {name}: ")),
-            "{error}"
-        );
+        assert!(error.starts_with(&format!("cannot read {name}: ")), "{error}");
     }
 }
 

@@ -22,20 +22,12 @@ const IDENTIFIER_END: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38
 /// Data Specifications 1.0" (1991); extensible heads: Microsoft, "Multiple channel audio data and WAVE files" (2007).
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let bytes = bytes_of(path)?;
-    let fault = |found: String| MeasuredError::Wav {
-        path: path.to_owned(),
-        found,
-    };
+    let fault = |found: String| MeasuredError::Wav { path: path.to_owned(), found };
     let (format, data) = parts(&bytes).map_err(fault)?;
-    let names: Vec<String> = (1..=format.channels)
-        .map(|n| format!("channel {n}"))
-        .collect();
+    let names: Vec<String> = (1..=format.channels).map(|n| format!("channel {n}")).collect();
     let wanted = choose(path, &names, request)?;
     let width = format.decode.width();
-    let clock = Rc::new(Clock::Even {
-        start_s: 0.0,
-        step_s: 1.0 / f64::from(format.rate_hz),
-    });
+    let clock = Rc::new(Clock::Even { start_s: 0.0, step_s: 1.0 / f64::from(format.rate_hz) });
     let made = wanted.into_iter().map(|place| Channel {
         name: names[place].clone(),
         unit: "full scale".to_owned(),
@@ -137,9 +129,7 @@ fn parts(bytes: &[u8]) -> Result<(Format, &[u8]), String> {
         let size = word(&head[4..]) as usize;
         let Some(body) = after.get(..size) else {
             let there = after.len();
-            return Err(format!(
-                "a part of {size} bytes, of which {there} are there"
-            ));
+            return Err(format!("a part of {size} bytes, of which {there} are there"));
         };
         match &head[..4] {
             b"fmt " => format = Some(format_of(body)?),
@@ -170,14 +160,7 @@ fn format_of(body: &[u8]) -> Result<Format, String> {
     if rate_hz == 0 || channels == 0 {
         return Err(format!("{rate_hz} Hz and {channels} channels"));
     }
-    let decode = Decode::of(tag, bits)
-        .filter(|decode| usize::from(align) == decode.width() * usize::from(channels));
-    let decode = decode.ok_or_else(|| {
-        format!("format {tag} of {bits} bits, {align} bytes for {channels} channels")
-    })?;
-    Ok(Format {
-        decode,
-        channels: usize::from(channels),
-        rate_hz,
-    })
+    let decode = Decode::of(tag, bits).filter(|decode| usize::from(align) == decode.width() * usize::from(channels));
+    let decode = decode.ok_or_else(|| format!("format {tag} of {bits} bits, {align} bytes for {channels} channels"))?;
+    Ok(Format { decode, channels: usize::from(channels), rate_hz })
 }

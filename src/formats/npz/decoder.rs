@@ -31,22 +31,12 @@ fn order(type_name: &str) -> Option<(bool, &str)> {
     let big = type_name.starts_with('>');
     let name = type_name.strip_prefix(['<', '>']);
     // a single byte has no order
-    let single = || {
-        type_name
-            .strip_prefix('|')
-            .filter(|name| name.ends_with('1'))
-    };
+    let single = || type_name.strip_prefix('|').filter(|name| name.ends_with('1'));
     Some((big, name.or_else(single)?))
 }
 
-fn decoder<T, const N: usize>(
-    big: bool,
-    number: impl Fn([u8; N]) -> T + 'static,
-) -> Option<Decoder<T>> {
-    Some(Decoder {
-        bytes: N,
-        decode: Box::new(move |bytes| number(lowest_first(bytes, big))),
-    })
+fn decoder<T, const N: usize>(big: bool, number: impl Fn([u8; N]) -> T + 'static) -> Option<Decoder<T>> {
+    Some(Decoder { bytes: N, decode: Box::new(move |bytes| number(lowest_first(bytes, big))) })
 }
 
 /// Real numbers: f8, f4, and whole ones of one to eight bytes.

@@ -8,8 +8,7 @@ pub(super) fn header(type_name: &str, shape: &[usize]) -> Vec<u8> {
         [one] => format!("{one},"),
         _ => sizes.trim_end_matches(", ").to_owned(),
     };
-    let dictionary =
-        format!("{{'descr': '{type_name}', 'fortran_order': False, 'shape': ({sizes}), }}");
+    let dictionary = format!("{{'descr': '{type_name}', 'fortran_order': False, 'shape': ({sizes}), }}");
     let prefix = 10;
     let padded = (prefix + dictionary.len() + 1).next_multiple_of(64) - prefix;
     let mut header = b"\x93NUMPY\x01\x00".to_vec();
@@ -66,11 +65,7 @@ pub(super) fn parse(text: &[u8]) -> Option<Header> {
             None => return None,
         };
     }
-    Some(Header {
-        type_name: type_name?,
-        fortran_order: fortran_order?,
-        shape: shape?,
-    })
+    Some(Header { type_name: type_name?, fortran_order: fortran_order?, shape: shape? })
 }
 
 /// Text in quotation marks of either kind, and what follows it.
@@ -89,25 +84,17 @@ mod tests {
     fn headers_are_aligned_and_exact() {
         let found = header("<f8", &[3]);
         assert_eq!(found.len() % 64, 0);
-        assert!(found.starts_with(
-            b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }"
-        ));
-        assert!(found.ends_with(b" \n"));
         assert!(
-            header("<i4", &[2, 300])
-                .windows(19)
-                .any(|w| w == b"'shape': (2, 300), ")
+            found.starts_with(b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }")
         );
+        assert!(found.ends_with(b" \n"));
+        assert!(header("<i4", &[2, 300]).windows(19).any(|w| w == b"'shape': (2, 300), "));
     }
 
     #[test]
     fn headers_are_read_in_any_spelling() {
         let sample = |fortran_order, shape: &[usize]| {
-            Some(Header {
-                type_name: "<f8".to_owned(),
-                fortran_order,
-                shape: shape.to_vec(),
-            })
+            Some(Header { type_name: "<f8".to_owned(), fortran_order, shape: shape.to_vec() })
         };
         for shape in [&[][..], &[3], &[2, 300], &[2, 3, 4]] {
             assert_eq!(parse(&header("<f8", shape)[10..]), sample(false, shape));

@@ -69,16 +69,12 @@ pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, FormatError> {
             if tags.shape != [count_points] {
                 return Err(npz.wrong_shape("node_tags", "a shape [nodes]", &tags.shape));
             }
-            let label = |&tag: &i64| {
-                u64::try_from(tag).map_err(|_| npz.wrong("node_tags", "labels >= 0", tag))
-            };
+            let label = |&tag: &i64| u64::try_from(tag).map_err(|_| npz.wrong("node_tags", "labels >= 0", tag));
             Some(tags.values.iter().map(label).collect::<Result<_, _>>()?)
         }
     };
     // a chunk of no values does not exist: `check` tells of modes without points
-    let shapes = shapes
-        .values
-        .chunks_exact(count_points.saturating_mul(3).max(1));
+    let shapes = shapes.values.chunks_exact(count_points.saturating_mul(3).max(1));
     let modes = ModeShapes {
         frequencies_hz: frequencies.values,
         node_tags,

@@ -47,18 +47,13 @@ impl NpzReader {
         let file = files::open(path).map_err(FileError::read(path))?;
         let archive = ZipArchive::new(BufReader::new(file))
             .map_err(|error| Fault::new("a NumPy archive (.npz)", error).of(path))?;
-        Ok(Self {
-            path: path.to_owned(),
-            archive,
-        })
+        Ok(Self { path: path.to_owned(), archive })
     }
 
     /// Names of the arrays.
     pub fn names(&self) -> Vec<String> {
         let names = self.archive.file_names().flatten();
-        names
-            .filter_map(|name| Some(name.strip_suffix(".npy")?.to_owned()))
-            .collect()
+        names.filter_map(|name| Some(name.strip_suffix(".npy")?.to_owned())).collect()
     }
 
     /// Whether there is an array of this name.
@@ -121,23 +116,14 @@ impl NpzReader {
     }
 
     /// An array whose shape is not what it should be.
-    pub(in crate::formats) fn wrong_shape(
-        &self,
-        name: &str,
-        expected: &'static str,
-        shape: &[usize],
-    ) -> FormatError {
+    pub(in crate::formats) fn wrong_shape(&self, name: &str, expected: &'static str, shape: &[usize]) -> FormatError {
         self.wrong(name, expected, format!("shape {shape:?}"))
     }
 
     /// An array that is not there.
     pub(in crate::formats) fn missing(&self, name: &str) -> FormatError {
         let names = self.names();
-        let known: Vec<String> = names
-            .iter()
-            .take(20)
-            .map(|name| format!("\"{name}\""))
-            .collect();
+        let known: Vec<String> = names.iter().take(20).map(|name| format!("\"{name}\"")).collect();
         let known = match known.is_empty() {
             true => "no arrays".to_owned(),
             false => known.join(", "),
@@ -156,13 +142,8 @@ impl NpzReader {
             return Err(self.missing(name));
         }
         let path = &self.path;
-        let wrong =
-            |expected: &'static str, found: String| array_fault(path, name, expected, found);
-        let damaged = |source| FormatError::Damaged {
-            path: path.clone(),
-            name: name.to_owned(),
-            source,
-        };
+        let wrong = |expected: &'static str, found: String| array_fault(path, name, expected, found);
+        let damaged = |source| FormatError::Damaged { path: path.clone(), name: name.to_owned(), source };
         let entry = self.archive.by_name(&format!("{name}.npy"));
         let mut entry = entry.map_err(|source| damaged(source.into()))?;
         let text = header_text(&mut entry).map_err(damaged)?;
@@ -190,12 +171,7 @@ impl NpzReader {
     }
 }
 
-fn array_fault(
-    path: &Path,
-    name: &str,
-    expected: &'static str,
-    found: impl fmt::Display,
-) -> FormatError {
+fn array_fault(path: &Path, name: &str, expected: &'static str, found: impl fmt::Display) -> FormatError {
     let fault = Fault::new(expected, found).within(format!("array \"{name}\""));
     fault.of(path).into()
 }
@@ -226,11 +202,7 @@ fn header_text(from: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
 }
 
 /// Up to `count` values, and whether anything follows them.
-fn numbers<T>(
-    from: &mut impl Read,
-    count: usize,
-    decoder: &Decoder<T>,
-) -> io::Result<(Vec<T>, bool)> {
+fn numbers<T>(from: &mut impl Read, count: usize, decoder: &Decoder<T>) -> io::Result<(Vec<T>, bool)> {
     let mut values = Vec::new();
     let size = decoder.bytes;
     let mut bytes = vec![0_u8; (BUFFER / size).max(1) * size];
@@ -274,9 +246,7 @@ impl Header {
         sizes[..shape.len()].copy_from_slice(&shape);
         let [a, b, c] = sizes;
         let places = (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k))));
-        let values = places
-            .map(|(i, j, k)| values[i + a * (j + b * k)].clone())
-            .collect();
+        let values = places.map(|(i, j, k)| values[i + a * (j + b * k)].clone()).collect();
         NpzValues { shape, values }
     }
 }

@@ -34,10 +34,7 @@ fn open(folder: &Path, bytes: &[u8]) -> Result<NpzReader, FormatError> {
 }
 
 pub(super) fn le(values: &[f64]) -> Vec<u8> {
-    values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect()
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
 #[test]
@@ -54,31 +51,17 @@ fn arrays_are_read_in_both_orders_stored_and_deflated() {
     }
     let mut c_order = fortran.clone();
     c_order.sort_by(f64::total_cmp);
-    let integers: Vec<u8> = [-5_i64, i64::MAX]
-        .iter()
-        .flat_map(|n| n.to_le_bytes())
-        .collect();
+    let integers: Vec<u8> = [-5_i64, i64::MAX].iter().flat_map(|n| n.to_le_bytes()).collect();
     let fortran_header = "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3, 4), }";
     let entries: [(&str, &str, &[u8]); 3] = [
         ("cube", fortran_header, &le(&fortran)),
-        (
-            "tags",
-            "{'descr': '<i8', 'fortran_order': False, 'shape': (2,), }",
-            &integers,
-        ),
-        (
-            "one",
-            "{'descr': '<f8', 'fortran_order': False, 'shape': (), }",
-            &le(&[2.5]),
-        ),
+        ("tags", "{'descr': '<i8', 'fortran_order': False, 'shape': (2,), }", &integers),
+        ("one", "{'descr': '<f8', 'fortran_order': False, 'shape': (), }", &le(&[2.5])),
     ];
     for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
         let mut npz = open(folder.path(), &archive(&entries, method)).unwrap();
         let cube = npz.f64("cube").unwrap();
-        assert_eq!(
-            (cube.shape.as_slice(), &cube.values),
-            (&[2, 3, 4][..], &c_order)
-        );
+        assert_eq!((cube.shape.as_slice(), &cube.values), (&[2, 3, 4][..], &c_order));
         assert_eq!(npz.i64("tags").unwrap().values, [-5, i64::MAX]);
         let one = npz.f64("one").unwrap();
         assert_eq!((one.shape, one.values), (vec![], vec![2.5]));
@@ -90,11 +73,7 @@ fn arrays_are_read_in_both_orders_stored_and_deflated() {
 fn modes_come_back_bit_by_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("modes.npz");
-    let bare = ModeShapes {
-        node_tags: None,
-        points: None,
-        ..two_modes()
-    };
+    let bare = ModeShapes { node_tags: None, points: None, ..two_modes() };
     for modes in [two_modes(), bare] {
         write_modes_npz(&path, &modes).unwrap();
         assert_eq!(read_modes_npz(&path).unwrap(), modes);
@@ -104,16 +83,10 @@ fn modes_come_back_bit_by_bit() {
     let eigenvalue = npz.f64("eigenvalues").unwrap().values[0];
     // (2 pi 12.5)^2, a few roundings
     assert!((eigenvalue / 6_168.502_750_680_849 - 1.0).abs() < 1e-14);
-    let wrong = ModeShapes {
-        frequencies_hz: vec![1.0],
-        ..two_modes()
-    };
+    let wrong = ModeShapes { frequencies_hz: vec![1.0], ..two_modes() };
     let error = write_modes_npz(&path, &wrong).unwrap_err();
     assert!(matches!(error, FormatError::Data(_)));
-    assert_eq!(
-        error.to_string(),
-        "expected a shape for each of 1 frequencies, found 2 shapes"
-    );
+    assert_eq!(error.to_string(), "expected a shape for each of 1 frequencies, found 2 shapes");
 }
 
 /// Type, shape and bytes of an array, by the independent reader `npyz`.
@@ -121,12 +94,7 @@ fn modes_come_back_bit_by_bit() {
 fn texts_bytes_and_sparse_matrices_have_scipy_s_layout() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("k.npz");
-    let matrix = SparseMatrix::new_csc(
-        (3, 2),
-        vec![0, 2, 3],
-        vec![0, 2, 1],
-        vec![1.5, -2.0, 1e-300],
-    );
+    let matrix = SparseMatrix::new_csc((3, 2), vec![0, 2, 3], vec![0, 2, 1], vec![1.5, -2.0, 1e-300]);
     write_sparse_npz(&path, &matrix).unwrap();
     let entry = |name: &str| {
         let file = fs::File::open(&path).unwrap();
@@ -151,10 +119,7 @@ fn texts_bytes_and_sparse_matrices_have_scipy_s_layout() {
     assert_eq!(npy.into_vec::<f64>().unwrap(), [1.5, -2.0, 1e-300]);
     let bytes = entry("format");
     let npy = npyz::NpyFile::new(&bytes[..]).unwrap();
-    assert_eq!(
-        (npy.dtype().descr(), npy.shape()),
-        ("'|S3'".to_owned(), &[][..])
-    );
+    assert_eq!((npy.dtype().descr(), npy.shape()), ("'|S3'".to_owned(), &[][..]));
     assert!(bytes.ends_with(b"\ncsc"));
     let mut npz = NpzWriter::create(&path).unwrap();
     npz.texts("groups", &["body", "éèê", ""]).unwrap();
@@ -174,35 +139,18 @@ fn texts_bytes_and_sparse_matrices_have_scipy_s_layout() {
 fn errors_fire_with_their_exact_messages() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.npz");
-    let head = |descr: &str, shape: &str| {
-        format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}")
-    };
+    let head = |descr: &str, shape: &str| format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     let values = le(&[1.0, 2.0]);
     let cases = [
-        (
-            head("<f4", "(4,)"),
-            "expected numbers of type '<f8', found '<f4'",
-        ),
-        (
-            head("<f8", "(3,)"),
-            "expected as many values as the shape has, found fewer values than shape [3] has",
-        ),
-        (
-            head("<f8", "(1,)"),
-            "expected as many values as the shape has, found more values than shape [1] has",
-        ),
-        (
-            head("<f8", "(1, 1, 1, 2)"),
-            "expected up to three dimensions, found 4",
-        ),
+        (head("<f4", "(4,)"), "expected numbers of type '<f8', found '<f4'"),
+        (head("<f8", "(3,)"), "expected as many values as the shape has, found fewer values than shape [3] has"),
+        (head("<f8", "(1,)"), "expected as many values as the shape has, found more values than shape [1] has"),
+        (head("<f8", "(1, 1, 1, 2)"), "expected up to three dimensions, found 4"),
         (
             head("<f8", "(99999999999, 99999999999)"),
             "expected a shape that memory can hold, found [99999999999, 99999999999]",
         ),
-        (
-            head("<f8", "2"),
-            "expected a NumPy array, found a damaged header",
-        ),
+        (head("<f8", "2"), "expected a NumPy array, found a damaged header"),
     ];
     for (header, expected) in cases {
         let bytes = archive(&[("x", &header, &values)], CompressionMethod::Stored);
@@ -210,40 +158,23 @@ fn errors_fire_with_their_exact_messages() {
         let expected = format!("{}: array \"x\": {expected}", path.display());
         assert_eq!(error.to_string(), expected);
     }
-    let bytes = archive(
-        &[("x", &head("<f8", "(2,)"), &values)],
-        CompressionMethod::Stored,
-    );
+    let bytes = archive(&[("x", &head("<f8", "(2,)"), &values)], CompressionMethod::Stored);
     fs::write(&path, &bytes).unwrap();
     let error = read_modes_npz(&path).unwrap_err().to_string();
-    let expected = format!(
-        "{}: expected an array \"frequencies_hz\", found \"x\"",
-        path.display()
-    );
+    let expected = format!("{}: expected an array \"frequencies_hz\", found \"x\"", path.display());
     assert_eq!(error, expected);
     // a bit of the last value: the checksum tells
     let mut flipped = bytes.clone();
-    let place = bytes
-        .windows(16)
-        .position(|window| window == values)
-        .unwrap();
+    let place = bytes.windows(16).position(|window| window == values).unwrap();
     flipped[place] ^= 1;
     let error = open(folder.path(), &flipped).unwrap().f64("x").unwrap_err();
     assert!(matches!(error, FormatError::Damaged { .. }), "{error}");
     let none = archive(&[], CompressionMethod::Stored);
     let error = open(folder.path(), &none).unwrap().f64("x").unwrap_err();
-    let expected = format!(
-        "{}: expected an array \"x\", found no arrays",
-        path.display()
-    );
+    let expected = format!("{}: expected an array \"x\", found no arrays", path.display());
     assert_eq!(error.to_string(), expected);
-    let error = open(folder.path(), b"mode,frequency_hz")
-        .unwrap_err()
-        .to_string();
-    let expected = format!(
-        "{}: expected a NumPy archive (.npz), found ",
-        path.display()
-    );
+    let error = open(folder.path(), b"mode,frequency_hz").unwrap_err().to_string();
+    let expected = format!("{}: expected a NumPy archive (.npz), found ", path.display());
     assert!(error.starts_with(&expected), "{error}");
 }
 
@@ -269,10 +200,7 @@ fn later_versions_are_read() {
     }
     for (number, length) in [(4, header.len() as u32), (2, 1 << 20)] {
         let error = version(number, length).unwrap_err().to_string();
-        assert!(
-            error.ends_with("expected a NumPy array, found a damaged header"),
-            "{error}"
-        );
+        assert!(error.ends_with("expected a NumPy array, found a damaged header"), "{error}");
     }
 }
 

@@ -56,12 +56,7 @@ impl NpzWriter {
         let path = path.as_ref();
         let partial = AtomicFile::partial_of(path);
         let file = AtomicFile::create(path).map_err(FileError::write(&partial))?;
-        Ok(Self {
-            partial,
-            archive: Some(ZipWriter::new(file)),
-            names: Vec::new(),
-            incomplete: None,
-        })
+        Ok(Self { partial, archive: Some(ZipWriter::new(file)), names: Vec::new(), incomplete: None })
     }
 
     /// Writes a one-dimensional array.
@@ -95,11 +90,7 @@ impl NpzWriter {
     /// # Errors
     /// [`FormatError::ArrayName`], [`FormatError::DuplicateArray`], [`FormatError::Incomplete`] if an earlier array is,
     /// [`FormatError::File`].
-    pub fn begin<T: NpzElement>(
-        &mut self,
-        name: &str,
-        shape: &[usize],
-    ) -> Result<NpzArray<'_, T>, FormatError> {
+    pub fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
         self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
         Ok(NpzArray {

@@ -43,11 +43,7 @@ fn read(path: &Path, name: &str) -> (Vec<u64>, npyz::Order, Vec<f64>) {
     let mut bytes = Vec::new();
     entry.read_to_end(&mut bytes).expect("entry is readable");
     let npy = npyz::NpyFile::new(&bytes[..]).expect("npy");
-    (
-        npy.shape().to_vec(),
-        npy.order(),
-        npy.into_vec().expect("f64"),
-    )
+    (npy.shape().to_vec(), npy.order(), npy.into_vec().expect("f64"))
 }
 
 #[test]
@@ -67,23 +63,12 @@ fn arrays_come_back_bit_by_bit() {
     pieces.end().expect("all there");
     npz.finish().expect("finish");
     assert_eq!(scratch.files(), ["signals.npz"]);
-    assert_eq!(
-        read(&path, "time_s"),
-        (vec![1500], npyz::Order::C, time.clone())
-    );
+    assert_eq!(read(&path, "time_s"), (vec![1500], npyz::Order::C, time.clone()));
     let (shape, order, values) = read(&path, "ball radius.1");
     assert_eq!((shape, order), (vec![2, 3], npyz::Order::C));
-    assert!(
-        values
-            .iter()
-            .zip(&matrix)
-            .all(|(a, b)| a.to_bits() == b.to_bits())
-    );
+    assert!(values.iter().zip(&matrix).all(|(a, b)| a.to_bits() == b.to_bits()));
     assert_eq!(read(&path, "nothing").0, [0]);
-    assert_eq!(
-        read(&path, "pieces"),
-        (vec![7, 100], npyz::Order::C, time[..700].to_vec())
-    );
+    assert_eq!(read(&path, "pieces"), (vec![7, 100], npyz::Order::C, time[..700].to_vec()));
 }
 
 #[test]
@@ -117,39 +102,19 @@ fn errors_fire_with_their_exact_messages() {
     );
     assert!(message(npz.array("", &[1.0])).starts_with("array name"));
     npz.array("x", &[1.0]).expect("array");
-    assert_eq!(
-        message(npz.array("x", &[1.0])),
-        "array \"x\" is already in the archive"
-    );
-    assert_eq!(
-        message(npz.matrix("m", 2, 2, &[1.0; 3])),
-        "array \"m\" of shape [2, 2] takes 4 values, found 3"
-    );
-    assert_eq!(
-        message(npz.array("n", &[1.0])),
-        "array \"m\" was begun and not completed"
-    );
-    assert_eq!(
-        message(other.matrix("n", 2, 2, &[1.0; 5])),
-        "array \"n\" of shape [2, 2] takes 4 values, found 5"
-    );
+    assert_eq!(message(npz.array("x", &[1.0])), "array \"x\" is already in the archive");
+    assert_eq!(message(npz.matrix("m", 2, 2, &[1.0; 3])), "array \"m\" of shape [2, 2] takes 4 values, found 3");
+    assert_eq!(message(npz.array("n", &[1.0])), "array \"m\" was begun and not completed");
+    assert_eq!(message(other.matrix("n", 2, 2, &[1.0; 5])), "array \"n\" of shape [2, 2] takes 4 values, found 5");
     let mut third = NpzWriter::create(scratch.0.join("t.npz")).expect("create");
     // at once, not only at the end
     let early = (third.begin("p", &[2]).expect("begin")).extend(&[1.0; 3]);
-    assert_eq!(
-        message(early),
-        "array \"p\" of shape [2] takes 2 values, found 3"
-    );
+    assert_eq!(message(early), "array \"p\" of shape [2] takes 2 values, found 3");
     drop(third);
     drop(other);
-    assert_eq!(
-        message(npz.finish()),
-        "array \"m\" was begun and not completed"
-    );
+    assert_eq!(message(npz.finish()), "array \"m\" was begun and not completed");
     assert!(scratch.files().is_empty());
     let nowhere = scratch.0.join("missing").join("e.npz");
-    let found = NpzWriter::create(&nowhere)
-        .expect_err("no such directory")
-        .to_string();
+    let found = NpzWriter::create(&nowhere).expect_err("no such directory").to_string();
     assert!(found.starts_with(&format!("cannot write {}.partial: ", nowhere.display())));
 }

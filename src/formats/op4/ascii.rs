@@ -6,10 +6,7 @@ use super::builder::{Builder, Column, Header};
 use crate::files::Fault;
 
 /// Reals a line and their width, where a header does not say.
-const DEFAULT: RealFormat = RealFormat {
-    per_line: 5,
-    width: 16,
-};
+const DEFAULT: RealFormat = RealFormat { per_line: 5, width: 16 };
 /// Longest line of reals that is believed.
 const LONGEST: usize = 1000;
 /// Narrowest column of a real that is believed.
@@ -29,10 +26,7 @@ struct Lines<'a> {
 }
 
 pub(super) fn read_ascii(bytes: &[u8]) -> Result<Vec<Op4Matrix>, Fault> {
-    let mut lines = Lines {
-        rest: bytes,
-        line: 0,
-    };
+    let mut lines = Lines { rest: bytes, line: 0 };
     let mut matrices = Vec::new();
     while !lines.rest.trim_ascii().is_empty() {
         matrices.push(matrix(&mut lines)?);
@@ -50,28 +44,17 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
         None => (line.as_str(), 8),
     };
     let whole = |begin: usize, width: usize| whole(text, begin, width);
-    let numbers = (
-        whole(0, wide),
-        whole(wide, wide),
-        whole(2 * wide, 8),
-        whole(2 * wide + 8, 8),
-    );
+    let numbers = (whole(0, wide), whole(wide, wide), whole(2 * wide, 8), whole(2 * wide + 8, 8));
     let (Some(columns), Some(rows), Some(form), Some(kind)) = numbers else {
         return Err(fault(lines, HEADER));
     };
     let name_at = 2 * wide + 16;
     let rest = text.get(name_at..).unwrap_or_default();
     let (name, format) = rest.split_at_checked(8).unwrap_or((rest, ""));
-    let header = Header {
-        columns,
-        rows,
-        form,
-        kind,
-    };
+    let header = Header { columns, rows, form, kind };
     let builder = Builder::new(header, name);
     let mut builder = builder.map_err(|expected| fault(lines, expected))?;
-    let format = RealFormat::parse(format)
-        .ok_or_else(|| fault(lines, "a format of reals such as 1P,3E24.16"))?;
+    let format = RealFormat::parse(format).ok_or_else(|| fault(lines, "a format of reals such as 1P,3E24.16"))?;
     const COLUMN: &str = "column, first row and length of a column";
     loop {
         let line = lines.next(COLUMN)?;
@@ -91,12 +74,7 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
 }
 
 /// The runs of a sparse column of so many words.
-fn sparse(
-    lines: &mut Lines,
-    builder: &mut Builder,
-    format: RealFormat,
-    mut words: i64,
-) -> Result<(), Fault> {
+fn sparse(lines: &mut Lines, builder: &mut Builder, format: RealFormat, mut words: i64) -> Result<(), Fault> {
     const RUN: &str = "length and first row of a run of numbers";
     let words_of_real = if builder.is_single() { 1 } else { 2 };
     while words > 0 {
@@ -155,9 +133,7 @@ impl Lines<'_> {
     fn next(&mut self, expected: &'static str) -> Result<String, Fault> {
         self.line += 1;
         if self.rest.is_empty() {
-            return Err(
-                Fault::new(expected, "the end of the file").at(format_args!("line {}", self.line))
-            );
+            return Err(Fault::new(expected, "the end of the file").at(format_args!("line {}", self.line)));
         }
         let end = self.rest.iter().position(|&byte| byte == b'\n');
         let (line, rest) = match end {
@@ -175,13 +151,7 @@ impl Lines<'_> {
     }
 
     /// So many numbers, from a row on.
-    fn run(
-        &mut self,
-        builder: &mut Builder,
-        format: RealFormat,
-        row: i64,
-        count: i64,
-    ) -> Result<(), Fault> {
+    fn run(&mut self, builder: &mut Builder, format: RealFormat, row: i64, count: i64) -> Result<(), Fault> {
         const NUMBERS: &str = "the real numbers of a column";
         let mut missing = usize::try_from(count).unwrap_or(0);
         let count = missing;

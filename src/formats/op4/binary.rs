@@ -48,9 +48,7 @@ impl Words {
 
     fn real(self, bytes: &[u8]) -> f64 {
         let read = match bytes.len() {
-            4 => self
-                .chunk(bytes)
-                .map(|own| f64::from(f32::from_le_bytes(own))),
+            4 => self.chunk(bytes).map(|own| f64::from(f32::from_le_bytes(own))),
             _ => self.chunk(bytes).map(f64::from_le_bytes),
         };
         read.unwrap_or(f64::NAN)
@@ -72,11 +70,7 @@ struct Record<'a> {
 }
 
 pub(super) fn read_binary(bytes: &[u8], words: Words) -> Result<Vec<Op4Matrix>, Fault> {
-    let mut records = Records {
-        bytes,
-        place: 0,
-        words,
-    };
+    let mut records = Records { bytes, place: 0, words };
     let mut matrices = Vec::new();
     while records.place < bytes.len() {
         matrices.push(matrix(&mut records)?);
@@ -93,25 +87,13 @@ fn matrix(records: &mut Records) -> Result<Op4Matrix, Fault> {
         *number = record.whole(HEADER)?;
     }
     if record.content.len() != 2 * records.words.bytes {
-        return Err(record.fault(
-            HEADER,
-            format!("a record of {} bytes", record.content.len()),
-        ));
+        return Err(record.fault(HEADER, format!("a record of {} bytes", record.content.len())));
     }
     let [columns, rows, form, kind] = numbers;
-    let header = Header {
-        columns,
-        rows,
-        form,
-        kind,
-    };
+    let header = Header { columns, rows, form, kind };
     let name = String::from_utf8_lossy(record.content);
     let mut builder = Builder::new(header, &name).map_err(|expected| {
-        Fault::new(
-            expected,
-            format!("{columns} columns, {rows} rows, type {kind}"),
-        )
-        .at(format_args!("byte {place}"))
+        Fault::new(expected, format!("{columns} columns, {rows} rows, type {kind}")).at(format_args!("byte {place}"))
     })?;
     const COLUMN: &str = "column, first row and length of a column";
     loop {
@@ -124,9 +106,7 @@ fn matrix(records: &mut Records) -> Result<Op4Matrix, Fault> {
             Column::End => return Ok(builder.finish()),
             // a record may be longer than its column: what follows is left out
             kind => {
-                let bytes = usize::try_from(length)
-                    .ok()
-                    .and_then(|length| length.checked_mul(records.words.bytes));
+                let bytes = usize::try_from(length).ok().and_then(|length| length.checked_mul(records.words.bytes));
                 let content = bytes.and_then(|bytes| record.content.get(..bytes));
                 let Some(content) = content else {
                     return Err(record.fault("as many words as the record has", found));
@@ -149,11 +129,7 @@ fn sparse(builder: &mut Builder, record: &mut Record) -> Result<(), Fault> {
     const RUN: &str = "length and first row of a run of numbers";
     while !record.content.is_empty() {
         let key = record.whole(RUN)?;
-        let (length, row) = if builder.big {
-            (key, record.whole(RUN)?)
-        } else {
-            (key >> 16, key & 0xffff)
-        };
+        let (length, row) = if builder.big { (key, record.whole(RUN)?) } else { (key >> 16, key & 0xffff) };
         // the key counts one more word than the numbers have
         let words = usize::try_from(length.saturating_sub(1)).ok();
         let bytes = words.and_then(|words| words.checked_mul(record.words.bytes));
@@ -194,25 +170,17 @@ impl<'a> Records<'a> {
         let size = usize::try_from(first).unwrap_or(usize::MAX);
         let content = rest.get(4..).and_then(|rest| rest.split_at_checked(size));
         let Some((content, after)) = content else {
-            return Err(fault(format!(
-                "a record of {first} bytes, which the file has not"
-            )));
+            return Err(fault(format!("a record of {first} bytes, which the file has not")));
         };
         match length(after) {
             Some(last) if last == first => {}
             Some(last) => {
-                return Err(fault(format!(
-                    "a record of {first} bytes that ends as one of {last}"
-                )));
+                return Err(fault(format!("a record of {first} bytes that ends as one of {last}")));
             }
             None => return Err(fault("the end of the file".to_owned())),
         }
         self.place = place + 8 + size;
-        Ok(Record {
-            place: place + 4,
-            content,
-            words: self.words,
-        })
+        Ok(Record { place: place + 4, content, words: self.words })
     }
 }
 

@@ -40,12 +40,7 @@ pub(super) enum Column {
 impl Builder {
     /// Begins a matrix, or says what was expected.
     pub(super) fn new(header: Header, name: &str) -> Result<Self, &'static str> {
-        let Header {
-            columns,
-            rows,
-            form,
-            kind,
-        } = header;
+        let Header { columns, rows, form, kind } = header;
         if !(1..=MOST).contains(&columns) || rows == 0 || !(-MOST..=MOST).contains(&rows) {
             return Err("numbers of columns and rows up to 2147483647");
         }
@@ -112,11 +107,7 @@ impl Builder {
             return Ok(());
         }
         // both are below 2^31, as the matrix's rows and columns are
-        self.matrix.runs.push(Run {
-            row: first as u32,
-            column: (self.column - 1) as u32,
-            count: entries as u32,
-        });
+        self.matrix.runs.push(Run { row: first as u32, column: (self.column - 1) as u32, count: entries as u32 });
         self.matrix.values.extend(values);
         Ok(())
     }

@@ -26,11 +26,9 @@ pub fn op4_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<Op4Matrix>, Forma
         None => Err(Fault::new("a matrix", format!("{} bytes", bytes.len())).at("byte 0")),
         Some(&first) => match Words::of_first_record(first) {
             Some(words) => read_binary(bytes, words),
-            None if first.contains(&0) => Err(Fault::new(
-                "a record of 24 or 48 bytes, or text",
-                format!("bytes {first:?}"),
-            )
-            .at("byte 0")),
+            None if first.contains(&0) => {
+                Err(Fault::new("a record of 24 or 48 bytes, or text", format!("bytes {first:?}")).at("byte 0"))
+            }
             None => read_ascii(bytes),
         },
     };

@@ -34,11 +34,7 @@ fn stiff() -> DenseMatrix {
 }
 
 fn rect() -> DenseMatrix {
-    dense(&[
-        [0.0, 1e-30, 0.0, 4.0],
-        [0.0, -1e30, 0.5, 0.0],
-        [0.0, 3.0, 0.0, -1.0 / 7.0],
-    ])
+    dense(&[[0.0, 1e-30, 0.0, 4.0], [0.0, -1e30, 0.5, 0.0], [0.0, 3.0, 0.0, -1.0 / 7.0]])
 }
 
 #[test]
@@ -95,17 +91,12 @@ impl File {
     fn record(&mut self, content: &[Vec<u8>]) {
         let content = content.concat();
         let length = self.ordered((content.len() as u32).to_le_bytes());
-        self.bytes
-            .extend([length.clone(), content, length].concat());
+        self.bytes.extend([length.clone(), content, length].concat());
     }
 
     /// A matrix of 4 rows and 3 columns, the first of zeros; the last has a gap where it is sparse.
     fn matrix(&mut self, kind: i64, sparse: bool, big: bool) {
-        let name = if self.wide {
-            "K   L           "
-        } else {
-            "K L     "
-        };
+        let name = if self.wide { "K   L           " } else { "K L     " };
         let rows = if big { -4 } else { 4 };
         self.record(&[self.words(&[3, rows, 2, kind]), name.into()]);
         let words_of_real = if kind == 1 || self.wide { 1 } else { 2 };
@@ -115,18 +106,10 @@ impl File {
         };
         let reals = |values: &[f64]| self.reals(kind, values);
         let columns = match sparse {
-            false => [
-                (2, 2, 2, vec![reals(&[0.5, -2.0])]),
-                (3, 1, 4, vec![reals(&[1.5, 0.0, 0.0, 3.25])]),
-            ],
+            false => [(2, 2, 2, vec![reals(&[0.5, -2.0])]), (3, 1, 4, vec![reals(&[1.5, 0.0, 0.0, 3.25])])],
             true => [
                 (2, 0, 2, vec![key(2, 2), reals(&[0.5, -2.0])]),
-                (
-                    3,
-                    0,
-                    2,
-                    vec![key(1, 1), reals(&[1.5]), key(4, 1), reals(&[3.25])],
-                ),
+                (3, 0, 2, vec![key(1, 1), reals(&[1.5]), key(4, 1), reals(&[3.25])]),
             ],
         };
         for (column, row, count, content) in columns {
@@ -145,18 +128,9 @@ impl File {
 
 #[test]
 fn words_of_32_and_64_bits_in_both_orders_and_precisions() {
-    let expected = dense(&[
-        [0.0, 0.0, 1.5],
-        [0.0, 0.5, 0.0],
-        [0.0, -2.0, 0.0],
-        [0.0, 0.0, 3.25],
-    ]);
+    let expected = dense(&[[0.0, 0.0, 1.5], [0.0, 0.5, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.25]]);
     for (big_endian, wide) in [(false, false), (false, true), (true, false), (true, true)] {
-        let mut file = File {
-            big_endian,
-            wide,
-            bytes: Vec::new(),
-        };
+        let mut file = File { big_endian, wide, bytes: Vec::new() };
         for kind in [1, 2] {
             file.matrix(kind, false, false);
             file.matrix(kind, true, false);
@@ -201,21 +175,14 @@ fn errors_fire_with_their_exact_messages() {
         let error = op4_from_bytes(bytes, Path::new("a.op4")).unwrap_err();
         error.to_string()
     };
-    let mut whole = File {
-        big_endian: false,
-        wide: false,
-        bytes: Vec::new(),
-    };
+    let mut whole = File { big_endian: false, wide: false, bytes: Vec::new() };
     whole.matrix(2, false, false);
     let changed = |place: usize, byte: u8| {
         let mut bytes = whole.bytes.clone();
         bytes[place] = byte;
         bytes
     };
-    assert_eq!(
-        message(&[]),
-        "a.op4, byte 0: expected a matrix, found 0 bytes"
-    );
+    assert_eq!(message(&[]), "a.op4, byte 0: expected a matrix, found 0 bytes");
     assert_eq!(
         message(&[7, 0, 0, 0, 1]),
         "a.op4, byte 0: expected a record of 24 or 48 bytes, or text, found bytes [7, 0, 0, 0]"
@@ -256,9 +223,7 @@ fn errors_fire_with_their_exact_messages() {
         "a.op4, byte 120: expected column, first row and length of a column, found the end of the file"
     );
     assert_eq!(
-        message(
-            b"       1       2       2       2K       1P,3E24.16\n       1       1       2\n 1.0"
-        ),
+        message(b"       1       2       2       2K       1P,3E24.16\n       1       1       2\n 1.0"),
         "a.op4, line 3: expected the real numbers of a column, found \"1.0\""
     );
     assert_eq!(
@@ -286,10 +251,7 @@ fn a_dense_matrix_is_made_where_it_is_worth_it() {
         matrices[0].dense()
     };
     let small = matrix(500).unwrap();
-    assert_eq!(
-        (small.nrows(), small.ncols(), small[(0, 0)]),
-        (500, 2000, 1.5)
-    );
+    assert_eq!((small.nrows(), small.ncols(), small[(0, 0)]), (500, 2000, 1.5));
     assert_eq!(
         matrix(600).unwrap_err().to_string(),
         "matrix \"K\": expected a matrix that is worth its memory when dense, found 600 x 2000 with 1 numbers"

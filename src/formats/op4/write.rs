@@ -30,11 +30,7 @@ const REAL_DOUBLE: i32 = 2;
 /// # Errors
 /// [`FormatError::Data`] unless each name has 1 to 8 letters and digits, a letter first, and each matrix has finite entries,
 /// at least one and not more than the format holds; [`FormatError::File`].
-pub fn write_op4(
-    path: &Path,
-    matrices: &[(&str, &DenseMatrix)],
-    format: Op4Format,
-) -> Result<(), FormatError> {
+pub fn write_op4(path: &Path, matrices: &[(&str, &DenseMatrix)], format: Op4Format) -> Result<(), FormatError> {
     for &(name, matrix) in matrices {
         check(name, matrix, format)?;
     }
@@ -85,24 +81,17 @@ fn form(matrix: &DenseMatrix) -> i32 {
         return RECTANGULAR;
     }
     let mut lower = (0..rows).flat_map(|i| (0..i).map(move |j| (i, j)));
-    if lower.all(|(i, j)| matrix[(i, j)] == matrix[(j, i)]) {
-        SYMMETRIC
-    } else {
-        SQUARE
-    }
+    if lower.all(|(i, j)| matrix[(i, j)] == matrix[(j, i)]) { SYMMETRIC } else { SQUARE }
 }
 
 /// Columns that are not zero: number, first row (both from 1), values from the first that is not zero to the last.
 fn columns(matrix: &DenseMatrix) -> impl Iterator<Item = (usize, usize, Vec<f64>)> + '_ {
-    matrix
-        .col_iter()
-        .enumerate()
-        .filter_map(|(column, values)| {
-            let values: Vec<f64> = values.iter().copied().collect();
-            let first = values.iter().position(|&value| value != 0.0)?;
-            let last = values.iter().rposition(|&value| value != 0.0)?;
-            Some((column + 1, first + 1, values[first..=last].to_vec()))
-        })
+    matrix.col_iter().enumerate().filter_map(|(column, values)| {
+        let values: Vec<f64> = values.iter().copied().collect();
+        let first = values.iter().position(|&value| value != 0.0)?;
+        let last = values.iter().rposition(|&value| value != 0.0)?;
+        Some((column + 1, first + 1, values[first..=last].to_vec()))
+    })
 }
 
 /// A number that the last record has for want of others.
@@ -139,10 +128,7 @@ fn binary(to: &mut impl Write, name: &str, matrix: &DenseMatrix) -> io::Result<(
 fn ascii(to: &mut impl Write, name: &str, matrix: &DenseMatrix) -> io::Result<()> {
     let (rows, width) = (matrix.nrows(), matrix.ncols());
     let (form, name) = (form(matrix), name.to_ascii_uppercase());
-    writeln!(
-        to,
-        "{width:>8}{rows:>8}{form:>8}{REAL_DOUBLE:>8}{name:<8}1P,3E24.16"
-    )?;
+    writeln!(to, "{width:>8}{rows:>8}{form:>8}{REAL_DOUBLE:>8}{name:<8}1P,3E24.16")?;
     let mut record = |column: usize, row: usize, values: &[f64]| {
         writeln!(to, "{column:>8}{row:>8}{:>8}", values.len())?;
         for line in values.chunks(3) {

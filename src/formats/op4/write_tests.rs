@@ -62,12 +62,7 @@ fn a_superelement_comes_back_bit_by_bit_under_nastran_s_names() {
         assert_eq!(read.complete_hz, whole.complete_hz);
         let damping = whole.damping.clone().unwrap();
         let structural = whole.structural.clone().unwrap();
-        let expected = [
-            whole.stiffness.clone(),
-            whole.mass.clone(),
-            damping,
-            structural,
-        ];
+        let expected = [whole.stiffness.clone(), whole.mass.clone(), damping, structural];
         assert_eq!(found, expected);
     }
     let bare = super::super::SuperelementRecord {
@@ -82,10 +77,7 @@ fn a_superelement_comes_back_bit_by_bit_under_nastran_s_names() {
     let mut wrong = whole;
     wrong.modal_hz.clear();
     let error = write_superelement_op4(&path, &wrong, Op4Format::Binary).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "array \"modal_hz\": expected 2 entries, found 0"
-    );
+    assert_eq!(error.to_string(), "array \"modal_hz\": expected 2 entries, found 0");
 }
 
 #[test]
@@ -110,9 +102,7 @@ fn errors_fire_with_their_exact_messages() {
     for name in ["", "NINECHARS", "4K", "K-1", "ä"] {
         assert_eq!(
             message(name, &one),
-            format!(
-                "expected a matrix name of 1 to 8 letters and digits, a letter first, found \"{name}\""
-            )
+            format!("expected a matrix name of 1 to 8 letters and digits, a letter first, found \"{name}\"")
         );
     }
     assert_eq!(

@@ -62,11 +62,7 @@ impl SuperelementRecord {
     pub fn check(&self) -> Result<(), Fault> {
         self.check_matrices()?;
         let order = self.order();
-        count(
-            "modal_hz",
-            order - self.interface.len(),
-            self.modal_hz.len(),
-        )?;
+        count("modal_hz", order - self.interface.len(), self.modal_hz.len())?;
         finite("modal_hz", &column(&self.modal_hz))?;
         self.check_frequencies()?;
         if let Some(weight) = &self.weight {
@@ -157,11 +153,7 @@ impl SuperelementRecord {
         finite("field_recovery", &field.recovery)?;
         for (row, position) in field.positions.iter().enumerate() {
             if let Some(column) = position.iter().position(|value| !value.is_finite()) {
-                return Err(not_finite(
-                    "field_positions",
-                    [row, column],
-                    position[column],
-                ));
+                return Err(not_finite("field_positions", [row, column], position[column]));
             }
         }
         let mut seen = HashSet::new();
@@ -178,8 +170,7 @@ impl SuperelementRecord {
 fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), Fault> {
     let mut seen = HashMap::new();
     for (row, label) in labels.iter().enumerate() {
-        let (DofDirection::Along(axis) | DofDirection::Polar(axis) | DofDirection::About(axis)) =
-            label.direction
+        let (DofDirection::Along(axis) | DofDirection::Polar(axis) | DofDirection::About(axis)) = label.direction
         else {
             continue;
         };
@@ -215,11 +206,7 @@ fn count(array: &'static str, expected: usize, found: usize) -> Result<(), Fault
     Err(of_array(array, format!("{expected} entries"), found))
 }
 
-fn of_array(
-    array: &str,
-    expected: impl Into<Cow<'static, str>>,
-    found: impl fmt::Display,
-) -> Fault {
+fn of_array(array: &str, expected: impl Into<Cow<'static, str>>, found: impl fmt::Display) -> Fault {
     Fault::new(expected, found).within(format!("array \"{array}\""))
 }
 

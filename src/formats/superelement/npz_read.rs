@@ -58,17 +58,11 @@ struct Source<'a> {
 impl Source<'_> {
     /// A matrix of so many columns, or a square one. This is checked before it is made, as a matrix of few rows takes more
     /// memory than its numbers.
-    fn matrix(
-        &mut self,
-        name: &'static str,
-        columns: Option<usize>,
-    ) -> Result<DenseMatrix, FormatError> {
+    fn matrix(&mut self, name: &'static str, columns: Option<usize>) -> Result<DenseMatrix, FormatError> {
         let read = self.npz.real(name)?;
         let fault = |fault: Fault| Err(fault.of(self.path).into());
         match (read.shape.as_slice(), columns) {
-            (&[rows, columns], None) if rows != columns || rows == 0 => {
-                fault(not_square(rows, columns))
-            }
+            (&[rows, columns], None) if rows != columns || rows == 0 => fault(not_square(rows, columns)),
             (&[rows, found], Some(columns)) if found != columns => {
                 fault(other_shape(name, [rows, columns], [rows, found]))
             }
@@ -80,11 +74,7 @@ impl Source<'_> {
         }
     }
 
-    fn optional(
-        &mut self,
-        name: &'static str,
-        columns: usize,
-    ) -> Result<Option<DenseMatrix>, FormatError> {
+    fn optional(&mut self, name: &'static str, columns: usize) -> Result<Option<DenseMatrix>, FormatError> {
         match self.npz.has(name) {
             true => Ok(Some(self.matrix(name, Some(columns))?)),
             false => Ok(None),
@@ -108,9 +98,7 @@ impl Source<'_> {
         match values[..] {
             [] => Ok(None),
             [value] if value > 0.0 && value.is_finite() => Ok(Some(value)),
-            _ => Err(self
-                .npz
-                .wrong(name, "one number above zero", format!("{values:?}"))),
+            _ => Err(self.npz.wrong(name, "one number above zero", format!("{values:?}"))),
         }
     }
 
@@ -159,8 +147,7 @@ impl Source<'_> {
         }
         let mut labels = Vec::with_capacity(count);
         for &[node, component] in dofs.values.as_chunks::<2>().0 {
-            let node =
-                u64::try_from(node).map_err(|_| self.npz.wrong(names.dofs, "nodes >= 0", node))?;
+            let node = u64::try_from(node).map_err(|_| self.npz.wrong(names.dofs, "nodes >= 0", node))?;
             let direction = DofDirection::of_component(component)
                 .ok_or_else(|| self.npz.wrong(names.dofs, "components 0 to 9", component))?;
             labels.push(DofLabel {
@@ -175,8 +162,7 @@ impl Source<'_> {
             for (label, name) in labels.iter_mut().zip(self.texts(names.bodies, count)?) {
                 label.body = DofBody::of_name(&name).ok_or_else(|| {
                     let expected = "\"housing\", \"ring\", \"interface\" or \"modal\"";
-                    self.npz
-                        .wrong(names.bodies, expected, format!("\"{name}\""))
+                    self.npz.wrong(names.bodies, expected, format!("\"{name}\""))
                 })?;
             }
         }
@@ -196,10 +182,7 @@ impl Source<'_> {
     }
 
     /// The way back to an interface of which the first `interface` coordinates are modes.
-    fn interface_recovery(
-        &mut self,
-        interface: usize,
-    ) -> Result<Option<InterfaceRecovery>, FormatError> {
+    fn interface_recovery(&mut self, interface: usize) -> Result<Option<InterfaceRecovery>, FormatError> {
         let Some(modes) = self.optional("interface_modes", interface)? else {
             return Ok(None);
         };
@@ -233,10 +216,7 @@ impl Source<'_> {
             true => self.texts("sensor_names", rows.nrows())?,
             false => (1..=rows.nrows()).map(|n| format!("sensor {n}")).collect(),
         };
-        let row = |(name, row): (String, usize)| SensorRow {
-            name,
-            row: rows.row(row).iter().copied().collect(),
-        };
+        let row = |(name, row): (String, usize)| SensorRow { name, row: rows.row(row).iter().copied().collect() };
         Ok(names.into_iter().zip(0..).map(row).collect())
     }
 
@@ -255,11 +235,7 @@ impl Source<'_> {
         let wrong = |tag: i64| self.npz.wrong(TAGS, "tags >= 0", tag);
         let tag = |&tag: &i64| u64::try_from(tag).map_err(|_| wrong(tag));
         let node_tags = tags.values.iter().map(tag).collect::<Result<_, _>>()?;
-        Ok(Some(FieldRecovery {
-            node_tags,
-            positions,
-            recovery,
-        }))
+        Ok(Some(FieldRecovery { node_tags, positions, recovery }))
     }
 }
 

@@ -44,12 +44,8 @@ fn a_superelement_comes_back_bit_by_bit() {
     assert_eq!(names, ["foot", "Lager 2, außen"]);
     assert_eq!(npz.f64("field_recovery").unwrap().shape, [6, 4]);
 
-    let bare = SuperelementRecord::of_matrices(
-        whole.stiffness.clone(),
-        whole.mass.clone(),
-        whole.interface.clone(),
-    )
-    .unwrap();
+    let bare =
+        SuperelementRecord::of_matrices(whole.stiffness.clone(), whole.mass.clone(), whole.interface.clone()).unwrap();
     write_superelement_npz(&path, &bare).unwrap();
     let found = read_superelement_npz(&path).unwrap();
     assert_eq!(found, bare);
@@ -65,22 +61,12 @@ fn labels_come_back() {
     let path = folder.path().join("superelement.npz");
     let known = record().interface[0];
     let interface = vec![
-        DofLabel {
-            body: DofBody::Ring,
-            node: 0,
-            direction: DofDirection::Polar(1),
-            ..known
-        },
-        DofLabel {
-            direction: DofDirection::About(2),
-            position: [f64::NAN; 3],
-            ..known
-        },
+        DofLabel { body: DofBody::Ring, node: 0, direction: DofDirection::Polar(1), ..known },
+        DofLabel { direction: DofDirection::About(2), position: [f64::NAN; 3], ..known },
         DofLabel::interface(2),
     ];
     let sample = record();
-    let record =
-        SuperelementRecord::of_matrices(sample.stiffness, sample.mass, interface.clone()).unwrap();
+    let record = SuperelementRecord::of_matrices(sample.stiffness, sample.mass, interface.clone()).unwrap();
     assert_eq!(record.modal_hz, [sample.modal_hz[1]]);
     let labels = record.labels();
     assert_eq!(labels.len(), 4);
@@ -142,23 +128,11 @@ fn what_does_not_fit_is_told_with_file_and_array() {
             &[("k", &[2, 3], &whole), ("m", &[2, 2], &M)],
             "array \"k\": expected a square matrix of at least one row, found 2 x 3",
         ),
+        (&[("k", &[4], &K), ("m", &[2, 2], &M)], "array \"k\": expected two dimensions, found shape [4]"),
+        (&[("k", &[2, 2], &K), ("m", &[1, 1], &M[..1])], "array \"m\": expected 1 x 2, found 1 x 1"),
+        (&[("k", &[2, 2], &K), ("m", &[3, 2], &whole)], "array \"m\": expected 2 x 2, found 3 x 2"),
         (
-            &[("k", &[4], &K), ("m", &[2, 2], &M)],
-            "array \"k\": expected two dimensions, found shape [4]",
-        ),
-        (
-            &[("k", &[2, 2], &K), ("m", &[1, 1], &M[..1])],
-            "array \"m\": expected 1 x 2, found 1 x 1",
-        ),
-        (
-            &[("k", &[2, 2], &K), ("m", &[3, 2], &whole)],
-            "array \"m\": expected 2 x 2, found 3 x 2",
-        ),
-        (
-            &[
-                ("k", &[2, 2], &[3.0, f64::NAN, 0.0, 1.0]),
-                ("m", &[2, 2], &M),
-            ],
+            &[("k", &[2, 2], &[3.0, f64::NAN, 0.0, 1.0]), ("m", &[2, 2], &M)],
             "array \"k\": expected finite numbers, found NaN at [0, 1]",
         ),
         (
@@ -167,19 +141,11 @@ fn what_does_not_fit_is_told_with_file_and_array() {
              0.000016",
         ),
         (
-            &[
-                ("k", &[2, 2], &K),
-                ("m", &[2, 2], &K[..]),
-                ("modal_hz", &[2], &[1.0, 2.0]),
-            ],
+            &[("k", &[2, 2], &K), ("m", &[2, 2], &K[..]), ("modal_hz", &[2], &[1.0, 2.0])],
             "array \"modal_hz\": expected 1 entries, found 2",
         ),
         (
-            &[
-                ("k", &[2, 2], &K),
-                ("m", &[2, 2], &M),
-                ("modal_hz", &[1], &[2.0]),
-            ],
+            &[("k", &[2, 2], &K), ("m", &[2, 2], &M), ("modal_hz", &[1], &[2.0])],
             "array \"modal_hz\": expected sqrt(k/m)/2pi = 0.3183098861837907 Hz at [0], found 2 (interface coordinates \
              come first, modes after them)",
         ),
@@ -188,25 +154,14 @@ fn what_does_not_fit_is_told_with_file_and_array() {
             "array \"m\": expected a mass > 0 of modal coordinate 1, found 0",
         ),
         (
-            &[
-                ("k", &[2, 2], &K),
-                ("m", &[2, 2], &M),
-                ("weight", &[2, 2], &K),
-            ],
+            &[("k", &[2, 2], &K), ("m", &[2, 2], &M), ("weight", &[2, 2], &K)],
             "array \"weight\": expected 2 x 3, found 2 x 2",
         ),
         (
-            &[
-                ("k", &[2, 2], &K),
-                ("m", &[2, 2], &M),
-                ("band_hz", &[1], &[-1.0]),
-            ],
+            &[("k", &[2, 2], &K), ("m", &[2, 2], &M), ("band_hz", &[1], &[-1.0])],
             "array \"band_hz\": expected one number above zero, found [-1.0]",
         ),
-        (
-            &[("k", &[2, 2], &K)],
-            "expected an array \"m\", found \"k\", \"n_interface\"",
-        ),
+        (&[("k", &[2, 2], &K)], "expected an array \"m\", found \"k\", \"n_interface\""),
     ];
     for (arrays, expected) in cases {
         archive(&path, arrays);
@@ -223,10 +178,7 @@ fn what_does_not_fit_is_told_with_file_and_array() {
         let error = read_superelement_npz(&path).unwrap_err().to_string();
         error[path.display().to_string().len() + 2..].to_owned()
     };
-    assert_eq!(
-        message(&|_| ()),
-        "expected an array \"interface_dofs\" or \"n_interface\", found \"k\", \"m\""
-    );
+    assert_eq!(message(&|_| ()), "expected an array \"interface_dofs\" or \"n_interface\", found \"k\", \"m\"");
     assert_eq!(
         message(&|npz| npz.array("n_interface", &[3_i64]).unwrap()),
         "array \"n_interface\": expected a number from 0 to that of the rows of \"k\", found 3"
@@ -296,10 +248,7 @@ fn a_record_that_contradicts_itself_is_not_written() {
             &|record| record.sensors[1].name = "foot".to_owned(),
             "array \"sensor_names\": expected each name once, found \"foot\" twice",
         ),
-        (
-            &|record| record.sensors[0].row.truncate(3),
-            "array \"sensors\": expected 2 x 4, found 2 x 3",
-        ),
+        (&|record| record.sensors[0].row.truncate(3), "array \"sensors\": expected 2 x 4, found 2 x 3"),
         (
             &|record| record.sensors[1].row[2] = f64::INFINITY,
             "array \"sensors\": expected finite numbers, found inf at [1, 2]",
@@ -332,10 +281,7 @@ fn a_record_that_contradicts_itself_is_not_written() {
 /// A superelement on modes of an interface of three coordinates.
 fn on_modes() -> SuperelementRecord {
     let whole = record();
-    let third = DofLabel {
-        direction: DofDirection::About(1),
-        ..whole.interface[0]
-    };
+    let third = DofLabel { direction: DofDirection::About(1), ..whole.interface[0] };
     SuperelementRecord {
         interface_recovery: Some(InterfaceRecovery {
             labels: [whole.interface.clone(), vec![third]].concat(),

@@ -35,11 +35,7 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
     let mut npz = NpzWriter::create(path)?;
     matrix(&mut npz, "k", &record.stiffness)?;
     matrix(&mut npz, "m", &record.mass)?;
-    for (name, values) in [
-        ("c", &record.damping),
-        ("structural", &record.structural),
-        ("weight", &record.weight),
-    ] {
+    for (name, values) in [("c", &record.damping), ("structural", &record.structural), ("weight", &record.weight)] {
         if let Some(values) = values {
             matrix(&mut npz, name, values)?;
         }
@@ -50,11 +46,9 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         labels(&mut npz, &recovery.labels, &RECOVERED)?;
     }
     npz.array("modal_hz", &record.modal_hz)?;
-    for (name, value) in [
-        ("band_hz", record.band_hz),
-        ("complete_hz", record.complete_hz),
-        ("outer_radius", record.outer_radius),
-    ] {
+    for (name, value) in
+        [("band_hz", record.band_hz), ("complete_hz", record.complete_hz), ("outer_radius", record.outer_radius)]
+    {
         if let Some(value) = value {
             npz.array(name, &[value])?;
         }
@@ -70,28 +64,16 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
     }
     if let Some(field) = &record.field {
         let tags = field.node_tags.iter().copied().map(npz_label);
-        npz.array(
-            "field_node_tags",
-            &tags.collect::<Result<Vec<i64>, Fault>>()?,
-        )?;
+        npz.array("field_node_tags", &tags.collect::<Result<Vec<i64>, Fault>>()?)?;
         let positions = &field.positions;
-        npz.matrix(
-            "field_positions",
-            positions.len(),
-            3,
-            positions.as_flattened(),
-        )?;
+        npz.matrix("field_positions", positions.len(), 3, positions.as_flattened())?;
         matrix(&mut npz, "field_recovery", &field.recovery)?;
     }
     npz.finish()
 }
 
 /// What coordinates are.
-fn labels(
-    npz: &mut NpzWriter,
-    labels: &[DofLabel],
-    names: &LabelArrays,
-) -> Result<(), FormatError> {
+fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Result<(), FormatError> {
     let mut dofs = Vec::with_capacity(labels.len());
     for dof in labels {
         dofs.push([npz_label(dof.node)?, dof.direction.component()]);

@@ -25,10 +25,7 @@ const BLOCK: f64 = 1e-8;
 /// # Errors
 /// [`FormatError::File`] for files that cannot be read and for matrices that are missing, [`FormatError::Data`] for matrices
 /// that contradict each other.
-pub fn read_superelement_op4(
-    path: &Path,
-    interface: &[usize],
-) -> Result<SuperelementRecord, FormatError> {
+pub fn read_superelement_op4(path: &Path, interface: &[usize]) -> Result<SuperelementRecord, FormatError> {
     let matrices = read_op4(path)?;
     let dense = |name: &str| {
         let mut matrices = matrices.iter();
@@ -86,18 +83,13 @@ fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
 ///
 /// # Errors
 /// [`FormatError::Data`] for one that contradicts itself, else as [`write_op4`].
-pub fn write_superelement_op4(
-    path: &Path,
-    record: &SuperelementRecord,
-    format: Op4Format,
-) -> Result<(), FormatError> {
+pub fn write_superelement_op4(path: &Path, record: &SuperelementRecord, format: Op4Format) -> Result<(), FormatError> {
     record.check()?;
     let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
     matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
     matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));
     let frequencies = [(BAND, record.band_hz), (COMPLETE, record.complete_hz)];
-    let frequencies =
-        frequencies.map(|(name, hz)| (name, hz.map(|hz| DenseMatrix::full(1, 1, hz))));
+    let frequencies = frequencies.map(|(name, hz)| (name, hz.map(|hz| DenseMatrix::full(1, 1, hz))));
     let said = frequencies.iter();
     matrices.extend(said.filter_map(|(name, hz)| Some((*name, hz.as_ref()?))));
     write_op4(path, &matrices, format)

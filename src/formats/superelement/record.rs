@@ -72,11 +72,7 @@ impl SuperelementRecord {
     ///
     /// # Errors
     /// As [`check`](Self::check).
-    pub fn of_matrices(
-        stiffness: DenseMatrix,
-        mass: DenseMatrix,
-        interface: Vec<DofLabel>,
-    ) -> Result<Self, Fault> {
+    pub fn of_matrices(stiffness: DenseMatrix, mass: DenseMatrix, interface: Vec<DofLabel>) -> Result<Self, Fault> {
         let mut record = Self {
             stiffness,
             mass,
@@ -100,9 +96,7 @@ impl SuperelementRecord {
     /// Both triangles of each matrix become their mean.
     pub(super) fn symmetrise(&mut self) {
         let others = [&mut self.damping, &mut self.structural];
-        let matrices = [&mut self.stiffness, &mut self.mass]
-            .into_iter()
-            .chain(others.into_iter().flatten());
+        let matrices = [&mut self.stiffness, &mut self.mass].into_iter().chain(others.into_iter().flatten());
         for matrix in matrices {
             for row in 0..matrix.nrows() {
                 for column in 0..row {

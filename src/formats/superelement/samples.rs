@@ -19,18 +19,8 @@ pub(crate) fn record() -> SuperelementRecord {
         position: [0.1, 0.2, 1.0 / 3.0],
         axis: [0, 1, 2].map(|own| if own == axis { 1.0 } else { 0.0 }),
     };
-    let stiffness = dense(&[
-        [3e8, -1e7, 0.0, 0.0],
-        [-1e7, 2e8, 0.0, 0.0],
-        [0.0, 0.0, 4e6, 0.0],
-        [0.0, 0.0, 0.0, 9e6],
-    ]);
-    let mass = dense(&[
-        [1.5, 0.25, 0.3, -0.1],
-        [0.25, 1.25, 0.2, 0.4],
-        [0.3, 0.2, 1.0, 0.0],
-        [-0.1, 0.4, 0.0, 1.0],
-    ]);
+    let stiffness = dense(&[[3e8, -1e7, 0.0, 0.0], [-1e7, 2e8, 0.0, 0.0], [0.0, 0.0, 4e6, 0.0], [0.0, 0.0, 0.0, 9e6]]);
+    let mass = dense(&[[1.5, 0.25, 0.3, -0.1], [0.25, 1.25, 0.2, 0.4], [0.3, 0.2, 1.0, 0.0], [-0.1, 0.4, 0.0, 1.0]]);
     SuperelementRecord {
         damping: Some(DenseMatrix::from_fn(4, 4, |i, j| 1e-5 * stiffness[(i, j)])),
         structural: Some(DenseMatrix::from_fn(4, 4, |i, j| 2e-2 * stiffness[(i, j)])),
@@ -42,21 +32,10 @@ pub(crate) fn record() -> SuperelementRecord {
         band_hz: Some(250.0),
         complete_hz: Some(310.0),
         outer_radius: Some(0.031),
-        weight: Some(dense(&[
-            [1.5, 0.0, 0.25],
-            [0.25, 0.0, 1.25],
-            [0.3, 0.5, 0.2],
-            [-0.1, 0.1, 0.4],
-        ])),
+        weight: Some(dense(&[[1.5, 0.0, 0.25], [0.25, 0.0, 1.25], [0.3, 0.5, 0.2], [-0.1, 0.1, 0.4]])),
         sensors: vec![
-            SensorRow {
-                name: "foot".to_owned(),
-                row: vec![0.0, 0.5, 0.25, -0.125],
-            },
-            SensorRow {
-                name: "Lager 2, außen".to_owned(),
-                row: vec![1.0, 0.0, 0.0, 1.0 / 3.0],
-            },
+            SensorRow { name: "foot".to_owned(), row: vec![0.0, 0.5, 0.25, -0.125] },
+            SensorRow { name: "Lager 2, außen".to_owned(), row: vec![1.0, 0.0, 0.0, 1.0 / 3.0] },
         ],
         field: Some(FieldRecovery {
             node_tags: vec![7, 120_000],

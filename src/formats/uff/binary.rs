@@ -37,12 +37,7 @@ pub(super) fn read_binary<'a>(cursor: &mut Cursor<'a>, head: &Line) -> Result<Bi
     let ends = sizes.iter().find(|&&bytes| cursor.delimiter_after(bytes));
     let bytes = cursor.take(ends.copied().unwrap_or(bytes));
     cursor.skip()?;
-    Ok(Binary {
-        lines,
-        bytes,
-        little_endian: number(1) != Some(2),
-        ieee: number(2) == Some(2),
-    })
+    Ok(Binary { lines, bytes, little_endian: number(1) != Some(2), ieee: number(2) == Some(2) })
 }
 
 impl Binary<'_> {

@@ -24,11 +24,7 @@ impl Line {
     pub(super) fn integers(&self, expected: &'static str) -> Result<Vec<i64>, Fault> {
         const WIDTH: usize = 10;
         let words: Vec<&str> = self.text.split_ascii_whitespace().collect();
-        let words = if words.iter().any(|word| word.len() > WIDTH) {
-            columns(&self.text, WIDTH)
-        } else {
-            words
-        };
+        let words = if words.iter().any(|word| word.len() > WIDTH) { columns(&self.text, WIDTH) } else { words };
         let numbers: Option<Vec<i64>> = words.iter().map(|word| word.parse().ok()).collect();
         numbers.ok_or_else(|| self.fault(expected))
     }
@@ -50,10 +46,7 @@ pub(super) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self {
-            rest: bytes,
-            line: 0,
-        }
+        Self { rest: bytes, line: 0 }
     }
 
     /// The next line, if there is one.
@@ -68,17 +61,13 @@ impl<'a> Cursor<'a> {
         };
         self.rest = rest;
         self.line += 1;
-        Some(Line {
-            number: self.line,
-            text: String::from_utf8_lossy(line).into_owned(),
-        })
+        Some(Line { number: self.line, text: String::from_utf8_lossy(line).into_owned() })
     }
 
     /// The next line, or what was expected there.
     pub(super) fn expect(&mut self, expected: &'static str) -> Result<Line, Fault> {
         let line = self.line + 1;
-        self.next()
-            .ok_or_else(|| Fault::new(expected, "the end of the file").line(line))
+        self.next().ok_or_else(|| Fault::new(expected, "the end of the file").line(line))
     }
 
     /// The next line that is not blank, or what was expected there.
@@ -92,12 +81,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Real numbers from one or more lines, `count` of them; what follows them in the last line is left out.
-    pub(super) fn reals(
-        &mut self,
-        count: usize,
-        width: usize,
-        expected: &'static str,
-    ) -> Result<Vec<f64>, Fault> {
+    pub(super) fn reals(&mut self, count: usize, width: usize, expected: &'static str) -> Result<Vec<f64>, Fault> {
         let mut numbers = Vec::new();
         while numbers.len() < count {
             let line = self.expect_text(expected)?;

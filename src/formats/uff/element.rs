@@ -25,12 +25,7 @@ pub(super) fn descriptor(kind: ElementKind) -> Option<Descriptor> {
         ElementKind::Wedge6 => (112, &SAME[..6]),
         ElementKind::Wedge15 => (113, &[0, 6, 1, 9, 2, 7, 8, 10, 11, 3, 12, 4, 14, 5, 13]),
         ElementKind::Hex8 => (115, &SAME),
-        ElementKind::Hex20 => (
-            116,
-            &[
-                0, 8, 1, 11, 2, 13, 3, 9, 10, 12, 14, 15, 4, 16, 5, 18, 6, 19, 7, 17,
-            ],
-        ),
+        ElementKind::Hex20 => (116, &[0, 8, 1, 11, 2, 13, 3, 9, 10, 12, 14, 15, 4, 16, 5, 18, 6, 19, 7, 17]),
         ElementKind::Tet10 => (118, &[0, 4, 1, 5, 2, 6, 7, 9, 8, 3]),
     };
     Some(Descriptor { id, order })
@@ -45,8 +40,7 @@ mod tests {
     fn ring(first: usize, corners: usize) -> Vec<[usize; 3]> {
         let places = 2 * corners;
         let odd = (0..corners).map(|k| 2 * k + 1);
-        odd.map(|k| [first + k, first + k - 1, first + (k + 1) % places])
-            .collect()
+        odd.map(|k| [first + k, first + k - 1, first + (k + 1) % places]).collect()
     }
 
     #[allow(clippy::float_cmp)] // halves of small integers are exact
@@ -63,21 +57,9 @@ mod tests {
         let kinds = [
             (ElementKind::Tri6, ContinuumKind::Tri6, ring(0, 3)),
             (ElementKind::Quad8, ContinuumKind::Quad8, ring(0, 4)),
-            (
-                ElementKind::Tet10,
-                ContinuumKind::Tet10,
-                [ring(0, 3), tet10].concat(),
-            ),
-            (
-                ElementKind::Hex20,
-                ContinuumKind::Hex20,
-                [ring(0, 4), between(8, 4), ring(12, 4)].concat(),
-            ),
-            (
-                ElementKind::Wedge15,
-                ContinuumKind::Wedge15,
-                [ring(0, 3), between(6, 3), ring(9, 3)].concat(),
-            ),
+            (ElementKind::Tet10, ContinuumKind::Tet10, [ring(0, 3), tet10].concat()),
+            (ElementKind::Hex20, ContinuumKind::Hex20, [ring(0, 4), between(8, 4), ring(12, 4)].concat()),
+            (ElementKind::Wedge15, ContinuumKind::Wedge15, [ring(0, 3), between(6, 3), ring(9, 3)].concat()),
         ];
         for (kind, continuum, middles) in kinds {
             let order = descriptor(kind).unwrap().order;
@@ -98,19 +80,11 @@ mod tests {
     #[test]
     fn order_is_that_of_gmsh() {
         let cases: [(ElementKind, &[u64], &[u64]); 3] = [
-            (
-                ElementKind::Tet10,
-                &[1, 9, 18, 81, 10, 46, 20, 87, 83, 100],
-                &[1, 10, 9, 46, 18, 20, 87, 100, 83, 81],
-            ),
+            (ElementKind::Tet10, &[1, 9, 18, 81, 10, 46, 20, 87, 83, 100], &[1, 10, 9, 46, 18, 20, 87, 100, 83, 81]),
             (
                 ElementKind::Hex20,
-                &[
-                    1, 9, 45, 18, 33, 50, 75, 65, 10, 20, 34, 46, 51, 47, 76, 66, 52, 69, 77, 78,
-                ],
-                &[
-                    1, 10, 9, 46, 45, 47, 18, 20, 34, 51, 76, 66, 33, 52, 50, 77, 75, 78, 65, 69,
-                ],
+                &[1, 9, 45, 18, 33, 50, 75, 65, 10, 20, 34, 46, 51, 47, 76, 66, 52, 69, 77, 78],
+                &[1, 10, 9, 46, 45, 47, 18, 20, 34, 51, 76, 66, 33, 52, 50, 77, 75, 78, 65, 69],
             ),
             (
                 ElementKind::Wedge15,

@@ -16,18 +16,11 @@ pub(super) struct Units {
 
 impl Units {
     /// Of a file that says nothing.
-    pub(super) const SI: Self = Self {
-        per_metre: 1.0,
-        per_newton: 1.0,
-    };
+    pub(super) const SI: Self = Self { per_metre: 1.0, per_newton: 1.0 };
 }
 
 /// Reads the units of a dataset 164, goes past others.
-pub(super) fn other_dataset(
-    cursor: &mut Cursor,
-    head: &Line,
-    units: &mut Units,
-) -> Result<(), Fault> {
+pub(super) fn other_dataset(cursor: &mut Cursor, head: &Line, units: &mut Units) -> Result<(), Fault> {
     match head.text.split_ascii_whitespace().next() {
         Some("164") => *units = read_units(cursor)?,
         Some(number) if number.parse::<u32>().is_ok() => cursor.skip()?,
@@ -43,10 +36,7 @@ fn read_units(cursor: &mut Cursor) -> Result<Units, Fault> {
     match *line.reals(25, FACTORS)?.as_slice() {
         [per_metre, per_newton, ..] if per_metre > 0.0 && per_newton > 0.0 => {
             cursor.skip()?;
-            Ok(Units {
-                per_metre,
-                per_newton,
-            })
+            Ok(Units { per_metre, per_newton })
         }
         _ => Err(line.fault(FACTORS)),
     }
@@ -78,9 +68,7 @@ pub(super) struct FunctionHead {
 
 impl FunctionHead {
     /// Reads the head from where `next` gives line by line what is expected.
-    pub(super) fn read(
-        mut next: impl FnMut(&'static str) -> Result<Line, Fault>,
-    ) -> Result<Self, Fault> {
+    pub(super) fn read(mut next: impl FnMut(&'static str) -> Result<Line, Fault>) -> Result<Self, Fault> {
         const LINES: &str = "five identification lines";
         let mut names = Vec::new();
         for _ in 0..5 {
@@ -103,13 +91,7 @@ impl FunctionHead {
             let kind: Option<i64> = kind.and_then(|word| word.parse().ok());
             axes.push((kind.ok_or_else(|| line.fault(AXIS))?, line));
         }
-        Ok(Self {
-            names,
-            own,
-            data,
-            form,
-            axes,
-        })
+        Ok(Self { names, own, data, form, axes })
     }
 
     /// What is wrong with record 7.
@@ -123,7 +105,8 @@ pub(super) fn axis_unit(line: &Line) -> &str {
     line.text.get(47..).unwrap_or_default().trim()
 }
 
-const POINTS: &str = "function, its number, version, load case, then name, node and direction of response and reference";
+const POINTS: &str =
+    "function, its number, version, load case, then name, node and direction of response and reference";
 
 /// Record 6, in its columns, else as words.
 fn identification(line: &Line) -> Result<Identification, Fault> {
@@ -141,19 +124,7 @@ fn identification(line: &Line) -> Result<Identification, Fault> {
 }
 
 fn point_fields(fields: &[&str]) -> Option<Identification> {
-    let &[
-        function,
-        _,
-        _,
-        _,
-        to,
-        to_node,
-        to_axis,
-        from,
-        from_node,
-        from_axis,
-    ] = fields
-    else {
+    let &[function, _, _, _, to, to_node, to_axis, from, from_node, from_axis] = fields else {
         return None;
     };
     let (to_axis, from_axis) = (to_axis.parse().ok()?, from_axis.parse().ok()?);
@@ -215,12 +186,7 @@ impl Form {
             "1" => Some((real(first)?, real(step)?)),
             _ => return None,
         };
-        Some(Self {
-            complex,
-            single,
-            count: count.parse().ok()?,
-            even,
-        })
+        Some(Self { complex, single, count: count.parse().ok()?, even })
     }
 
     /// Frequencies and complex values, and the line that ends the dataset. They are taken as they come, whatever the file

@@ -26,8 +26,7 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
         }
     }
     let line = cursor.expect_text(DEFINITION)?;
-    let &[_, analysis, characteristic, _, data, values, ..] = line.integers(DEFINITION)?.as_slice()
-    else {
+    let &[_, analysis, characteristic, _, data, values, ..] = line.integers(DEFINITION)?.as_slice() else {
         return Err(line.fault(DEFINITION));
     };
     let moves = matches!(characteristic, 2 | 3) || (characteristic == 0 && matches!(values, 3 | 6));
@@ -63,11 +62,7 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
         let numbers = cursor.reals(needed, width, "values at a node")?;
         let step = if complex { 2 } else { 1 };
         let value = |axis: usize| {
-            let imaginary = if complex {
-                numbers[axis * step + 1]
-            } else {
-                0.0
-            };
+            let imaginary = if complex { numbers[axis * step + 1] } else { 0.0 };
             [numbers[axis * step], imaginary]
         };
         tags.push(tag);
@@ -81,10 +76,7 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
         _ => return Err(line.fault("a mode with its frequency or eigenvalue")),
     };
     let shape = real_part(&shape);
-    Ok(Some(Mode {
-        frequency_hz,
-        displacements: tags.into_iter().zip(shape).collect(),
-    }))
+    Ok(Some(Mode { frequency_hz, displacements: tags.into_iter().zip(shape).collect() }))
 }
 
 /// Records 7 and 8: how many whole and real numbers, the whole ones, the real ones. Returns the real ones.
@@ -106,11 +98,7 @@ fn specific(cursor: &mut Cursor) -> Result<Vec<f64>, Fault> {
         }
         missing -= line.integers("the mode's whole numbers")?.len() as i64;
     }
-    cursor.reals(
-        real as usize,
-        13,
-        "the mode's real numbers, its frequency among them",
-    )
+    cursor.reals(real as usize, 13, "the mode's real numbers, its frequency among them")
 }
 
 /// Real part of a complex shape turned by the angle that makes its imaginary part least.

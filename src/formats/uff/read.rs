@@ -45,8 +45,7 @@ pub fn read_modes_uff(path: &Path) -> Result<ModeShapes, FormatError> {
 pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, FormatError> {
     let content = read(bytes).map_err(|fault| fault.of(path))?;
     if content.modes.is_empty() {
-        let expected =
-            "mode shapes (dataset 55 of analysis type 2, 3 or 7 with displacements in space)";
+        let expected = "mode shapes (dataset 55 of analysis type 2, 3 or 7 with displacements in space)";
         return Err(Fault::new(expected, "none").of(path).into());
     }
     let modes = content.mode_shapes();
@@ -63,14 +62,10 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
             content.dataset(&mut cursor)?;
         }
     }
-    let mentioned: HashSet<u64> = content
-        .modes
-        .iter()
-        .flat_map(|mode| mode.displacements.iter().map(|&(tag, _)| tag))
-        .collect();
+    let mentioned: HashSet<u64> =
+        content.modes.iter().flat_map(|mode| mode.displacements.iter().map(|&(tag, _)| tag)).collect();
     let mut own_axes = content.own_axes.iter();
-    let own = own_axes
-        .find(|(tag, system, _)| content.turned.contains(system) && mentioned.contains(tag));
+    let own = own_axes.find(|(tag, system, _)| content.turned.contains(system) && mentioned.contains(tag));
     match own {
         Some(&(tag, system, line)) => {
             let found = format!("node {tag} in the turned coordinate system {system}");
@@ -168,16 +163,11 @@ impl Content {
             let columns = line.text.split_at_checked(40);
             let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
             let (numbers, point) = match (words.as_slice(), columns) {
-                ([_, _, _, _, ..], _) if words.len() == 7 => {
-                    (words[..4].join(" "), words[4..].join(" "))
-                }
+                ([_, _, _, _, ..], _) if words.len() == 7 => (words[..4].join(" "), words[4..].join(" ")),
                 (_, Some((numbers, point))) => (numbers.to_owned(), point.to_owned()),
                 _ => return Err(line.fault(NODE)),
             };
-            let part = |text: String| Line {
-                number: line.number,
-                text,
-            };
+            let part = |text: String| Line { number: line.number, text };
             let numbers = part(numbers).integers(NODE)?;
             let point = part(point).reals(13, NODE)?;
             let [x, y, z] = point[..] else {
@@ -212,10 +202,7 @@ impl Content {
             }
             // Axes written with few digits are still the global ones.
             let unit = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-            let same = matrix
-                .iter()
-                .zip(unit)
-                .all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-5);
+            let same = matrix.iter().zip(unit).all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-5);
             if kind != 0 || !same {
                 self.turned.insert(label);
             }

@@ -28,13 +28,11 @@ pub fn read_responses_uff(path: &Path) -> Result<Vec<FrequencyResponse>, FormatE
 ///
 /// # Errors
 /// As [`read_responses_uff`].
-pub fn responses_from_bytes(
-    bytes: &[u8],
-    path: &Path,
-) -> Result<Vec<FrequencyResponse>, FormatError> {
+pub fn responses_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<FrequencyResponse>, FormatError> {
     let mut responses = read(bytes).map_err(|fault| fault.of(path))?;
     if responses.list.is_empty() {
-        let expected = "frequency responses (dataset 58, function type 4, of displacement, velocity or acceleration by force)";
+        let expected =
+            "frequency responses (dataset 58, function type 4, of displacement, velocity or acceleration by force)";
         return Err(Fault::new(expected, "none").of(path).into());
     }
     let scale = responses.units.per_newton / responses.units.per_metre;
@@ -55,10 +53,7 @@ struct Content {
 
 fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let mut cursor = Cursor::new(bytes);
-    let mut content = Content {
-        list: Vec::new(),
-        units: Units::SI,
-    };
+    let mut content = Content { list: Vec::new(), units: Units::SI };
     while let Some(head) = cursor.next_dataset() {
         match head.text.split_ascii_whitespace().next() {
             Some("58") => content.list.extend(response(&mut cursor)?),
@@ -89,9 +84,7 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     const FUNCTION: i64 = 4;
     let kind = ResponseKind::of_numerator(*numerator);
     let force = matches!(denominator, 9 | 13);
-    let (Some(kind), 18, true, FUNCTION, true) =
-        (kind, *abscissa, force, head.own.function, head.own.moves)
-    else {
+    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, head.own.function, head.own.moves) else {
         cursor.skip()?;
         return Ok(None);
     };
@@ -110,12 +103,5 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     name_of(&head.names[3], REFERENCE, &mut own.from);
     name_of(&head.names[4], RESPONSE, &mut own.to);
     let (frequency_hz, value) = head.form.values(cursor)?;
-    Ok(Some(FrequencyResponse {
-        name: named(&head.names[0]),
-        frequency_hz,
-        value,
-        kind,
-        from: own.from,
-        to: own.to,
-    }))
+    Ok(Some(FrequencyResponse { name: named(&head.names[0]), frequency_hz, value, kind, from: own.from, to: own.to }))
 }

@@ -146,11 +146,7 @@ fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<(Quantity, TimeRes
 }
 
 /// The signal of these numbers; `end` is the line to name where they are too few or too many.
-fn signal(
-    head: &FunctionHead,
-    numbers: Vec<f64>,
-    end: &Line,
-) -> Result<(Quantity, TimeResponse), Fault> {
+fn signal(head: &FunctionHead, numbers: Vec<f64>, end: &Line) -> Result<(Quantity, TimeResponse), Fault> {
     if head.form.complex {
         return Err(head.data_fault("real values of a signal over time"));
     }
@@ -167,11 +163,7 @@ fn signal(
             (TimeAxis::Uneven(times), values)
         }
     };
-    let unit = head
-        .axes
-        .get(1)
-        .map_or("", |(_, line)| axis_unit(line))
-        .to_owned();
+    let unit = head.axes.get(1).map_or("", |(_, line)| axis_unit(line)).to_owned();
     let in_g = unit.eq_ignore_ascii_case("g");
     let (quantity, unit) = match head.axes.get(1).map(|(kind, _)| kind) {
         Some(12) if in_g => (Quantity::Other, "g".to_owned()),
@@ -181,24 +173,12 @@ fn signal(
         Some(9 | 13) => (Quantity::Force, "N".to_owned()),
         _ => (Quantity::Other, named(&unit)),
     };
-    Ok((
-        quantity,
-        TimeResponse {
-            name: name(head),
-            unit,
-            axis,
-            values,
-        },
-    ))
+    Ok((quantity, TimeResponse { name: name(head), unit, axis, values }))
 }
 
 fn name(head: &FunctionHead) -> String {
     let point = &head.own.to;
-    let own = head
-        .names
-        .first()
-        .map(|line| named(line))
-        .unwrap_or_default();
+    let own = head.names.first().map(|line| named(line)).unwrap_or_default();
     match (own.is_empty(), point.name.is_empty()) {
         (false, _) => own,
         (true, false) => point.name.clone(),

@@ -71,8 +71,7 @@ impl ResponseKind {
 
     pub(super) fn of_numerator(number: i64) -> Option<Self> {
         let all = [Self::Receptance, Self::Mobility, Self::Accelerance];
-        all.into_iter()
-            .find(|kind| i64::from(kind.numerator().1) == number)
+        all.into_iter().find(|kind| i64::from(kind.numerator().1) == number)
     }
 }
 
@@ -82,8 +81,7 @@ impl ResponsePoint {
         let Some(direction) = self.direction else {
             return 0;
         };
-        let along =
-            |axis: usize| (0..3).all(|own| own == axis || direction[own].abs() < AXIS_LIMIT);
+        let along = |axis: usize| (0..3).all(|own| own == axis || direction[own].abs() < AXIS_LIMIT);
         match (0..3).find(|&axis| along(axis)) {
             Some(axis) if direction[axis] > 0.0 => axis as i64 + 1,
             Some(axis) => -(axis as i64 + 1),

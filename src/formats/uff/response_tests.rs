@@ -11,17 +11,11 @@ use super::*;
 type Change<'a> = &'a dyn Fn(&mut FrequencyResponse);
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data/uff")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/uff").join(name)
 }
 
 fn point(name: &str, node: Option<u64>, direction: Option<[f64; 3]>) -> ResponsePoint {
-    ResponsePoint {
-        name: name.to_owned(),
-        node,
-        direction,
-    }
+    ResponsePoint { name: name.to_owned(), node, direction }
 }
 
 /// An oscillator of 10 Hz and 1 kg, 1 % of critical damping: accelerance.
@@ -46,18 +40,12 @@ fn assert_close(found: &FrequencyResponse, expected: &FrequencyResponse) {
     assert_eq!(found.value.len(), expected.value.len());
     for (found, expected) in found.value.iter().zip(&expected.value) {
         for (found, expected) in found.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() <= 5e-13 * expected.abs(),
-                "{found} {expected}"
-            );
+            assert!((found - expected).abs() <= 5e-13 * expected.abs(), "{found} {expected}");
         }
     }
     for (found, expected) in found.frequency_hz.iter().zip(&expected.frequency_hz) {
         // six digits
-        assert!(
-            (found - expected).abs() <= 5e-6 * expected,
-            "{found} {expected}"
-        );
+        assert!((found - expected).abs() <= 5e-6 * expected, "{found} {expected}");
     }
     let bare = |response: &FrequencyResponse| FrequencyResponse {
         frequency_hz: Vec::new(),
@@ -71,15 +59,9 @@ fn assert_close(found: &FrequencyResponse, expected: &FrequencyResponse) {
 fn what_six_digits_do_not_tell_apart_is_left_out() {
     let close = vec![1.0, 39_053.516_2, 39_053.516_3, 39_053.7, 39_054.0];
     let thinned = oscillator(close.clone()).told_apart();
-    assert_eq!(
-        thinned.frequency_hz,
-        [1.0, 39_053.516_2, 39_053.7, 39_054.0]
-    );
+    assert_eq!(thinned.frequency_hz, [1.0, 39_053.516_2, 39_053.7, 39_054.0]);
     let all = oscillator(close);
-    assert_eq!(
-        thinned.value[1..],
-        [all.value[1], all.value[3], all.value[4]]
-    );
+    assert_eq!(thinned.value[1..], [all.value[1], all.value[3], all.value[4]]);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("close.uff");
     write_responses_uff(&path, "", &[thinned]).unwrap();
@@ -100,10 +82,7 @@ fn responses_come_back() {
         to: point("NONE", None, None),
         ..oscillator(vec![0.0, 1.0, 3.0, 1.0 / 0.3, 5e4])
     };
-    let one = FrequencyResponse {
-        kind: ResponseKind::Receptance,
-        ..oscillator(vec![50.0])
-    };
+    let one = FrequencyResponse { kind: ResponseKind::Receptance, ..oscillator(vec![50.0]) };
     write_responses_uff(&path, "test", &[even.clone(), uneven.clone(), one.clone()]).unwrap();
     let found = read_responses_uff(&path).unwrap();
     assert_close(&found[0], &even);
@@ -117,11 +96,7 @@ fn responses_come_back() {
     assert_eq!(found.len(), 3);
     // no file of mode shapes, and no trouble for their reader
     let error = read_modes_uff(&path).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains(": expected mode shapes (dataset 55")
-    );
+    assert!(error.to_string().contains(": expected mode shapes (dataset 55"));
 }
 
 #[test]
@@ -187,10 +162,7 @@ fn files_of_pyuff_are_read() {
     let check = |found: &FrequencyResponse, expected: &FrequencyResponse, digits: f64| {
         for (found, expected) in found.value.iter().zip(&expected.value) {
             for (found, expected) in found.iter().zip(expected) {
-                assert!(
-                    (found - expected).abs() <= digits * expected.abs(),
-                    "{found} {expected}"
-                );
+                assert!((found - expected).abs() <= digits * expected.abs(), "{found} {expected}");
             }
         }
         let without = |response: &FrequencyResponse| FrequencyResponse {
@@ -210,17 +182,11 @@ fn files_of_pyuff_are_read() {
     let own = expected(kind, &uneven, foot.clone());
     check(receptance, &own, 5e-12);
     let nowhere = point("", None, None);
-    check(
-        mobility,
-        &expected(ResponseKind::Mobility, &even, nowhere),
-        5e-6,
-    );
+    check(mobility, &expected(ResponseKind::Mobility, &even, nowhere), 5e-6);
     // mm/N become m/N
     let found = read_responses_uff(&data("millimetre.uff")).unwrap();
     check(&found[0], &own, 5e-12);
-    let error = read_responses_uff(&data("binary.uff"))
-        .unwrap_err()
-        .to_string();
+    let error = read_responses_uff(&data("binary.uff")).unwrap_err().to_string();
     let expected = ":2: expected frequency responses as text (dataset 58), found \"58b";
     assert!(error.contains(expected), "{error}");
 }
@@ -279,19 +245,14 @@ fn errors_fire_with_their_exact_messages() {
             "-5.00000e-01",
             "frequency response 0: expected ascending frequencies >= 0 Hz, found 2 at [1]",
         ),
-        (
-            "    58 ",
-            "    5x ",
-            "f.uff:2: expected the number of a dataset, found \"5x\"",
-        ),
+        ("    58 ", "    5x ", "f.uff:2: expected the number of a dataset, found \"5x\""),
     ];
     for (from, to, expected) in cases {
         assert_eq!(message(from, to), expected);
     }
     // rotations and other functions are passed over
-    let other = whole
-        .replace("  17  -3 ", "  17   4 ")
-        .replace("         0   0      SHAFT", "         0   6      SHAFT");
+    let other =
+        whole.replace("  17  -3 ", "  17   4 ").replace("         0   0      SHAFT", "         0   6      SHAFT");
     let error = responses_from_bytes(other.as_bytes(), Path::new("f.uff")).unwrap_err();
     assert_eq!(
         error.to_string(),
@@ -329,10 +290,7 @@ fn errors_fire_with_their_exact_messages() {
             &|own| own.from.direction = Some([1.0, 1.0, 0.0]),
             "frequency response 0: expected a unit vector as direction of \"centre of the bearing\", found [1.0, 1.0, 0.0]",
         ),
-        (
-            &|own| own.to.node = Some(10_000_000_000),
-            "expected labels of at most 10 digits, found 10000000000",
-        ),
+        (&|own| own.to.node = Some(10_000_000_000), "expected labels of at most 10 digits, found 10000000000"),
     ];
     for (change, expected) in cases {
         assert_eq!(message(change), expected);

@@ -13,11 +13,7 @@ use crate::numerics::units::LengthUnit;
 
 fn close(found: &[f64], expected: &[f64], relative: f64) -> bool {
     let largest = expected.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    found.len() == expected.len()
-        && found
-            .iter()
-            .zip(expected)
-            .all(|(a, b)| (a - b).abs() <= relative * largest)
+    found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= relative * largest)
 }
 
 #[test]
@@ -55,19 +51,12 @@ fn a_mesh_with_modes_is_written_in_the_format_s_columns() {
     };
     write_uff(&path, "cube", &mesh, ids.clone(), &modes).unwrap();
     let text = fs::read_to_string(&path).unwrap();
-    let begins: Vec<&str> = text
-        .split("    -1\n")
-        .filter_map(|part| part.lines().next())
-        .map(str::trim)
-        .collect();
+    let begins: Vec<&str> = text.split("    -1\n").filter_map(|part| part.lines().next()).map(str::trim).collect();
     assert_eq!(begins, ["151", "164", "2411", "2412", "55"]);
     let elements = text.split("  2412\n").nth(1).unwrap();
     let lines: Vec<&str> = elements.lines().take(4).collect();
     let tag = mesh.blocks[block].tags[0];
-    assert_eq!(
-        lines[0],
-        format!("{tag:>10}       116         1         1         7        20")
-    );
+    assert_eq!(lines[0], format!("{tag:>10}       116         1         1         7        20"));
     // gmsh's own UNV export of this element
     assert_eq!(
         lines[1..],
@@ -81,18 +70,12 @@ fn a_mesh_with_modes_is_written_in_the_format_s_columns() {
     let points = found.points.unwrap();
     assert_eq!(points, mesh.nodes[..2]);
 
-    let strange = ModeShapes {
-        node_tags: Some(vec![1, 999_999]),
-        ..modes.clone()
-    };
+    let strange = ModeShapes { node_tags: Some(vec![1, 999_999]), ..modes.clone() };
     let message = |ids: Vec<ElementId>, modes: &ModeShapes| {
         let error = write_uff(&path, "cube", &mesh, ids, modes).unwrap_err();
         error.to_string()
     };
-    assert_eq!(
-        message(ids.clone(), &strange),
-        "expected mode shapes at nodes of the elements, found node 999999"
-    );
+    assert_eq!(message(ids.clone(), &strange), "expected mode shapes at nodes of the elements, found node 999999");
     let line = mesh.blocks.iter().position(|b| b.kind.dimension() < 2);
     if let Some(block) = line {
         assert!(
@@ -100,15 +83,9 @@ fn a_mesh_with_modes_is_written_in_the_format_s_columns() {
                 .starts_with("expected surface and solid elements, found a ")
         );
     }
-    let far = ModeShapes {
-        node_tags: Some(vec![1, 10_000_000_000]),
-        ..modes
-    };
+    let far = ModeShapes { node_tags: Some(vec![1, 10_000_000_000]), ..modes };
     let error = write_modes_uff(&path, "", &far).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "expected labels of at most 10 digits, found 10000000000"
-    );
+    assert_eq!(error, "expected labels of at most 10 digits, found 10000000000");
 }
 
 /// As a measuring program may write it: millimetres, dataset 15, an unknown dataset, a binary one, complex modes at
@@ -136,11 +113,7 @@ fn measured() -> Vec<u8> {
         let [x, y, z] = u.map(|u| format!("{:e} {:e}", u * c, u * s).replace('e', "D"));
         format!("{x} {y} {z}\n\n{nine}")
     };
-    let values = format!(
-        "         1\n{}\n         2\n{}",
-        point([1.0, 2.0, 3.0]),
-        point([-2.0, 0.0, 1.0])
-    );
+    let values = format!("         1\n{}\n         2\n{}", point([1.0, 2.0, 3.0]), point([-2.0, 0.0, 1.0]));
     text.extend(mode(&values, 3, "-3.00000E+00  4.00000E+00 0. 0. 0. 0.").into_bytes());
     text.extend(mode(&values, 3, "-3.00000E+00 -4.00000E+00 0. 0. 0. 0.").into_bytes());
     text.extend(mode(&values, 1, "0. 0. 0. 0. 0. 0.").into_bytes());
@@ -151,19 +124,12 @@ fn measured() -> Vec<u8> {
 fn measured_modes_are_turned_to_real_ones() {
     let found = modes_from_bytes(&measured(), Path::new("m.uff")).unwrap();
     assert_eq!(found.node_tags, Some(vec![1, 2]));
-    assert_eq!(
-        found.points,
-        Some(vec![[0.01, 0.02, 0.0], [0.03, 0.0, -0.001]])
-    );
+    assert_eq!(found.points, Some(vec![[0.01, 0.02, 0.0], [0.03, 0.0, -0.001]]));
     // |(-3, 4)| = 5; rounding of the division alone
     let expected = [5.0 / std::f64::consts::TAU];
     assert!(close(&found.frequencies_hz, &expected, 1e-15));
     // sums of a few products, each rounded
-    assert!(close(
-        &found.shapes[0],
-        &[1.0, 2.0, 3.0, -2.0, 0.0, 1.0],
-        1e-14
-    ));
+    assert!(close(&found.shapes[0], &[1.0, 2.0, 3.0, -2.0, 0.0, 1.0], 1e-14));
 }
 
 /// One real mode; `{}` are its data lines.
@@ -183,9 +149,7 @@ fn a_node_that_a_mode_leaves_out_stands_still() {
 #[test]
 fn turned_axes_are_refused_and_global_ones_are_not() {
     let node = "    -1\n  2411\n 5 1 3 1\n 0. 0. 0.\n    -1\n";
-    let system = |row: &str| {
-        format!("    -1\n  2420\n 1\npart\n 3 0 8\nname\n{row}\n 0. 0. 1.\n 0. 0. 0.\n    -1\n")
-    };
+    let system = |row: &str| format!("    -1\n  2420\n 1\npart\n 3 0 8\nname\n{row}\n 0. 0. 1.\n 0. 0. 0.\n    -1\n");
     let mode = real_mode(" 5\n 1. 2. 3.\n");
     let read = |row: &str| {
         let file = format!("{node}{}{mode}", system(row));
@@ -201,14 +165,8 @@ fn turned_axes_are_refused_and_global_ones_are_not() {
 #[test]
 fn errors_fire_with_their_exact_messages() {
     let cases = [
-        (
-            real_mode(" 5\n 1. x 3.\n"),
-            "m.uff:12: expected values at a node, found \"1. x 3.\"",
-        ),
-        (
-            real_mode(" 5\n 1. 2.\n"),
-            "m.uff:13: expected values at a node, found \"-1\"",
-        ),
+        (real_mode(" 5\n 1. x 3.\n"), "m.uff:12: expected values at a node, found \"1. x 3.\""),
+        (real_mode(" 5\n 1. 2.\n"), "m.uff:13: expected values at a node, found \"-1\""),
         (
             real_mode(" 5\n 1. 2. 3.\n 5\n 1. 2. 3.\n"),
             "m.uff:13: expected the label of a node, once a mode, found \"5\"",
@@ -237,18 +195,13 @@ fn errors_fire_with_their_exact_messages() {
             "nothing".to_owned(),
             "m.uff: expected mode shapes (dataset 55 of analysis type 2, 3 or 7 with displacements in space), found none",
         ),
-        (
-            real_mode(""),
-            "m.uff: expected at least one mode at one point, found 1 modes at 0 points",
-        ),
+        (real_mode(""), "m.uff: expected at least one mode at one point, found 1 modes at 0 points"),
     ];
     for (file, expected) in cases {
         let error = modes_from_bytes(file.as_bytes(), Path::new("m.uff")).unwrap_err();
         assert_eq!(error.to_string(), expected, "{file}");
     }
-    let error = read_modes_uff(Path::new("no/such.uff"))
-        .unwrap_err()
-        .to_string();
+    let error = read_modes_uff(Path::new("no/such.uff")).unwrap_err().to_string();
     assert!(error.starts_with("cannot read no/such.uff: "), "{error}");
 }
 

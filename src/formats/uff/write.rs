@@ -55,16 +55,10 @@ pub fn write_uff(
         for &node in nodes {
             used[node] = true;
         }
-        own.push(Element {
-            label,
-            descriptor,
-            nodes,
-        });
+        own.push(Element { label, descriptor, nodes });
     }
-    let nodes: Vec<Node> = (0..used.len())
-        .filter(|&node| used[node])
-        .map(|node| (mesh.node_tags[node], mesh.nodes[node]))
-        .collect();
+    let nodes: Vec<Node> =
+        (0..used.len()).filter(|&node| used[node]).map(|node| (mesh.node_tags[node], mesh.nodes[node])).collect();
     let known: HashSet<u64> = nodes.iter().map(|&(tag, _)| tag).collect();
     let tags = tags_of(modes);
     if let Some(tag) = tags.iter().find(|tag| !known.contains(tag)) {
@@ -88,11 +82,7 @@ pub fn write_uff(
 ///
 /// # Errors
 /// As [`write_uff`].
-pub fn write_modes_uff(
-    path: &Path,
-    description: &str,
-    modes: &ModeShapes,
-) -> Result<(), FormatError> {
+pub fn write_modes_uff(path: &Path, description: &str, modes: &ModeShapes) -> Result<(), FormatError> {
     let tags = tags_of(modes);
     modes.check().map_err(|fault| fault.of(path))?;
     check_label(tags.iter().copied())?;
@@ -134,9 +124,7 @@ pub(super) fn end(to: &mut impl Write) -> io::Result<()> {
 /// An identification line: at most 80 characters, "NONE" if there is nothing to say, which the format asks for.
 pub(super) fn identification(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default().trim();
-    let plain = line
-        .chars()
-        .map(|c| if c.is_ascii_graphic() { c } else { ' ' });
+    let plain = line.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' });
     match line {
         "" | "-1" => "NONE".to_owned(),
         _ => plain.take(80).collect(),
@@ -177,11 +165,7 @@ fn write_elements(to: &mut impl Write, mesh: &Mesh, elements: &[Element]) -> io:
     for element in elements {
         let Descriptor { id, order } = element.descriptor;
         let count = order.len();
-        writeln!(
-            to,
-            "{:>10}{id:>10}{:>10}{:>10}{:>10}{count:>10}",
-            element.label, 1, 1, 7
-        )?;
+        writeln!(to, "{:>10}{id:>10}{:>10}{:>10}{:>10}{count:>10}", element.label, 1, 1, 7)?;
         for line in order.chunks(8) {
             for &place in line {
                 write!(to, "{:>10}", mesh.node_tags[element.nodes[place]])?;
@@ -193,33 +177,18 @@ fn write_elements(to: &mut impl Write, mesh: &Mesh, elements: &[Element]) -> io:
 }
 
 /// One dataset 55 a mode.
-fn write_modes(
-    to: &mut impl Write,
-    description: &str,
-    tags: &[u64],
-    modes: &ModeShapes,
-) -> io::Result<()> {
+fn write_modes(to: &mut impl Write, description: &str, tags: &[u64], modes: &ModeShapes) -> io::Result<()> {
     let number = |value| exponential(value, 13, 5, 'E');
     for (index, (&frequency, shape)) in modes.frequencies_hz.iter().zip(&modes.shapes).enumerate() {
         let mode = index + 1;
         begin(to, 55)?;
-        writeln!(
-            to,
-            "{}\nmode shape\nNONE\nNONE",
-            identification(description)
-        )?;
+        writeln!(to, "{}\nmode shape\nNONE\nNONE", identification(description))?;
         writeln!(to, "Mode {mode} Frequency {frequency} Hz")?;
         // structural, normal mode, 3 translations, displacement, real, 3 values a node
         writeln!(to, "{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}", 1, 2, 2, 8, 2, 3)?;
         // 2 whole numbers (load case, mode) and 4 reals (frequency, modal mass, viscous and hysteretic damping)
         writeln!(to, "{:>10}{:>10}{:>10}{mode:>10}", 2, 4, 1)?;
-        writeln!(
-            to,
-            "{}{}{2}{2}",
-            number(frequency),
-            number(1.0),
-            number(0.0)
-        )?;
+        writeln!(to, "{}{}{2}{2}", number(frequency), number(1.0), number(0.0))?;
         for (tag, displacement) in tags.iter().zip(shape.chunks_exact(3)) {
             writeln!(to, "{tag:>10}")?;
             for &value in displacement {

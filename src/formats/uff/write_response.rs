@@ -25,11 +25,7 @@ const ROUNDING: f64 = 5e-6;
 /// # Errors
 /// [`FormatError::Data`] for one that contradicts itself, for uneven frequencies that are the same in six digits and for
 /// nodes of more than ten digits; [`FormatError::File`].
-pub fn write_responses_uff(
-    path: &Path,
-    description: &str,
-    responses: &[FrequencyResponse],
-) -> Result<(), FormatError> {
+pub fn write_responses_uff(path: &Path, description: &str, responses: &[FrequencyResponse]) -> Result<(), FormatError> {
     let mut spacings = Vec::with_capacity(responses.len());
     for (index, response) in responses.iter().enumerate() {
         response.check_as(index)?;
@@ -131,13 +127,8 @@ fn write_response(
     // complex, double precision
     write!(to, "\n{:>10}{count:>10}{even:>10}", 6)?;
     writeln!(to, "{}{}{}", single(first), single(step), single(0.0))?;
-    let mut axis = |kind: u32, label: &str, unit: &str| {
-        writeln!(
-            to,
-            "{kind:>10}{:>5}{:>5}{:>5} {label:<20} {unit:<20}",
-            0, 0, 0
-        )
-    };
+    let mut axis =
+        |kind: u32, label: &str, unit: &str| writeln!(to, "{kind:>10}{:>5}{:>5}{:>5} {label:<20} {unit:<20}", 0, 0, 0);
     axis(18, "Frequency", "Hz")?;
     axis(numerator, quantity, unit)?;
     axis(13, "Force", "N")?;

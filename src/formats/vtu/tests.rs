@@ -70,46 +70,25 @@ fn grids_come_back_bit_by_bit() {
         let mesh = mesh(name);
         let elements = housing(&mesh);
         let count = mesh.nodes.len();
-        let shape: Vec<f64> = (0..3 * count)
-            .map(|k| (k as f64 * 0.37).sin() / 3.0)
-            .collect();
+        let shape: Vec<f64> = (0..3 * count).map(|k| (k as f64 * 0.37).sin() / 3.0).collect();
         let mut scalars: Vec<f64> = (0..count).map(|k| 1e-300 * k as f64).collect();
         scalars[0] = -0.0;
         let parts: Vec<i64> = (0..elements.len() as i64).map(|k| k * k - 5).collect();
         let point_fields = [
-            Field {
-                name: "mode 07 1234.5 Hz",
-                values: FieldValues::Vectors(&shape),
-            },
-            Field {
-                name: "strain <energy> & \"more\"",
-                values: FieldValues::Scalars(&scalars),
-            },
+            Field { name: "mode 07 1234.5 Hz", values: FieldValues::Vectors(&shape) },
+            Field { name: "strain <energy> & \"more\"", values: FieldValues::Scalars(&scalars) },
         ];
-        let cell_fields = [Field {
-            name: "part",
-            values: FieldValues::Integers(&parts),
-        }];
+        let cell_fields = [Field { name: "part", values: FieldValues::Integers(&parts) }];
         write_vtu(&path, &mesh, elements.clone(), &point_fields, &cell_fields).unwrap();
         let piece = import(&path);
 
-        let mut used: Vec<usize> = elements
-            .iter()
-            .flat_map(|id| mesh.blocks[id.block].element(id.index).unwrap())
-            .copied()
-            .collect();
+        let mut used: Vec<usize> =
+            elements.iter().flat_map(|id| mesh.blocks[id.block].element(id.index).unwrap()).copied().collect();
         used.sort_unstable();
         used.dedup();
-        let points: Vec<u64> = used
-            .iter()
-            .flat_map(|&node| mesh.nodes[node].map(f64::to_bits))
-            .collect();
+        let points: Vec<u64> = used.iter().flat_map(|&node| mesh.nodes[node].map(f64::to_bits)).collect();
         assert_eq!(floats(&piece.points), points, "{name}");
-        let VertexNumbers::XML {
-            connectivity,
-            offsets,
-        } = &piece.cells.cell_verts
-        else {
+        let VertexNumbers::XML { connectivity, offsets } = &piece.cells.cell_verts else {
             panic!("no XML cells");
         };
         let mut begin = 0;
@@ -117,21 +96,15 @@ fn grids_come_back_bit_by_bit() {
             let block = &mesh.blocks[id.block];
             let nodes = block.element(id.index).unwrap();
             let end = offsets[index] as usize;
-            let found: Vec<usize> = connectivity[begin..end]
-                .iter()
-                .map(|&place| used[place as usize])
-                .collect();
+            let found: Vec<usize> = connectivity[begin..end].iter().map(|&place| used[place as usize]).collect();
             let expected: Vec<usize> = node_order(block.kind).iter().map(|&k| nodes[k]).collect();
             assert_eq!(found, expected, "{name}");
             assert_eq!(piece.cells.types[index] as u8, cell_type(block.kind));
             begin = end;
         }
         assert_eq!((begin, offsets.len()), (connectivity.len(), elements.len()));
-        let vectors: Vec<u64> = used
-            .iter()
-            .flat_map(|&node| &shape[3 * node..][..3])
-            .map(|value| value.to_bits())
-            .collect();
+        let vectors: Vec<u64> =
+            used.iter().flat_map(|&node| &shape[3 * node..][..3]).map(|value| value.to_bits()).collect();
         let found = array(&piece.data.point, "mode 07 1234.5 Hz");
         assert_eq!(floats(found), vectors, "{name}");
         let scalars: Vec<u64> = used.iter().map(|&node| scalars[node].to_bits()).collect();
@@ -151,34 +124,17 @@ fn errors_fire_with_their_exact_messages() {
         let error = write_vtu(&path, &mesh, elements, fields, cells).unwrap_err();
         error.to_string()
     };
-    let field = |name: &'static str| Field {
-        name,
-        values: FieldValues::Scalars(&[1.0; 8]),
-    };
-    let wrong = ElementId {
-        block: 0,
-        index: 99,
-    };
-    assert_eq!(
-        write(vec![wrong], &[], &[]),
-        "the mesh has no element 99 in block 0"
-    );
-    assert_eq!(
-        write(vec![], &[], &[]),
-        "expected at least one element to write, found none"
-    );
-    assert_eq!(
-        write(elements.clone(), &[], &[field("a"), field("a")]),
-        "two fields are called \"a\""
-    );
+    let field = |name: &'static str| Field { name, values: FieldValues::Scalars(&[1.0; 8]) };
+    let wrong = ElementId { block: 0, index: 99 };
+    assert_eq!(write(vec![wrong], &[], &[]), "the mesh has no element 99 in block 0");
+    assert_eq!(write(vec![], &[], &[]), "expected at least one element to write, found none");
+    assert_eq!(write(elements.clone(), &[], &[field("a"), field("a")]), "two fields are called \"a\"");
     assert_eq!(
         write(elements.clone(), &[], &[field("a\nb")]),
         "expected a field's name without control characters, found \"a\\nb\""
     );
-    let expected = format!(
-        "field \"a\" takes {} values (a fixed number for each node of the mesh), found 8",
-        mesh.nodes.len()
-    );
+    let expected =
+        format!("field \"a\" takes {} values (a fixed number for each node of the mesh), found 8", mesh.nodes.len());
     assert_eq!(write(elements.clone(), &[field("a")], &[]), expected);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let nowhere = folder.path().join("no/grid.vtu");

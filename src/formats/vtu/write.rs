@@ -69,12 +69,7 @@ impl<'a> Grid<'a> {
         for (new, &node) in nodes.iter().enumerate() {
             place[node] = new as i64;
         }
-        Ok(Self {
-            mesh,
-            elements,
-            nodes,
-            place,
-        })
+        Ok(Self { mesh, elements, nodes, place })
     }
 
     /// Checks a place's fields.
@@ -130,9 +125,9 @@ impl FieldValues<'_> {
         match self {
             Self::Scalars(values) => to.write_all(&values[index].to_le_bytes()),
             Self::Integers(values) => to.write_all(&values[index].to_le_bytes()),
-            Self::Vectors(values) => values[3 * index..][..3]
-                .iter()
-                .try_for_each(|value| to.write_all(&value.to_le_bytes())),
+            Self::Vectors(values) => {
+                values[3 * index..][..3].iter().try_for_each(|value| to.write_all(&value.to_le_bytes()))
+            }
         }
     }
 }
@@ -170,10 +165,7 @@ impl Head {
 
 /// Text as it may stand in an XML attribute.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Writes elements of a mesh with fields, whole or not at all.
@@ -198,12 +190,7 @@ pub fn write_vtu(
     Ok(write_atomic(path, write)?)
 }
 
-fn write_grid(
-    to: &mut impl Write,
-    grid: &Grid,
-    point_fields: &[Field],
-    cell_fields: &[Field],
-) -> io::Result<()> {
+fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fields: &[Field]) -> io::Result<()> {
     let (points, cells) = (grid.nodes.len(), grid.elements.len());
     let corners: usize = grid.elements.iter().map(|(_, nodes)| nodes.len()).sum();
     let mut head = Head {
@@ -255,9 +242,7 @@ fn write_grid(
         })?;
     }
     for Field { values, .. } in cell_fields {
-        array(to, 8 * values.components() * cells, |to| {
-            (0..cells).try_for_each(|index| values.write(to, index))
-        })?;
+        array(to, 8 * values.components() * cells, |to| (0..cells).try_for_each(|index| values.write(to, index)))?;
     }
     to.write_all(b"\n</AppendedData>\n</VTKFile>\n")
 }

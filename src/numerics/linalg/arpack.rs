@@ -112,22 +112,12 @@ pub(super) fn shift_invert(
     mut solve: impl FnMut(&[f64], &mut [f64]) -> Result<(), LinalgError>,
     mut mass: impl FnMut(&[f64], &mut [f64]),
 ) -> Result<RitzPairs, LinalgError> {
-    let Request {
-        order: n,
-        count,
-        basis,
-        ..
-    } = request;
+    let Request { order: n, count, basis, .. } = request;
     let too_large = n > i32::MAX as usize / 4 || basis * (basis + 8) > i32::MAX as usize;
     if count == 0 || count >= basis || basis > n || too_large {
-        return Err(LinalgError::TooManyModes {
-            asked: count,
-            available: n,
-        });
+        return Err(LinalgError::TooManyModes { asked: count, available: n });
     }
-    let _guard = ONE_ITERATION_AT_A_TIME
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner);
+    let _guard = ONE_ITERATION_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let mut space = Workspace {
         residual: start_vector(n),
         basis_vectors: vec![0.0; n * basis],
@@ -191,10 +181,7 @@ pub(super) fn shift_invert(
         });
     }
     if info != 0 {
-        return Err(LinalgError::Arpack {
-            routine: "dsaupd",
-            info,
-        });
+        return Err(LinalgError::Arpack { routine: "dsaupd", info });
     }
     extract(request, &mut space)
 }
@@ -234,21 +221,12 @@ fn extract(request: Request, space: &mut Workspace) -> Result<RitzPairs, LinalgE
             &mut info,
         );
     }
-    if info == 0 {
-        Ok(RitzPairs { values, vectors })
-    } else {
-        Err(LinalgError::Arpack {
-            routine: "dseupd",
-            info,
-        })
-    }
+    if info == 0 { Ok(RitzPairs { values, vectors }) } else { Err(LinalgError::Arpack { routine: "dseupd", info }) }
 }
 
 /// A fixed start vector without symmetry, so that no mode is orthogonal to it by accident: the
 /// fractional parts of multiples of the golden ratio, in (-1/2, 1/2).
 fn start_vector(n: usize) -> Vec<f64> {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    (1..=n)
-        .map(|index| (index as f64 * golden).fract() - 0.5)
-        .collect()
+    (1..=n).map(|index| (index as f64 * golden).fract() - 0.5).collect()
 }

@@ -62,8 +62,7 @@ pub(super) fn between(
         let vectors = pairs.vectors.chunks_exact(order).map(<[f64]>::to_vec);
         // those outside are taken out as well: from a place beside the middle they are nearer than the far end
         found.extend(pairs.values.into_iter().zip(vectors));
-        let before =
-            std::mem::replace(&mut known, found.iter().filter(|pair| inside(pair)).count());
+        let before = std::mem::replace(&mut known, found.iter().filter(|pair| inside(pair)).count());
         idle = if known > before { 0 } else { idle + 1 };
     }
     if known != count {
@@ -76,10 +75,7 @@ pub(super) fn between(
     found.retain(inside);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let vectors = DenseMatrix::from_fn(order, count, |row, mode| found[mode].1[row]);
-    Ok(Ritz {
-        values: found.into_iter().map(|pair| pair.0).collect(),
-        vectors,
-    })
+    Ok(Ritz { values: found.into_iter().map(|pair| pair.0).collect(), vectors })
 }
 
 /// Takes from `y` what lies along the known vectors, in the product of the mass.

@@ -31,11 +31,7 @@ pub(super) struct Basis<'p> {
 impl<'p> Basis<'p> {
     /// An empty basis with room for so many vectors.
     pub(super) fn new(mass: &'p SymmetricMatrix, room: usize) -> Self {
-        Self {
-            mass,
-            vectors: DenseMatrix::zeros(mass.order(), room),
-            size: 0,
-        }
+        Self { mass, vectors: DenseMatrix::zeros(mass.order(), room), size: 0 }
     }
 
     /// Number of vectors.
@@ -77,20 +73,15 @@ impl<'p> Basis<'p> {
             if left < MOSTLY_INSIDE {
                 self.project(columns(w, count), columns(product, count));
             }
-            let (kept, smallest) =
-                orthonormalise(columns(w, count), columns(product, count), spare.rb_mut())?;
+            let (kept, smallest) = orthonormalise(columns(w, count), columns(product, count), spare.rb_mut())?;
             count = kept;
             if smallest > NEARLY_DEPENDENT {
                 break;
             }
-            self.mass
-                .times_into(columns(w, count).rb(), columns(product, count));
+            self.mass.times_into(columns(w, count).rb(), columns(product, count));
         }
         let added = count.min(self.room());
-        self.vectors
-            .as_mut()
-            .subcols_mut(self.size, added)
-            .copy_from(w.rb().subcols(0, added));
+        self.vectors.as_mut().subcols_mut(self.size, added).copy_from(w.rb().subcols(0, added));
         self.size += added;
         Ok(added)
     }
@@ -111,10 +102,7 @@ impl<'p> Basis<'p> {
     pub(super) fn rotate(&mut self, y: MatRef<'_, f64>) {
         let vectors = times(self.vectors(), y);
         self.size = y.ncols();
-        self.vectors
-            .as_mut()
-            .subcols_mut(0, self.size)
-            .copy_from(&vectors);
+        self.vectors.as_mut().subcols_mut(0, self.size).copy_from(&vectors);
     }
 }
 
@@ -144,9 +132,7 @@ fn scale(column: ColMut<'_, f64>, factor: f64) {
 /// `sqrt(x^T M x)` of every column, from x and its product with M.
 pub(super) fn norms(x: MatRef<'_, f64>, product: MatRef<'_, f64>) -> Vec<f64> {
     let square = |column: usize| -> f64 { x.col(column).transpose() * product.col(column) };
-    (0..x.ncols())
-        .map(|column| square(column).max(0.0).sqrt())
-        .collect()
+    (0..x.ncols()).map(|column| square(column).max(0.0).sqrt()).collect()
 }
 
 /// Makes the columns of `w` orthonormal through the eigenvectors of their Gram matrix and drops what depends on the
@@ -157,9 +143,7 @@ fn orthonormalise(
     mut spare: MatMut<'_, f64>,
 ) -> Result<(usize, f64), LinalgError> {
     let lengths = norms(w.rb(), product.rb());
-    let new: Vec<usize> = (0..w.ncols())
-        .filter(|&j| lengths[j] > NOTHING_NEW)
-        .collect();
+    let new: Vec<usize> = (0..w.ncols()).filter(|&j| lengths[j] > NOTHING_NEW).collect();
     let gram = times(w.rb().transpose(), product.rb());
     let unit = DenseMatrix::from_fn(new.len(), new.len(), |row, column| {
         let (i, j) = (new[row], new[column]);
@@ -167,26 +151,16 @@ fn orthonormalise(
     });
     let spectrum = symmetric_eigen(&unit)?;
     let largest = spectrum.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..new.len())
-        .filter(|&j| spectrum.values[j] > DEPENDENT * largest)
-        .collect();
+    let kept: Vec<usize> = (0..new.len()).filter(|&j| spectrum.values[j] > DEPENDENT * largest).collect();
     let mut turn = DenseMatrix::zeros(w.ncols(), kept.len());
     for (column, &j) in kept.iter().enumerate() {
         for (row, &i) in new.iter().enumerate() {
-            turn[(i, column)] =
-                spectrum.vectors[(row, j)] / (lengths[i] * spectrum.values[j].sqrt());
+            turn[(i, column)] = spectrum.vectors[(row, j)] / (lengths[i] * spectrum.values[j].sqrt());
         }
     }
     let mut rotate = |mut a: MatMut<'_, f64>| {
         let mut turned = columns(&mut spare, kept.len());
-        matmul(
-            turned.rb_mut(),
-            Accum::Replace,
-            a.rb(),
-            turn.as_ref(),
-            1.0,
-            Par::Seq,
-        );
+        matmul(turned.rb_mut(), Accum::Replace, a.rb(), turn.as_ref(), 1.0, Par::Seq);
         columns(&mut a, kept.len()).copy_from(turned.rb());
     };
     rotate(w);
@@ -248,11 +222,7 @@ mod tests {
             let inside = &all * pseudo_random(all.ncols(), 8, 2 * block);
             let new = pseudo_random(200, 8, 2 * block + 1);
             let [length, of_new] = [&inside, &new].map(|part| part.norm_l2());
-            let (grown, error) = add(
-                &mut basis,
-                &mass,
-                inside + new * faer::Scale(length / of_new / 3.0),
-            );
+            let (grown, error) = add(&mut basis, &mass, inside + new * faer::Scale(length / of_new / 3.0));
             assert!(error < 1e-13, "block {block}: {error:e}");
             all = grown;
         }

@@ -55,15 +55,10 @@ impl Quality {
             let quotient = x.col(mode).transpose() * stiff.col(mode);
             let value = quotient / (x.col(mode).transpose() * heavy.col(mode));
             *place = value;
-            for (entry, product) in steps
-                .col_as_slice_mut(mode)
-                .iter_mut()
-                .zip(heavy.col_as_slice(mode))
-            {
+            for (entry, product) in steps.col_as_slice_mut(mode).iter_mut().zip(heavy.col_as_slice(mode)) {
                 *entry -= value * product;
             }
-            let scale =
-                stiff.col(mode).norm_l2() + (value - sigma).abs() * heavy.col(mode).norm_l2();
+            let scale = stiff.col(mode).norm_l2() + (value - sigma).abs() * heavy.col(mode).norm_l2();
             residuals.push(steps.col(mode).norm_l2() / scale);
         }
         let remainders = steps.clone();
@@ -76,9 +71,7 @@ impl Quality {
         let energy = |mode: usize| inexact * (remainders.col(mode).transpose() * steps.col(mode));
         let energies: Vec<f64> = (0..count).map(energy).collect();
         let scatters = stiffness.energy_scatters(x).into_iter();
-        let rounding: Vec<f64> = scatters
-            .map(|scatter| ROUNDING * f64::EPSILON * scatter)
-            .collect();
+        let rounding: Vec<f64> = scatters.map(|scatter| ROUNDING * f64::EPSILON * scatter).collect();
         let bounds = bounds(&values, &lengths, &energies, sigma)
             .into_iter()
             .zip(&rounding)
@@ -87,13 +80,7 @@ impl Quality {
         let mut gram = times(x.transpose(), heavy.as_ref());
         gram -= DenseMatrix::identity(count, count);
         values.truncate(count);
-        Self {
-            values,
-            residuals,
-            bounds,
-            rounding,
-            orthogonality: gram.norm_max(),
-        }
+        Self { values, residuals, bounds, rounding, orthogonality: gram.norm_max() }
     }
 }
 
@@ -109,15 +96,10 @@ fn bounds(values: &[f64], lengths: &[f64], energies: &[f64], sigma: f64) -> Vec<
             if !below_all || last >= lengths.len() {
                 return linear;
             }
-            let energy: f64 = energies[first..=last]
-                .iter()
-                .map(|energy| energy.abs())
-                .sum();
+            let energy: f64 = energies[first..=last].iter().map(|energy| energy.abs()).sum();
             let below = first.checked_sub(1).map(|other| (other, first));
             let above = (last + 1 < values.len()).then_some((last + 1, last));
-            let factor = |(other, nearest): (usize, usize)| {
-                from(other) / (values[other] - values[nearest]).abs()
-            };
+            let factor = |(other, nearest): (usize, usize)| from(other) / (values[other] - values[nearest]).abs();
             let factors = [below, above].into_iter().flatten().map(factor);
             linear.min(energy * factors.fold(1.0, f64::max))
         })
@@ -127,12 +109,8 @@ fn bounds(values: &[f64], lengths: &[f64], energies: &[f64], sigma: f64) -> Vec<
 /// First and last place of the cluster that a value belongs to.
 fn cluster(values: &[f64], sigma: f64, mode: usize) -> [usize; 2] {
     let from = |place: usize| (values[place] - sigma).abs();
-    let together = |low: usize| {
-        (values[low + 1] - values[low]).abs() <= CLUSTER * from(low).max(from(low + 1))
-    };
+    let together = |low: usize| (values[low + 1] - values[low]).abs() <= CLUSTER * from(low).max(from(low + 1));
     let first = (0..mode).rev().take_while(|&low| together(low)).last();
-    let last = (mode..values.len() - 1)
-        .take_while(|&low| together(low))
-        .last();
+    let last = (mode..values.len() - 1).take_while(|&low| together(low)).last();
     [first.unwrap_or(mode), last.map_or(mode, |low| low + 1)]
 }

@@ -36,10 +36,9 @@ impl SparseCholesky {
         let memory = FactorMemory::default();
         let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);
         let factor = factor.map_err(|error| match error {
-            LinalgError::NotPositiveDefinite { order, pivot } => LinalgError::NotPositiveDefinite {
-                order,
-                pivot: row(pivot),
-            },
+            LinalgError::NotPositiveDefinite { order, pivot } => {
+                LinalgError::NotPositiveDefinite { order, pivot: row(pivot) }
+            }
             other => other,
         })?;
         if factor.contraction > LARGEST_CONTRACTION {
@@ -50,10 +49,7 @@ impl SparseCholesky {
                 limit: LARGEST_CONTRACTION,
             });
         }
-        Ok(Self {
-            factor: Arc::new(factor),
-            ordering: Arc::new(ordering),
-        })
+        Ok(Self { factor: Arc::new(factor), ordering: Arc::new(ordering) })
     }
 
     /// Number of rows of the factorised matrix.
@@ -106,11 +102,7 @@ impl SparseCholesky {
         if rows == self.order() {
             Ok(())
         } else {
-            Err(LinalgError::Shape {
-                what: "right-hand side",
-                expected: self.order(),
-                found: rows,
-            })
+            Err(LinalgError::Shape { what: "right-hand side", expected: self.order(), found: rows })
         }
     }
 }
@@ -147,10 +139,7 @@ mod tests {
     #[test]
     fn an_indefinite_matrix_is_an_error() {
         let result = SparseCholesky::new(&chain(5, -3.0));
-        assert!(matches!(
-            result,
-            Err(LinalgError::NotPositiveDefinite { order: 5, .. })
-        ));
+        assert!(matches!(result, Err(LinalgError::NotPositiveDefinite { order: 5, .. })));
     }
 
     #[test]
@@ -158,11 +147,7 @@ mod tests {
         let factor = SparseCholesky::new(&chain(4, 1.0)).expect("positive definite");
         assert_eq!(
             factor.solve_vector(&mut [0.0; 3]),
-            Err(LinalgError::Shape {
-                what: "right-hand side",
-                expected: 4,
-                found: 3
-            })
+            Err(LinalgError::Shape { what: "right-hand side", expected: 4, found: 3 })
         );
     }
 }

@@ -65,20 +65,11 @@ pub(super) fn count_between(
     let mut failed = None;
     for place in PLACES {
         let value = low + place * (high - low);
-        match count_below(
-            symbolic,
-            stiffness,
-            mass,
-            value,
-            std::mem::take(&mut memory),
-        ) {
+        match count_below(symbolic, stiffness, mass, value, std::mem::take(&mut memory)) {
             Ok(counted) => return Ok((value, counted)),
             Err(error @ LinalgError::NearlySingular { .. }) => failed = Some(error),
             Err(error) => return Err(error),
         }
     }
-    Err(failed.unwrap_or(LinalgError::NearlySingular {
-        order: stiffness.order(),
-        contraction: f64::INFINITY,
-    }))
+    Err(failed.unwrap_or(LinalgError::NearlySingular { order: stiffness.order(), contraction: f64::INFINITY }))
 }

@@ -38,10 +38,7 @@ impl DenseCholesky {
         run_sequentially();
         let factor = a.llt(Side::Lower).map_err(|error| {
             let faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index } = error;
-            LinalgError::NotPositiveDefinite {
-                order: a.nrows(),
-                pivot: index,
-            }
+            LinalgError::NotPositiveDefinite { order: a.nrows(), pivot: index }
         })?;
         Ok(Self { factor })
     }
@@ -73,10 +70,7 @@ pub(crate) fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, Lina
     let failed = || LinalgError::DenseEigen { order: a.nrows() };
     if a.nrows() == 0 {
         // faer's solver expects one row at least
-        return Ok(SymmetricSpectrum {
-            values: Vec::new(),
-            vectors: DenseMatrix::zeros(0, 0),
-        });
+        return Ok(SymmetricSpectrum { values: Vec::new(), vectors: DenseMatrix::zeros(0, 0) });
     }
     // faer's solver has thresholds that are not relative: entries of 1e15 cost it half its digits
     let largest = a.norm_max();
@@ -84,14 +78,9 @@ pub(crate) fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, Lina
     if !scale.is_finite() {
         return Err(failed());
     }
-    let eigen = (a * faer::Scale(scale.recip()))
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| failed())?;
+    let eigen = (a * faer::Scale(scale.recip())).self_adjoint_eigen(Side::Lower).map_err(|_| failed())?;
     let values = eigen.S().column_vector().iter();
-    Ok(SymmetricSpectrum {
-        values: values.map(|value| scale * value).collect(),
-        vectors: eigen.U().to_owned(),
-    })
+    Ok(SymmetricSpectrum { values: values.map(|value| scale * value).collect(), vectors: eigen.U().to_owned() })
 }
 
 /// All eigenpairs of `K x = lambda M x`, `K` and `M` symmetric positive semidefinite [n x n] and not both singular in
@@ -106,13 +95,8 @@ pub(crate) fn symmetric_eigen(a: &DenseMatrix) -> Result<SymmetricSpectrum, Lina
 ///
 /// # Errors
 /// [`LinalgError::NotPositiveDefinite`] for `K + s M`, [`LinalgError::DenseEigen`].
-pub fn symmetric_generalised_eigen(
-    k: &DenseMatrix,
-    m: &DenseMatrix,
-) -> Result<SymmetricSpectrum, LinalgError> {
-    use faer::linalg::triangular_solve::{
-        solve_lower_triangular_in_place, solve_upper_triangular_in_place,
-    };
+pub fn symmetric_generalised_eigen(k: &DenseMatrix, m: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
+    use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
     let order = k.nrows();
     let shift = inverse_shift(k, m);
     let shifted = k + m * faer::Scale(shift);
@@ -124,36 +108,22 @@ pub fn symmetric_generalised_eigen(
     solve_lower_triangular_in_place(lower, half.as_mut(), faer::Par::Seq);
     let mut whole = half.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whole.as_mut(), faer::Par::Seq);
-    let symmetric = DenseMatrix::from_fn(order, order, |row, column| {
-        0.5 * (whole[(row, column)] + whole[(column, row)])
-    });
+    let symmetric =
+        DenseMatrix::from_fn(order, order, |row, column| 0.5 * (whole[(row, column)] + whole[(column, row)]));
     let inverse = symmetric_eigen(&symmetric)?;
     // mu descends as lambda ascends
     let mu = |mode: usize| inverse.values[order - 1 - mode] / shift;
-    let round_off =
-        order as f64 * f64::EPSILON * inverse.values.last().copied().unwrap_or(0.0) / shift;
+    let round_off = order as f64 * f64::EPSILON * inverse.values.last().copied().unwrap_or(0.0) / shift;
     if order > 0 && mu(order - 1) < -round_off {
         return Err(LinalgError::NotPositiveDefinite { order, pivot: 0 });
     }
     let has_mass = |mode: usize| mu(mode) > round_off;
     let mut vectors = DenseMatrix::from_fn(order, order, |row, mode| {
-        if has_mass(mode) {
-            inverse.vectors[(row, order - 1 - mode)] / mu(mode).sqrt()
-        } else {
-            0.0
-        }
+        if has_mass(mode) { inverse.vectors[(row, order - 1 - mode)] / mu(mode).sqrt() } else { 0.0 }
     });
     solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), faer::Par::Seq);
     Ok(SymmetricSpectrum {
-        values: (0..order)
-            .map(|mode| {
-                if has_mass(mode) {
-                    1.0 / mu(mode) - shift
-                } else {
-                    f64::INFINITY
-                }
-            })
-            .collect(),
+        values: (0..order).map(|mode| if has_mass(mode) { 1.0 / mu(mode) - shift } else { f64::INFINITY }).collect(),
         vectors,
     })
 }
@@ -168,14 +138,8 @@ fn inverse_shift(k: &DenseMatrix, m: &DenseMatrix) -> f64 {
     let finite = |ratio: &f64| ratio.is_finite();
     let largest = ratios().filter(finite).fold(0.0, f64::max);
     // a condensed rigid body has a diagonal of round-off
-    let smallest = ratios()
-        .filter(|ratio| *ratio > ROUND_OFF * largest)
-        .fold(f64::INFINITY, f64::min);
-    if smallest.is_finite() {
-        1e-4 * smallest
-    } else {
-        1.0
-    }
+    let smallest = ratios().filter(|ratio| *ratio > ROUND_OFF * largest).fold(f64::INFINITY, f64::min);
+    if smallest.is_finite() { 1e-4 * smallest } else { 1.0 }
 }
 
 /// All eigenpairs of `A x = lambda x` for any real square `A`.
@@ -190,10 +154,7 @@ pub fn general_spectrum(a: &DenseMatrix) -> Result<GeneralSpectrum, LinalgError>
         return Err(failed);
     }
     let eigen = a.eigen().map_err(|_| failed)?;
-    Ok(GeneralSpectrum {
-        values: eigen.S().column_vector().iter().copied().collect(),
-        vectors: eigen.U().to_owned(),
-    })
+    Ok(GeneralSpectrum { values: eigen.S().column_vector().iter().copied().collect(), vectors: eigen.U().to_owned() })
 }
 
 /// Makes faer run sequentially: sums are then formed in one order whatever the machine.
@@ -252,9 +213,6 @@ mod tests {
     #[test]
     fn values_that_are_not_finite_are_an_error() {
         let a = DenseMatrix::from_fn(2, 2, |_, _| f64::NAN);
-        assert!(matches!(
-            general_spectrum(&a),
-            Err(LinalgError::DenseEigen { order: 2 })
-        ));
+        assert!(matches!(general_spectrum(&a), Err(LinalgError::DenseEigen { order: 2 })));
     }
 }

@@ -25,9 +25,7 @@ fn gigabytes(bytes: u64) -> String {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LinalgError {
     /// A Cholesky factorisation met a pivot that is not positive.
-    #[error(
-        "the {order} x {order} matrix is not positive definite (pivot {pivot} is not positive)"
-    )]
+    #[error("the {order} x {order} matrix is not positive definite (pivot {pivot} is not positive)")]
     NotPositiveDefinite {
         /// Number of rows of the matrix.
         order: usize,
@@ -35,9 +33,7 @@ pub enum LinalgError {
         pivot: usize,
     },
     /// A matrix that should be positive definite has negative eigenvalues.
-    #[error(
-        "the {order} x {order} matrix is not positive definite: {negative} of its eigenvalues are negative"
-    )]
+    #[error("the {order} x {order} matrix is not positive definite: {negative} of its eigenvalues are negative")]
     Indefinite {
         /// Number of rows of the matrix.
         order: usize,

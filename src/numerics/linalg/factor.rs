@@ -104,11 +104,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub(super) fn double(
-        symbolic: &Arc<Symbolic>,
-        a: &SymmetricMatrix,
-        kind: Kind,
-    ) -> Result<Self, LinalgError> {
+    pub(super) fn double(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
         let numbers = NumericFactor::new(symbolic, a, kind, Vec::new())?;
         Self::judged(symbolic, a, Numbers::Double(numbers))
     }
@@ -135,10 +131,7 @@ impl Factor {
 
     /// A factor in single precision, however small it is.
     #[cfg(test)]
-    pub(crate) fn single_for_test(
-        symbolic: &Arc<Symbolic>,
-        a: &SymmetricMatrix,
-    ) -> Result<Self, LinalgError> {
+    pub(crate) fn single_for_test(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix) -> Result<Self, LinalgError> {
         let numbers = NumericFactor::new(symbolic, a, Kind::Indefinite, Vec::new())?;
         Ok(Self::measured(symbolic, a, Numbers::Single(numbers)))
     }
@@ -166,29 +159,17 @@ impl Factor {
         }
     }
 
-    fn judged(
-        symbolic: &Arc<Symbolic>,
-        a: &SymmetricMatrix,
-        numbers: Numbers,
-    ) -> Result<Self, LinalgError> {
+    fn judged(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Result<Self, LinalgError> {
         let factor = Self::measured(symbolic, a, numbers);
         if factor.contraction <= LARGEST_CONTRACTION {
             Ok(factor)
         } else {
-            Err(LinalgError::NearlySingular {
-                order: a.order(),
-                contraction: factor.contraction,
-            })
+            Err(LinalgError::NearlySingular { order: a.order(), contraction: factor.contraction })
         }
     }
 
     fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
-        let mut factor = Self {
-            symbolic: Arc::clone(symbolic),
-            numbers,
-            contraction: f64::INFINITY,
-            weakest: 0,
-        };
+        let mut factor = Self { symbolic: Arc::clone(symbolic), numbers, contraction: f64::INFINITY, weakest: 0 };
         let mut error = pseudo_random(a.order(), PROBES.0, 0);
         for _ in 0..PROBES.1 {
             let before = error.norm_l2();
@@ -266,10 +247,7 @@ mod tests {
         let a = a.build();
         let ordering = Ordering::of(&a).expect("an order");
         let permuted = SymmetricMatrix::permuted(&a, &ordering);
-        (
-            Arc::new(Symbolic::new(&permuted).expect("analysed")),
-            permuted,
-        )
+        (Arc::new(Symbolic::new(&permuted).expect("analysed")), permuted)
     }
 
     fn value(j: usize, order: usize) -> f64 {
@@ -282,11 +260,9 @@ mod tests {
         for below in [0, 1, 7, 200, 399] {
             let sigma = 0.4 * value(below, order) + 0.6 * value(below + 1, order);
             let (symbolic, a) = chain(order, sigma);
-            let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default())
-                .expect("regular");
+            let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
             assert_eq!(factor.negative(), below);
-            let single = NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite, Vec::new())
-                .expect("regular");
+            let single = NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite, Vec::new()).expect("regular");
             let single = Factor::measured(&symbolic, &a, Numbers::Single(single));
             // single precision cannot tell eigenvalues 6e-5 apart where the largest is 4; it says so
             assert!(single.negative() == below || single.contraction > LARGEST_CONTRACTION);
@@ -300,13 +276,9 @@ mod tests {
         let on = value(17, order);
         let (symbolic, a) = chain(order, on);
         let result = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default());
-        assert!(
-            matches!(result, Err(LinalgError::NearlySingular { .. })),
-            "{result:?}"
-        );
+        assert!(matches!(result, Err(LinalgError::NearlySingular { .. })), "{result:?}");
         let (symbolic, a) = chain(order, on * (1.0 + 1e-6));
-        let factor =
-            Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
+        let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
         assert_eq!(factor.negative(), 17);
         assert!(factor.contraction < 1e-6, "{:e}", factor.contraction);
     }
@@ -316,8 +288,7 @@ mod tests {
     fn contraction_grows_with_the_condition() {
         for (order, limits) in [(20, [1e-9, 1e-4]), (2000, [1e-6, f64::INFINITY])] {
             let (symbolic, a) = chain(order, 0.0);
-            let numbers = NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite, Vec::new())
-                .expect("definite");
+            let numbers = NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite, Vec::new()).expect("definite");
             let factor = Factor::measured(&symbolic, &a, Numbers::Single(numbers));
             let found = factor.contraction;
             assert!(found > limits[0] && found < limits[1], "{order} {found:e}");
@@ -329,8 +300,7 @@ mod tests {
     fn a_rounded_factor_solves_to_single_precision() {
         for kind in [Kind::Definite, Kind::Indefinite] {
             let (symbolic, a) = chain(20, 0.0);
-            let double =
-                NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let double = NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
             let rounded = Factor::measured(&symbolic, &a, Numbers::Single(double.rounded()));
             let found = rounded.contraction;
             assert!(found > 1e-9 && found < 1e-4, "{found:e}");
@@ -347,12 +317,10 @@ mod tests {
             (y - &x).norm_max()
         };
         for kind in [Kind::Definite, Kind::Indefinite] {
-            let double =
-                NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let double = NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
             // condition 3300 times the unit round-off, and a factor of ten
             assert!(error(b.clone(), &|y| double.solve(&symbolic, y.as_mut())) < 1e-11);
-            let single =
-                NumericFactor::<f32>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let single = NumericFactor::<f32>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
             let lost = error(b.clone(), &|y| single.solve(&symbolic, y.as_mut()));
             assert!(lost < 3e-3 && lost > 1e-9, "{lost:e}");
         }

@@ -1,9 +1,7 @@
 //! Eigenproblems of two semidefinite matrices that share motions without stiffness and mass: a ring with more nodes than
 //! the bore that follows it has motions that move nothing of the housing.
 
-use super::{
-    DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen,
-};
+use super::{DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen};
 
 /// Eigenvalues of `k + s m` and singular values of `k`, scaled to a unit diagonal, up to which a motion is idle. Round-off
 /// of a condensed stiffness is 1e-13 to 1e-12 of its diagonal.
@@ -15,19 +13,14 @@ const IDLE: f64 = 1e-11;
 ///
 /// # Errors
 /// [`LinalgError::DenseEigen`] for values that are not finite.
-pub(crate) fn acting_motions(
-    k: &DenseMatrix,
-    m: &DenseMatrix,
-) -> Result<Option<DenseMatrix>, LinalgError> {
+pub(crate) fn acting_motions(k: &DenseMatrix, m: &DenseMatrix) -> Result<Option<DenseMatrix>, LinalgError> {
     let order = k.nrows();
     let shift = balance(k, m);
     let scale: Vec<f64> = (0..order)
-        .map(
-            |row| match k[(row, row)].abs() + shift * m[(row, row)].abs() {
-                diagonal if diagonal > 0.0 => diagonal.sqrt().recip(),
-                _ => 1.0,
-            },
-        )
+        .map(|row| match k[(row, row)].abs() + shift * m[(row, row)].abs() {
+            diagonal if diagonal > 0.0 => diagonal.sqrt().recip(),
+            _ => 1.0,
+        })
         .collect();
     let scaled = |a: &DenseMatrix| {
         DenseMatrix::from_fn(order, order, |row, column| {
@@ -35,12 +28,9 @@ pub(crate) fn acting_motions(
         })
     };
     let spectrum = symmetric_eigen(&scaled(&(k + m * faer::Scale(shift))))?;
-    let (acting, silent): (Vec<usize>, Vec<usize>) =
-        (0..order).partition(|&place| spectrum.values[place].abs() > IDLE);
+    let (acting, silent): (Vec<usize>, Vec<usize>) = (0..order).partition(|&place| spectrum.values[place].abs() > IDLE);
     let columns = |places: &[usize]| {
-        DenseMatrix::from_fn(order, places.len(), |row, column| {
-            spectrum.vectors[(row, places[column])]
-        })
+        DenseMatrix::from_fn(order, places.len(), |row, column| spectrum.vectors[(row, places[column])])
     };
     let (acting, silent) = (columns(&acting), columns(&silent));
     let cancelling = cancelling(&scaled(k), &silent)?;
@@ -48,17 +38,13 @@ pub(crate) fn acting_motions(
     if first + cancelling.ncols() == order {
         return Ok(None);
     }
-    Ok(Some(DenseMatrix::from_fn(
-        order,
-        first + cancelling.ncols(),
-        |row, column| {
-            scale[row]
-                * match column.checked_sub(first) {
-                    None => acting[(row, column)],
-                    Some(further) => cancelling[(row, further)],
-                }
-        },
-    )))
+    Ok(Some(DenseMatrix::from_fn(order, first + cancelling.ncols(), |row, column| {
+        scale[row]
+            * match column.checked_sub(first) {
+                None => acting[(row, column)],
+                Some(further) => cancelling[(row, further)],
+            }
+    })))
 }
 
 /// Of motions that `k + s m` does not act on [n x c] those that `k` acts on: there the two cancel.
@@ -79,18 +65,12 @@ fn cancelling(k: &DenseMatrix, silent: &DenseMatrix) -> Result<DenseMatrix, Lina
 ///
 /// # Errors
 /// As [`symmetric_generalised_eigen`].
-pub(crate) fn acting_generalised_eigen(
-    k: &DenseMatrix,
-    m: &DenseMatrix,
-) -> Result<SymmetricSpectrum, LinalgError> {
+pub(crate) fn acting_generalised_eigen(k: &DenseMatrix, m: &DenseMatrix) -> Result<SymmetricSpectrum, LinalgError> {
     let Some(basis) = acting_motions(k, m)? else {
         return symmetric_generalised_eigen(k, m);
     };
     let of_basis = symmetric_generalised_eigen(&congruent(k, &basis), &congruent(m, &basis))?;
-    Ok(SymmetricSpectrum {
-        vectors: &basis * of_basis.vectors,
-        values: of_basis.values,
-    })
+    Ok(SymmetricSpectrum { vectors: &basis * of_basis.vectors, values: of_basis.values })
 }
 
 /// `B^T A B`, exactly symmetric.
@@ -103,9 +83,8 @@ pub fn congruent(a: &DenseMatrix, basis: &DenseMatrix) -> DenseMatrix {
 
 /// Factor of the mass that makes it as large as the stiffness: the geometric mean of the diagonals' ratios.
 fn balance(k: &DenseMatrix, m: &DenseMatrix) -> f64 {
-    let logarithms = (0..k.nrows())
-        .map(|i| (k[(i, i)] / m[(i, i)]).abs().ln())
-        .filter(|logarithm| logarithm.is_finite());
+    let logarithms =
+        (0..k.nrows()).map(|i| (k[(i, i)] / m[(i, i)]).abs().ln()).filter(|logarithm| logarithm.is_finite());
     let (count, sum) = logarithms.fold((0_u32, 0.0), |(n, sum), value| (n + 1, sum + value));
     match count {
         0 => 1.0,
@@ -155,21 +134,10 @@ mod tests {
         for value in [1.0, -1.0, 1e9] {
             assert!(acting_motions(&one(value), &one(-value)).unwrap().is_none());
         }
-        assert_eq!(
-            acting_motions(&one(0.0), &one(0.0))
-                .unwrap()
-                .unwrap()
-                .ncols(),
-            0
-        );
+        assert_eq!(acting_motions(&one(0.0), &one(0.0)).unwrap().unwrap().ncols(), 0);
         // a pair that pushes and pulls, and beside it a motion of nothing
-        let with = |a: [[f64; 2]; 2]| {
-            DenseMatrix::from_fn(3, 3, |i, j| if i < 2 && j < 2 { a[i][j] } else { 0.0 })
-        };
-        let (k, m) = (
-            with([[1.0, 1.0], [1.0, 1.0]]),
-            with([[-1.0, -1.0], [-1.0, 3.0]]),
-        );
+        let with = |a: [[f64; 2]; 2]| DenseMatrix::from_fn(3, 3, |i, j| if i < 2 && j < 2 { a[i][j] } else { 0.0 });
+        let (k, m) = (with([[1.0, 1.0], [1.0, 1.0]]), with([[-1.0, -1.0], [-1.0, 3.0]]));
         let basis = acting_motions(&k, &m).unwrap().unwrap();
         assert_eq!(basis.ncols(), 2);
         assert!((0..2).all(|column| basis[(2, column)].abs() < 1e-15));

@@ -6,9 +6,7 @@ use super::*;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::Material;
 use crate::fe::mesh::Mesh;
-use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare,
-};
+use crate::fe::model::{Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare};
 use crate::numerics::units::LengthUnit;
 use std::path::Path;
 
@@ -18,10 +16,7 @@ fn block(poisson: f64) -> (SparseMatrix, SparseMatrix, Vec<usize>) {
     let mesh = Mesh::read_gmsh(&path, LengthUnit::Metre).expect("a mesh");
     let rubber = Material::new(1e7, poisson, 1100.0).expect("rubber");
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: "housing".to_owned(),
-            material: rubber.into(),
-        }],
+        parts: vec![HousingPart { group: "housing".to_owned(), material: rubber.into() }],
         supports: vec![HousingSupport {
             group: "feet".to_owned(),
             constraint: Constraint::Fixed([true; 3]),
@@ -56,11 +51,7 @@ fn single_precision_is_left_when_it_does_not_serve() {
                 .expect("in one precision or the other")
         };
         let forced = factorise(&stiffness, Kind::Definite);
-        println!(
-            "nu = {poisson}: single {}, contraction {:.1e}",
-            is_single(&forced),
-            forced.contraction
-        );
+        println!("nu = {poisson}: single {}, contraction {:.1e}", is_single(&forced), forced.contraction);
         if let Some(single) = single {
             assert_eq!(is_single(&forced), single, "{poisson}");
         }

@@ -51,10 +51,7 @@ const ROUNDING: f64 = 16.0;
 /// Largest `K_ii / M_ii`: about a third of the highest eigenvalue.
 pub(super) fn largest_ratio(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
     let ratios = stiffness.diagonal().into_iter().zip(mass.diagonal());
-    ratios
-        .map(|(stiffness, mass)| stiffness / mass)
-        .filter(|ratio| ratio.is_finite())
-        .fold(0.0, f64::max)
+    ratios.map(|(stiffness, mass)| stiffness / mass).filter(|ratio| ratio.is_finite()).fold(0.0, f64::max)
 }
 
 /// Round-off of `K x` for a unit x, in the norm of M, 1/s^2.
@@ -148,8 +145,7 @@ impl<'p> Search<'p> {
         let before = self.basis.size();
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
-        self.mass
-            .times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
+        self.mass.times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
         let mut width = BLOCK;
         while self.basis.size() < self.krylov {
             let [block, product, _] = &mut self.blocks;
@@ -171,11 +167,7 @@ impl<'p> Search<'p> {
     /// added.
     fn extend(&mut self, width: usize) -> Result<usize, LinalgError> {
         let [block, product, spare] = &mut self.blocks;
-        self.basis.extend(
-            first(block, width),
-            first(product, width),
-            first(spare, width),
-        )
+        self.basis.extend(first(block, width), first(product, width), first(spare, width))
     }
 
     /// Completes `V^T K V` from a vector on: many at once, so that the basis is read once for all of them. Overwrites the
@@ -205,13 +197,7 @@ impl<'p> Search<'p> {
     /// Eigenvalues and combinations of the space, ascending.
     fn ritz(&self) -> Result<SymmetricSpectrum, LinalgError> {
         let size = self.basis.size();
-        symmetric_eigen(
-            &self
-                .projected
-                .as_ref()
-                .submatrix(0, 0, size, size)
-                .to_owned(),
-        )
+        symmetric_eigen(&self.projected.as_ref().submatrix(0, 0, size, size).to_owned())
     }
 
     /// The Ritz value at a place.
@@ -220,10 +206,7 @@ impl<'p> Search<'p> {
     /// [`LinalgError::TooManyModes`] if the space is smaller, which then is that of all motions with mass.
     pub(super) fn value(&self, place: usize) -> Result<f64, LinalgError> {
         let values = self.ritz()?.values;
-        values.get(place).copied().ok_or(LinalgError::TooManyModes {
-            asked: place + 1,
-            available: values.len(),
-        })
+        values.get(place).copied().ok_or(LinalgError::TooManyModes { asked: place + 1, available: values.len() })
     }
 
     /// Keeps the space of the lowest Ritz vectors.
@@ -280,10 +263,7 @@ impl<'p> Search<'p> {
         if let Some(first) = changed {
             self.done[first..].fill(None);
         }
-        let chosen: Vec<usize> = (0..pursued)
-            .filter(|&place| self.done[place].is_none())
-            .take(CORRECTED)
-            .collect();
+        let chosen: Vec<usize> = (0..pursued).filter(|&place| self.done[place].is_none()).take(CORRECTED).collect();
         if chosen.is_empty() {
             let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
             let values = spectrum.values[..pursued].to_vec();
@@ -327,21 +307,13 @@ impl<'p> Search<'p> {
         let width = chosen.len();
         let mut vectors = first(vectors, width);
         let (mut heavy, mut remainders) = (first(heavy, width), first(remainders, width));
-        matmul(
-            vectors.rb_mut(),
-            Accum::Replace,
-            self.basis.vectors(),
-            combinations.as_ref(),
-            1.0,
-            Par::Seq,
-        );
+        matmul(vectors.rb_mut(), Accum::Replace, self.basis.vectors(), combinations.as_ref(), 1.0, Par::Seq);
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
         self.stiffness.times_into(vectors.rb(), remainders.rb_mut());
         let mut residuals = Vec::with_capacity(chosen.len());
         for (column, &place) in chosen.iter().enumerate() {
             let value = spectrum.values[place];
-            let (mut remainder, heavy) =
-                (remainders.rb_mut().col_mut(column), heavy.rb().col(column));
+            let (mut remainder, heavy) = (remainders.rb_mut().col_mut(column), heavy.rb().col(column));
             let scale = remainder.norm_l2() + (value - self.shift).abs() * heavy.norm_l2();
             for (entry, product) in remainder.rb_mut().iter_mut().zip(heavy.iter()) {
                 *entry -= value * product;
@@ -394,8 +366,7 @@ fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
 fn columns(a: &DenseMatrix, chosen: &[usize]) -> DenseMatrix {
     let mut some = DenseMatrix::zeros(a.nrows(), chosen.len());
     for (place, &column) in chosen.iter().enumerate() {
-        some.col_as_slice_mut(place)
-            .copy_from_slice(a.col_as_slice(column));
+        some.col_as_slice_mut(place).copy_from_slice(a.col_as_slice(column));
     }
     some
 }

@@ -29,10 +29,7 @@ impl SmallLu {
         self.exchanged.clear();
         for k in 0..n {
             let size = |row: usize| self.factors[row * n + k].abs();
-            let pivot = (k..n).fold(
-                k,
-                |best, row| if size(row) > size(best) { row } else { best },
-            );
+            let pivot = (k..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
             // neither zero nor what is not a number
             let is_pivot = size(pivot) > 0.0 && size(pivot).is_finite();
             if !is_pivot {

@@ -17,9 +17,7 @@ pub(super) fn available() -> Option<u64> {
 
 /// The line `MemAvailable: N kB`.
 fn of_meminfo(text: &str) -> Option<u64> {
-    let line = text
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let number = line.trim().strip_suffix("kB")?.trim();
     Some(1024 * number.parse::<u64>().ok()?)
 }

@@ -46,11 +46,8 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
     let mut options = [-1; metis_sys::METIS_NOPTIONS as usize];
     let (mut order, mut place) = (vec![0; nodes], vec![0; nodes]);
     // METIS takes what it only reads by mutable pointers; copies keep the graph untouched whatever it does
-    let (mut starts, mut neighbours, mut weights) = (
-        graph.starts.clone(),
-        graph.neighbours.clone(),
-        graph.weights.clone(),
-    );
+    let (mut starts, mut neighbours, mut weights) =
+        (graph.starts.clone(), graph.neighbours.clone(), graph.weights.clone());
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     // SAFETY: `starts` has count + 1 entries that end at the length of `neighbours`, whose entries are below count
     // (checked by whoever makes a `Graph`: `ordering::graph`); `weights`, `order` and `place` have count entries and

@@ -38,24 +38,17 @@ mod symmetric;
 pub use cholesky::SparseCholesky;
 pub use count::CountCheck;
 pub(crate) use dense::symmetric_eigen;
-pub use dense::{
-    DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum,
-    symmetric_generalised_eigen,
-};
+pub use dense::{DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum, symmetric_generalised_eigen};
 pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::{FactorLimit, LinalgError};
-pub use harmonic::{
-    ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution,
-    HarmonicTimes,
-};
+pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes};
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub use idle::congruent;
 pub(crate) use idle::{acting_generalised_eigen, acting_motions};
 pub(crate) use lu::SmallLu;
 pub(crate) use sparse::scattered_rows;
 pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, submatrix,
-    transpose_times_dense,
+    SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, submatrix, transpose_times_dense,
 };
 
 /// Dense column-major matrix of `f64`.

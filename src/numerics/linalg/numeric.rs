@@ -15,9 +15,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::prelude::*;
 use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt,
-    factorize_supernodal_numeric_intranode_lblt_scratch, factorize_supernodal_numeric_llt,
-    factorize_supernodal_numeric_llt_scratch,
+    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt, factorize_supernodal_numeric_intranode_lblt_scratch,
+    factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{MatMut, Par};
@@ -64,22 +63,12 @@ impl<T: Precision> NumericFactor<T> {
     ) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
-        let scale: Vec<f64> = a
-            .diagonal()
-            .into_iter()
-            .map(|entry| {
-                if entry == 0.0 {
-                    1.0
-                } else {
-                    entry.abs().sqrt().recip()
-                }
-            })
-            .collect();
+        let scale: Vec<f64> =
+            a.diagonal().into_iter().map(|entry| if entry == 0.0 { 1.0 } else { entry.abs().sqrt().recip() }).collect();
         let scaled: Vec<T> = (0..order)
             .flat_map(|column| {
                 let scale = &scale;
-                a.column(column)
-                    .map(move |(row, value)| T::rounded(scale[row] * value * scale[column]))
+                a.column(column).map(move |(row, value)| T::rounded(scale[row] * value * scale[column]))
             })
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(order, order, &a.offsets, None, &a.rows);
@@ -87,16 +76,12 @@ impl<T: Precision> NumericFactor<T> {
         let (supernodes, parallelism) = (&symbolic.supernodes, Par::Seq);
         let mut values = memory;
         values.truncate(supernodes.len_val());
-        values
-            .try_reserve_exact(supernodes.len_val() - values.len())
-            .map_err(|_| failed("out of memory"))?;
+        values.try_reserve_exact(supernodes.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
         values.resize(supernodes.len_val(), T::rounded(0.0));
         let scratch = match kind {
-            Kind::Definite => factorize_supernodal_numeric_llt_scratch::<u32, T>(
-                supernodes,
-                parallelism,
-                Default::default(),
-            ),
+            Kind::Definite => {
+                factorize_supernodal_numeric_llt_scratch::<u32, T>(supernodes, parallelism, Default::default())
+            }
             Kind::Indefinite => factorize_supernodal_numeric_intranode_lblt_scratch::<u32, T>(
                 supernodes,
                 parallelism,
@@ -116,20 +101,15 @@ impl<T: Precision> NumericFactor<T> {
                     stack,
                     Default::default(),
                 )
-                .map_err(|LltError::NonPositivePivot { index }| {
-                    LinalgError::NotPositiveDefinite {
-                        order,
-                        pivot: index,
-                    }
+                .map_err(|LltError::NonPositivePivot { index }| LinalgError::NotPositiveDefinite {
+                    order,
+                    pivot: index,
                 })?;
                 None
             }
             Kind::Indefinite => {
-                let mut pivots = Pivots {
-                    below_diagonal: vec![T::rounded(0.0); order],
-                    old: vec![0; order],
-                    new: vec![0; order],
-                };
+                let mut pivots =
+                    Pivots { below_diagonal: vec![T::rounded(0.0); order], old: vec![0; order], new: vec![0; order] };
                 factorize_supernodal_numeric_intranode_lblt(
                     &mut values,
                     &mut pivots.below_diagonal,
@@ -144,11 +124,7 @@ impl<T: Precision> NumericFactor<T> {
                 Some(pivots)
             }
         };
-        Ok(Self {
-            values,
-            scale,
-            pivots,
-        })
+        Ok(Self { values, scale, pivots })
     }
 
     /// The same with every entry rounded to another precision.
@@ -173,8 +149,7 @@ impl<T: Precision> NumericFactor<T> {
     /// `A^-1 B` in place for `B` [n x k]. Threads share the columns.
     pub(super) fn solve(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
         let width = b.ncols().div_ceil(rayon::current_num_threads()).max(1);
-        b.par_col_chunks_mut(width)
-            .for_each(|columns| self.solve_columns(symbolic, columns));
+        b.par_col_chunks_mut(width).for_each(|columns| self.solve_columns(symbolic, columns));
     }
 
     /// Where a row of the factor is in the matrix.
@@ -209,15 +184,9 @@ impl<T: Precision> NumericFactor<T> {
                 }
             }
         }
-        let pivoting = self.pivots.as_ref().map(|pivots| Pivoting {
-            below_diagonal: &pivots.below_diagonal,
-            places: &pivots.new,
-        });
-        let triangles = Triangles {
-            supernodes: &symbolic.supernodes,
-            values: &self.values,
-            pivoting,
-        };
+        let pivoting =
+            self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, places: &pivots.new });
+        let triangles = Triangles { supernodes: &symbolic.supernodes, values: &self.values, pivoting };
         substitute(&triangles, &mut x);
         for (block, x) in x.chunks_exact(order).enumerate() {
             let width = L.min(b.ncols() - L * block);
@@ -253,11 +222,7 @@ impl<T: Precision> NumericFactor<T> {
                 } else {
                     let next = block[(column + 1, column + 1)].exact();
                     let determinant = diagonal * next - below * below;
-                    negative += if determinant < 0.0 {
-                        1
-                    } else {
-                        2 * usize::from(diagonal < 0.0)
-                    };
+                    negative += if determinant < 0.0 { 1 } else { 2 * usize::from(diagonal < 0.0) };
                     column += 2;
                 }
             }

@@ -42,9 +42,7 @@ impl Ordering {
         let order = a.rows();
         let failed = |reason| LinalgError::Factorisation { order, reason };
         let runs = Runs::of(a, kept);
-        let graph = runs
-            .graph(a)
-            .ok_or_else(|| failed("more than 2^31 entries"))?;
+        let graph = runs.graph(a).ok_or_else(|| failed("more than 2^31 entries"))?;
         let dissected = nested_dissection(&graph).ok_or_else(|| failed("METIS found no order"))?;
         let mut place = vec![0; dissected.len()];
         for (new, &node) in dissected.iter().enumerate() {
@@ -121,11 +119,7 @@ impl<'k> Runs<'k> {
                 run_of[unknown] = run;
             }
         }
-        let mut graph = Graph {
-            starts: vec![0],
-            neighbours: Vec::new(),
-            weights: Vec::with_capacity(runs),
-        };
+        let mut graph = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::with_capacity(runs) };
         for run in 0..runs {
             let mut last = NONE;
             for (row, _) in a.outer_view(self.members(run)[0])?.iter() {
@@ -138,12 +132,8 @@ impl<'k> Runs<'k> {
                     last = other;
                 }
             }
-            graph
-                .starts
-                .push(i32::try_from(graph.neighbours.len()).ok()?);
-            graph
-                .weights
-                .push(i32::try_from(self.members(run).len()).ok()?);
+            graph.starts.push(i32::try_from(graph.neighbours.len()).ok()?);
+            graph.weights.push(i32::try_from(self.members(run).len()).ok()?);
         }
         Some(graph)
     }

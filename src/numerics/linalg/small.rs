@@ -19,32 +19,18 @@ pub(super) fn all_pairs(
     shift: f64,
 ) -> Result<(Ritz, CountCheck), LinalgError> {
     let spectrum = symmetric_generalised_eigen(&dense(k), &dense(m))?;
-    let available = spectrum
-        .values
-        .iter()
-        .take_while(|value| value.is_finite())
-        .count();
+    let available = spectrum.values.iter().take_while(|value| value.is_finite()).count();
     if count > available {
-        return Err(LinalgError::TooManyModes {
-            asked: count,
-            available,
-        });
+        return Err(LinalgError::TooManyModes { asked: count, available });
     }
     let values = spectrum.values[..available].to_vec();
-    let gap = |place: &usize| {
-        values[*place] - values[place - 1] > SMALLEST_GAP * (values[*place] - shift)
-    };
+    let gap = |place: &usize| values[*place] - values[place - 1] > SMALLEST_GAP * (values[*place] - shift);
     let counted = (count..available).find(gap).unwrap_or(available);
     let below = match values.get(counted) {
         Some(next) => 0.5 * (values[counted - 1] + next),
         None => 2.0 * values[counted - 1].abs(),
     };
-    let check = CountCheck {
-        above: None,
-        below,
-        counted,
-        found: counted,
-    };
+    let check = CountCheck { above: None, below, counted, found: counted };
     let vectors = spectrum.vectors.subcols(0, available).to_owned();
     Ok((Ritz { values, vectors }, check))
 }

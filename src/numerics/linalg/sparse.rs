@@ -16,9 +16,7 @@ pub struct TripletBuilder {
 impl TripletBuilder {
     /// An empty matrix of `rows` x `columns`.
     pub fn new(rows: usize, columns: usize) -> Self {
-        Self {
-            entries: CooMatrix::new(rows, columns),
-        }
+        Self { entries: CooMatrix::new(rows, columns) }
     }
 
     /// Adds `value` at (`row`, `column`); an index outside the matrix is a programming error and
@@ -112,12 +110,7 @@ pub fn sparse_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
 /// `A^T X` for a sparse `A` [n x m] and a dense `X` [n x k].
 pub fn transpose_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
     DenseMatrix::from_fn(a.cols(), x.ncols(), |row, column| {
-        a.outer_view(row).map_or(0.0, |entries| {
-            entries
-                .iter()
-                .map(|(inner, &value)| value * x[(inner, column)])
-                .sum()
-        })
+        a.outer_view(row).map_or(0.0, |entries| entries.iter().map(|(inner, &value)| value * x[(inner, column)]).sum())
     })
 }
 
@@ -127,13 +120,7 @@ mod tests {
 
     fn sample() -> SparseMatrix {
         let mut builder = TripletBuilder::new(3, 3);
-        for (row, column, value) in [
-            (0, 0, 2.0),
-            (1, 1, 3.0),
-            (2, 2, 4.0),
-            (0, 1, -1.0),
-            (1, 0, -1.0),
-        ] {
+        for (row, column, value) in [(0, 0, 2.0), (1, 1, 3.0), (2, 2, 4.0), (0, 1, -1.0), (1, 0, -1.0)] {
             builder.add(row, column, value);
         }
         builder.add(2, 2, 1.0);

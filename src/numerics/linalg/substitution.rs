@@ -39,10 +39,7 @@ pub(super) struct Triangles<'a, T> {
 
 /// `(L B L^T)^-1 X` in place for blocks of right-hand sides one after the other [blocks * n].
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
-pub(super) fn substitute<T: Precision, const L: usize>(
-    triangles: &Triangles<'_, T>,
-    x: &mut [Row<T, L>],
-) {
+pub(super) fn substitute<T: Precision, const L: usize>(triangles: &Triangles<'_, T>, x: &mut [Row<T, L>]) {
     // without the instruction a fused product is a call of the library
     if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
         triangles.forward::<L, true>(x);
@@ -203,12 +200,7 @@ impl<'a, T: Precision> Triangles<'a, T> {
 
     /// Copies the rows that a supernode touches.
     #[inline(always)]
-    fn gather<const L: usize>(
-        &self,
-        supernode: &Supernode<'_, T>,
-        x: &[Row<T, L>],
-        work: &mut [Row<T, L>],
-    ) {
+    fn gather<const L: usize>(&self, supernode: &Supernode<'_, T>, x: &[Row<T, L>], work: &mut [Row<T, L>]) {
         let (top, below) = work.split_at_mut(supernode.columns);
         top.copy_from_slice(&x[supernode.start..supernode.start + supernode.columns]);
         for (to, &row) in below.iter_mut().zip(supernode.below) {
@@ -236,11 +228,7 @@ impl<'a, T: Precision> Triangles<'a, T> {
             reached.clear();
             for (block, x) in x.chunks_exact(order).enumerate() {
                 if x[own.clone()].iter().any(|row| *row != [T::default(); L]) {
-                    self.gather(
-                        &supernode,
-                        x,
-                        &mut workspace[reached.len() * rows..][..rows],
-                    );
+                    self.gather(&supernode, x, &mut workspace[reached.len() * rows..][..rows]);
                     reached.push(block);
                 }
             }
@@ -325,17 +313,9 @@ fn step(left: usize) -> usize {
 
 /// `to + factor row` in place.
 #[inline(always)]
-fn add<T: Precision, const L: usize, const FUSED: bool>(
-    to: &mut Row<T, L>,
-    factor: T,
-    row: &Row<T, L>,
-) {
+fn add<T: Precision, const L: usize, const FUSED: bool>(to: &mut Row<T, L>, factor: T, row: &Row<T, L>) {
     for lane in 0..L {
-        to[lane] = if FUSED {
-            factor.fused(row[lane], to[lane])
-        } else {
-            factor * row[lane] + to[lane]
-        };
+        to[lane] = if FUSED { factor.fused(row[lane], to[lane]) } else { factor * row[lane] + to[lane] };
     }
 }
 

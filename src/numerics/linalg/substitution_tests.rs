@@ -19,11 +19,7 @@ fn grid(definite: bool) -> (Symbolic, SymmetricMatrix) {
         let place = row % SIDE + row / SIDE % SIDE + row / SIDE / SIDE;
         let sign = if place.is_multiple_of(2) { 0.5 } else { -0.5 };
         a.add(row, row, if definite { 8.0 } else { sign });
-        for (stride, place) in [
-            (1, row % SIDE),
-            (SIDE, row / SIDE % SIDE),
-            (SIDE * SIDE, row / SIDE / SIDE),
-        ] {
+        for (stride, place) in [(1, row % SIDE), (SIDE, row / SIDE % SIDE), (SIDE * SIDE, row / SIDE / SIDE)] {
             if place + 1 < SIDE {
                 // no two couplings alike: nothing cancels
                 let spring = -1.0 - 0.3 * ((7 * row + stride) as f64).sin();
@@ -39,12 +35,7 @@ fn grid(definite: bool) -> (Symbolic, SymmetricMatrix) {
 }
 
 /// Largest entry of `A F^-1 B - B`.
-fn remainder<T: Precision>(
-    symbolic: &Symbolic,
-    a: &SymmetricMatrix,
-    kind: Kind,
-    b: &DenseMatrix,
-) -> f64 {
+fn remainder<T: Precision>(symbolic: &Symbolic, a: &SymmetricMatrix, kind: Kind, b: &DenseMatrix) -> f64 {
     let factor = NumericFactor::<T>::new(symbolic, a, kind, Vec::new()).expect("regular");
     let mut x = b.clone();
     factor.solve(symbolic, x.as_mut());

@@ -10,8 +10,7 @@ use faer::sparse::linalg::cholesky::simplicial::{
     prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
 };
 use faer::sparse::linalg::cholesky::supernodal::{
-    SymbolicSupernodalCholesky, factorize_supernodal_symbolic_cholesky,
-    factorize_supernodal_symbolic_cholesky_scratch,
+    SymbolicSupernodalCholesky, factorize_supernodal_symbolic_cholesky, factorize_supernodal_symbolic_cholesky_scratch,
 };
 
 /// Supernodes that are merged: so many columns with at most this fraction of zeros. Against faer's default 5 % faster on
@@ -49,12 +48,9 @@ impl Symbolic {
         let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
         let entries = counts.iter().map(|&count| u64::from(count)).sum();
         affordable(order, entries, memory::available())?;
-        let parameters = SymbolicSupernodalParams {
-            relax: Some(RELAXATION),
-        };
-        let supernodes =
-            factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, parameters)
-                .map_err(|_| failed("its factor has more than 2^31 entries, or memory is short"))?;
+        let parameters = SymbolicSupernodalParams { relax: Some(RELAXATION) };
+        let supernodes = factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, parameters)
+            .map_err(|_| failed("its factor has more than 2^31 entries, or memory is short"))?;
         Ok(Self { supernodes })
     }
 
@@ -76,12 +72,7 @@ fn affordable(order: usize, entries: u64, free: Option<u64>) -> Result<(), Linal
         Some(free) if bytes > free => FactorLimit::Memory { free },
         _ => return Ok(()),
     };
-    Err(LinalgError::TooLarge {
-        order,
-        entries,
-        bytes,
-        limit,
-    })
+    Err(LinalgError::TooLarge { order, entries, bytes, limit })
 }
 
 /// Upper triangle in compressed columns: the transposed pattern.
@@ -117,21 +108,13 @@ mod tests {
         let free = 4_000_000_000;
         let error = affordable(order, entries, Some(free)).unwrap_err();
         let limit = FactorLimit::Memory { free };
-        let expected = LinalgError::TooLarge {
-            order,
-            entries,
-            bytes,
-            limit,
-        };
+        let expected = LinalgError::TooLarge { order, entries, bytes, limit };
         assert_eq!(error, expected);
         assert_eq!(
             error.to_string(),
             "the factor of a 3000000 x 3000000 matrix has 2000000000 entries, at least 8.0 GB: 4.0 GB of memory are free; expected a coarser mesh, or elements of lower order"
         );
         let places = affordable(order, 1 << 31, Some(u64::MAX)).unwrap_err();
-        assert!(
-            places.to_string().contains("more than 2^31 entries"),
-            "{places}"
-        );
+        assert!(places.to_string().contains("more than 2^31 entries"), "{places}");
     }
 }

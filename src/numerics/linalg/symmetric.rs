@@ -41,9 +41,7 @@ impl SymmetricMatrix {
         for (place, &old) in ordering.old.iter().enumerate() {
             column.clear();
             if let Some(entries) = a.outer_view(old as usize) {
-                let entries = entries
-                    .iter()
-                    .map(|(row, &value)| (ordering.new[row], value));
+                let entries = entries.iter().map(|(row, &value)| (ordering.new[row], value));
                 let below = |entry: &(u32, f64)| entry.0 != ABSENT && entry.0 as usize >= place;
                 column.extend(entries.filter(below));
             }
@@ -70,9 +68,7 @@ impl SymmetricMatrix {
     /// Diagonal [n].
     pub(super) fn diagonal(&self) -> Vec<f64> {
         let first = |column: usize| self.column(column).next().filter(|entry| entry.0 == column);
-        (0..self.order())
-            .map(|column| first(column).map_or(0.0, |entry| entry.1))
-            .collect()
+        (0..self.order()).map(|column| first(column).map_or(0.0, |entry| entry.1)).collect()
     }
 
     /// `self - sigma other`; the pattern is that of both.
@@ -89,9 +85,7 @@ impl SymmetricMatrix {
                     sum.rows.push(above as u32);
                     sum.values.push(-sigma * more);
                 }
-                let more = others
-                    .next_if(|entry| entry.0 == row)
-                    .map_or(0.0, |entry| entry.1);
+                let more = others.next_if(|entry| entry.0 == row).map_or(0.0, |entry| entry.1);
                 sum.rows.push(row as u32);
                 sum.values.push(value - sigma * more);
             }
@@ -108,9 +102,7 @@ impl SymmetricMatrix {
     pub(super) fn covers(&self, other: &Self) -> bool {
         (0..self.order()).all(|column| {
             let mut places = self.column(column);
-            other
-                .column(column)
-                .all(|(row, _)| places.any(|place| place.0 == row))
+            other.column(column).all(|(row, _)| places.any(|place| place.0 == row))
         })
     }
 
@@ -140,19 +132,12 @@ impl SymmetricMatrix {
         let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
         let (sums, diagonal) = (squared.times(squares.as_ref()), squared.diagonal());
         let scatter = |column: usize| -> f64 {
-            let rows = squares
-                .col_as_slice(column)
-                .iter()
-                .zip(sums.col_as_slice(column));
+            let rows = squares.col_as_slice(column).iter().zip(sums.col_as_slice(column));
             let terms = rows.zip(&diagonal);
             // the entries a_ij and a_ji are one, with one error: their squares count four times, not twice
-            terms
-                .map(|((x, sum), diagonal)| x * (2.0 * sum - diagonal * x))
-                .sum()
+            terms.map(|((x, sum), diagonal)| x * (2.0 * sum - diagonal * x)).sum()
         };
-        (0..x.ncols())
-            .map(|column| scatter(column).sqrt())
-            .collect()
+        (0..x.ncols()).map(|column| scatter(column).sqrt()).collect()
     }
 
     fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
@@ -171,10 +156,7 @@ impl SymmetricMatrix {
         multiply(&self.offsets, &self.rows, &self.values, lanes, product);
         for (tile, rows) in product.chunks(TILE).enumerate() {
             for lane in 0..x.ncols() {
-                let column = y
-                    .rb_mut()
-                    .col_mut(lane)
-                    .subrows_mut(TILE * tile, rows.len());
+                let column = y.rb_mut().col_mut(lane).subrows_mut(TILE * tile, rows.len());
                 for (entry, row) in column.iter_mut().zip(rows) {
                     *entry = row[lane];
                 }
@@ -197,20 +179,12 @@ thread_local! {
 
 /// `product = A lanes` for a lower triangle in compressed columns, with the widest instructions that the machine has.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn multiply(
-    offsets: &[u32],
-    rows: &[u32],
-    values: &[f64],
-    lanes: &[[f64; LANES]],
-    product: &mut [[f64; LANES]],
-) {
+fn multiply(offsets: &[u32], rows: &[u32], values: &[f64], lanes: &[[f64; LANES]], product: &mut [[f64; LANES]]) {
     // without the instruction a fused product is a call of the library
     if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
         multiply_by(offsets, rows, values, lanes, product, f64::mul_add);
     } else {
-        multiply_by(offsets, rows, values, lanes, product, |a, b, sum| {
-            a * b + sum
-        });
+        multiply_by(offsets, rows, values, lanes, product, |a, b, sum| a * b + sum);
     }
 }
 
@@ -252,18 +226,12 @@ mod tests {
 
     /// [[2, 1, 0], [1, 3, -2], [0, -2, 0]], the last diagonal entry not stored.
     fn sample() -> SymmetricMatrix {
-        SymmetricMatrix {
-            offsets: vec![0, 2, 4, 4],
-            rows: vec![0, 1, 1, 2],
-            values: vec![2.0, 1.0, 3.0, -2.0],
-        }
+        SymmetricMatrix { offsets: vec![0, 2, 4, 4], rows: vec![0, 1, 1, 2], values: vec![2.0, 1.0, 3.0, -2.0] }
     }
 
     #[test]
     fn terms_scatter_as_their_squares() {
-        let x = DenseMatrix::from_fn(3, 2, |row, column| {
-            [[1.0, 2.0, 3.0], [0.0, 1.0, 0.5]][column][row]
-        });
+        let x = DenseMatrix::from_fn(3, 2, |row, column| [[1.0, 2.0, 3.0], [0.0, 1.0, 0.5]][column][row]);
         let found = sample().energy_scatters(x.as_ref());
         // terms 2, 12 on the diagonal, 2 * 2 and 2 * 12 beside it; then 3 and 2 * 1
         let expected = [(4.0 + 144.0 + 16.0 + 576.0_f64).sqrt(), 13.0_f64.sqrt()];
@@ -276,21 +244,9 @@ mod tests {
     #[test]
     fn a_pattern_covers_its_parts() {
         let whole = sample();
-        let part = SymmetricMatrix {
-            offsets: vec![0, 1, 2, 2],
-            rows: vec![1, 1],
-            values: vec![1.0, 1.0],
-        };
-        let other = SymmetricMatrix {
-            offsets: vec![0, 0, 0, 1],
-            rows: vec![2],
-            values: vec![1.0],
-        };
-        let corner = SymmetricMatrix {
-            offsets: vec![0, 1, 1, 1],
-            rows: vec![0],
-            values: vec![1.0],
-        };
+        let part = SymmetricMatrix { offsets: vec![0, 1, 2, 2], rows: vec![1, 1], values: vec![1.0, 1.0] };
+        let other = SymmetricMatrix { offsets: vec![0, 0, 0, 1], rows: vec![2], values: vec![1.0] };
+        let corner = SymmetricMatrix { offsets: vec![0, 1, 1, 1], rows: vec![0], values: vec![1.0] };
         assert!(whole.covers(&whole) && whole.covers(&part) && whole.covers(&corner));
         assert!(!part.covers(&corner) && !whole.covers(&other));
     }

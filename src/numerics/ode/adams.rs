@@ -28,9 +28,7 @@ mod flow;
 mod track;
 
 use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{
-    Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use crate::numerics::ode::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use flow::Flow;
 use track::Track;
 
@@ -71,10 +69,7 @@ impl Adams {
             track: Track::new(coordinates, tolerance.is_some()),
             // nothing is known yet
             halvings,
-            statistics: Statistics {
-                evaluations: 1,
-                ..Statistics::default()
-            },
+            statistics: Statistics { evaluations: 1, ..Statistics::default() },
         }
     }
 
@@ -100,14 +95,7 @@ impl Adams {
 }
 
 impl<S: SecondOrderSystem> Stepper<S> for Adams {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence> {
         self.track.begin(y, v, g);
         if self.tolerance.is_some() && self.statistics.steps == 0 {
             // the force was evaluated there before

@@ -57,10 +57,7 @@ struct PartsOfRun {
 impl PartsOfRun {
     /// Of a run with so many samples, at least one a part.
     fn of(samples: u32) -> Self {
-        Self {
-            largest: [0.0; PARTS],
-            samples: samples.max(PARTS as u32),
-        }
+        Self { largest: [0.0; PARTS], samples: samples.max(PARTS as u32) }
     }
 
     /// Takes the size at a sample, from 0.
@@ -83,29 +80,14 @@ impl PartsOfRun {
 /// order of its fastest motion. `ExponentialAdams` with a tolerance takes steps of that length too: what is small is below it.
 #[must_use]
 pub fn growth(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u32) -> Growth {
-    let infinite = Growth {
-        per_step: f64::INFINITY,
-        motion: Vec::new(),
-    };
+    let infinite = Growth { per_step: f64::INFINITY, motion: Vec::new() };
     take(system, method, h, fastest, steps).unwrap_or(infinite)
 }
 
-fn take(
-    system: &mut Linearised,
-    method: Method,
-    h: f64,
-    fastest: f64,
-    steps: u32,
-) -> Result<Growth, TransientError> {
-    let schedule = Schedule {
-        interval: h,
-        steps_per_interval: 1,
-        intervals: u64::from(steps),
-    };
+fn take(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u32) -> Result<Growth, TransientError> {
+    let schedule = Schedule { interval: h, steps_per_interval: 1, intervals: u64::from(steps) };
     let mut stepper = match method {
-        Method::ExponentialAdams { tolerance: Some(_) } => {
-            Box::new(Adams::new(&*system, h, Some(f64::INFINITY)))
-        }
+        Method::ExponentialAdams { tolerance: Some(_) } => Box::new(Adams::new(&*system, h, Some(f64::INFINITY))),
         _ => stepper(&*system, method, &schedule, 0.0)?,
     };
     let dof = system.linear().len();
@@ -119,17 +101,11 @@ fn take(
         let went = stepper.step(system, f64::from(step + 1) * h, &mut y, &mut v, &mut g);
         let now = size(&v);
         if went.is_err() || now.is_nan() || now > BEYOND_DOUBT * first {
-            return Ok(Growth {
-                per_step: BEYOND_DOUBT.ln() / f64::from(step + 1),
-                motion: before,
-            });
+            return Ok(Growth { per_step: BEYOND_DOUBT.ln() / f64::from(step + 1), motion: before });
         }
         parts.see(step, now);
     }
-    Ok(Growth {
-        per_step: parts.growth(),
-        motion: v,
-    })
+    Ok(Growth { per_step: parts.growth(), motion: v })
 }
 
 /// All coordinates in motion, without pattern: velocities of the order 1, positions of the order `1 / fastest` (1/s).
@@ -139,10 +115,7 @@ fn start(dof: usize, fastest: f64) -> [Vec<f64>; 2] {
         let even = 2.0 * ((k + 1) as f64 * GOLDEN).fract() - 1.0;
         even + 0.2_f64.copysign(even)
     };
-    [
-        (0..dof).map(|i| number(2 * i + 1) / fastest).collect(),
-        (0..dof).map(|i| number(2 * i)).collect(),
-    ]
+    [(0..dof).map(|i| number(2 * i + 1) / fastest).collect(), (0..dof).map(|i| number(2 * i)).collect()]
 }
 
 fn size(v: &[f64]) -> f64 {
@@ -163,22 +136,14 @@ mod tests {
         let mut oscillator = Oscillator::new(0.0);
         oscillator.linear[0].damping = 0.0;
         oscillator.outside = stiffness * w * w;
-        let rest = State {
-            t: 0.0,
-            y: vec![0.0],
-            v: vec![0.0],
-        };
+        let rest = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
         let mut linearised = Linearised::new(&mut oscillator, &rest);
         growth(&mut linearised, method, phase / w, w, 4 * STEPS)
     }
 
     /// Spectral radius of a two-step recursion `y2 - 2 a y1 + y0 = 0`.
     fn of_recursion(a: f64) -> f64 {
-        if a.abs() <= 1.0 {
-            0.0
-        } else {
-            (a.abs() + (a * a - 1.0).sqrt()).ln()
-        }
+        if a.abs() <= 1.0 { 0.0 } else { (a.abs() + (a * a - 1.0).sqrt()).ln() }
     }
 
     /// Gautschi's recursion `y2 - 2 cos y1 + y0 = -4 sin^2(phase / 2) s y1`, and that of the kicks
@@ -189,10 +154,9 @@ mod tests {
         for phase in [0.5, 2.0, 2.6, 2.9, 3.0, 3.1, 3.2, 3.4, 6.2, 6.5] {
             let (cos, sin) = (f64::cos(phase), f64::sin(phase));
             let half = f64::sin(0.5 * phase);
-            for (method, a) in [
-                (Method::Exponential, cos - 2.0 * s * half * half),
-                (Method::Splitting, cos - 0.5 * s * phase * sin),
-            ] {
+            for (method, a) in
+                [(Method::Exponential, cos - 2.0 * s * half * half), (Method::Splitting, cos - 0.5 * s * phase * sin)]
+            {
                 let (found, expected) = (of_oscillator(method, s, phase), of_recursion(a));
                 // what beats is below UNSTABLE; a fast growth is taken from some 150 steps, of which the start takes a few
                 assert!(
@@ -206,12 +170,7 @@ mod tests {
     #[test]
     fn implicit_methods_never_grow_and_adams_does_not_hold_what_it_does_not_resolve() {
         for phase in [0.1, 1.0, 3.0, 30.0] {
-            for method in [
-                Method::Newmark,
-                Method::GeneralizedAlpha {
-                    spectral_radius: 0.8,
-                },
-            ] {
+            for method in [Method::Newmark, Method::GeneralizedAlpha { spectral_radius: 0.8 }] {
                 assert!(!of_oscillator(method, 0.5, phase).is_unstable());
             }
         }

@@ -109,11 +109,7 @@ impl fmt::Display for BlowUp {
                 2 => "a turn".to_owned(),
                 more => format!("{more} half turns"),
             };
-            write!(
-                f,
-                " but for resonances: in this step a mode of {:.1} kHz makes about {turns}",
-                1e-3 * mode_hz
-            )?;
+            write!(f, " but for resonances: in this step a mode of {:.1} kHz makes about {turns}", 1e-3 * mode_hz)?;
         }
         Ok(())
     }

@@ -28,17 +28,9 @@ pub(super) struct Exponential {
 
 impl Exponential {
     pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
-        let flow: Vec<Propagator> = system
-            .linear()
-            .iter()
-            .map(|&coordinate| Propagator::new(coordinate, h))
-            .collect();
+        let flow: Vec<Propagator> = system.linear().iter().map(|&coordinate| Propagator::new(coordinate, h)).collect();
         let dof = flow.len();
-        Self {
-            flow,
-            predicted: vec![0.0; dof],
-            next_force: vec![0.0; dof],
-        }
+        Self { flow, predicted: vec![0.0; dof], next_force: vec![0.0; dof] }
     }
 }
 
@@ -48,8 +40,7 @@ impl<S: SecondOrderSystem> OneEvaluation<S> for Exponential {
             let p = &self.flow[i];
             let (y0, v0, g0) = (y[i], v[i], g[i]);
             y[i] = p.position_position * y0 + p.position_velocity * v0 + p.response * g0;
-            self.predicted[i] =
-                p.velocity_position * y0 + p.velocity_velocity * v0 + p.position_velocity * g0;
+            self.predicted[i] = p.velocity_position * y0 + p.velocity_velocity * v0 + p.position_velocity * g0;
         }
         system.force_into(t1, y, &self.predicted, &mut self.next_force);
         for i in 0..self.flow.len() {

@@ -19,8 +19,7 @@
 use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
 use super::stepper::{Statistics, Stepper};
 use crate::numerics::ode::{
-    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-    Tangent,
+    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, Tangent,
 };
 
 /// Parameters of a method.
@@ -33,24 +32,14 @@ struct Family {
 }
 
 impl Family {
-    const AVERAGE_ACCELERATION: Self = Self {
-        alpha_m: 0.0,
-        alpha_f: 0.0,
-        beta: 0.25,
-        gamma: 0.5,
-    };
+    const AVERAGE_ACCELERATION: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
 
     /// Of second order, with the least damping of low frequencies for its `spectral_radius` at high ones.
     fn generalized_alpha(spectral_radius: f64) -> Self {
         let alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0);
         let alpha_f = spectral_radius / (spectral_radius + 1.0);
         let difference = 1.0 - alpha_m + alpha_f;
-        Self {
-            alpha_m,
-            alpha_f,
-            beta: 0.25 * difference * difference,
-            gamma: difference - 0.5,
-        }
+        Self { alpha_m, alpha_f, beta: 0.25 * difference * difference, gamma: difference - 0.5 }
     }
 }
 
@@ -88,21 +77,14 @@ impl Implicit {
     }
 
     /// `spectral_radius` at infinite frequency, 0 to 1.
-    pub(super) fn generalized_alpha(
-        system: &impl SecondOrderSystem,
-        h: f64,
-        spectral_radius: f64,
-    ) -> Self {
+    pub(super) fn generalized_alpha(system: &impl SecondOrderSystem, h: f64, spectral_radius: f64) -> Self {
         Self::new(system, h, Family::generalized_alpha(spectral_radius))
     }
 
     fn new(system: &impl SecondOrderSystem, h: f64, family: Family) -> Self {
         let linear = system.linear().to_vec();
-        let weights = Weights {
-            force: 1.0 - family.alpha_f,
-            position: family.beta * h * h,
-            velocity: family.gamma * h,
-        };
+        let weights =
+            Weights { force: 1.0 - family.alpha_f, position: family.beta * h * h, velocity: family.gamma * h };
         let diagonal = linear.iter().map(|coordinate| {
             let spring = weights.position * coordinate.squared_frequency;
             let damper = weights.velocity * coordinate.damping;
@@ -116,18 +98,11 @@ impl Implicit {
             matrix: NewtonMatrix::new(diagonal.collect(), weights),
             tangent: Tangent::new(linear.len()),
             acceleration: None,
-            known: Known {
-                y: zeros(),
-                v: zeros(),
-                balance: zeros(),
-            },
+            known: Known { y: zeros(), v: zeros(), balance: zeros() },
             correction: zeros(),
             dy: zeros(),
             dv: zeros(),
-            statistics: Statistics {
-                evaluations: 1,
-                ..Statistics::default()
-            },
+            statistics: Statistics { evaluations: 1, ..Statistics::default() },
             linear,
         }
     }
@@ -138,8 +113,7 @@ impl Implicit {
         for (i, linear) in self.linear.iter().enumerate() {
             known.y[i] = y[i] + h * v[i] + (0.5 - family.beta) * h * h * a[i];
             known.v[i] = v[i] + (1.0 - family.gamma) * h * a[i];
-            known.balance[i] =
-                family.alpha_m * a[i] - family.alpha_f * pull(linear, y[i], v[i], g[i]);
+            known.balance[i] = family.alpha_m * a[i] - family.alpha_f * pull(linear, y[i], v[i], g[i]);
         }
     }
 
@@ -176,8 +150,7 @@ impl Implicit {
 
     /// Corrects the acceleration and gives the Euclidean size of the change of the force in the equations.
     fn correct(&mut self, a: &mut [f64]) -> f64 {
-        self.matrix
-            .solve_in_place(&self.tangent, &mut self.correction);
+        self.matrix.solve_in_place(&self.tangent, &mut self.correction);
         let mut square = 0.0;
         for (i, change) in self.correction.iter().enumerate() {
             a[i] += change;
@@ -244,19 +217,10 @@ fn pull(linear: &LinearCoordinate, y: f64, v: f64, g: f64) -> f64 {
 }
 
 impl<S: SecondOrderSystem> Stepper<S> for Implicit {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence> {
         let mut a = self.acceleration.take().unwrap_or_else(|| {
             let coordinates = self.linear.iter().enumerate();
-            coordinates
-                .map(|(i, linear)| pull(linear, y[i], v[i], g[i]))
-                .collect()
+            coordinates.map(|(i, linear)| pull(linear, y[i], v[i], g[i])).collect()
         });
         self.begin(y, v, g, &a);
         self.solve(system, t1, &mut a, [y, v, g])?;

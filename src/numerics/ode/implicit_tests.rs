@@ -8,10 +8,7 @@ use crate::numerics::ode::{
 };
 use crate::numerics::ode::{Method, Schedule, Statistics, Stepping, integrate};
 
-const FREE: LinearCoordinate = LinearCoordinate {
-    squared_frequency: 0.0,
-    damping: 0.0,
-};
+const FREE: LinearCoordinate = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
 
 /// Mass 1 on a spring `F = y^1.5 (1 + c v)` that only pushes.
 pub(super) struct Impact {
@@ -21,10 +18,7 @@ pub(super) struct Impact {
 
 impl Impact {
     pub fn new(damping: f64) -> Self {
-        Self {
-            linear: [FREE],
-            damping,
-        }
+        Self { linear: [FREE], damping }
     }
 }
 
@@ -65,21 +59,13 @@ fn steps<S: SecondOrderSystem>(
     state: &mut State,
     observer: &mut impl Observer<S>,
 ) -> Result<Statistics, TransientError> {
-    let schedule = Schedule {
-        interval: h * count,
-        steps_per_interval: count as u32,
-        intervals: 1,
-    };
+    let schedule = Schedule { interval: h * count, steps_per_interval: count as u32, intervals: 1 };
     let go_on = |_, _| Stepping::Continue;
     integrate(system, method, &schedule, state, observer, go_on)
 }
 
 fn at(y: &[f64], v: &[f64]) -> State {
-    State {
-        t: 0.0,
-        y: y.to_vec(),
-        v: v.to_vec(),
-    }
+    State { t: 0.0, y: y.to_vec(), v: v.to_vec() }
 }
 
 fn alpha(spectral_radius: f64) -> Method {
@@ -89,10 +75,7 @@ fn alpha(spectral_radius: f64) -> Method {
 /// Undamped, `w = 1`, no drive, part of the spring in the force.
 fn unit_oscillator(split: f64) -> Oscillator {
     let mut system = Oscillator::new(0.0);
-    system.linear[0] = LinearCoordinate {
-        squared_frequency: 1.0 - split,
-        damping: 0.0,
-    };
+    system.linear[0] = LinearCoordinate { squared_frequency: 1.0 - split, damping: 0.0 };
     (system.outside, system.drive) = (split, 0.0);
     system
 }
@@ -121,14 +104,10 @@ fn no_step_is_too_long_for_a_stiff_oscillator() {
             let mut path = Path::default();
             steps(&mut system, method, [100.0, 1e4], &mut state, &mut path).unwrap();
             let largest = path.0.iter().fold(0.0, |most: f64, y| most.max(y.abs()));
-            println!(
-                "{method:?}, {split}: largest {largest:.2}, last {:.1e}",
-                state.y[0]
-            );
+            println!("{method:?}, {split}: largest {largest:.2}, last {:.1e}", state.y[0]);
             // sqrt(1.25) where energy is kept
             assert!(largest < 2.0, "{method:?} {split}: {largest}");
-            if matches!(method, Method::GeneralizedAlpha { spectral_radius } if spectral_radius < 0.9)
-            {
+            if matches!(method, Method::GeneralizedAlpha { spectral_radius } if spectral_radius < 0.9) {
                 assert!(state.y[0].abs() < 1e-12, "{method:?}: {}", state.y[0]);
             }
         }
@@ -143,14 +122,7 @@ fn fast_motions_lose_what_was_published() {
     for radius in [0.2_f64, 0.5, 0.8] {
         let (mut system, mut state) = (unit_oscillator(0.0), at(&[1.0], &[1e-4]));
         let mut path = Path::default();
-        steps(
-            &mut system,
-            alpha(radius),
-            [1e3, 6.0],
-            &mut state,
-            &mut path,
-        )
-        .unwrap();
+        steps(&mut system, alpha(radius), [1e3, 6.0], &mut state, &mut path).unwrap();
         let y = &path.0;
         let mut lu = SmallLu::default();
         let matrix = lu.fill(3);
@@ -165,10 +137,7 @@ fn fast_motions_lose_what_was_published() {
         println!("rho {radius}: {found:?}, published {published:?}");
         for (found, published) in found.iter().zip(&published) {
             // of the order 1 / (h w)^2: found 1.5e-5 at most
-            assert!(
-                (found - published).abs() < 2e-5,
-                "{radius}: {found} {published}"
-            );
+            assert!((found - published).abs() < 2e-5, "{radius}: {found} {published}");
         }
     }
 }
@@ -205,27 +174,19 @@ impl SecondOrderSystem for Pressed {
 
 #[test]
 fn an_equilibrium_stays_one() {
-    let mode = LinearCoordinate {
-        squared_frequency: 1e4,
-        damping: 0.0,
-    };
+    let mode = LinearCoordinate { squared_frequency: 1e4, damping: 0.0 };
     let sag = LOAD / 1e4;
     let rest = [sag, sag + (LOAD / STIFFNESS).cbrt().powi(2)];
     for method in [Method::Newmark, alpha(0.0), alpha(0.8), alpha(1.0)] {
         // contact and mode at 1 and at 100 rad a step
         for h in [0.01, 1.0] {
-            let mut system = Pressed {
-                linear: [mode, FREE],
-            };
+            let mut system = Pressed { linear: [mode, FREE] };
             let mut state = at(&rest, &[0.0; 2]);
             let counts = steps(&mut system, method, [h, 1e3], &mut state, &mut NoRecord).unwrap();
             let moved = [0, 1].map(|i| (state.y[i] / rest[i] - 1.0).abs());
             println!("{method:?}, h = {h}: {moved:?}, {} solves", counts.solves);
             // round-off of the forces, which the stiffness makes one of the positions, kept by methods without damping
-            assert!(
-                moved[0] < 1e-12 && moved[1] < 1e-12,
-                "{method:?}: {moved:?}"
-            );
+            assert!(moved[0] < 1e-12 && moved[1] < 1e-12, "{method:?}: {moved:?}");
             // what is balanced is solved at once
             assert_eq!(counts.solves, counts.steps);
         }
@@ -249,17 +210,11 @@ fn an_impact_is_solved() {
             let (speed, left) = (-state.v[0], end + state.y[0] / -state.v[0]);
             errors.push([speed - 1.0, left / (0.5 + contact) - 1.0]);
             let solves = counts.solves as f64 / counts.steps as f64;
-            println!(
-                "{method:?}, {count} steps: {:?}, {solves} solves a step",
-                errors.last()
-            );
+            println!("{method:?}, {count} steps: {:?}, {solves} solves a step", errors.last());
             assert!(solves < 3.0, "{solves}");
         }
         // w h = pi / 77 to pi / 308: second order, with where the steps meet the contact in it
-        assert!(
-            errors[2].iter().all(|error| error.abs() < 1e-4),
-            "{errors:?}"
-        );
+        assert!(errors[2].iter().all(|error| error.abs() < 1e-4), "{errors:?}");
     }
 }
 
@@ -301,28 +256,13 @@ fn a_tangent_left_out_costs_iterations_and_no_accuracy() {
     let mut ends = Vec::new();
     let run = [0.1, 100.0];
     let mut with = at(&[1.0], &[0.0]);
-    let told = steps(
-        &mut unit_oscillator(0.7),
-        Method::Newmark,
-        run,
-        &mut with,
-        &mut NoRecord,
-    );
+    let told = steps(&mut unit_oscillator(0.7), Method::Newmark, run, &mut with, &mut NoRecord);
     let mut without = at(&[1.0], &[0.0]);
     let mut silent = Silent(unit_oscillator(0.7));
-    let untold = steps(
-        &mut silent,
-        Method::Newmark,
-        run,
-        &mut without,
-        &mut NoRecord,
-    );
+    let untold = steps(&mut silent, Method::Newmark, run, &mut without, &mut NoRecord);
     ends.extend([with.y[0], without.y[0]]);
     let (told, untold) = (told.unwrap().solves, untold.unwrap().solves);
-    println!(
-        "solves {told} and {untold}, difference {:e}",
-        ends[1] - ends[0]
-    );
+    println!("solves {told} and {untold}, difference {:e}", ends[1] - ends[0]);
     assert!(untold > told);
     // 100 steps of the tolerance
     assert!((ends[1] - ends[0]).abs() < 1e-8);
@@ -333,30 +273,12 @@ fn what_cannot_be_solved_is_an_error() {
     // the force left out outgrows what is known at h w = 3: corrections grow by 9 / 4 times
     let mut silent = Silent(unit_oscillator(1.0));
     let mut state = at(&[1.0], &[0.0]);
-    let error = steps(
-        &mut silent,
-        Method::Newmark,
-        [3.0, 4.0],
-        &mut state,
-        &mut NoRecord,
-    );
+    let error = steps(&mut silent, Method::Newmark, [3.0, 4.0], &mut state, &mut NoRecord);
     let Err(TransientError::BlewUp(blow_up)) = error else {
         panic!("{error:?}");
     };
     let cause = &blow_up.cause;
-    assert!(
-        matches!(cause, Divergence::NotSolved { iterations: 30, .. }),
-        "{cause}"
-    );
-    let wrong = steps(
-        &mut silent,
-        alpha(1.5),
-        [3.0, 4.0],
-        &mut state,
-        &mut NoRecord,
-    );
-    assert_eq!(
-        wrong.unwrap_err().to_string(),
-        "spectral radius must be from 0 to 1, found 1.5"
-    );
+    assert!(matches!(cause, Divergence::NotSolved { iterations: 30, .. }), "{cause}");
+    let wrong = steps(&mut silent, alpha(1.5), [3.0, 4.0], &mut state, &mut NoRecord);
+    assert_eq!(wrong.unwrap_err().to_string(), "spectral radius must be from 0 to 1, found 1.5");
 }

@@ -5,9 +5,7 @@ use super::method::{Method, StepLimit};
 use super::schedule::Schedule;
 use super::stepper::{Statistics, Stepper};
 use super::steppers::stepper;
-use crate::numerics::ode::{
-    Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State,
-};
+use crate::numerics::ode::{Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State};
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
 /// step that is too long is then seen fewer than so many steps after its first value out of range. By instructions a look takes
@@ -108,11 +106,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         snapshot: &mut SnapshotReader,
     ) -> Result<Self, TransientError> {
         let dof = system.linear().len();
-        let mut state = State {
-            t: snapshot.number()?,
-            y: vec![0.0; dof],
-            v: vec![0.0; dof],
-        };
+        let mut state = State { t: snapshot.number()?, y: vec![0.0; dof], v: vec![0.0; dof] };
         let mut force = vec![0.0; dof];
         for numbers in [&mut state.y, &mut state.v, &mut force] {
             snapshot.numbers_into("coordinates", numbers)?;
@@ -121,22 +115,11 @@ impl<S: SecondOrderSystem> Integration<S> {
         let (intervals, samples) = (snapshot.count()?, snapshot.count()?);
         let mut stepper = stepper(system, method, &schedule, start)?;
         stepper.recall(snapshot)?;
-        Ok(Self {
-            start,
-            intervals,
-            samples,
-            ..Self::at(state, force, method, schedule, stepper)
-        })
+        Ok(Self { start, intervals, samples, ..Self::at(state, force, method, schedule, stepper) })
     }
 
     /// About to take its first step from a state and the force there.
-    fn at(
-        state: State,
-        force: Vec<f64>,
-        method: Method,
-        schedule: Schedule,
-        stepper: Box<dyn Stepper<S>>,
-    ) -> Self {
+    fn at(state: State, force: Vec<f64>, method: Method, schedule: Schedule, stepper: Box<dyn Stepper<S>>) -> Self {
         Self {
             method,
             schedule,
@@ -194,11 +177,7 @@ impl<S: SecondOrderSystem> Integration<S> {
     ///
     /// # Errors
     /// [`TransientError::BlewUp`]; the state is then the last good one, which lies in this interval or at its start.
-    pub fn advance(
-        &mut self,
-        system: &mut S,
-        observer: &mut impl Observer<S>,
-    ) -> Result<(), TransientError> {
+    pub fn advance(&mut self, system: &mut S, observer: &mut impl Observer<S>) -> Result<(), TransientError> {
         for place in 1..=self.schedule.steps_per_interval {
             let t = self.schedule.instant(self.start, self.intervals, place);
             if let Err(cause) = self.step(system, t, place) {
@@ -240,9 +219,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         let step_s = self.schedule.step();
         let limit = self.limit(system, step_s);
         let below = limit.is_none_or(|limit| step_s <= limit.step_s);
-        let resonance = below
-            .then(|| self.method.resonance(system, &self.earlier[2], step_s))
-            .flatten();
+        let resonance = below.then(|| self.method.resonance(system, &self.earlier[2], step_s)).flatten();
         let blow_up = BlowUp {
             method: self.method,
             time,
@@ -287,13 +264,5 @@ impl<S: SecondOrderSystem> Integration<S> {
 }
 
 fn observe<S>(system: &S, observer: &mut impl Observer<S>, step: u64, state: &State) {
-    observer.observe(
-        system,
-        Instant {
-            step,
-            t: state.t,
-            y: &state.y,
-            v: &state.v,
-        },
-    );
+    observer.observe(system, Instant { step, t: state.t, y: &state.y, v: &state.v });
 }

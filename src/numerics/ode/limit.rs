@@ -41,10 +41,7 @@ impl Resonance {
         let phase = h * omega / PI;
         let multiple = phase.round();
         let near = multiple >= 1.0 && (phase - multiple).abs() < NEAR;
-        near.then_some(Self {
-            mode_hz: omega / TAU,
-            multiple: multiple as u32,
-        })
+        near.then_some(Self { mode_hz: omega / TAU, multiple: multiple as u32 })
     }
 }
 
@@ -56,21 +53,12 @@ impl Method {
     /// grow until they are of the tolerance's size, and stay there.
     ///
     /// What the system leaves out of its tangent is not seen.
-    pub fn step_limit<S: SecondOrderSystem>(
-        self,
-        system: &mut S,
-        state: &State,
-    ) -> Option<StepLimit> {
+    pub fn step_limit<S: SecondOrderSystem>(self, system: &mut S, state: &State) -> Option<StepLimit> {
         self.limit_of(&mut Linearised::new(system, state))
     }
 
     /// The resonance of a step of length `h` (s) at a state, if small motions there grow by one.
-    pub fn resonance<S: SecondOrderSystem>(
-        self,
-        system: &mut S,
-        state: &State,
-        h: f64,
-    ) -> Option<Resonance> {
+    pub fn resonance<S: SecondOrderSystem>(self, system: &mut S, state: &State, h: f64) -> Option<Resonance> {
         if self.chooses_its_steps() {
             return None;
         }
@@ -128,10 +116,7 @@ impl Method {
             Self::NewmarkExplicit => of_coordinates(system),
             _ => of_terms(system.tangent(), Tangent::position),
         };
-        Some(StepLimit {
-            step_s: stable,
-            highest_hz: largest_real_part(&explicit)?.sqrt() / TAU,
-        })
+        Some(StepLimit { step_s: stable, highest_hz: largest_real_part(&explicit)?.sqrt() / TAU })
     }
 }
 

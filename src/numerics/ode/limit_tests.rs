@@ -14,10 +14,7 @@ const MASSES: [f64; 2] = [1.0, 0.01];
 
 impl Pair {
     fn new(squared_frequency: f64) -> Self {
-        let of = |squared_frequency| LinearCoordinate {
-            squared_frequency,
-            damping: 0.0,
-        };
+        let of = |squared_frequency| LinearCoordinate { squared_frequency, damping: 0.0 };
         Self([of(squared_frequency), of(0.0)])
     }
 }
@@ -40,11 +37,7 @@ impl SecondOrderSystem for Pair {
 }
 
 fn rest() -> State {
-    State {
-        t: 0.0,
-        y: vec![0.0; 2],
-        v: vec![0.0; 2],
-    }
+    State { t: 0.0, y: vec![0.0; 2], v: vec![0.0; 2] }
 }
 
 #[test]
@@ -62,23 +55,15 @@ fn frequencies_are_those_of_unequal_masses() {
         let mut pair = Pair::new(spring);
         let limit = method.step_limit(&mut pair, &rest()).expect("a limit");
         // halvings of the search to 4e-4; at that distance beyond the limit the least growing of these has 1e-3 a step
-        assert!(
-            (limit.step_s * highest / phase - 1.0).abs() < 1e-3,
-            "{method:?}"
-        );
+        assert!((limit.step_s * highest / phase - 1.0).abs() < 1e-3, "{method:?}");
         // round-off of an eigenvalue
         assert!((limit.highest_hz * TAU / highest - 1.0).abs() < 1e-6);
     }
     let mut pair = Pair::new(40.0);
     for method in [
         Method::Newmark,
-        Method::GeneralizedAlpha {
-            spectral_radius: 0.8,
-        },
-        Method::Dop853 {
-            tolerance: 1e-6,
-            events: false,
-        },
+        Method::GeneralizedAlpha { spectral_radius: 0.8 },
+        Method::Dop853 { tolerance: 1e-6, events: false },
     ] {
         assert_eq!(method.step_limit(&mut pair, &rest()), None);
     }
@@ -99,15 +84,8 @@ fn what_does_not_vibrate_or_is_no_number_has_no_limit() {
             (term.left[0], term.position[0]) = (1.0, self.1);
         }
     }
-    let still = LinearCoordinate {
-        squared_frequency: 0.0,
-        damping: 0.0,
-    };
-    let state = State {
-        t: 0.0,
-        y: vec![0.0],
-        v: vec![0.0],
-    };
+    let still = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
+    let state = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
     for slope in [0.0, 4.0, f64::NAN] {
         let mut free = Free([still], slope);
         for method in [Method::Exponential, Method::NewmarkExplicit] {
@@ -119,10 +97,7 @@ fn what_does_not_vibrate_or_is_no_number_has_no_limit() {
 /// A body on a spring and a damper that the force holds: `y'' = -y - damping y'`.
 struct Damped(f64);
 
-const FREE: [LinearCoordinate; 1] = [LinearCoordinate {
-    squared_frequency: 0.0,
-    damping: 0.0,
-}];
+const FREE: [LinearCoordinate; 1] = [LinearCoordinate { squared_frequency: 0.0, damping: 0.0 }];
 
 impl SecondOrderSystem for Damped {
     fn linear(&self) -> &[LinearCoordinate] {
@@ -143,9 +118,8 @@ fn radius(damping: f64, h: f64) -> f64 {
     let position = [1.0, h, 0.5 * h * h];
     let predicted = [0.0, 1.0, h];
     let force = std::array::from_fn::<f64, 3, _>(|k| -position[k] - damping * predicted[k]);
-    let velocity = std::array::from_fn::<f64, 3, _>(|k| {
-        predicted[k] + 0.5 * h * (force[k] - f64::from(u8::from(k == 2)))
-    });
+    let velocity =
+        std::array::from_fn::<f64, 3, _>(|k| predicted[k] + 0.5 * h * (force[k] - f64::from(u8::from(k == 2))));
     let rows = [position, velocity, force];
     let matrix = DenseMatrix::from_fn(3, 3, |i, j| rows[i][j]);
     let spectrum = general_spectrum(&matrix).expect("finite");
@@ -156,11 +130,7 @@ fn radius(damping: f64, h: f64) -> f64 {
 /// A damper that the force holds shortens the step: a tenth of critical damping by a tenth, critical damping to a third.
 #[test]
 fn damping_in_the_force_shortens_the_step_as_the_matrix_says() {
-    let state = State {
-        t: 0.0,
-        y: vec![0.0],
-        v: vec![0.0],
-    };
+    let state = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
     let mut last = 2.0;
     for damping in [0.02, 0.2, 0.6, 2.0, 20.0] {
         let limit = Method::Exponential.step_limit(&mut Damped(damping), &state);
@@ -193,18 +163,13 @@ fn a_resonance_is_told_from_the_limit() {
             (term.position[0], term.position[1]) = (-1.0, 1.0);
         }
     }
-    let held = LinearCoordinate {
-        squared_frequency: 1.0,
-        damping: 0.0,
-    };
+    let held = LinearCoordinate { squared_frequency: 1.0, damping: 0.0 };
     let mut system = Held([held, FREE[0]]);
     let method = Method::Exponential;
     let limit = method.step_limit(&mut system, &rest()).expect("a limit");
     // of the body alone 2 / sqrt(0.065) = 7.84; the mode moves it a little
     assert!((7.2..8.5).contains(&limit.step_s), "{limit:?}");
-    let found = method
-        .resonance(&mut system, &rest(), 3.1)
-        .expect("near pi");
+    let found = method.resonance(&mut system, &rest(), 3.1).expect("near pi");
     assert_eq!(found.multiple, 1);
     assert!((found.mode_hz * TAU - 1.0).abs() < 1e-12);
     // at 2 pi the force has no hold on the mode
@@ -245,14 +210,8 @@ impl SecondOrderSystem for BesideLarge {
 /// A tolerance refers to the largest force: what is small beside it grows in steps beyond the limit, unseen.
 #[test]
 fn steps_by_tolerance_have_a_limit_for_what_is_small() {
-    let method = Method::ExponentialAdams {
-        tolerance: Some(1e-2),
-    };
-    let start = || State {
-        t: 0.0,
-        y: vec![1.0, 0.5],
-        v: vec![0.0; 2],
-    };
+    let method = Method::ExponentialAdams { tolerance: Some(1e-2) };
+    let start = || State { t: 0.0, y: vec![1.0, 0.5], v: vec![0.0; 2] };
     let limit = method.step_limit(&mut BesideLarge, &start());
     let limit = limit.expect("a limit").step_s;
     for (part, grows) in [(0.95, false), (1.05, true)] {

@@ -27,23 +27,13 @@ impl Linearised {
         let mut tangent = Tangent::new(state.y.len());
         system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
         let filled = (0..tangent.terms()).map(|term| {
-            let rows = [
-                tangent.left(term),
-                tangent.position(term),
-                tangent.velocity(term),
-            ];
+            let rows = [tangent.left(term), tangent.position(term), tangent.velocity(term)];
             rows.map(filled)
         });
         let linear = system.linear().to_vec();
         let [mut springs, mut sizes] = [0, 1].map(|_| vec![0.0; linear.len()]);
         system.own_springs_into(&mut springs, &mut sizes);
-        Self {
-            springs,
-            filled: filled.collect(),
-            masses: masses(&linear, &tangent),
-            linear,
-            tangent,
-        }
+        Self { springs, filled: filled.collect(), masses: masses(&linear, &tangent), linear, tangent }
     }
 
     /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
@@ -66,8 +56,8 @@ impl SecondOrderSystem for Linearised {
     fn force_into(&mut self, _t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         g.fill(0.0);
         for (term, [left, position, velocity]) in self.filled.iter().enumerate() {
-            let factor = product(self.tangent.position(term), y, position)
-                + product(self.tangent.velocity(term), v, velocity);
+            let factor =
+                product(self.tangent.position(term), y, position) + product(self.tangent.velocity(term), v, velocity);
             let pairs = g[left.clone()].iter_mut();
             for (g, left) in pairs.zip(&self.tangent.left(term)[left.clone()]) {
                 *g += factor * left;

@@ -56,10 +56,7 @@ pub struct Resonance {
 impl Method {
     /// Whether steps follow from a tolerance instead of the schedule.
     pub fn chooses_its_steps(self) -> bool {
-        matches!(
-            self,
-            Self::Dop853 { .. } | Self::ExponentialAdams { tolerance: Some(_) }
-        )
+        matches!(self, Self::Dop853 { .. } | Self::ExponentialAdams { tolerance: Some(_) })
     }
 
     /// Whether a step is solved for: no step is too long for a linear system.

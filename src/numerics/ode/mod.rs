@@ -52,9 +52,7 @@ pub use schedule::{MOST_STEPS_PER_INTERVAL, Schedule};
 pub use snapshot::{Snapshot, SnapshotError, SnapshotReader};
 pub use stepper::Statistics;
 pub(crate) use system::all_finite;
-pub use system::{
-    Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State,
-};
+pub use system::{Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State};
 pub use tangent::{Tangent, TangentTerm};
 
 #[cfg(test)]

@@ -26,18 +26,9 @@ pub(super) struct NewmarkExplicit {
 impl NewmarkExplicit {
     pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let linear = system.linear().to_vec();
-        let implicit_damping = linear
-            .iter()
-            .map(|coordinate| 1.0 / (1.0 + 0.5 * h * coordinate.damping))
-            .collect();
+        let implicit_damping = linear.iter().map(|coordinate| 1.0 / (1.0 + 0.5 * h * coordinate.damping)).collect();
         let dof = linear.len();
-        Self {
-            h,
-            linear,
-            implicit_damping,
-            predicted: vec![0.0; dof],
-            half_velocity: vec![0.0; dof],
-        }
+        Self { h, linear, implicit_damping, predicted: vec![0.0; dof], half_velocity: vec![0.0; dof] }
     }
 }
 
@@ -45,10 +36,7 @@ impl<S: SecondOrderSystem> OneEvaluation<S> for NewmarkExplicit {
     fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         let h = self.h;
         for i in 0..self.linear.len() {
-            let LinearCoordinate {
-                squared_frequency,
-                damping,
-            } = self.linear[i];
+            let LinearCoordinate { squared_frequency, damping } = self.linear[i];
             let a = g[i] - damping * v[i] - squared_frequency * y[i];
             self.half_velocity[i] = v[i] + 0.5 * h * a;
             self.predicted[i] = v[i] + h * a;

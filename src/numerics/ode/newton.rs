@@ -55,24 +55,13 @@ pub(super) struct NewtonMatrix {
 
 impl NewtonMatrix {
     pub(super) fn new(diagonal: Vec<f64>, weights: Weights) -> Self {
-        Self {
-            weights,
-            diagonal,
-            rows: Vec::new(),
-            lu: SmallLu::default(),
-            way: Way::Terms,
-            small: Vec::new(),
-        }
+        Self { weights, diagonal, rows: Vec::new(), lu: SmallLu::default(), way: Way::Terms, small: Vec::new() }
     }
 
     /// Takes a tangent in, the cheaper way. Gives whether the matrix is regular.
     #[must_use]
     pub(super) fn factorise(&mut self, tangent: &Tangent) -> bool {
-        let way = if tangent.terms() <= tangent.dof() {
-            Way::Terms
-        } else {
-            Way::Coordinates
-        };
+        let way = if tangent.terms() <= tangent.dof() { Way::Terms } else { Way::Coordinates };
         self.factorise_by(way, tangent)
     }
 
@@ -110,20 +99,13 @@ impl NewtonMatrix {
 
     /// R, with `D^-1` in it for the way by terms.
     fn set_rows(&mut self, tangent: &Tangent) {
-        let Weights {
-            force,
-            position,
-            velocity,
-        } = self.weights;
+        let Weights { force, position, velocity } = self.weights;
         self.rows.clear();
         for term in 0..tangent.terms() {
             let parts = tangent.position(term).iter().zip(tangent.velocity(term));
             let row = parts.map(|(y, v)| force * (position * y + velocity * v));
             match self.way {
-                Way::Terms => self.rows.extend(
-                    row.zip(&self.diagonal)
-                        .map(|(row, diagonal)| row / diagonal),
-                ),
+                Way::Terms => self.rows.extend(row.zip(&self.diagonal).map(|(row, diagonal)| row / diagonal)),
                 Way::Coordinates => self.rows.extend(row),
             }
         }
@@ -184,10 +166,7 @@ impl Progress {
         if left.min(change) <= TOLERANCE {
             Ok(Verdict::Solved)
         } else if self.iterations >= MAX_ITERATIONS {
-            Err(Divergence::NotSolved {
-                iterations: self.iterations,
-                change,
-            })
+            Err(Divergence::NotSolved { iterations: self.iterations, change })
         } else {
             Ok(Verdict::GoOn)
         }
@@ -195,10 +174,7 @@ impl Progress {
 
     /// What to say when a correction has no solution.
     pub(super) fn failed(&self) -> Divergence {
-        Divergence::NotSolved {
-            iterations: self.iterations,
-            change: self.last.unwrap_or(1.0),
-        }
+        Divergence::NotSolved { iterations: self.iterations, change: self.last.unwrap_or(1.0) }
     }
 }
 
@@ -237,11 +213,7 @@ mod tests {
 
     #[test]
     fn both_ways_give_one_answer_that_solves_the_equations() {
-        let weights = Weights {
-            force: 0.6,
-            position: 2.5e-5,
-            velocity: 5e-3,
-        };
+        let weights = Weights { force: 0.6, position: 2.5e-5, velocity: 5e-3 };
         for (dof, terms) in [(9, 0), (9, 3), (5, 5), (4, 7), (1, 2)] {
             let tangent = some_tangent(dof, terms);
             let diagonal: Vec<f64> = (0..dof).map(|i| 1.0 + (i * i) as f64).collect();
@@ -273,11 +245,7 @@ mod tests {
 
     #[test]
     fn few_terms_are_solved_by_terms_and_many_by_coordinates() {
-        let weights = Weights {
-            force: 1.0,
-            position: 1e-6,
-            velocity: 1e-3,
-        };
+        let weights = Weights { force: 1.0, position: 1e-6, velocity: 1e-3 };
         let mut matrix = NewtonMatrix::new(vec![1.0; 4], weights);
         for (terms, way) in [(4, Way::Terms), (5, Way::Coordinates), (0, Way::Terms)] {
             assert!(matrix.factorise(&some_tangent(4, terms)));
@@ -297,14 +265,8 @@ mod tests {
         for _ in 1..MAX_ITERATIONS {
             assert_eq!(progress.judge(1.0), Ok(Verdict::GoOn));
         }
-        let failed = Divergence::NotSolved {
-            iterations: MAX_ITERATIONS,
-            change: 1.0,
-        };
+        let failed = Divergence::NotSolved { iterations: MAX_ITERATIONS, change: 1.0 };
         assert_eq!(progress.judge(1.0), Err(failed));
-        assert_eq!(
-            Progress::default().judge(f64::NAN),
-            Err(Divergence::NotFinite)
-        );
+        assert_eq!(Progress::default().judge(f64::NAN), Err(Divergence::NotFinite));
     }
 }

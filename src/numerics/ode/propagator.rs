@@ -76,11 +76,7 @@ impl Propagator {
             (decay * x.cos(), decay * sinc(x))
         } else {
             let (slow, fast) = ((x - 0.5 * c * h).exp(), (-x - 0.5 * c * h).exp());
-            let sine = if x < 1e-4 {
-                decay * (1.0 + x * x / 6.0)
-            } else {
-                0.5 * (slow - fast) / x
-            };
+            let sine = if x < 1e-4 { decay * (1.0 + x * x / 6.0) } else { 0.5 * (slow - fast) / x };
             (0.5 * (slow + fast), sine)
         };
         let s = h * sine;
@@ -112,11 +108,7 @@ impl Propagator {
             velocity_velocity: self.velocity_velocity * self.velocity_velocity - w2 * s * s,
             response,
             // half the ramp, then the other half on top of a constant half
-            ramp: 0.5
-                * (self.position_position * self.ramp
-                    + s * self.response / h
-                    + self.response
-                    + self.ramp),
+            ramp: 0.5 * (self.position_position * self.ramp + s * self.response / h + self.response + self.ramp),
             // a quarter of the square, then a quarter of all three
             square: 0.25
                 * (self.position_position * self.square
@@ -160,11 +152,7 @@ impl Propagator {
 }
 
 fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-4 {
-        1.0 - x * x / 6.0
-    } else {
-        x.sin() / x
-    }
+    if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
 #[cfg(test)]
@@ -178,20 +166,12 @@ mod tests {
         let h = 1e-6;
         for w in [0.0, 1e3, 3e5, 6e5, 2e6, 3e7] {
             for c in [0.0, 2e3, 1.2e6, 4e6, 1e8, 5e9] {
-                let coordinate = LinearCoordinate {
-                    squared_frequency: w * w,
-                    damping: c,
-                };
-                let (whole, half) = (
-                    Propagator::new(coordinate, h),
-                    Propagator::new(coordinate, 0.5 * h),
-                );
+                let coordinate = LinearCoordinate { squared_frequency: w * w, damping: c };
+                let (whole, half) = (Propagator::new(coordinate, h), Propagator::new(coordinate, 0.5 * h));
                 let step = |p: &Propagator, y: f64, v: f64| {
                     (
                         p.position_position * y + p.position_velocity * v + p.response * 7e9,
-                        p.velocity_position * y
-                            + p.velocity_velocity * v
-                            + p.position_velocity * 7e9,
+                        p.velocity_position * y + p.velocity_velocity * v + p.position_velocity * 7e9,
                     )
                 };
                 let (y, v) = (2e-4, -310.0);
@@ -199,14 +179,8 @@ mod tests {
                 let (y_half, v_half) = step(&half, y, v);
                 let twice = step(&half, y_half, v_half);
                 // round-off on the scale of the terms that are added
-                assert!(
-                    (once.0 - twice.0).abs() < 1e-14,
-                    "{w} {c}: {once:?} {twice:?}"
-                );
-                assert!(
-                    (once.1 - twice.1).abs() < 1e-8 * (1.0 + v.abs() + y * w),
-                    "{w} {c}"
-                );
+                assert!((once.0 - twice.0).abs() < 1e-14, "{w} {c}: {once:?} {twice:?}");
+                assert!((once.1 - twice.1).abs() < 1e-8 * (1.0 + v.abs() + y * w), "{w} {c}");
             }
         }
     }
@@ -215,20 +189,9 @@ mod tests {
     #[test]
     fn a_ramp_is_a_sum_of_steps() {
         let h = 1e-6;
-        for (w, c) in [
-            (0.0, 0.0),
-            (1e3, 2e3),
-            (3e5, 1e4),
-            (6e5, 1.2e6),
-            (2e6, 4e6),
-            (3e7, 1e8),
-            (1e3, 5e6),
-        ] {
+        for (w, c) in [(0.0, 0.0), (1e3, 2e3), (3e5, 1e4), (6e5, 1.2e6), (2e6, 4e6), (3e7, 1e8), (1e3, 5e6)] {
             let at = |h: f64| {
-                let coordinate = LinearCoordinate {
-                    squared_frequency: w * w,
-                    damping: c,
-                };
+                let coordinate = LinearCoordinate { squared_frequency: w * w, damping: c };
                 Propagator::new(coordinate, h)
             };
             // Simpson's rule: 400 intervals leave (h w / 400)^4 / 180 of the largest
@@ -249,17 +212,11 @@ mod tests {
             let response = |x: f64| if x > 0.0 { at(h * x).response } else { 0.0 };
             let expected = mean(&response);
             let found = at(h).ramp;
-            assert!(
-                (found / expected - 1.0).abs() < 1e-6,
-                "{w} {c}: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-6, "{w} {c}: {found} {expected}");
             // a square is the sum of ramps of twice the slope: x^2 = 2 int (x - z) dz
             let expected = mean(&|x| 2.0 * (1.0 - x) * response(x));
             let found = at(h).square;
-            assert!(
-                (found / expected - 1.0).abs() < 1e-6,
-                "{w} {c}: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-6, "{w} {c}: {found} {expected}");
         }
     }
 
@@ -267,39 +224,24 @@ mod tests {
     fn the_velocity_belongs_to_the_two_step_recursion() {
         // y2 = trace y1 - det y0 + (1 - trace + det) / w^2 g1, whatever g does
         for (w, c, h) in [(3e5, 2e4, 1e-6), (2e6, 0.0, 1e-6), (1e3, 5.0, 1e-6)] {
-            let p = Propagator::new(
-                LinearCoordinate {
-                    squared_frequency: w * w,
-                    damping: c,
-                },
-                h,
-            );
+            let p = Propagator::new(LinearCoordinate { squared_frequency: w * w, damping: c }, h);
             let (y0, v0, g0, g1): (f64, f64, f64, f64) = (1e-6, 0.3, 2e6, -7e6);
             let y1 = p.position_position * y0 + p.position_velocity * v0 + p.response * g0;
-            let v1 = p.velocity_position * y0
-                + p.velocity_velocity * v0
-                + p.kick_before * g0
-                + p.kick_after * g1;
+            let v1 = p.velocity_position * y0 + p.velocity_velocity * v0 + p.kick_before * g0 + p.kick_after * g1;
             let y2 = p.position_position * y1 + p.position_velocity * v1 + p.response * g1;
             let trace = p.position_position + p.velocity_velocity;
             let determinant = (-c * h).exp();
             let weight = (1.0 - trace + determinant) / (w * w);
             let recursion = trace * y1 - determinant * y0 + weight * g1;
             // round-off; the recursion's weight loses 1e-10 to cancellation at w h = 1e-3
-            assert!(
-                (y2 - recursion).abs() < 1e-9 * y2.abs(),
-                "{w} {y2} {recursion}"
-            );
+            assert!((y2 - recursion).abs() < 1e-9 * y2.abs(), "{w} {y2} {recursion}");
         }
     }
 
     #[test]
     fn an_equilibrium_stays_to_the_last_bits() {
         for (w, c) in [(1e3, 10.0), (3e7, 1e8), (2e5, 1e4)] {
-            let coordinate = LinearCoordinate {
-                squared_frequency: w * w,
-                damping: c,
-            };
+            let coordinate = LinearCoordinate { squared_frequency: w * w, damping: c };
             let p = Propagator::new(coordinate, 2e-7);
             let (g, y): (f64, f64) = (9.81, 9.81 / (w * w));
             assert!((p.position_position * y + p.response * g - y).abs() <= 4.0 * f64::EPSILON * y);

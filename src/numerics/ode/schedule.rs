@@ -22,22 +22,10 @@ impl Schedule {
     ///
     /// # Errors
     /// [`TransientError::Schedule`] for values that are not positive and finite.
-    pub fn covering(
-        duration: f64,
-        interval: f64,
-        largest_step: f64,
-    ) -> Result<Self, TransientError> {
-        for (what, value) in [
-            ("duration", duration),
-            ("output interval", interval),
-            ("step", largest_step),
-        ] {
+    pub fn covering(duration: f64, interval: f64, largest_step: f64) -> Result<Self, TransientError> {
+        for (what, value) in [("duration", duration), ("output interval", interval), ("step", largest_step)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(TransientError::Schedule {
-                    what,
-                    value,
-                    rule: "positive and finite",
-                });
+                return Err(TransientError::Schedule { what, value, rule: "positive and finite" });
             }
         }
         // a step that fits a whole number of times up to round-off is kept as it is
@@ -57,11 +45,7 @@ impl Schedule {
                 rule: "large enough to finish: fewer than 1e15 steps",
             });
         }
-        Ok(Self {
-            interval,
-            steps_per_interval: steps as u32,
-            intervals: intervals as u64,
-        })
+        Ok(Self { interval, steps_per_interval: steps as u32, intervals: intervals as u64 })
     }
 
     /// Step length, s.

@@ -81,8 +81,7 @@ impl Snapshot {
     /// Writes numbers and how many they are.
     pub fn numbers(&mut self, values: &[f64]) {
         self.count(values.len() as u64);
-        self.words
-            .extend(values.iter().map(|value| value.to_bits()));
+        self.words.extend(values.iter().map(|value| value.to_bits()));
     }
 }
 
@@ -104,11 +103,7 @@ impl SnapshotReader<'_> {
     pub fn expect(&mut self, what: &'static str, expected: u64) -> Result<(), SnapshotError> {
         match self.count()? {
             found if found == expected => Ok(()),
-            found => Err(SnapshotError::Other {
-                what,
-                expected,
-                found,
-            }),
+            found => Err(SnapshotError::Other { what, expected, found }),
         }
     }
 
@@ -119,11 +114,7 @@ impl SnapshotReader<'_> {
     pub fn flag(&mut self) -> Result<bool, SnapshotError> {
         match self.count()? {
             found @ 0..=1 => Ok(found == 1),
-            found => Err(SnapshotError::Other {
-                what: "flag",
-                expected: 1,
-                found,
-            }),
+            found => Err(SnapshotError::Other { what: "flag", expected: 1, found }),
         }
     }
 
@@ -151,10 +142,7 @@ impl SnapshotReader<'_> {
     /// [`SnapshotError::Short`].
     pub fn numbers(&mut self) -> Result<Vec<f64>, SnapshotError> {
         let length = usize::try_from(self.count()?).map_err(|_| SnapshotError::Short)?;
-        let (values, rest) = self
-            .words
-            .split_at_checked(length)
-            .ok_or(SnapshotError::Short)?;
+        let (values, rest) = self.words.split_at_checked(length).ok_or(SnapshotError::Short)?;
         self.words = rest;
         Ok(values.iter().map(|&word| f64::from_bits(word)).collect())
     }
@@ -163,18 +151,10 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Short`], [`SnapshotError::Other`] if they are more or fewer.
-    pub(crate) fn numbers_into(
-        &mut self,
-        what: &'static str,
-        values: &mut [f64],
-    ) -> Result<(), SnapshotError> {
+    pub(crate) fn numbers_into(&mut self, what: &'static str, values: &mut [f64]) -> Result<(), SnapshotError> {
         let found = self.numbers()?;
         if found.len() != values.len() {
-            return Err(SnapshotError::Other {
-                what,
-                expected: values.len() as u64,
-                found: found.len() as u64,
-            });
+            return Err(SnapshotError::Other { what, expected: values.len() as u64, found: found.len() as u64 });
         }
         values.copy_from_slice(&found);
         Ok(())
@@ -198,13 +178,7 @@ mod tests {
 
     #[test]
     fn everything_comes_back_to_the_last_bit() {
-        let odd = [
-            -0.0,
-            f64::NAN,
-            f64::INFINITY,
-            0.1 + 0.2,
-            f64::MIN_POSITIVE / 3.0,
-        ];
+        let odd = [-0.0, f64::NAN, f64::INFINITY, 0.1 + 0.2, f64::MIN_POSITIVE / 3.0];
         let mut written = Snapshot::default();
         written.count(u64::MAX);
         written.flag(true);
@@ -216,19 +190,11 @@ mod tests {
         let mut reader = read.reader();
         assert_eq!(reader.count(), Ok(u64::MAX));
         assert_eq!(reader.flag(), Ok(true));
-        let bits = |values: &[f64]| {
-            values
-                .iter()
-                .map(|value| value.to_bits())
-                .collect::<Vec<_>>()
-        };
+        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&reader.numbers().unwrap()), bits(&odd));
         assert_eq!(reader.option(), Ok(None));
         assert!(reader.option().unwrap().unwrap().is_sign_negative());
-        assert_eq!(
-            reader.number().unwrap().to_bits(),
-            (1.0_f64 / 3.0).to_bits()
-        );
+        assert_eq!(reader.number().unwrap().to_bits(), (1.0_f64 / 3.0).to_bits());
         assert_eq!(reader.end(), Ok(()));
     }
 
@@ -238,19 +204,13 @@ mod tests {
         snapshot.numbers(&[1.0, 2.0]);
         let mut room = [0.0; 3];
         let error = snapshot.reader().numbers_into("states", &mut room);
-        assert_eq!(
-            error.unwrap_err().to_string(),
-            "the snapshot is of another system: states expected 3, found 2"
-        );
+        assert_eq!(error.unwrap_err().to_string(), "the snapshot is of another system: states expected 3, found 2");
         let long = snapshot.reader().end().unwrap_err().to_string();
         assert_eq!(long, "the snapshot has 3 words more than expected");
         let mut cut = Snapshot::from_words(vec![u64::MAX, 0]);
         assert_eq!(cut.reader().numbers(), Err(SnapshotError::Short));
         cut.count(7);
         assert!(cut.reader().flag().is_err());
-        assert_eq!(
-            Snapshot::default().reader().count(),
-            Err(SnapshotError::Short)
-        );
+        assert_eq!(Snapshot::default().reader().count(), Err(SnapshotError::Short));
     }
 }

@@ -22,12 +22,7 @@ pub(super) struct Splitting {
 impl Splitting {
     pub(super) fn new(system: &impl SecondOrderSystem, h: f64) -> Self {
         let coordinates = system.linear().iter();
-        Self {
-            half: 0.5 * h,
-            flow: coordinates
-                .map(|&coordinate| Propagator::new(coordinate, h))
-                .collect(),
-        }
+        Self { half: 0.5 * h, flow: coordinates.map(|&coordinate| Propagator::new(coordinate, h)).collect() }
     }
 }
 

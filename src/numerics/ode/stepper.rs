@@ -21,13 +21,7 @@ pub struct Statistics {
 impl Statistics {
     /// Writes the counts.
     pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        for count in [
-            self.steps,
-            self.rejected,
-            self.evaluations,
-            self.solves,
-            self.events,
-        ] {
+        for count in [self.steps, self.rejected, self.evaluations, self.solves, self.events] {
             snapshot.count(count);
         }
     }
@@ -54,14 +48,7 @@ pub(super) trait Stepper<S> {
     ///
     /// # Errors
     /// [`Divergence`] if no step can be found that the method can take.
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence>;
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence>;
 
     /// What it took so far.
     fn statistics(&self) -> Statistics;
@@ -97,14 +84,7 @@ impl<M> Counted<M> {
 }
 
 impl<S, M: OneEvaluation<S>> Stepper<S> for Counted<M> {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence> {
         self.method.step(system, t1, y, v, g);
         self.steps += 1;
         Ok(())

@@ -48,11 +48,7 @@ fn check_spectral_radius(value: f64) -> Result<(), TransientError> {
     if (0.0..=1.0).contains(&value) {
         Ok(())
     } else {
-        Err(TransientError::Schedule {
-            what: "spectral radius",
-            value,
-            rule: "from 0 to 1",
-        })
+        Err(TransientError::Schedule { what: "spectral radius", value, rule: "from 0 to 1" })
     }
 }
 
@@ -60,28 +56,15 @@ fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
     if (LEAST_TOLERANCE..1.0).contains(&tolerance) {
         Ok(())
     } else {
-        Err(TransientError::Schedule {
-            what: "tolerance",
-            value: tolerance,
-            rule: "at least 1e-14 and below 1",
-        })
+        Err(TransientError::Schedule { what: "tolerance", value: tolerance, rule: "at least 1e-14 and below 1" })
     }
 }
 
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
-    let highest = system
-        .linear()
-        .iter()
-        .map(|coordinate| coordinate.squared_frequency)
-        .fold(0.0, f64::max)
-        .sqrt();
+    let highest = system.linear().iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max).sqrt();
     if h * highest < 2.0 {
         Ok(())
     } else {
-        Err(TransientError::Unstable {
-            step_s: h,
-            limit_s: 2.0 / highest,
-            highest_hz: highest / TAU,
-        })
+        Err(TransientError::Unstable { step_s: h, limit_s: 2.0 / highest, highest_hz: highest / TAU })
     }
 }

@@ -49,14 +49,7 @@ pub trait SecondOrderSystem {
     }
 
     /// [`Self::force_into`] and [`Self::tangent_into`] at once, for a system that need not evaluate twice.
-    fn force_and_tangent_into(
-        &mut self,
-        t: f64,
-        y: &[f64],
-        v: &[f64],
-        g: &mut [f64],
-        tangent: &mut Tangent,
-    ) {
+    fn force_and_tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64], tangent: &mut Tangent) {
         self.tangent_into(t, y, v, tangent);
         self.force_into(t, y, v, g);
     }
@@ -84,19 +77,13 @@ pub trait SecondOrderSystem {
     /// # Errors
     /// [`Divergence`], which ends the run.
     fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
-        if all_finite(y) && all_finite(v) {
-            Ok(())
-        } else {
-            Err(Divergence::NotFinite)
-        }
+        if all_finite(y) && all_finite(v) { Ok(()) } else { Err(Divergence::NotFinite) }
     }
 }
 
 /// Whether all values are numbers. All are looked at, which several at a time makes faster than to stop at the first.
 pub(crate) fn all_finite(values: &[f64]) -> bool {
-    values
-        .iter()
-        .fold(true, |finite, value| finite & value.is_finite())
+    values.iter().fold(true, |finite, value| finite & value.is_finite())
 }
 
 /// Why a state means nothing any more.

@@ -28,11 +28,7 @@ impl Tangent {
     /// No terms, for so many coordinates.
     #[must_use]
     pub fn new(dof: usize) -> Self {
-        Self {
-            dof,
-            terms: 0,
-            values: Vec::new(),
-        }
+        Self { dof, terms: 0, values: Vec::new() }
     }
 
     /// Takes all terms out; the memory stays.
@@ -62,11 +58,7 @@ impl Tangent {
         values.fill(0.0);
         let (left, rest) = values.split_at_mut(self.dof);
         let (position, velocity) = rest.split_at_mut(self.dof);
-        TangentTerm {
-            left,
-            position,
-            velocity,
-        }
+        TangentTerm { left, position, velocity }
     }
 
     /// Row `left` of a term.

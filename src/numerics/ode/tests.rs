@@ -1,9 +1,7 @@
 //! Order, equilibrium and stability on oscillators with known answers.
 
 use super::*;
-use crate::numerics::ode::{
-    Divergence, LinearCoordinate, NoRecord, SecondOrderSystem, State, Tangent,
-};
+use crate::numerics::ode::{Divergence, LinearCoordinate, NoRecord, SecondOrderSystem, State, Tangent};
 
 /// A damped oscillator with part `split` of its spring outside the linear part, under a cosine
 /// force: `y'' + c y' + w^2 y = cos(p t)`.
@@ -22,10 +20,7 @@ const P: f64 = 2.0;
 impl Oscillator {
     pub fn new(split: f64) -> Self {
         Self {
-            linear: [LinearCoordinate {
-                squared_frequency: W * W * (1.0 - split),
-                damping: C,
-            }],
+            linear: [LinearCoordinate { squared_frequency: W * W * (1.0 - split), damping: C }],
             outside: W * W * split,
             drive: 1.0,
         }
@@ -60,21 +55,9 @@ pub(super) fn steady(t: f64) -> (f64, f64) {
 pub(super) fn error_after(method: Method, step: f64, split: f64) -> f64 {
     let mut system = Oscillator::new(split);
     let (y, v) = steady(0.0);
-    let mut state = State {
-        t: 0.0,
-        y: vec![y],
-        v: vec![v],
-    };
+    let mut state = State { t: 0.0, y: vec![y], v: vec![v] };
     let schedule = Schedule::covering(8.0, 1.0, step).expect("valid");
-    integrate(
-        &mut system,
-        method,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        |_, _| Stepping::Continue,
-    )
-    .expect("stable");
+    integrate(&mut system, method, &schedule, &mut state, &mut NoRecord, |_, _| Stepping::Continue).expect("stable");
     let (y, v) = steady(8.0);
     (state.y[0] - y).hypot(state.v[0] - v)
 }
@@ -93,16 +76,10 @@ fn orders_are_those_that_are_said() {
         (ADAMS, 3.0),
     ] {
         for split in [0.0, 0.7] {
-            let (coarse, fine) = (
-                error_after(method, 1.0 / 50.0, split),
-                error_after(method, 1.0 / 100.0, split),
-            );
+            let (coarse, fine) = (error_after(method, 1.0 / 50.0, split), error_after(method, 1.0 / 100.0, split));
             let order = (coarse / fine).log2();
             // the next power of the step adds a few percent at these steps
-            assert!(
-                (order - expected).abs() < 0.15,
-                "{method:?} {split}: order {order}"
-            );
+            assert!((order - expected).abs() < 0.15, "{method:?} {split}: order {order}");
         }
     }
 }
@@ -115,11 +92,7 @@ fn take_steps(
     h: f64,
     count: u32,
 ) -> Result<Statistics, TransientError> {
-    let schedule = Schedule {
-        interval: h * f64::from(count),
-        steps_per_interval: count,
-        intervals: 1,
-    };
+    let schedule = Schedule { interval: h * f64::from(count), steps_per_interval: count, intervals: 1 };
     let on = |_, _| Stepping::Continue;
     integrate(system, method, &schedule, state, &mut NoRecord, on)
 }
@@ -129,11 +102,7 @@ fn amplitude_after(method: Method, phase: f64) -> f64 {
     let mut system = Oscillator::new(1.0);
     system.drive = 0.0;
     system.linear[0].damping = 0.0;
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     match take_steps(&mut system, method, &mut state, phase / W, 2000) {
         Ok(_) => state.y[0].hypot(state.v[0] / W),
         Err(_) => f64::INFINITY,
@@ -142,15 +111,8 @@ fn amplitude_after(method: Method, phase: f64) -> f64 {
 
 #[test]
 fn the_force_is_held_up_to_the_limit_and_not_beyond() {
-    for (method, limit) in [
-        (Method::Exponential, 2.0),
-        (Method::Splitting, 2.0),
-        (ADAMS, ADAMS_STABILITY_LIMIT),
-    ] {
-        let (below, beyond) = (
-            amplitude_after(method, 0.99 * limit),
-            amplitude_after(method, 1.01 * limit),
-        );
+    for (method, limit) in [(Method::Exponential, 2.0), (Method::Splitting, 2.0), (ADAMS, ADAMS_STABILITY_LIMIT)] {
+        let (below, beyond) = (amplitude_after(method, 0.99 * limit), amplitude_after(method, 1.01 * limit));
         // just below the limit Verlet's ellipse is ten times as long as wide; beyond it 1.01^2000 is 4e8 at least
         assert!(below < 20.0, "{method:?}: {below}");
         assert!(beyond > 1e6, "{method:?}: {beyond}");
@@ -165,10 +127,7 @@ fn amplitude_goes_as_the_page_says() {
         let lost = -amplitude_after(ADAMS, phase).ln() / 2000.0;
         let said = f64::powi(phase, 4) / 24.0;
         // the next term is smaller by the square of the phase
-        assert!(
-            (lost / said - 1.0).abs() < 2.0 * phase * phase,
-            "{phase}: {lost} {said}"
-        );
+        assert!((lost / said - 1.0).abs() < 2.0 * phase * phase, "{phase}: {lost} {said}");
         let kept = amplitude_after(Method::Exponential, phase);
         assert!((kept - 1.0).abs() < phase * phase, "{phase}: {kept}");
     }
@@ -185,15 +144,8 @@ fn rest_after(method: Method, phase: f64) -> f64 {
             g[0] = W * W;
         }
     }
-    let mut system = Pressed([LinearCoordinate {
-        squared_frequency: W * W,
-        damping: C,
-    }]);
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let mut system = Pressed([LinearCoordinate { squared_frequency: W * W, damping: C }]);
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     take_steps(&mut system, method, &mut state, phase / W, 5000).expect("stable");
     state.y[0]
 }
@@ -209,10 +161,7 @@ fn an_equilibrium_is_kept_by_all_but_splitting() {
         let found = rest_after(Method::Splitting, phase);
         let said = 0.5 * phase / (0.5 * phase).tan();
         // said without damping, which moves it by its share of a step
-        assert!(
-            (found - said).abs() < 0.02 * (1.0 - said),
-            "{phase}: {found} {said}"
-        );
+        assert!((found - said).abs() < 0.02 * (1.0 - said), "{phase}: {found} {said}");
     }
 }
 
@@ -220,45 +169,24 @@ fn an_equilibrium_is_kept_by_all_but_splitting() {
 fn the_exponential_method_is_exact_without_a_changing_force() {
     let mut system = Oscillator::new(0.0);
     system.drive = 0.0;
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     // one step of 20 s, seven times the linear limit of central differences
     let schedule = Schedule::covering(20.0, 20.0, 20.0).expect("valid");
-    integrate(
-        &mut system,
-        Method::Exponential,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        |_, _| Stepping::Continue,
-    )
-    .expect("stable");
+    integrate(&mut system, Method::Exponential, &schedule, &mut state, &mut NoRecord, |_, _| Stepping::Continue)
+        .expect("stable");
     let damped = (W * W - 0.25 * C * C).sqrt();
-    let exact = (-0.5 * C * 20.0_f64).exp()
-        * ((damped * 20.0).cos() + 0.5 * C / damped * (damped * 20.0).sin());
+    let exact = (-0.5 * C * 20.0_f64).exp() * ((damped * 20.0).cos() + 0.5 * C / damped * (damped * 20.0).sin());
     assert!((state.y[0] - exact).abs() < 1e-14);
 }
 
 #[test]
 fn newmark_refuses_a_step_beyond_its_limit() {
     let mut system = Oscillator::new(0.0);
-    let mut state = State {
-        t: 0.0,
-        y: vec![0.0],
-        v: vec![0.0],
-    };
+    let mut state = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
     let schedule = Schedule::covering(10.0, 0.7, 0.7).expect("valid");
-    let error = integrate(
-        &mut system,
-        Method::NewmarkExplicit,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        |_, _| Stepping::Continue,
-    )
+    let error = integrate(&mut system, Method::NewmarkExplicit, &schedule, &mut state, &mut NoRecord, |_, _| {
+        Stepping::Continue
+    })
     .expect_err("2 / 3 s is the limit");
     assert!(matches!(error, TransientError::Unstable { .. }), "{error}");
 }
@@ -267,21 +195,11 @@ fn newmark_refuses_a_step_beyond_its_limit() {
 fn a_solution_that_blows_up_names_the_time_and_leaves_the_last_good_state() {
     // nearly all of the spring is outside the linear part: Verlet's limit holds for it
     let mut system = Oscillator::new(0.999);
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     let schedule = Schedule::covering(5000.0, 1.0, 1.0).expect("valid");
-    let error = integrate(
-        &mut system,
-        Method::Exponential,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        |_, _| Stepping::Continue,
-    )
-    .expect_err("unstable");
+    let error =
+        integrate(&mut system, Method::Exponential, &schedule, &mut state, &mut NoRecord, |_, _| Stepping::Continue)
+            .expect_err("unstable");
     let TransientError::BlewUp(blow_up) = error else {
         panic!("{error}");
     };
@@ -319,37 +237,18 @@ impl SecondOrderSystem for Watched {
         if y[0].abs() <= self.limit {
             return Ok(());
         }
-        Err(Divergence::OutOfRange {
-            what: "position".to_owned(),
-            value: y[0],
-            limit: self.limit,
-            unit: "m",
-        })
+        Err(Divergence::OutOfRange { what: "position".to_owned(), value: y[0], limit: self.limit, unit: "m" })
     }
 }
 
 #[test]
 fn a_blow_up_is_noticed_within_a_few_steps_in_an_interval_of_thousands() {
-    for method in [
-        Method::Exponential,
-        ADAMS,
-        Method::Splitting,
-        Method::NewmarkExplicit,
-    ] {
+    for method in [Method::Exponential, ADAMS, Method::Splitting, Method::NewmarkExplicit] {
         for limit in [10.0, 31.0, 100.0, 310.0] {
             let mut oscillator = Oscillator::new(1.0);
             oscillator.linear[0].damping = 0.0;
-            let mut system = Watched {
-                oscillator,
-                limit,
-                first_beyond: None,
-                seen: 0,
-            };
-            let mut state = State {
-                t: 0.0,
-                y: vec![1.0],
-                v: vec![0.0],
-            };
+            let mut system = Watched { oscillator, limit, first_beyond: None, seen: 0 };
+            let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
             // a tenth beyond the limit of Verlet
             let h = 2.2 / W;
             let error = take_steps(&mut system, method, &mut state, h, 10_000).expect_err("grows");
@@ -384,17 +283,8 @@ fn measured_limit(method: Method) -> f64 {
 
 #[test]
 fn the_limit_that_is_named_is_the_one_that_is_found() {
-    for method in [
-        Method::Exponential,
-        ADAMS,
-        Method::Splitting,
-        Method::NewmarkExplicit,
-    ] {
-        let state = State {
-            t: 0.0,
-            y: vec![1.0],
-            v: vec![0.0],
-        };
+    for method in [Method::Exponential, ADAMS, Method::Splitting, Method::NewmarkExplicit] {
+        let state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
         let mut system = Oscillator::new(1.0);
         system.linear[0].damping = 0.0;
         let named = method.step_limit(&mut system, &state);
@@ -413,14 +303,8 @@ fn a_blow_up_tells_step_limit_and_frequency() {
         good_until: 2.300_048,
         good_intervals: 23,
         step_s: 4e-6,
-        statistics: Statistics {
-            steps: 575_013,
-            ..Statistics::default()
-        },
-        limit: Some(StepLimit {
-            step_s: 1.928e-6,
-            highest_hz: 142_980.0,
-        }),
+        statistics: Statistics { steps: 575_013, ..Statistics::default() },
+        limit: Some(StepLimit { step_s: 1.928e-6, highest_hz: 142_980.0 }),
         resonance: None,
         cause: Divergence::NotFinite,
     };
@@ -428,28 +312,15 @@ fn a_blow_up_tells_step_limit_and_frequency() {
         blow_up.to_string(),
         "the solution blew up at t = 2.300052000 s (step 575013 of 4.000e-6 s; good until 2.300048000 s): a value is infinite or not a number; contacts there vibrate at up to 143.0 kHz, exponential-adams is stable up to 1.93e-6 s"
     );
-    let resonant = BlowUp {
-        step_s: 1.5e-6,
-        resonance: Some(Resonance {
-            mode_hz: 333_210.0,
-            multiple: 1,
-        }),
-        ..blow_up.clone()
-    };
+    let resonant =
+        BlowUp { step_s: 1.5e-6, resonance: Some(Resonance { mode_hz: 333_210.0, multiple: 1 }), ..blow_up.clone() };
     assert!(
         resonant.to_string().ends_with(
             "is stable up to 1.93e-6 s but for resonances: in this step a mode of 333.2 kHz makes about half a turn"
         ),
         "{resonant}"
     );
-    let of_dop853 = BlowUp {
-        method: Method::Dop853 {
-            tolerance: 1e-6,
-            events: true,
-        },
-        limit: None,
-        ..blow_up
-    };
+    let of_dop853 = BlowUp { method: Method::Dop853 { tolerance: 1e-6, events: true }, limit: None, ..blow_up };
     assert_eq!(
         of_dop853.to_string(),
         "the solution blew up at t = 2.300052000 s (after 575013 steps by tolerance; good until 2.300048000 s): a value is infinite or not a number"
@@ -461,12 +332,7 @@ fn steps_divide_the_interval() {
     let schedule = Schedule::covering(2.6, 1e-5, 1.5e-8).expect("valid");
     assert_eq!(schedule.steps_per_interval, 667);
     assert_eq!(schedule.intervals, 260_000);
-    assert_eq!(
-        Schedule::covering(1.0, 1e-5, 1e-7)
-            .expect("valid")
-            .steps_per_interval,
-        100
-    );
+    assert_eq!(Schedule::covering(1.0, 1e-5, 1e-7).expect("valid").steps_per_interval, 100);
     assert!(Schedule::covering(1.0, 1e-5, f64::NAN).is_err());
 }
 
@@ -497,33 +363,12 @@ impl SecondOrderSystem for Hardening {
 
 /// End position after ten time units from 1 at rest, and the counts.
 fn hardening(cubic: f64, told: bool, tolerance: f64) -> (f64, Statistics) {
-    let free = LinearCoordinate {
-        squared_frequency: 0.0,
-        damping: 0.0,
-    };
-    let mut system = Hardening {
-        linear: [free],
-        cubic,
-        told,
-        place: 0.0,
-    };
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
+    let mut system = Hardening { linear: [free], cubic, told, place: 0.0 };
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     let schedule = Schedule::covering(10.0, 0.25, 0.25).expect("valid");
-    let method = Method::ExponentialAdams {
-        tolerance: Some(tolerance),
-    };
-    let counts = integrate(
-        &mut system,
-        method,
-        &schedule,
-        &mut state,
-        &mut NoRecord,
-        |_, _| Stepping::Continue,
-    );
+    let method = Method::ExponentialAdams { tolerance: Some(tolerance) };
+    let counts = integrate(&mut system, method, &schedule, &mut state, &mut NoRecord, |_, _| Stepping::Continue);
     (state.y[0], counts.expect("stable"))
 }
 

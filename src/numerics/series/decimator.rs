@@ -125,16 +125,8 @@ impl Decimator {
     fn from_taps(ratio: usize, before_start: BeforeStart, tap: impl Fn(isize) -> f64) -> Self {
         let ratio = ratio as isize;
         let first = HALF_LENGTH_OUTPUTS as isize - 1;
-        let taps = (0..ratio)
-            .map(|phase| std::array::from_fn(|i| tap(phase + (first - i as isize) * ratio)))
-            .collect();
-        Self {
-            taps,
-            before_start,
-            phase: 0,
-            accumulators: [0.0; ACCUMULATORS],
-            intervals: 0,
-        }
+        let taps = (0..ratio).map(|phase| std::array::from_fn(|i| tap(phase + (first - i as isize) * ratio))).collect();
+        Self { taps, before_start, phase: 0, accumulators: [0.0; ACCUMULATORS], intervals: 0 }
     }
 
     /// Ratio M: inputs per output.
@@ -189,21 +181,11 @@ impl Decimator {
     /// # Errors
     /// [`SeriesError::State`] if the state has another number of accumulators or a phase beyond the ratio.
     pub(crate) fn with_state(mut self, state: &DecimatorState) -> Result<Self, SeriesError> {
-        let mismatch = || SeriesError::State {
-            accumulators: state.accumulators.len(),
-            expected: ACCUMULATORS,
-        };
+        let mismatch = || SeriesError::State { accumulators: state.accumulators.len(), expected: ACCUMULATORS };
         if state.phase >= self.taps.len() {
-            return Err(SeriesError::StatePhase {
-                phase: state.phase,
-                ratio: self.taps.len(),
-            });
+            return Err(SeriesError::StatePhase { phase: state.phase, ratio: self.taps.len() });
         }
-        self.accumulators = state
-            .accumulators
-            .as_slice()
-            .try_into()
-            .map_err(|_| mismatch())?;
+        self.accumulators = state.accumulators.as_slice().try_into().map_err(|_| mismatch())?;
         self.phase = state.phase;
         self.intervals = state.intervals;
         if let BeforeStart::FirstValue(first) = &mut self.before_start {
@@ -221,11 +203,7 @@ fn low_pass(ratio: usize, spare: usize) -> Result<KaiserLowPass, SeriesError> {
     }
     let half = HALF_LENGTH_OUTPUTS * ratio - 1 - spare;
     let attenuation = attenuation_db(half, TRANSITION / ratio as f64);
-    Ok(KaiserLowPass::windowed(
-        0.5 / ratio as f64,
-        half,
-        beta(attenuation),
-    ))
+    Ok(KaiserLowPass::windowed(0.5 / ratio as f64, half, beta(attenuation)))
 }
 
 #[cfg(test)]
@@ -234,9 +212,7 @@ mod tests {
 
     /// Outputs 0 .. of a decimator fed with x(n), n = 0 .. inputs - 1.
     fn outputs(mut decimator: Decimator, inputs: usize, x: impl Fn(f64) -> f64) -> Vec<f64> {
-        (0..inputs)
-            .filter_map(|n| decimator.push(x(n as f64)))
-            .collect()
+        (0..inputs).filter_map(|n| decimator.push(x(n as f64))).collect()
     }
 
     /// Amplitude and delay (in input samples) of a sampled sinusoid of known frequency f (cycles per input sample),
@@ -252,10 +228,7 @@ mod tests {
             ys += y * s;
         }
         let determinant = cc * ss - cs * cs;
-        let (a, b) = (
-            (yc * ss - ys * cs) / determinant,
-            (ys * cc - yc * cs) / determinant,
-        );
+        let (a, b) = ((yc * ss - ys * cs) / determinant, (ys * cc - yc * cs) / determinant);
         (a.hypot(b), b.atan2(a) / (2.0 * PI * f))
     }
 
@@ -264,18 +237,10 @@ mod tests {
         for ratio in [2, 3, 10, 64, 400] {
             for part in [0.01, 0.1, 0.237, 0.333, 0.4] {
                 let f = part / ratio as f64;
-                let y = outputs(Decimator::new(ratio).expect("ratio"), 400 * ratio, |n| {
-                    (2.0 * PI * f * n).cos()
-                });
+                let y = outputs(Decimator::new(ratio).expect("ratio"), 400 * ratio, |n| (2.0 * PI * f * n).cos());
                 let (amplitude, delay) = amplitude_and_delay(&y, ratio, f);
-                assert!(
-                    (amplitude - 1.0).abs() < 1e-4,
-                    "M {ratio}, {part}: {amplitude}"
-                );
-                assert!(
-                    delay.abs() < 1e-6,
-                    "M {ratio}, {part}: delay {delay} samples"
-                );
+                assert!((amplitude - 1.0).abs() < 1e-4, "M {ratio}, {part}: {amplitude}");
+                assert!(delay.abs() < 1e-6, "M {ratio}, {part}: delay {delay} samples");
             }
         }
     }
@@ -285,14 +250,9 @@ mod tests {
         for ratio in [2, 3, 10, 64, 400] {
             for part in [0.6, 0.61, 0.7, 0.9, 1.0, 1.37, 0.49 * ratio as f64] {
                 let f = f64::min(part / ratio as f64, 0.5);
-                let y = outputs(Decimator::new(ratio).expect("ratio"), 200 * ratio, |n| {
-                    (2.0 * PI * f * n).cos()
-                });
+                let y = outputs(Decimator::new(ratio).expect("ratio"), 200 * ratio, |n| (2.0 * PI * f * n).cos());
                 let worst = y[30..].iter().fold(0.0, |w: f64, y| w.max(y.abs()));
-                assert!(
-                    worst < 1e-4,
-                    "M {ratio}, {part} of the output rate: {worst:e}"
-                );
+                assert!(worst < 1e-4, "M {ratio}, {part} of the output rate: {worst:e}");
             }
         }
     }
@@ -300,34 +260,19 @@ mod tests {
     #[test]
     fn second_derivative_has_gain_minus_omega_squared() {
         let dt = 2e-7;
-        for (ratio, allowed) in [
-            (1, 0.18),
-            (2, 1e-2),
-            (3, 1e-3),
-            (4, 3e-4),
-            (5, 2e-4),
-            (6, 1e-4),
-            (10, 1e-4),
-            (50, 1e-4),
-        ] {
+        for (ratio, allowed) in
+            [(1, 0.18), (2, 1e-2), (3, 1e-3), (4, 3e-4), (5, 2e-4), (6, 1e-4), (10, 1e-4), (50, 1e-4)]
+        {
             for part in [0.02, 0.1, 0.237, 0.4] {
                 let f = part / ratio as f64;
                 let omega = 2.0 * PI * f / dt;
                 let decimator = Decimator::second_derivative(ratio, dt).expect("ratio");
                 // On an offset a thousand times larger, as a static deflection is.
-                let y = outputs(decimator, 400 * ratio, |n| {
-                    1e-5 + 1e-8 * (2.0 * PI * f * n).cos()
-                });
+                let y = outputs(decimator, 400 * ratio, |n| 1e-5 + 1e-8 * (2.0 * PI * f * n).cos());
                 let minus: Vec<f64> = y.iter().map(|y| -y / (omega * omega * 1e-8)).collect();
                 let (amplitude, delay) = amplitude_and_delay(&minus, ratio, f);
-                assert!(
-                    (amplitude - 1.0).abs() < allowed,
-                    "M {ratio}, {part}: {amplitude}"
-                );
-                assert!(
-                    delay.abs() < 1e-6,
-                    "M {ratio}, {part}: delay {delay} samples"
-                );
+                assert!((amplitude - 1.0).abs() < allowed, "M {ratio}, {part}: {amplitude}");
+                assert!(delay.abs() < 1e-6, "M {ratio}, {part}: delay {delay} samples");
             }
         }
     }
@@ -341,9 +286,7 @@ mod tests {
                 let f = part / ratio as f64;
                 let omega = 2.0 * PI * f / dt;
                 let decimator = Decimator::second_derivative(ratio, dt).expect("ratio");
-                let y = outputs(decimator, 200 * ratio, |n| {
-                    (2.0 * PI * f * n).cos() / (omega * omega)
-                });
+                let y = outputs(decimator, 200 * ratio, |n| (2.0 * PI * f * n).cos() / (omega * omega));
                 let worst = y[30..].iter().fold(0.0, |w: f64, y| w.max(y.abs()));
                 assert!(worst < 1e-4, "M {ratio}, {part}: {worst:e}");
             }
@@ -408,10 +351,7 @@ mod tests {
     #[test]
     fn errors_fire_with_their_exact_messages() {
         let message = |r: Result<Decimator, SeriesError>| r.expect_err("must fail").to_string();
-        assert_eq!(
-            message(Decimator::new(0)),
-            "decimation ratio must be at least 1, found 0"
-        );
+        assert_eq!(message(Decimator::new(0)), "decimation ratio must be at least 1, found 0");
         assert_eq!(
             message(Decimator::second_derivative(4, -1.0)),
             "sampling step must be positive and finite, found -1 s"

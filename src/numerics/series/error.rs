@@ -39,9 +39,7 @@ pub enum SeriesError {
         to_s: f64,
     },
     /// A window reaches beyond the series.
-    #[error(
-        "window {from_s} s to {to_s} s is not inside the series, which covers {start_s} s to {end_s} s"
-    )]
+    #[error("window {from_s} s to {to_s} s is not inside the series, which covers {start_s} s to {end_s} s")]
     WindowOutside {
         /// Start of the window, s.
         from_s: f64,
@@ -92,9 +90,7 @@ pub enum SeriesError {
         expected: usize,
     },
     /// A saved decimator state from a decimator of another ratio.
-    #[error(
-        "saved decimator state does not fit: phase {phase} in the state, ratio {ratio} in the decimator"
-    )]
+    #[error("saved decimator state does not fit: phase {phase} in the state, ratio {ratio} in the decimator")]
     StatePhase {
         /// Phase found in the state.
         phase: usize,

@@ -13,9 +13,7 @@ impl TimeSeries {
         let values = self.values();
         let ends = values
             .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
-                [value.min(low), value.max(high)]
-            });
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [value.min(low), value.max(high)]);
         if ends[0] >= ends[1] {
             return 0.0;
         }
@@ -39,10 +37,7 @@ impl TimeSeries {
             begin += run.len();
         }
         let (first, count) = longest;
-        TimeWindow {
-            from: self.time_s(first),
-            to: self.time_s(first + count),
-        }
+        TimeWindow { from: self.time_s(first), to: self.time_s(first + count) }
     }
 }
 
@@ -63,10 +58,7 @@ mod tests {
     #[test]
     fn clipped_samples_lie_in_a_row_at_an_end_of_the_range() {
         let share = |values: &[f64]| series(values).clipped_share();
-        assert_eq!(
-            share(&[0.0, 2.0, 2.0, 2.0, 1.0, -3.0, 0.0, -3.0]),
-            5.0 / 8.0
-        );
+        assert_eq!(share(&[0.0, 2.0, 2.0, 2.0, 1.0, -3.0, 0.0, -3.0]), 5.0 / 8.0);
         // two at the top are rounding, three in between no end
         assert_eq!(share(&[0.0, 2.0, 2.0, 1.0, 1.0, 1.0, -3.0, -3.0]), 0.0);
         // a square wave is none; nor is a constant

@@ -23,22 +23,13 @@ impl KaiserLowPass {
     ///
     /// # Errors
     /// [`SeriesError::Step`]; [`SeriesError::LowPassEdges`] unless 0 < pass < stop <= 1 / (2 step).
-    pub(crate) fn new(
-        step_s: f64,
-        pass_hz: f64,
-        stop_hz: f64,
-        attenuation_db: f64,
-    ) -> Result<Self, SeriesError> {
+    pub(crate) fn new(step_s: f64, pass_hz: f64, stop_hz: f64, attenuation_db: f64) -> Result<Self, SeriesError> {
         if !(step_s.is_finite() && step_s > 0.0) {
             return Err(SeriesError::Step { step_s });
         }
         let nyquist_hz = 0.5 / step_s;
         if !(pass_hz > 0.0 && pass_hz < stop_hz && stop_hz <= nyquist_hz * (1.0 + 1e-12)) {
-            return Err(SeriesError::LowPassEdges {
-                pass_hz,
-                stop_hz,
-                nyquist_hz,
-            });
+            return Err(SeriesError::LowPassEdges { pass_hz, stop_hz, nyquist_hz });
         }
         let attenuation_db = attenuation_db.max(21.0);
         let transition = 2.0 * PI * (stop_hz - pass_hz) * step_s;
@@ -52,9 +43,7 @@ impl KaiserLowPass {
         let mut half_taps: Vec<f64> = (0..=half)
             .map(|m| {
                 let part = m as f64 / half.max(1) as f64;
-                2.0 * cut_off
-                    * sinc(2.0 * cut_off * m as f64)
-                    * bessel_i0(beta * (1.0 - part * part).max(0.0).sqrt())
+                2.0 * cut_off * sinc(2.0 * cut_off * m as f64) * bessel_i0(beta * (1.0 - part * part).max(0.0).sqrt())
                     / bessel_i0(beta)
             })
             .collect();
@@ -102,10 +91,7 @@ impl KaiserInterpolation {
     /// The kernel.
     pub(crate) fn new() -> Self {
         let beta = beta(attenuation_db(INTERPOLATION_REACH, 2.0 * PI * 0.2));
-        Self {
-            beta,
-            scale: 1.0 / bessel_i0(beta),
-        }
+        Self { beta, scale: 1.0 / bessel_i0(beta) }
     }
 
     /// Samples to each side that a value is made of.
@@ -184,11 +170,7 @@ mod tests {
     fn taps_agree_with_scipy_firwin() {
         // scipy.signal.firwin(101, 0.25, window=('kaiser', 7.857)): cut-off 0.25 of Nyquist = 0.125 cycles a sample.
         let filter = KaiserLowPass::windowed(0.125, 50, 7.857);
-        for (m, scipy) in [
-            (0, 0.250_004_117_455_459_6),
-            (1, 0.224_752_644_122_944_46),
-            (-2, 0.158_225_576_007_225),
-        ] {
+        for (m, scipy) in [(0, 0.250_004_117_455_459_6), (1, 0.224_752_644_122_944_46), (-2, 0.158_225_576_007_225)] {
             assert!((filter.tap(m) - scipy).abs() < 1e-14, "tap {m}");
         }
     }
@@ -224,11 +206,7 @@ mod tests {
 
     #[test]
     fn edges_out_of_order_are_refused() {
-        let message = |pass, stop| {
-            KaiserLowPass::new(0.25, pass, stop, 80.0)
-                .expect_err("must fail")
-                .to_string()
-        };
+        let message = |pass, stop| KaiserLowPass::new(0.25, pass, stop, 80.0).expect_err("must fail").to_string();
         assert_eq!(
             message(1.5, 2.5),
             "low-pass edges must satisfy 0 < pass < stop <= 2 Hz (half the sampling rate), \

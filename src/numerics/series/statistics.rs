@@ -30,13 +30,7 @@ impl TimeSeries {
     pub fn kurtosis(&self) -> Option<f64> {
         let mean = self.mean();
         let samples = self.values().len() as f64;
-        let moment = |power: i32| {
-            self.values()
-                .iter()
-                .map(|v| (v - mean).powi(power))
-                .sum::<f64>()
-                / samples
-        };
+        let moment = |power: i32| self.values().iter().map(|v| (v - mean).powi(power)).sum::<f64>() / samples;
         let variance = moment(2);
         // Rounding of the mean alone leaves about (epsilon |mean|)^2 of variance.
         let rounding = (4.0 * f64::EPSILON * self.peak()).powi(2);
@@ -64,11 +58,7 @@ mod tests {
     #[test]
     fn sinusoid_with_offset() {
         // 20 whole periods: mean 0.5, RMS sqrt(0.25 + 2^2 / 2), peak 2.5, kurtosis 3/2 whatever the offset.
-        let x = series(
-            (0..1000)
-                .map(|k| 0.5 + 2.0 * (2.0 * PI * 0.02 * k as f64).cos())
-                .collect(),
-        );
+        let x = series((0..1000).map(|k| 0.5 + 2.0 * (2.0 * PI * 0.02 * k as f64).cos()).collect());
         assert!((x.mean() - 0.5).abs() < 1e-13);
         assert!((x.rms() - 2.25_f64.sqrt()).abs() < 1e-13);
         assert!((x.peak() - 2.5).abs() < 1e-13);
@@ -84,16 +74,10 @@ mod tests {
         // Sum of 12 uniform numbers: kurtosis 3 - 6/5/12 = 2.9; the scatter of the estimate is sqrt(24/n) = 0.011.
         let mut state = 1_u64;
         let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
-        let x = series(
-            (0..200_000)
-                .map(|_| (0..12).map(|_| uniform()).sum())
-                .collect(),
-        );
+        let x = series((0..200_000).map(|_| (0..12).map(|_| uniform()).sum()).collect());
         assert!((x.kurtosis().expect("not constant") - 2.9).abs() < 0.04);
     }
 

@@ -47,12 +47,7 @@ impl TimeWindow {
     ///
     /// # Errors
     /// [`SeriesError::WindowOrder`], [`SeriesError::WindowOutside`].
-    pub(crate) fn check_inside(
-        self,
-        start_s: f64,
-        step_s: f64,
-        samples: usize,
-    ) -> Result<(), SeriesError> {
+    pub(crate) fn check_inside(self, start_s: f64, step_s: f64, samples: usize) -> Result<(), SeriesError> {
         let (from_s, to_s) = (self.from, self.to);
         if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
             return Err(SeriesError::WindowOrder { from_s, to_s });
@@ -61,12 +56,7 @@ impl TimeWindow {
         let samples = samples as f64;
         let tolerance = tolerance_steps(start_s.abs().max(to_s.abs()), step_s);
         if position(from_s) < -tolerance || position(to_s) > samples + tolerance {
-            return Err(SeriesError::WindowOutside {
-                from_s,
-                to_s,
-                start_s,
-                end_s: start_s + samples * step_s,
-            });
+            return Err(SeriesError::WindowOutside { from_s, to_s, start_s, end_s: start_s + samples * step_s });
         }
         Ok(())
     }
@@ -78,12 +68,7 @@ impl TimeSeries {
     /// # Errors
     /// [`SeriesError::Start`], [`SeriesError::Step`], [`SeriesError::Empty`], and [`SeriesError::NotFinite`] with the
     /// first sample that is NaN or infinite.
-    pub fn new(
-        start_s: f64,
-        step_s: f64,
-        unit: impl Into<String>,
-        values: Vec<f64>,
-    ) -> Result<Self, SeriesError> {
+    pub fn new(start_s: f64, step_s: f64, unit: impl Into<String>, values: Vec<f64>) -> Result<Self, SeriesError> {
         if !start_s.is_finite() {
             return Err(SeriesError::Start { start_s });
         }
@@ -94,18 +79,9 @@ impl TimeSeries {
             return Err(SeriesError::Empty);
         }
         if let Some((index, value)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(SeriesError::NotFinite {
-                index,
-                time_s: start_s + index as f64 * step_s,
-                value: *value,
-            });
+            return Err(SeriesError::NotFinite { index, time_s: start_s + index as f64 * step_s, value: *value });
         }
-        Ok(Self {
-            start_s,
-            step_s,
-            unit: unit.into(),
-            values,
-        })
+        Ok(Self { start_s, step_s, unit: unit.into(), values })
     }
 
     /// Instant of the first sample, s.
@@ -155,10 +131,7 @@ impl TimeSeries {
 
     /// Stretch of time that the series covers: start <= t < end.
     pub fn span(&self) -> TimeWindow {
-        TimeWindow {
-            from: self.start_s,
-            to: self.end_s(),
-        }
+        TimeWindow { from: self.start_s, to: self.end_s() }
     }
 
     /// The samples with `from_s` <= t < `to_s` (half-open, so that adjoining windows share no sample); bounds within
@@ -169,25 +142,17 @@ impl TimeSeries {
     /// the window reaches beyond the series, [`SeriesError::WindowEmpty`] if it falls between two samples.
     pub fn window(&self, from_s: f64, to_s: f64) -> Result<Self, SeriesError> {
         let samples = self.values.len();
-        let window = TimeWindow {
-            from: from_s,
-            to: to_s,
-        };
+        let window = TimeWindow { from: from_s, to: to_s };
         window.check_inside(self.start_s, self.step_s, samples)?;
         let position = |t: f64| (t - self.start_s) / self.step_s;
         let samples = samples as f64;
         let index = |t: f64| {
-            (position(t) - tolerance_steps(self.start_s.abs().max(t.abs()), self.step_s))
-                .ceil()
-                .clamp(0.0, samples) as usize
+            (position(t) - tolerance_steps(self.start_s.abs().max(t.abs()), self.step_s)).ceil().clamp(0.0, samples)
+                as usize
         };
         let (first, end) = (index(from_s), index(to_s));
         if first >= end {
-            return Err(SeriesError::WindowEmpty {
-                from_s,
-                to_s,
-                step_s: self.step_s,
-            });
+            return Err(SeriesError::WindowEmpty { from_s, to_s, step_s: self.step_s });
         }
         Ok(Self {
             start_s: self.time_s(first),
@@ -211,13 +176,7 @@ mod tests {
     use super::*;
 
     fn ramp(start_s: f64, step_s: f64, samples: usize) -> TimeSeries {
-        TimeSeries::new(
-            start_s,
-            step_s,
-            "m",
-            (0..samples).map(|k| k as f64).collect(),
-        )
-        .expect("a valid ramp")
+        TimeSeries::new(start_s, step_s, "m", (0..samples).map(|k| k as f64).collect()).expect("a valid ramp")
     }
 
     #[test]
@@ -239,10 +198,7 @@ mod tests {
         for hundredth in 21..300_u32 {
             let from = f64::from(hundredth) / 100.0;
             let first = series.window(from, 3.0).expect("inside").values()[0];
-            assert!(
-                (first - 1000.0 * f64::from(hundredth - 20)).abs() < 0.5,
-                "{from} s: sample {first}"
-            );
+            assert!((first - 1000.0 * f64::from(hundredth - 20)).abs() < 0.5, "{from} s: sample {first}");
         }
     }
 
@@ -269,10 +225,7 @@ mod tests {
     fn errors_fire_with_their_exact_messages() {
         let message = |r: Result<TimeSeries, SeriesError>| r.expect_err("must fail").to_string();
         let series = ramp(1.0, 0.5, 4);
-        assert_eq!(
-            message(series.window(2.0, 2.0)),
-            "window must end after it starts, found 2 s to 2 s"
-        );
+        assert_eq!(message(series.window(2.0, 2.0)), "window must end after it starts, found 2 s to 2 s");
         assert_eq!(
             message(series.window(0.5, 2.0)),
             "window 0.5 s to 2 s is not inside the series, which covers 1 s to 3 s"
@@ -285,10 +238,7 @@ mod tests {
             message(series.window(1.1, 1.2)),
             "window 1.1 s to 1.2 s holds no sample: the sampling step is 0.5 s"
         );
-        assert_eq!(
-            message(series.window(f64::NAN, 1.2)),
-            "window must end after it starts, found NaN s to 1.2 s"
-        );
+        assert_eq!(message(series.window(f64::NAN, 1.2)), "window must end after it starts, found NaN s to 1.2 s");
         assert_eq!(
             message(TimeSeries::new(0.0, 0.0, "m", vec![1.0])),
             "sampling step must be positive and finite, found 0 s"
@@ -297,10 +247,7 @@ mod tests {
             message(TimeSeries::new(f64::INFINITY, 1.0, "m", vec![1.0])),
             "start of the series must be finite, found inf s"
         );
-        assert_eq!(
-            message(TimeSeries::new(0.0, 1.0, "m", vec![])),
-            "series has no samples"
-        );
+        assert_eq!(message(TimeSeries::new(0.0, 1.0, "m", vec![])), "series has no samples");
         assert_eq!(
             message(TimeSeries::new(0.0, 0.5, "m", vec![1.0, 2.0, f64::NAN])),
             "sample 2 (t = 1 s) is NaN, not a finite number"

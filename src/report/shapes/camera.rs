@@ -19,11 +19,7 @@ pub(super) const NAMES: [&str; 4] = ["iso", "front", "side", "top"];
 impl Camera {
     fn looking(back: Vector, right: Vector) -> Self {
         let (back, right) = (unit(back), unit(right));
-        Self {
-            right,
-            up: cross(back, right),
-            back,
-        }
+        Self { right, up: cross(back, right), back }
     }
 
     /// The standard views, in the order of [`NAMES`].
@@ -55,11 +51,7 @@ impl Camera {
 
     /// Right, up, and towards the viewer, of a point.
     pub(super) fn project(&self, point: Vector) -> Vector {
-        [
-            dot(self.right, point),
-            dot(self.up, point),
-            dot(self.back, point),
-        ]
+        [dot(self.right, point), dot(self.up, point), dot(self.back, point)]
     }
 }
 

@@ -35,9 +35,7 @@ impl Surface {
         let (low, high) = bounds(&self.points);
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
         let per_metre = cells.clamp(1.0, MOST_CELLS) / longest.max(f64::MIN_POSITIVE);
-        let key = |p: &[f64; 3]| -> [u32; 3] {
-            std::array::from_fn(|k| ((p[k] - low[k]) * per_metre) as u32)
-        };
+        let key = |p: &[f64; 3]| -> [u32; 3] { std::array::from_fn(|k| ((p[k] - low[k]) * per_metre) as u32) };
         let cell: Vec<[u32; 3]> = self.points.iter().map(key).collect();
         let stays = self.representatives(&cell);
         let mut kept: Vec<usize> = stays.values().copied().collect();
@@ -51,10 +49,7 @@ impl Surface {
         let lines = self.lines.iter().map(|line| {
             let mut points: Vec<usize> = line.points.iter().map(|k| place[*k]).collect();
             points.dedup();
-            SurfaceLine {
-                points,
-                closed: line.closed,
-            }
+            SurfaceLine { points, closed: line.closed }
         });
         Self {
             points: kept.iter().map(|k| self.points[*k]).collect(),
@@ -116,10 +111,7 @@ impl Surface {
             }
         }
         kept.sort_unstable();
-        (
-            kept.iter().map(|k| k.1).collect(),
-            kept.iter().map(|k| k.0).collect(),
-        )
+        (kept.iter().map(|k| k.1).collect(), kept.iter().map(|k| k.0).collect())
     }
 }
 
@@ -134,16 +126,9 @@ mod tests {
         let whole = Surface::of(&view);
         assert_eq!(whole.points.len(), 9602);
         let thin = whole.thinned(1500);
-        assert!(
-            (900..=1500).contains(&thin.points.len()),
-            "{}",
-            thin.points.len()
-        );
+        assert!((900..=1500).contains(&thin.points.len()), "{}", thin.points.len());
         for (point, source) in thin.points.iter().zip(&thin.source) {
-            assert_eq!(
-                point.map(f64::to_bits),
-                view.points[*source].map(f64::to_bits)
-            );
+            assert_eq!(point.map(f64::to_bits), view.points[*source].map(f64::to_bits));
         }
         // It keeps its extent, within a cell, and its surface stays closed: every edge has two triangles.
         let (low, high) = bounds(&thin.points);

@@ -46,9 +46,7 @@ impl DepthBuffer {
         for y in range(1, self.height) {
             for x in range(0, self.width) {
                 let (px, py) = (x as f64, y as f64);
-                let part = |p: Spot, q: Spot| {
-                    ((p[0] - px) * (q[1] - py) - (q[0] - px) * (p[1] - py)) / twice
-                };
+                let part = |p: Spot, q: Spot| ((p[0] - px) * (q[1] - py) - (q[0] - px) * (p[1] - py)) / twice;
                 let parts = [part(b, c), part(c, a), part(a, b)];
                 // A sample on a common edge belongs to both.
                 if parts.iter().any(|p| *p < -1e-9) {
@@ -77,13 +75,10 @@ impl DepthBuffer {
     /// round it decides, such that a point on a rim counts as seen.
     pub(super) fn shows(&self, [x, y, z]: Spot, slack: f64) -> bool {
         let (column, row) = ((x * FINE) as i64, (y * FINE) as i64);
-        (-1..=1)
-            .flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)))
-            .any(|(column, row)| {
-                let inside = (0..self.width as i64).contains(&column)
-                    && (0..self.height as i64).contains(&row);
-                !inside || z + slack >= self.nearest[row as usize * self.width + column as usize]
-            })
+        (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy))).any(|(column, row)| {
+            let inside = (0..self.width as i64).contains(&column) && (0..self.height as i64).contains(&row);
+            !inside || z + slack >= self.nearest[row as usize * self.width + column as usize]
+        })
     }
 
     /// The parts of a line that can be seen.
@@ -127,14 +122,7 @@ mod tests {
 
     /// A far square and a near one over its right half.
     fn two_squares() -> (Vec<Spot>, Vec<[usize; 3]>) {
-        let square = |left: f64, z: f64| {
-            [
-                [left, 10.0, z],
-                [50.0, 10.0, z],
-                [50.0, 50.0, z],
-                [left, 50.0, z],
-            ]
-        };
+        let square = |left: f64, z: f64| [[left, 10.0, z], [50.0, 10.0, z], [50.0, 50.0, z], [left, 50.0, z]];
         let spots = [square(10.0, 0.0), square(30.0, 5.0), square(35.0, 1.0)].concat();
         let corners = [0, 4, 8].map(|k| [[k, k + 1, k + 2], [k, k + 2, k + 3]]);
         (spots, corners.concat())

@@ -20,6 +20,4 @@ pub(super) use pack::{Packed, compressed, pack};
 pub(super) use stills::{Still, bar as colour_bar, mesh_picture, stills};
 pub(super) use surface::Surface;
 pub(super) use view::{LegendEntry, legend};
-pub use view::{
-    ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
-};
+pub use view::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis};

@@ -79,19 +79,13 @@ struct ViewData {
 
 /// Packs a checked view into about `budget` bytes: fewer modes first, down to eight; then a coarser surface; then fewer
 /// modes still.
-pub(in crate::report) fn pack(
-    view: &ModeShapeView,
-    whole: &Surface,
-    budget: usize,
-) -> Result<Packed, ReportError> {
+pub(in crate::report) fn pack(view: &ModeShapeView, whole: &Surface, budget: usize) -> Result<Packed, ReportError> {
     let wanted = view.modes.len().min(LEAST_MODES);
     let mut surface = whole.clone();
     let (geometry, modes) = loop {
         let geometry = geometry(&surface);
         let modes = modes(view, &surface, budget.saturating_sub(geometry.bytes()));
-        if (modes.len() >= wanted && geometry.bytes() <= budget)
-            || surface.points.len() <= LEAST_POINTS
-        {
+        if (modes.len() >= wanted && geometry.bytes() <= budget) || surface.points.len() <= LEAST_POINTS {
             break (geometry, modes);
         }
         let most = (surface.points.len() * 3 / 4).max(LEAST_POINTS);
@@ -112,26 +106,16 @@ pub(in crate::report) fn pack(
         amplitude: view.amplitude,
         count: surface.points.len(),
         geometry,
-        starts: (0..=view.groups.len())
-            .map(|group| surface.groups.partition_point(|g| *g < group))
-            .collect(),
+        starts: (0..=view.groups.len()).map(|group| surface.groups.partition_point(|g| *g < group)).collect(),
         lines: &surface.lines,
         legend: legend(view),
         modes,
         displacement_steps: STEPS,
         start: Camera::best(&views, low, high),
-        views: NAMES
-            .into_iter()
-            .zip(views)
-            .map(|(name, camera)| ViewData { name, camera })
-            .collect(),
+        views: NAMES.into_iter().zip(views).map(|(name, camera)| ViewData { name, camera }).collect(),
         palette: palette::VIRIDIS.to_vec(),
     };
-    Ok(Packed {
-        json: for_script(&view.title, &data)?,
-        left_out,
-        modes: kept,
-    })
+    Ok(Packed { json: for_script(&view.title, &data)?, left_out, modes: kept })
 }
 
 /// What does not depend on a mode.
@@ -192,12 +176,7 @@ fn modes(view: &ModeShapeView, surface: &Surface, budget: usize) -> Vec<ModeData
     kept
 }
 
-fn left_out(
-    view: &ModeShapeView,
-    whole: &Surface,
-    surface: &Surface,
-    modes: usize,
-) -> Option<String> {
+fn left_out(view: &ModeShapeView, whole: &Surface, surface: &Surface, modes: usize) -> Option<String> {
     let count = |n: usize| fixed(n as f64, 0);
     let mut parts = Vec::new();
     if modes < view.modes.len() {
@@ -257,9 +236,7 @@ mod tests {
     fn unpacked(text: &str, stride: usize) -> Vec<i32> {
         let bytes = STANDARD.decode(text).expect("base64");
         let mut raw = Vec::new();
-        flate2::read::ZlibDecoder::new(&bytes[..])
-            .read_to_end(&mut raw)
-            .expect("zlib");
+        flate2::read::ZlibDecoder::new(&bytes[..]).read_to_end(&mut raw).expect("zlib");
         let n = raw.len() / 4;
         let mut out: Vec<i32> = Vec::new();
         for k in 0..n {
@@ -298,10 +275,7 @@ mod tests {
         for (found, d) in steps.chunks_exact(3).zip(&shape) {
             assert!((0..3).all(|k| (f64::from(found[k]) / STEPS - d[k]).abs() <= 0.51 / STEPS));
         }
-        assert_eq!(
-            unpacked(&text(&data["triangles"]), 3).len(),
-            3 * view.triangles.len()
-        );
+        assert_eq!(unpacked(&text(&data["triangles"]), 3).len(), 3 * view.triangles.len());
         assert_eq!(data["starts"], serde_json::json!([0, 250, 300]));
         assert_eq!(data["modes"][1]["frequency"], "220.0 Hz");
     }
@@ -334,16 +308,9 @@ mod tests {
         );
         let budget = all.json.len() / 4;
         let few = pack(&view, &surface, budget).expect("packs");
-        assert!(
-            few.json.len() < budget + 4000,
-            "{} {budget}",
-            few.json.len()
-        );
+        assert!(few.json.len() < budget + 4000, "{} {budget}", few.json.len());
         assert!(json(&few)["modes"].as_array().map_or(0, Vec::len) >= LEAST_MODES);
         let sentence = few.left_out.expect("something is left out");
-        assert!(
-            sentence.contains("a surface thinned from 10\u{202f}800 to "),
-            "{sentence}"
-        );
+        assert!(sentence.contains("a surface thinned from 10\u{202f}800 to "), "{sentence}");
     }
 }

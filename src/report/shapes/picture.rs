@@ -32,39 +32,21 @@ pub(super) struct Frame {
 
 impl Frame {
     /// Fits a structure with displacements up to `amplitude` (part of its size) into a picture, with a margin.
-    pub(super) fn fit(
-        points: &[[f64; 3]],
-        camera: Camera,
-        size: [f64; 2],
-        [margin, amplitude]: [f64; 2],
-    ) -> Self {
+    pub(super) fn fit(points: &[[f64; 3]], camera: Camera, size: [f64; 2], [margin, amplitude]: [f64; 2]) -> Self {
         let diagonal = diagonal(points);
         let seen: Vec<Vector> = points.iter().map(|p| camera.project(*p)).collect();
         let (near, far) = bounds(&seen);
         // Seen end on, a bar has no width.
         let least = 1e-3 * diagonal;
         let room = |k: usize| (far[k] - near[k] + 2.0 * amplitude * diagonal).max(least);
-        let scale = f64::min(
-            (size[0] - 2.0 * margin) / room(0),
-            (size[1] - 2.0 * margin) / room(1),
-        );
-        Self {
-            camera,
-            size,
-            scale,
-            centre: std::array::from_fn(|k| 0.5 * (near[k] + far[k])),
-            diagonal,
-        }
+        let scale = f64::min((size[0] - 2.0 * margin) / room(0), (size[1] - 2.0 * margin) / room(1));
+        Self { camera, size, scale, centre: std::array::from_fn(|k| 0.5 * (near[k] + far[k])), diagonal }
     }
 
     /// Where a point is in the picture.
     pub(super) fn spot(&self, point: Vector) -> Spot {
         let [x, y, z] = minus(self.camera.project(point), self.centre);
-        [
-            0.5 * self.size[0] + self.scale * x,
-            0.5 * self.size[1] - self.scale * y,
-            self.scale * z,
-        ]
+        [0.5 * self.size[0] + self.scale * x, 0.5 * self.size[1] - self.scale * y, self.scale * z]
     }
 }
 
@@ -98,12 +80,7 @@ pub(super) fn draw(
     }
     let seen = buffer.seen(surface.triangles.len());
     let mut order: Vec<usize> = (0..seen.len()).filter(|k| seen[*k]).collect();
-    let near = |k: usize| {
-        surface.triangles[k]
-            .iter()
-            .map(|c| spots[*c][2])
-            .sum::<f64>()
-    };
+    let near = |k: usize| surface.triangles[k].iter().map(|c| spots[*c][2]).sum::<f64>();
     order.sort_by(|a, b| near(*a).total_cmp(&near(*b)));
     let mut paint = Paint::new(out);
     for k in order {
@@ -130,11 +107,7 @@ pub(super) fn draw(
         let edges = surface.edges.iter().copied();
         lines(out, "fine", edges.flat_map(visible));
     }
-    lines(
-        out,
-        "edge",
-        surface.outline.iter().copied().flat_map(visible),
-    );
+    lines(out, "edge", surface.outline.iter().copied().flat_map(visible));
     for line in &surface.lines {
         let first = line.points.first().copied().filter(|_| line.closed);
         let ends = line.points.iter().skip(1).copied().chain(first);
@@ -149,11 +122,7 @@ fn light([a, b, c]: [Spot; 3]) -> f64 {
     // Pixels count downwards.
     let flip = |v: Vector| [v[0], -v[1], v[2]];
     let normal = unit(cross(flip(minus(b, a)), flip(minus(c, a))));
-    let facing = if normal[2] < 0.0 {
-        normal.map(|v| -v)
-    } else {
-        normal
-    };
+    let facing = if normal[2] < 0.0 { normal.map(|v| -v) } else { normal };
     let light = AMBIENT + (1.0 - AMBIENT) * dot(facing, unit(LIGHT)).max(0.0);
     (light * SHADES).round() / SHADES
 }
@@ -191,10 +160,7 @@ fn clipped(polygon: &[([f64; 2], f64)], inside: impl Fn(f64) -> f64) -> Vec<([f6
         if (here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0) {
             let part = here / (here - there);
             let between = |a: f64, b: f64| a + part * (b - a);
-            out.push((
-                [between(point[0], next[0]), between(point[1], next[1])],
-                between(*value, *next_value),
-            ));
+            out.push(([between(point[0], next[0]), between(point[1], next[1])], between(*value, *next_value)));
         }
     }
     out
@@ -320,10 +286,7 @@ mod tests {
         bands(&mut paint, triangle, [0.0, 4.0, 4.0], 1.0);
         paint.end();
         assert_eq!(out.matches("<path").count(), 4, "{out}");
-        assert!(
-            out.contains("color=\"#460e61\" d=\"M 0 0l 7 0 -7 7z\""),
-            "{out}"
-        );
+        assert!(out.contains("color=\"#460e61\" d=\"M 0 0l 7 0 -7 7z\""), "{out}");
         let mut plain = String::new();
         let mut paint = Paint::new(&mut plain);
         bands(&mut paint, triangle, [2.2, 2.4, 2.9], 1.0);

@@ -10,10 +10,7 @@ pub(crate) fn cube(n: usize, modes: usize) -> ModeShapeView {
         groups: ["body", "top"]
             .iter()
             .zip(0..)
-            .map(|(name, colour)| ShapeGroup {
-                name: (*name).to_owned(),
-                colour,
-            })
+            .map(|(name, colour)| ShapeGroup { name: (*name).to_owned(), colour })
             .collect(),
         ..ModeShapeView::new("Cube")
     };
@@ -59,11 +56,7 @@ fn mode(points: &[[f64; 3]], k: usize) -> ShapeMode {
     let wave = k as f64 * 1.1;
     let displacement = points.iter().map(|&[x, y, z]| {
         let lift = z * z;
-        [
-            lift * (wave * x).cos(),
-            lift * (wave * y + 0.3).sin(),
-            0.4 * z * (wave * (x + y)).sin(),
-        ]
+        [lift * (wave * x).cos(), lift * (wave * y + 0.3).sin(), 0.4 * z * (wave * (x + y)).sin()]
     });
     ShapeMode {
         label: k.to_string(),

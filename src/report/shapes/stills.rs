@@ -43,17 +43,9 @@ pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -
     let thin = surface.thinned(MESH_POINTS);
     let camera = chosen(view, &thin);
     let frame = Frame::fit(&thin.points, camera, MESH_SIZE, [34.0, 0.0]);
-    let colours: Vec<_> = view
-        .groups
-        .iter()
-        .map(|g| palette::group(g.colour))
-        .collect();
+    let colours: Vec<_> = view.groups.iter().map(|g| palette::group(g.colour)).collect();
     let fine = thin.points.len() == surface.points.len() && wide_apart(&thin, &frame);
-    let mut out = svg::opening(
-        SHAPE,
-        MESH_SIZE,
-        &format!("{}: mesh and groups", view.title),
-    );
+    let mut out = svg::opening(SHAPE, MESH_SIZE, &format!("{}: mesh and groups", view.title));
     let grouped = Colouring::Groups(&colours);
     picture::draw(&mut out, &frame, &thin, &[], &grouped, fine);
     triad(&mut out, &camera);
@@ -85,11 +77,7 @@ pub(in crate::report) fn stills(view: &ModeShapeView, surface: &Surface) -> Vec<
             let coloured = Colouring::Displacement(&unit);
             picture::draw(&mut out, &frame, &thin, &shown, &coloured, false);
             out.push_str("</svg>");
-            Still {
-                svg: out,
-                title,
-                note: mode.note.clone(),
-            }
+            Still { svg: out, title, note: mode.note.clone() }
         })
         .collect()
 }
@@ -121,10 +109,7 @@ fn chosen(view: &ModeShapeView, surface: &Surface) -> Camera {
 /// Whether the elements' edges are long enough in the picture.
 fn wide_apart(surface: &Surface, frame: &Frame) -> bool {
     let length = |[a, b]: &[usize; 2]| {
-        let (a, b) = (
-            frame.spot(surface.points[*a]),
-            frame.spot(surface.points[*b]),
-        );
+        let (a, b) = (frame.spot(surface.points[*a]), frame.spot(surface.points[*b]));
         (a[0] - b[0]).hypot(a[1] - b[1])
     };
     let total: f64 = surface.edges.iter().map(length).sum();

@@ -31,16 +31,8 @@ pub(in crate::report) struct Surface {
 impl Surface {
     /// The surface of a checked view.
     pub(in crate::report) fn of(view: &ModeShapeView) -> Self {
-        let outline = if view.outline.is_empty() {
-            outline(view)
-        } else {
-            view.outline.clone()
-        };
-        let edges = if view.edges.is_empty() {
-            all_edges(view)
-        } else {
-            view.edges.clone()
-        };
+        let outline = if view.outline.is_empty() { outline(view) } else { view.outline.clone() };
+        let edges = if view.edges.is_empty() { all_edges(view) } else { view.edges.clone() };
         let corners = view.triangles.iter().flat_map(|t| t.corners);
         let mut source: Vec<usize> = corners
             .chain(outline.iter().chain(&edges).flatten().copied())
@@ -57,16 +49,13 @@ impl Surface {
         for (new, old) in order.iter().enumerate() {
             place[source[*old]] = new;
         }
-        let mut triangles: Vec<_> = view
-            .triangles
-            .iter()
-            .map(|t| (t.group, rotated(t.corners.map(|k| place[k]))))
-            .collect();
+        let mut triangles: Vec<_> =
+            view.triangles.iter().map(|t| (t.group, rotated(t.corners.map(|k| place[k])))).collect();
         triangles.sort_unstable();
-        let lines = view.lines.iter().map(|line| SurfaceLine {
-            points: line.points.iter().map(|k| place[*k]).collect(),
-            closed: line.closed,
-        });
+        let lines = view
+            .lines
+            .iter()
+            .map(|line| SurfaceLine { points: line.points.iter().map(|k| place[*k]).collect(), closed: line.closed });
         Self {
             points: order.iter().map(|k| points[*k]).collect(),
             source: order.iter().map(|k| source[*k]).collect(),
@@ -110,23 +99,15 @@ fn outline(view: &ModeShapeView) -> Vec<[usize; 2]> {
         let [a, b, c] = triangle.corners.map(|k| view.points[k]);
         let normal = unit(cross(minus(b, a), minus(c, a)));
         for edge in sides(triangle.corners) {
-            let found = edges.entry(edge).or_insert(Found {
-                normal,
-                group: triangle.group,
-                count: 0,
-                sharp: false,
-            });
+            let found = edges.entry(edge).or_insert(Found { normal, group: triangle.group, count: 0, sharp: false });
             found.count += 1;
             // The sense of rotation of a triangle may be either.
             let kink = dot(found.normal, normal).abs() < SHARP;
             found.sharp |= kink || found.group != triangle.group;
         }
     }
-    let mut sharp: Vec<_> = edges
-        .into_iter()
-        .filter(|(_, found)| found.sharp || found.count != 2)
-        .map(|(edge, _)| edge)
-        .collect();
+    let mut sharp: Vec<_> =
+        edges.into_iter().filter(|(_, found)| found.sharp || found.count != 2).map(|(edge, _)| edge).collect();
     sharp.sort_unstable();
     sharp
 }
@@ -169,16 +150,9 @@ pub(super) fn renumbered(edges: &[[usize; 2]], place: &[usize]) -> Vec<[usize; 2
 /// Place of a point on a curve that visits near points one after the other (G. M. Morton, IBM, 1966): the bits of its
 /// coordinates in turn, 20 of each.
 fn morton(point: [f64; 3], low: [f64; 3], high: [f64; 3]) -> u64 {
-    let size = (0..3)
-        .map(|k| high[k] - low[k])
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let cell = std::array::from_fn::<u64, 3, _>(|k| {
-        ((point[k] - low[k]) / size * f64::from((1_u32 << 20) - 1)) as u64
-    });
-    (0..20)
-        .rev()
-        .flat_map(|bit| cell.map(|c| (c >> bit) & 1))
-        .fold(0, |code, bit| code << 1 | bit)
+    let size = (0..3).map(|k| high[k] - low[k]).fold(f64::MIN_POSITIVE, f64::max);
+    let cell = std::array::from_fn::<u64, 3, _>(|k| ((point[k] - low[k]) / size * f64::from((1_u32 << 20) - 1)) as u64);
+    (0..20).rev().flat_map(|bit| cell.map(|c| (c >> bit) & 1)).fold(0, |code, bit| code << 1 | bit)
 }
 
 #[cfg(test)]
@@ -194,19 +168,13 @@ mod tests {
             mode.displacement.insert(0, [99.0; 3]);
         }
         let up = |k: &mut usize| *k += 1;
-        view.triangles
-            .iter_mut()
-            .flat_map(|t| &mut t.corners)
-            .for_each(up);
+        view.triangles.iter_mut().flat_map(|t| &mut t.corners).for_each(up);
         view.edges.iter_mut().flatten().for_each(up);
         view.lines[0].points.iter_mut().for_each(up);
         let surface = Surface::of(&view);
         assert_eq!(surface.points.len(), view.points.len() - 1);
         for (point, source) in surface.points.iter().zip(&surface.source) {
-            assert_eq!(
-                point.map(f64::to_bits),
-                view.points[*source].map(f64::to_bits)
-            );
+            assert_eq!(point.map(f64::to_bits), view.points[*source].map(f64::to_bits));
         }
         // The area is the cube's: no triangle lost, none changed.
         let area: f64 = surface.triangles.iter().map(|t| area(&surface, *t)).sum();

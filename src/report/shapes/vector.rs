@@ -8,11 +8,7 @@ pub(super) fn dot(a: Vector, b: Vector) -> f64 {
 }
 
 pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 pub(super) fn minus(a: Vector, b: Vector) -> Vector {
@@ -22,11 +18,7 @@ pub(super) fn minus(a: Vector, b: Vector) -> Vector {
 /// The vector of length 1, or as it is if it has none.
 pub(super) fn unit(a: Vector) -> Vector {
     let length = magnitude(&a);
-    if length > 0.0 {
-        a.map(|v| v / length)
-    } else {
-        a
-    }
+    if length > 0.0 { a.map(|v| v / length) } else { a }
 }
 
 /// The length of a vector.
@@ -40,10 +32,7 @@ pub(super) fn bounds(points: &[Vector]) -> (Vector, Vector) {
         return ([0.0; 3], [0.0; 3]);
     };
     points.iter().fold((*first, *first), |(low, high), p| {
-        (
-            std::array::from_fn(|k| low[k].min(p[k])),
-            std::array::from_fn(|k| high[k].max(p[k])),
-        )
+        (std::array::from_fn(|k| low[k].min(p[k])), std::array::from_fn(|k| high[k].max(p[k])))
     })
 }
 

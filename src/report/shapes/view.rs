@@ -157,14 +157,9 @@ impl ModeShapeView {
     pub fn check(&self) -> Result<(), ReportError> {
         let extent = diagonal(&self.points);
         if self.triangles.is_empty() || extent <= 0.0 {
-            return Err(ReportError::EmptyShape {
-                view: self.title.clone(),
-            });
+            return Err(ReportError::EmptyShape { view: self.title.clone() });
         }
-        let number = |what: &str| ReportError::ShapeNumber {
-            view: self.title.clone(),
-            what: what.to_owned(),
-        };
+        let number = |what: &str| ReportError::ShapeNumber { view: self.title.clone(), what: what.to_owned() };
         if !extent.is_finite() || !self.points.iter().flatten().all(|v| v.is_finite()) {
             return Err(number("a coordinate"));
         }
@@ -194,12 +189,7 @@ impl ModeShapeView {
             if index < count {
                 return Ok(());
             }
-            Err(ReportError::ShapeIndex {
-                view: self.title.clone(),
-                what,
-                index,
-                count,
-            })
+            Err(ReportError::ShapeIndex { view: self.title.clone(), what, index, count })
         };
         let points = self.points.len();
         for triangle in &self.triangles {
@@ -224,10 +214,7 @@ impl ModeShapeView {
         let mut used = vec![false; self.points.len()];
         let corners = self.triangles.iter().flat_map(|triangle| triangle.corners);
         let ends = self.edges.iter().chain(&self.outline).flatten().copied();
-        let lines = self
-            .lines
-            .iter()
-            .flat_map(|line| line.points.iter().copied());
+        let lines = self.lines.iter().flat_map(|line| line.points.iter().copied());
         for point in corners.chain(ends).chain(lines) {
             match used.get_mut(point) {
                 Some(used) => *used = true,
@@ -302,30 +289,15 @@ mod tests {
     fn errors_fire_with_their_exact_messages() {
         assert!(cube(2, 1).check().is_ok());
         for (found, expected) in [
-            (
-                message(|v| v.triangles.clear()),
-                "shape \"Cube\" has no surface with an extent",
-            ),
+            (message(|v| v.triangles.clear()), "shape \"Cube\" has no surface with an extent"),
             (
                 message(|v| v.points.iter_mut().for_each(|p| *p = [1.0; 3])),
                 "shape \"Cube\" has no surface with an extent",
             ),
-            (
-                message(|v| v.triangles[3].corners[1] = 26),
-                "shape \"Cube\": corner of a triangle is 26, there are 26",
-            ),
-            (
-                message(|v| v.triangles[3].group = 7),
-                "shape \"Cube\": group of a triangle is 7, there are 2",
-            ),
-            (
-                message(|v| v.outline.push([0, 99])),
-                "shape \"Cube\": end of an edge is 99, there are 26",
-            ),
-            (
-                message(|v| v.lines[0].points[0] = 26),
-                "shape \"Cube\": point of a line is 26, there are 26",
-            ),
+            (message(|v| v.triangles[3].corners[1] = 26), "shape \"Cube\": corner of a triangle is 26, there are 26"),
+            (message(|v| v.triangles[3].group = 7), "shape \"Cube\": group of a triangle is 7, there are 2"),
+            (message(|v| v.outline.push([0, 99])), "shape \"Cube\": end of an edge is 99, there are 26"),
+            (message(|v| v.lines[0].points[0] = 26), "shape \"Cube\": point of a line is 26, there are 26"),
             (
                 message(|v| {
                     v.modes[0].displacement.pop();
@@ -336,14 +308,8 @@ mod tests {
                 message(|v| v.modes[0].displacement[3][1] = f64::NAN),
                 "shape \"Cube\": mode \"1\" is not a number in range",
             ),
-            (
-                message(|v| v.points[3][1] = f64::INFINITY),
-                "shape \"Cube\": a coordinate is not a number in range",
-            ),
-            (
-                message(|v| v.amplitude = 0.0),
-                "shape \"Cube\": the amplitude is not a number in range",
-            ),
+            (message(|v| v.points[3][1] = f64::INFINITY), "shape \"Cube\": a coordinate is not a number in range"),
+            (message(|v| v.amplitude = 0.0), "shape \"Cube\": the amplitude is not a number in range"),
         ] {
             assert_eq!(found, expected);
         }

@@ -36,19 +36,13 @@ impl AngleGrid {
         let time = |k: usize| window.from + k as f64 * step_s;
         let origin = turns(window.from);
         let sign = (turns(time(samples)) - origin).signum();
-        let angles: Vec<f64> = (0..=samples)
-            .map(|k| sign * (turns(time(k)) - origin))
-            .collect();
+        let angles: Vec<f64> = (0..=samples).map(|k| sign * (turns(time(k)) - origin)).collect();
         let mut fastest = 0.0_f64;
         for (k, pair) in angles.windows(2).enumerate() {
             let step = pair[1] - pair[0];
             // NaN does not turn on either
             if step.is_nan() || step <= 0.0 {
-                return Err(DiagnosisError::Turning {
-                    from_s: window.from,
-                    to_s: window.to,
-                    at_s: time(k),
-                });
+                return Err(DiagnosisError::Turning { from_s: window.from, to_s: window.to, at_s: time(k) });
             }
             fastest = fastest.max(step);
         }
@@ -56,12 +50,7 @@ impl AngleGrid {
         let per_turn = (VALUES_AN_ORDER * highest).min(0.9 / fastest);
         let count = (angles[samples] * per_turn).floor() as usize;
         if count < FEWEST {
-            return Err(DiagnosisError::TooFew {
-                from_s: window.from,
-                to_s: window.to,
-                found: count,
-                needed: FEWEST,
-            });
+            return Err(DiagnosisError::TooFew { from_s: window.from, to_s: window.to, found: count, needed: FEWEST });
         }
         let mut times = Vec::with_capacity(count + 1);
         let mut place = 0;
@@ -73,11 +62,7 @@ impl AngleGrid {
             let part = (angle - angles[place]) / (angles[place + 1] - angles[place]);
             times.push(time(place) + part * step_s);
         }
-        Ok(Self {
-            times,
-            per_turn,
-            fastest_hz: fastest / step_s,
-        })
+        Ok(Self { times, per_turn, fastest_hz: fastest / step_s })
     }
 
     /// Values a turn.
@@ -125,11 +110,7 @@ struct Integral<'a> {
 
 impl<'a> Integral<'a> {
     fn new(values: &'a [f64]) -> Self {
-        Self {
-            values,
-            whole: 0,
-            sum: 0.0,
-        }
+        Self { values, whole: 0, sum: 0.0 }
     }
 
     fn up_to(&mut self, place: f64) -> f64 {

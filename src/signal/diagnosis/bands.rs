@@ -50,28 +50,17 @@ pub(super) struct BandSpectrum {
 
 /// The band that is searched (Hz): as asked for; where it begins at 0 or none is asked for, from the lowest carrier of events at
 /// `strikes_hz` on.
-pub(super) fn searched_band(
-    asked_hz: Option<[f64; 2]>,
-    signal: &TimeSeries,
-    strikes_hz: f64,
-) -> [f64; 2] {
+pub(super) fn searched_band(asked_hz: Option<[f64; 2]>, signal: &TimeSeries, strikes_hz: f64) -> [f64; 2] {
     let [from_hz, to_hz] = asked_hz.unwrap_or([0.0, f64::INFINITY]);
     let end_hz = to_hz.min(0.5 * signal.rate_hz());
-    if from_hz > 0.0 {
-        [from_hz, end_hz]
-    } else {
-        [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz]
-    }
+    if from_hz > 0.0 { [from_hz, end_hz] } else { [(LOWEST_CARRIER * strikes_hz).min(0.5 * end_hz), end_hz] }
 }
 
 /// Refuses a band that is asked for where the signal ends.
 ///
 /// # Errors
 /// [`DiagnosisError::NarrowBand`].
-pub(super) fn check_band(
-    asked_hz: Option<[f64; 2]>,
-    signal: &TimeSeries,
-) -> Result<(), DiagnosisError> {
+pub(super) fn check_band(asked_hz: Option<[f64; 2]>, signal: &TimeSeries) -> Result<(), DiagnosisError> {
     let [from_hz, to_hz] = asked_hz.unwrap_or([0.0, f64::INFINITY]);
     let end_hz = 0.5 * signal.rate_hz();
     if from_hz > LATEST_START * end_hz || from_hz >= to_hz {
@@ -133,52 +122,34 @@ pub(super) fn band_spectra(
             let of = |kind, values: &[f64]| -> Result<[BandSpectrum; 2], DiagnosisError> {
                 let means = grid.means(start_s, step_s, values);
                 let scale = match kind {
-                    EnvelopeKind::Magnitude | EnvelopeKind::Impulsive => {
-                        means.iter().sum::<f64>() / means.len() as f64
-                    }
+                    EnvelopeKind::Magnitude | EnvelopeKind::Impulsive => means.iter().sum::<f64>() / means.len() as f64,
                     EnvelopeKind::Logarithm => 2.0,
                 };
                 let scale = scale.max(f64::MIN_POSITIVE);
                 let highest = highest.min(own);
                 let spectrum = |highest: f64, revolutions: f64| {
-                    let lines =
-                        LineSpectrum::new(&means, grid.per_turn(), highest, scale, revolutions)?;
-                    Ok::<_, DiagnosisError>(BandSpectrum {
-                        band_hz,
-                        kind,
-                        lines,
-                    })
+                    let lines = LineSpectrum::new(&means, grid.per_turn(), highest, scale, revolutions)?;
+                    Ok::<_, DiagnosisError>(BandSpectrum { band_hz, kind, lines })
                 };
-                Ok([
-                    spectrum(highest, REVOLUTIONS)?,
-                    spectrum(highest.min(HIGHEST_FINE_ORDER), FINE_REVOLUTIONS)?,
-                ])
+                Ok([spectrum(highest, REVOLUTIONS)?, spectrum(highest.min(HIGHEST_FINE_ORDER), FINE_REVOLUTIONS)?])
             };
             let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
             let mut found = vec![of(EnvelopeKind::Magnitude, &magnitude)?];
             if place == 0 {
                 if let Some(impulsive) = impulsive {
                     let envelope = impulsive.envelope(band_hz);
-                    let magnitude: Vec<f64> =
-                        envelope.squared.iter().map(|power| power.sqrt()).collect();
+                    let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
                     found.push(of(EnvelopeKind::Impulsive, &magnitude)?);
                 }
                 let mean = envelope.squared.iter().sum::<f64>() / envelope.squared.len() as f64;
                 let mean = mean.max(f64::MIN_POSITIVE);
-                let logarithm: Vec<f64> = envelope
-                    .squared
-                    .iter()
-                    .map(|power| (power / mean + LEAST_POWER).ln())
-                    .collect();
+                let logarithm: Vec<f64> =
+                    envelope.squared.iter().map(|power| (power / mean + LEAST_POWER).ln()).collect();
                 found.push(of(EnvelopeKind::Logarithm, &logarithm)?);
             }
             Ok(found)
         })
         .collect();
-    let (lines, fine) = spectra?
-        .into_iter()
-        .flatten()
-        .map(|[lines, fine]| (lines, fine))
-        .unzip();
+    let (lines, fine) = spectra?.into_iter().flatten().map(|[lines, fine]| (lines, fine)).unzip();
     Ok(Spectra { lines, fine })
 }

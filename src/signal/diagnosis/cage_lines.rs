@@ -11,8 +11,8 @@ use super::known::{KnownLine, Strikes, shaft_lines};
 use super::search::{Candidate, Search};
 use super::unexplained::has_teeth_between;
 use super::verdict::{
-    BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB,
-    LEAST_HARMONICS, LEAST_STRENGTH_DB, NAMED_BELOW, UnexplainedImpacts, probability,
+    BALL_BY_CAGE_BELOW, CageLines, Conclusion, Evidence, FaultVerdict, LEAST_CAGE_LINES_DB, LEAST_HARMONICS,
+    LEAST_STRENGTH_DB, NAMED_BELOW, UnexplainedImpacts, probability,
 };
 
 /// A race whose lines are by so many dB stronger than the cage's explains these.
@@ -27,11 +27,7 @@ const MOST_MULTIPLE: u32 = 4;
 impl Search<'_> {
     /// Indicates a ball by the lines of the cage, where no other part shows as clearly: a flaw on a race is struck harder by a ball that
     /// differs, once a revolution of the cage as well.
-    pub(super) fn judge_balls_by_cage_lines(
-        &self,
-        faults: &mut [FaultVerdict],
-        unexplained: &[UnexplainedImpacts],
-    ) {
+    pub(super) fn judge_balls_by_cage_lines(&self, faults: &mut [FaultVerdict], unexplained: &[UnexplainedImpacts]) {
         let Some(lines) = self.cage_lines(unexplained) else {
             return;
         };
@@ -39,8 +35,7 @@ impl Search<'_> {
         let clearer = |verdict: &FaultVerdict| {
             let certain = verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW);
             let strong = verdict.strength_db.is_some_and(|db| db >= clearest);
-            verdict.conclusion == Conclusion::Named
-                || verdict.fault != Fault::Cage && certain && strong
+            verdict.conclusion == Conclusion::Named || verdict.fault != Fault::Cage && certain && strong
         };
         if faults.iter().any(clearer) {
             return;
@@ -80,11 +75,7 @@ impl Search<'_> {
         let mut known = shaft_lines(fine.end(), self.speed_error);
         let resolution = fine.spectra.first()?.lines.resolution;
         for impacts in unexplained {
-            let strikes = Strikes {
-                fault: None,
-                name: "impacts of no part",
-                order: impacts.order,
-            };
+            let strikes = Strikes { fault: None, name: "impacts of no part", order: impacts.order };
             known.extend(strikes.lines(self.orders, self.speed_error, fine.end(), resolution));
         }
         let masked = fine.masked(&known);
@@ -113,12 +104,7 @@ impl Search<'_> {
             (!of_own && !self.is_related(fit.order, resolution, &[])).then_some(fit)
         });
         let fit = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
-        let best = Candidate {
-            fault: None,
-            fit,
-            beside: None,
-            relative_reach: 0.0,
-        };
+        let best = Candidate { fault: None, fit, beside: None, relative_reach: 0.0 };
         let lines = fine.clear_cage_lines(&masked, &known, &best)?;
         Some(UnexplainedImpacts {
             order: lines.order,
@@ -131,19 +117,11 @@ impl Search<'_> {
     }
 
     pub(super) fn fine_search(&self) -> Self {
-        Self {
-            spectra: self.fine,
-            ..*self
-        }
+        Self { spectra: self.fine, ..*self }
     }
 
     /// A comb of the fine spectra, if it is as clear as lines of a cage have to be.
-    fn clear_cage_lines(
-        &self,
-        masked: &[Masked<'_>],
-        known: &[KnownLine],
-        best: &Candidate,
-    ) -> Option<CageLines> {
+    fn clear_cage_lines(&self, masked: &[Masked<'_>], known: &[KnownLine], best: &Candidate) -> Option<CageLines> {
         let own = self.own_lines(best, self.end());
         let chance = self.chance(masked, best, &own)?;
         let harmonics = self.part_harmonics(best, Fault::Cage, known);

@@ -35,15 +35,9 @@ struct Side<'a> {
 
 impl Side<'_> {
     /// Spectra of the squared envelope of a band (Hz), and the band's mean square.
-    fn spectrum(
-        &self,
-        band_hz: [f64; 2],
-        highest: f64,
-    ) -> Result<(StretchSpectrum, f64), DiagnosisError> {
+    fn spectrum(&self, band_hz: [f64; 2], highest: f64) -> Result<(StretchSpectrum, f64), DiagnosisError> {
         let envelope = self.raw.envelope(band_hz);
-        let means = self
-            .grid
-            .means(envelope.start_s, envelope.step_s, &envelope.squared);
+        let means = self.grid.means(envelope.start_s, envelope.step_s, &envelope.squared);
         // an envelope has nothing beyond the width of its band
         let own = (band_hz[1] - band_hz[0]) / self.grid.fastest_hz;
         let highest = highest.min(own);
@@ -58,10 +52,7 @@ impl Side<'_> {
 ///
 /// # Errors
 /// [`DiagnosisError`]: a shaft that rests or turns back in one of them.
-pub fn line_changes(
-    now: &ComparedSignal<'_>,
-    earlier: &ComparedSignal<'_>,
-) -> Result<Vec<LineChange>, DiagnosisError> {
+pub fn line_changes(now: &ComparedSignal<'_>, earlier: &ComparedSignal<'_>) -> Result<Vec<LineChange>, DiagnosisError> {
     let parts = now.diagnosis.faults.iter();
     let parts = parts.map(|verdict| Compared::part(verdict, now, earlier));
     let others = now.diagnosis.unexplained.iter();
@@ -70,29 +61,14 @@ pub fn line_changes(
     let orders = compared.iter().map(|compared| compared.order[0]);
     let highest = (f64::from(COMPARED_HARMONICS) + 1.0) * orders.fold(1.0, f64::max);
     let grids = [now.grid(highest)?, earlier.grid(highest)?];
-    let least = grids
-        .iter()
-        .fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
+    let least = grids.iter().fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
     let revolutions = stretch_revolutions(least);
     let [grid_now, grid_earlier] = grids;
     let sides = [
-        Side {
-            compared: now,
-            raw: RawSpectrum::of(now.signal)?,
-            grid: grid_now,
-            revolutions,
-        },
-        Side {
-            compared: earlier,
-            raw: RawSpectrum::of(earlier.signal)?,
-            grid: grid_earlier,
-            revolutions,
-        },
+        Side { compared: now, raw: RawSpectrum::of(now.signal)?, grid: grid_now, revolutions },
+        Side { compared: earlier, raw: RawSpectrum::of(earlier.signal)?, grid: grid_earlier, revolutions },
     ];
-    compared
-        .into_iter()
-        .map(|compared| compared.change(&sides, least, highest))
-        .collect()
+    compared.into_iter().map(|compared| compared.change(&sides, least, highest)).collect()
 }
 
 impl Compared {
@@ -115,12 +91,7 @@ impl Compared {
         }
     }
 
-    fn change(
-        &self,
-        sides: &[Side<'_>; 2],
-        least_turns: f64,
-        highest: f64,
-    ) -> Result<LineChange, DiagnosisError> {
+    fn change(&self, sides: &[Side<'_>; 2], least_turns: f64, highest: f64) -> Result<LineChange, DiagnosisError> {
         let Some(band_hz) = self.band_hz else {
             return Ok(self.not_compared(self.why_not.clone()));
         };
@@ -147,9 +118,7 @@ impl Compared {
         };
         let common = |earlier: &Found| -> Vec<Tooth> {
             let teeth = self.teeth.iter().enumerate();
-            let free = teeth.filter(|(place, _)| {
-                now.comb.free.contains(place) && earlier.comb.free.contains(place)
-            });
+            let free = teeth.filter(|(place, _)| now.comb.free.contains(place) && earlier.comb.free.contains(place));
             free.map(|(_, tooth)| *tooth).collect()
         };
         let enough = |earlier: &Found| common(earlier).len() >= LEAST_TEETH;
@@ -166,17 +135,10 @@ impl Compared {
         let common = common(&earlier);
         let power = |found: &Found| found.spectrum.comb_power(&common, found.comb.order);
         let (Some(now_power), Some(earlier_power)) = (power(&now), power(&earlier)) else {
-            return Ok(self.not_compared(
-                "One of the two signals is silent in the band that shows it.".to_owned(),
-            ));
+            return Ok(self.not_compared("One of the two signals is silent in the band that shows it.".to_owned()));
         };
         let sharing = others.first().filter(|_| bound).map(|other| other.name);
-        Ok(self.concluded(
-            &common,
-            [&now, &earlier],
-            [&now_power, &earlier_power],
-            sharing,
-        ))
+        Ok(self.concluded(&common, [&now, &earlier], [&now_power, &earlier_power], sharing))
     }
 
     fn found(
@@ -197,23 +159,13 @@ impl Compared {
         };
         let mut known = shaft_lines(spectrum.end(), sought.speed_error);
         for other in others {
-            known.extend(other.lines(
-                &side.compared.orders,
-                sought.speed_error,
-                spectrum.end(),
-                spectrum.resolution,
-            ));
+            known.extend(other.lines(&side.compared.orders, sought.speed_error, spectrum.end(), spectrum.resolution));
         }
         let Some(comb) = spectrum.best_comb(&sought, &known) else {
             return Ok(None);
         };
         let chance = spectrum.chance(&sought, &comb, &known);
-        Ok(Some(Found {
-            power,
-            spectrum,
-            comb,
-            chance,
-        }))
+        Ok(Some(Found { power, spectrum, comb, chance }))
     }
 
     fn concluded(
@@ -223,13 +175,11 @@ impl Compared {
         [now_power, earlier_power]: [&Scattered; 2],
         sharing: Option<&str>,
     ) -> LineChange {
-        let is_seen =
-            |found: &Found, power: &Scattered| found.chance < UNSEEN_ABOVE && power.above() > 0.0;
+        let is_seen = |found: &Found, power: &Scattered| found.chance < UNSEEN_ABOVE && power.above() > 0.0;
         let seen_now = self.seen && is_seen(now, now_power);
         let seen_earlier = sharing.is_none() && is_seen(earlier, earlier_power);
         // the envelope is squared
-        let level =
-            |seen: bool, power: &Scattered| seen.then(|| (2.0 * power.above()).sqrt().sqrt());
+        let level = |seen: bool, power: &Scattered| seen.then(|| (2.0 * power.above()).sqrt().sqrt());
         let mut harmonics: Vec<u32> = common.iter().map(|tooth| tooth.harmonic).collect();
         harmonics.dedup();
         let mut change = LineChange {
@@ -256,23 +206,19 @@ impl Compared {
         change
     }
 
-    fn why(
-        change: &LineChange,
-        [seen_now, seen_earlier]: [bool; 2],
-        sharing: Option<&str>,
-    ) -> String {
+    fn why(change: &LineChange, [seen_now, seen_earlier]: [bool; 2], sharing: Option<&str>) -> String {
         let harmonics = change.harmonics.iter().map(ToString::to_string);
         let harmonics = harmonics.collect::<Vec<_>>().join(", ");
         let mut why = format!("Harmonics {harmonics} of the squared envelope are compared.");
         if let Some(other) = sharing {
-            why.push_str(&format!(" Lines of the {other} stand there in the earlier signal, so that this is a lower bound."));
+            why.push_str(&format!(
+                " Lines of the {other} stand there in the earlier signal, so that this is a lower bound."
+            ));
         } else if !seen_earlier {
             why.push_str(" They are not above the noise in the earlier signal, so that this is a lower bound.");
         }
         if !seen_now {
-            why.push_str(
-                " They are not above the noise in this signal, so that this is an upper bound.",
-            );
+            why.push_str(" They are not above the noise in this signal, so that this is an upper bound.");
         }
         if change.conclusion == ChangeConclusion::NotCertain {
             why.push_str(" Longer windows may decide.");

@@ -65,30 +65,19 @@ fn score(masked: &Masked<'_>, order: f64, beside: Option<f64>) -> Option<f64> {
 
 /// The best comb within `reach` orders about an order, in all spectra; with a spacing `beside`, every harmonic has a tooth on each
 /// side too.
-pub(super) fn best_fit(
-    spectra: &[Masked<'_>],
-    order: f64,
-    reach: f64,
-    beside: Option<f64>,
-) -> Option<Fit> {
+pub(super) fn best_fit(spectra: &[Masked<'_>], order: f64, reach: f64, beside: Option<f64>) -> Option<Fit> {
     let mut best: Option<Fit> = None;
     for (place, masked) in spectra.iter().enumerate() {
         let resolution = masked.spectrum.lines.resolution;
         let reach = reach.max(0.5 * resolution);
-        let steps =
-            (reach * f64::from(masked.spectrum.lines.harmonics) * PLACES / resolution).ceil();
+        let steps = (reach * f64::from(masked.spectrum.lines.harmonics) * PLACES / resolution).ceil();
         for step in -(steps as i32)..=steps as i32 {
             let at = order + reach * f64::from(step) / steps;
             let Some(score) = score(masked, at, beside) else {
                 continue;
             };
             if best.is_none_or(|best| score > best.score) {
-                best = Some(Fit {
-                    score,
-                    order: at,
-                    spectrum: place,
-                    sided: beside.is_some(),
-                });
+                best = Some(Fit { score, order: at, spectrum: place, sided: beside.is_some() });
             }
         }
     }

@@ -69,9 +69,7 @@ impl StretchSpectrum {
 
     fn covered(&self, order: f64, known: &[KnownLine]) -> bool {
         let reach = self.half(order) + APART * self.resolution;
-        known
-            .iter()
-            .any(|line| (line.order - order).abs() < reach + line.error * line.order)
+        known.iter().any(|line| (line.order - order).abs() < reach + line.error * line.order)
     }
 
     /// The comb within its reach whose teeth stand highest above their floor, a strong one counting tenfold at most.
@@ -110,22 +108,12 @@ impl StretchSpectrum {
 
     /// Probability that chance makes as good a comb beside what is known: by the same search at other orders.
     pub(super) fn chance(&self, sought: &Sought<'_>, comb: &Comb, known: &[KnownLine]) -> f64 {
-        let own = Impacts {
-            name: "",
-            order: comb.order,
-            cage: sought.cage,
-            of_race: false,
-            foreign: false,
-        };
+        let own = Impacts { name: "", order: comb.order, cage: sought.cage, of_race: false, foreign: false };
         let own = own.lines(self.end(), self.resolution);
         let known: Vec<KnownLine> = known.iter().cloned().chain(own).collect();
         let relative = sought.reach / sought.order;
         let scores = factors(relative).filter_map(|factor| {
-            let other = Sought {
-                order: sought.order * factor,
-                reach: sought.reach * factor,
-                ..*sought
-            };
+            let other = Sought { order: sought.order * factor, reach: sought.reach * factor, ..*sought };
             self.best_comb(&other, &known).map(|comb| comb.score)
         });
         ByChance::of(scores.collect()).map_or(1.0, |chance| chance.probability(comb.score, 1.0))
@@ -153,8 +141,7 @@ impl StretchSpectrum {
             power += all;
             floor += noise;
             floor_square += noise * noise;
-            expected += LINE_VARIANCE * line * line
-                + (2.0 * line * noise + noise * noise) / self.independent(bins);
+            expected += LINE_VARIANCE * line * line + (2.0 * line * noise + noise * noise) / self.independent(bins);
         }
         if power <= 0.0 {
             return None;
@@ -173,8 +160,7 @@ impl StretchSpectrum {
             variance: shared * of_one / (count * power * power),
             freedom: count - 1.0 + EXPECTED_FREEDOM,
             floor,
-            floor_variance: self.floor_variance() * floor_square
-                / (floor * floor).max(f64::MIN_POSITIVE),
+            floor_variance: self.floor_variance() * floor_square / (floor * floor).max(f64::MIN_POSITIVE),
         })
     }
 }

@@ -34,11 +34,7 @@ pub(super) struct Compared {
 }
 
 impl Compared {
-    pub(super) fn part(
-        verdict: &FaultVerdict,
-        now: &ComparedSignal<'_>,
-        earlier: &ComparedSignal<'_>,
-    ) -> Self {
+    pub(super) fn part(verdict: &FaultVerdict, now: &ComparedSignal<'_>, earlier: &ComparedSignal<'_>) -> Self {
         let cage = now.orders.order(Fault::Cage);
         let (by_cage, band_hz, harmonics) = match &verdict.cage_lines {
             Some(lines) => (true, Some(lines.band_hz), &lines.harmonics),
@@ -85,10 +81,7 @@ impl Compared {
         earlier: &ComparedSignal<'_>,
     ) -> Self {
         let reach = |signal: &ComparedSignal<'_>| signal.error(Fault::OuterRace) * impacts.order;
-        let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth {
-            harmonic,
-            beside: 0.0,
-        });
+        let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth { harmonic, beside: 0.0 });
         Self {
             fault: None,
             name: format!("impacts at {:.2} Hz", impacts.frequency_hz),
@@ -115,21 +108,12 @@ impl Compared {
                 Some(lines) => (Fault::Cage, Some(lines.order)),
                 None => (verdict.fault, verdict.order),
             };
-            Some(Strikes {
-                fault: Some(fault),
-                name: fault.name(),
-                order: order.filter(|_| other)?,
-            })
+            Some(Strikes { fault: Some(fault), name: fault.name(), order: order.filter(|_| other)? })
         });
-        let is_same =
-            |order: f64| self.fault.is_none() && (order - self.order[1]).abs() <= self.reach[1];
+        let is_same = |order: f64| self.fault.is_none() && (order - self.order[1]).abs() <= self.reach[1];
         let unexplained = found.unexplained.iter().filter_map(|impacts| {
             let other = !is_same(impacts.order) && stronger(impacts.strength_db);
-            other.then_some(Strikes {
-                fault: None,
-                name: "impacts of no part",
-                order: impacts.order,
-            })
+            other.then_some(Strikes { fault: None, name: "impacts of no part", order: impacts.order })
         });
         parts.chain(unexplained).collect()
     }
@@ -140,9 +124,6 @@ fn free_teeth(harmonics: &[Harmonic], spacing: f64) -> Vec<Tooth> {
     harmonics
         .iter()
         .filter(|line| line.harmonic <= COMPARED_HARMONICS && line.coincides_with.is_none())
-        .map(|line| Tooth {
-            harmonic: line.harmonic,
-            beside: f64::from(line.side) * spacing,
-        })
+        .map(|line| Tooth { harmonic: line.harmonic, beside: f64::from(line.side) * spacing })
         .collect()
 }

@@ -24,13 +24,7 @@ impl<'a> ComparedSignal<'a> {
         diagnosis: &'a Diagnosis,
     ) -> Self {
         let factor = diagnosis.speed_hz / diagnosis.given_speed_hz;
-        Self {
-            signal,
-            window,
-            turns: Box::new(move |time| factor * turns(time)),
-            orders,
-            diagnosis,
-        }
+        Self { signal, window, turns: Box::new(move |time| factor * turns(time)), orders, diagnosis }
     }
 
     /// What was found in it.
@@ -52,23 +46,11 @@ impl<'a> ComparedSignal<'a> {
     ///
     /// # Errors
     /// As [`EnvelopeOrderSpectrum::new`].
-    pub fn order_spectrum(
-        &self,
-        band_hz: [f64; 2],
-        highest: f64,
-    ) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
+    pub fn order_spectrum(&self, band_hz: [f64; 2], highest: f64) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
         let envelope = RawSpectrum::of(self.signal)?.envelope(band_hz);
         let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
-        let shown = TimeSeries::new(
-            envelope.start_s,
-            envelope.step_s,
-            self.signal.unit(),
-            magnitude,
-        )?;
-        let window = TimeWindow {
-            from: self.window.from,
-            to: self.window.to.min(shown.end_s()),
-        };
+        let shown = TimeSeries::new(envelope.start_s, envelope.step_s, self.signal.unit(), magnitude)?;
+        let window = TimeWindow { from: self.window.from, to: self.window.to.min(shown.end_s()) };
         EnvelopeOrderSpectrum::new(&shown, window, &self.turns, highest)
     }
 }

@@ -35,10 +35,7 @@ impl ByChance {
         let place = |part: f64| -(-f64::ln(part)).ln();
         let scale = (quantile(0.75) - quantile(0.25)) / (place(0.75) - place(0.25));
         let scale = scale.max(1e-6);
-        Some(Self {
-            mode: quantile(0.5) - place(0.5) * scale,
-            scale,
-        })
+        Some(Self { mode: quantile(0.5) - place(0.5) * scale, scale })
     }
 
     /// Probability of a score as good or better, in the best of so many searches.
@@ -49,12 +46,7 @@ impl ByChance {
 }
 
 /// Scores of the same comb at control orders about `order`; `relative_reach` is the reach of its search over its order.
-pub(super) fn control_scores(
-    spectra: &[Masked<'_>],
-    order: f64,
-    relative_reach: f64,
-    beside: Option<f64>,
-) -> Vec<f64> {
+pub(super) fn control_scores(spectra: &[Masked<'_>], order: f64, relative_reach: f64, beside: Option<f64>) -> Vec<f64> {
     factors(relative_reach)
         .collect::<Vec<_>>()
         .into_par_iter()

@@ -29,12 +29,7 @@ const MOST_MULTIPLE: u32 = 3;
 
 impl Search<'_> {
     /// Why the lines of a comb that looks like a part's are something else's; `expected` is the part's order.
-    pub(super) fn doubt(
-        &self,
-        expected: f64,
-        comb: &Candidate,
-        known: &[KnownLine],
-    ) -> Option<String> {
+    pub(super) fn doubt(&self, expected: f64, comb: &Candidate, known: &[KnownLine]) -> Option<String> {
         let hz = |order: f64| order * self.speed_hz;
         let fit = comb.fit;
         if let Some(parts) = self.divided(comb, known) {
@@ -79,11 +74,7 @@ impl Search<'_> {
             let refined = fine.part(&fine.masked(known), Fault::Cage, comb.fit.order)?;
             return fine.divided_from(2, &refined, known);
         }
-        let least = if comb.fault == Some(Fault::Ball) {
-            3
-        } else {
-            2
-        };
+        let least = if comb.fault == Some(Fault::Ball) { 3 } else { 2 };
         self.divided_from(least, comb, known)
     }
 
@@ -99,26 +90,17 @@ impl Search<'_> {
 }
 
 /// Whether lines at all multiples of a part of an order stand about as high as those of the order itself.
-fn divides(
-    lines: &LineSpectrum,
-    order: f64,
-    parts: u32,
-    taken: &[KnownLine],
-    known: &[KnownLine],
-) -> bool {
+fn divides(lines: &LineSpectrum, order: f64, parts: u32, taken: &[KnownLine], known: &[KnownLine]) -> bool {
     let place = |k: u32| f64::from(k) * order / f64::from(parts);
     let free = |own: bool, known: &[KnownLine]| -> Vec<f64> {
         let places = (1..=HARMONICS * parts).filter(|k| k.is_multiple_of(parts) == own);
-        let places = places.map(place).filter(|&order| {
-            lines.bin(order).is_some() && coincidence(lines, order, known).is_none()
-        });
+        let places =
+            places.map(place).filter(|&order| lines.bin(order).is_some() && coincidence(lines, order, known).is_none());
         places.collect()
     };
     let (between, own) = (free(false, taken), free(true, known));
     let mean_db = |places: &[f64]| {
-        let db = places
-            .iter()
-            .map(|&order| 10.0 * lines.ratio(order).max(1.0).log10());
+        let db = places.iter().map(|&order| 10.0 * lines.ratio(order).max(1.0).log10());
         db.sum::<f64>() / places.len().max(1) as f64
     };
     let seen = between.iter().filter(|&&order| lines.seen(order)).count();

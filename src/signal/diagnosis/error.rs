@@ -28,9 +28,7 @@ pub enum DiagnosisError {
         most_hz: f64,
     },
     /// A sensor that is dead, or not connected.
-    #[error(
-        "from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel"
-    )]
+    #[error("from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel")]
     Constant {
         /// Start of the window, s.
         from_s: f64,

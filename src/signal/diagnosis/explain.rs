@@ -26,11 +26,7 @@ impl Search<'_> {
     pub(super) fn run(&self) -> Found {
         let highest = self.end();
         let mut known = shaft_lines(highest, self.speed_error);
-        let mut found = Found {
-            faults: Vec::new(),
-            unexplained: Vec::new(),
-            spectrum: 0,
-        };
+        let mut found = Found { faults: Vec::new(), unexplained: Vec::new(), spectrum: 0 };
         let mut open: Vec<(Fault, f64)> = Vec::new();
         for fault in Fault::ALL {
             let Some(order) = self.orders.order(fault) else {
@@ -46,9 +42,7 @@ impl Search<'_> {
         let mut explained = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let masked = self.masked(&known);
-            let parts = open
-                .iter()
-                .filter_map(|&(fault, order)| self.part(&masked, fault, order));
+            let parts = open.iter().filter_map(|&(fault, order)| self.part(&masked, fault, order));
             let other = self.something_else(&masked, &explained);
             let mut candidates: Vec<Candidate> = parts.chain(other).collect();
             candidates.sort_by(|a, b| b.fit.score.total_cmp(&a.fit.score));
@@ -128,11 +122,7 @@ impl Search<'_> {
                 let revolutions = (part - order).round();
                 let place = order + revolutions;
                 let beside = (1.0..=f64::from(COMBS_BESIDE)).contains(&revolutions.abs());
-                (fault != verdict.fault
-                    && beside
-                    && (place - part).abs() <= reach
-                    && covered(place))
-                .then_some(fault)
+                (fault != verdict.fault && beside && (place - part).abs() <= reach && covered(place)).then_some(fault)
             };
             let races = [Fault::OuterRace, Fault::InnerRace];
             if let Some(fault) = races.into_iter().find_map(hidden) {

@@ -73,24 +73,13 @@ impl FaultOrders {
     pub fn new(orders: [Option<f64>; 4], error: f64) -> Result<Self, DiagnosisError> {
         for (fault, order) in Fault::ALL.into_iter().zip(orders) {
             if let Some(found) = order.filter(|order| !(*order > 0.0 && *order <= HIGHEST_ORDER)) {
-                return Err(DiagnosisError::Order {
-                    fault: fault.name(),
-                    found,
-                    most: HIGHEST_ORDER,
-                });
+                return Err(DiagnosisError::Order { fault: fault.name(), found, most: HIGHEST_ORDER });
             }
         }
         if !(0.0..=LARGEST_ERROR).contains(&error) {
-            return Err(DiagnosisError::Tolerance {
-                found: error,
-                most: LARGEST_ERROR,
-            });
+            return Err(DiagnosisError::Tolerance { found: error, most: LARGEST_ERROR });
         }
-        Ok(Self {
-            orders,
-            error,
-            ball: 1.0,
-        })
+        Ok(Self { orders, error, ball: 1.0 })
     }
 
     /// Orders of a row of balls.
@@ -104,10 +93,7 @@ impl FaultOrders {
         let known = [orders.outer, orders.inner, orders.ball_defect, orders.cage];
         // N (1 -+ gamma) / 2
         let gamma = (orders.inner - orders.outer) / (orders.inner + orders.outer);
-        Ok(Self {
-            ball: (1.0 + gamma * gamma) / (1.0 - gamma * gamma),
-            ..Self::new(known.map(Some), error)?
-        })
+        Ok(Self { ball: (1.0 + gamma * gamma) / (1.0 - gamma * gamma), ..Self::new(known.map(Some), error)? })
     }
 
     /// Order of a fault, if it is known.
@@ -134,10 +120,7 @@ impl FaultOrders {
     /// The highest order that is known, at least 1.
     #[must_use]
     pub fn highest(&self) -> f64 {
-        self.orders
-            .iter()
-            .flatten()
-            .fold(1.0, |most, &o| most.max(o))
+        self.orders.iter().flatten().fold(1.0, |most, &o| most.max(o))
     }
 }
 
@@ -153,10 +136,7 @@ mod tests {
         let orders = FaultOrders::of(&given, 0.01).unwrap();
         let off = real.ball_defect / given.ball_defect - 1.0;
         // to first order in the error of one percent
-        assert!(
-            (off / orders.error(Fault::Ball) - 1.0).abs() < 0.01,
-            "{off}"
-        );
+        assert!((off / orders.error(Fault::Ball) - 1.0).abs() < 0.01, "{off}");
         assert!(off > 0.0113);
         assert!((real.outer / given.outer - 1.0).abs() < orders.error(Fault::OuterRace));
         assert!((real.inner / given.inner - 1.0).abs() < orders.error(Fault::InnerRace));

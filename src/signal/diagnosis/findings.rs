@@ -31,10 +31,7 @@ impl Search<'_> {
             self.turns,
             turns_needed(expected)
         );
-        FaultVerdict {
-            why,
-            ..self.empty(fault, expected)
-        }
+        FaultVerdict { why, ..self.empty(fault, expected) }
     }
 
     /// A part whose lines cannot be told from others, or lie beyond the spectrum.
@@ -46,12 +43,7 @@ impl Search<'_> {
         let ends = ends(&self.spectra[widest]);
         let candidate = Candidate {
             fault: Some(fault),
-            fit: Fit {
-                score: 0.0,
-                order: expected,
-                spectrum: widest,
-                sided: false,
-            },
+            fit: Fit { score: 0.0, order: expected, spectrum: widest, sided: false },
             beside: None,
             relative_reach: 0.0,
         };
@@ -63,11 +55,7 @@ impl Search<'_> {
         } else {
             self.covered(fault, &harmonics, widest)
         };
-        FaultVerdict {
-            why,
-            harmonics,
-            ..self.empty(fault, expected)
-        }
+        FaultVerdict { why, harmonics, ..self.empty(fault, expected) }
     }
 
     /// Which lines hide those of a part, and what window shows them; the table of harmonics has them all.
@@ -87,9 +75,8 @@ impl Search<'_> {
         };
         let shown = hidden.iter().take(2).map(String::as_str);
         let shown: Vec<&str> = shown.collect();
-        let hint = self
-            .beside_the_shafts(fault)
-            .unwrap_or_else(|| "Lines that have another reason hide them.".to_owned());
+        let hint =
+            self.beside_the_shafts(fault).unwrap_or_else(|| "Lines that have another reason hide them.".to_owned());
         format!("No verdict: {too_few} ({}). {hint}", shown.join(", "))
     }
 
@@ -153,15 +140,8 @@ impl Search<'_> {
     }
 
     /// The harmonics of a part's comb.
-    pub(super) fn part_harmonics(
-        &self,
-        candidate: &Candidate,
-        fault: Fault,
-        known: &[KnownLine],
-    ) -> Vec<Harmonic> {
-        self.harmonics(candidate, known, |harmonic, side| {
-            line_name(fault, harmonic, side)
-        })
+    pub(super) fn part_harmonics(&self, candidate: &Candidate, fault: Fault, known: &[KnownLine]) -> Vec<Harmonic> {
+        self.harmonics(candidate, known, |harmonic, side| line_name(fault, harmonic, side))
     }
 
     /// The harmonics of a comb, and the lines beside them where they count.
@@ -196,12 +176,7 @@ impl Search<'_> {
             .collect()
     }
 
-    pub(super) fn side_lines(
-        &self,
-        fit: &Fit,
-        spacing: Option<f64>,
-        known: &[KnownLine],
-    ) -> Vec<SideLine> {
+    pub(super) fn side_lines(&self, fit: &Fit, spacing: Option<f64>, known: &[KnownLine]) -> Vec<SideLine> {
         let Some(spacing) = spacing else {
             return Vec::new();
         };
@@ -233,9 +208,7 @@ fn with_sidebands(harmonics: &[Harmonic], sides: &[SideLine], lines: &LineSpectr
     let ratio = |db: f64| 10.0_f64.powf(0.1 * db);
     let mut harmonics = harmonics.to_vec();
     for line in &mut harmonics {
-        let sides = sides
-            .iter()
-            .filter(|side| side.seen && side.harmonic == line.harmonic);
+        let sides = sides.iter().filter(|side| side.seen && side.harmonic == line.harmonic);
         let sides: f64 = sides.map(|side| ratio(side.above_floor_db)).sum();
         line.above_floor_db = 10.0 * (ratio(line.above_floor_db) + sides).log10();
     }

@@ -33,13 +33,7 @@ impl InnerRaceLines {
 
     /// Whether they explain more of the `level` of an order than the comb of these multiples at another speed does, which scores `shafts`.
     /// Speeds are tried `step` apart.
-    pub(super) fn explain_more(
-        &self,
-        shafts: f64,
-        multiples: &[f64],
-        step: f64,
-        level: &impl Fn(f64) -> f64,
-    ) -> bool {
+    pub(super) fn explain_more(&self, shafts: f64, multiples: &[f64], step: f64, level: &impl Fn(f64) -> f64) -> bool {
         let (Some(order), Some(highest)) = (self.order, multiples.last()) else {
             return false;
         };
@@ -61,9 +55,8 @@ impl InnerRaceLines {
             let sideband = (multiple - carrier).round();
             (carrier + sideband, sideband.abs())
         });
-        let near = lines.filter(|(line, sideband)| {
-            *sideband <= SIDEBANDS && (line - multiple).abs() < self.farthest * multiple
-        });
+        let near = lines
+            .filter(|(line, sideband)| *sideband <= SIDEBANDS && (line - multiple).abs() < self.farthest * multiple);
         let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
         nearest.map_or(multiple, |(line, _)| line)
     }
@@ -83,15 +76,8 @@ mod tests {
     /// BPFI = 4.95: sidebands of the first harmonic up to the seventh multiple, of the second from the eighth on.
     #[test]
     fn the_lines_beside_the_shafts_multiples() {
-        let race = InnerRaceLines {
-            order: Some(4.95),
-            order_error: 0.0,
-            speed_error: 0.0,
-            farthest: 0.03,
-        };
-        let expected = [
-            1.0, 1.95, 2.95, 3.95, 4.95, 5.95, 6.95, 7.9, 8.9, 9.9, 10.9, 11.9,
-        ];
+        let race = InnerRaceLines { order: Some(4.95), order_error: 0.0, speed_error: 0.0, farthest: 0.03 };
+        let expected = [1.0, 1.95, 2.95, 3.95, 4.95, 5.95, 6.95, 7.9, 8.9, 9.9, 10.9, 11.9];
         for (multiple, expected) in (1..=12).zip(expected) {
             let line = race.nearest(f64::from(multiple), 4.95);
             assert!((line - expected).abs() < 1e-12, "{multiple}: {line}");

@@ -33,12 +33,7 @@ impl<'a> Kinematics<'a> {
     /// Of a simulated bearing, whose motion is known exactly.
     #[must_use]
     pub fn of(cage: &'a Cage, geometry: &BearingGeometry) -> Self {
-        Self::Cage {
-            cage,
-            balls: geometry.balls(),
-            rolling: geometry.orders(),
-            error: 0.0,
-        }
+        Self::Cage { cage, balls: geometry.balls(), rolling: geometry.orders(), error: 0.0 }
     }
 
     fn shaft(&self) -> &SpeedProfile {
@@ -69,8 +64,7 @@ impl<'a> Kinematics<'a> {
         let knots = shaft.knot_times().filter(|&time| from < time && time < to);
         let speeds = knots.chain([from, to]).map(|time| shaft.speed(time) / TAU);
         let ends = [f64::INFINITY, f64::NEG_INFINITY];
-        let [lowest, highest] =
-            speeds.fold(ends, |[low, high], speed| [low.min(speed), high.max(speed)]);
+        let [lowest, highest] = speeds.fold(ends, |[low, high], speed| [low.min(speed), high.max(speed)]);
         highest - lowest
     }
 
@@ -81,20 +75,11 @@ impl<'a> Kinematics<'a> {
     /// [`DiagnosisError`] for orders that are none.
     pub fn orders(&self, window: TimeWindow) -> Result<FaultOrders, DiagnosisError> {
         match self {
-            Self::Cage {
-                cage,
-                balls,
-                rolling,
-                error,
-            } => {
+            Self::Cage { cage, balls, rolling, error } => {
                 let ratio = cage.ratio_between(window.from, window.to);
                 let balls = f64::from(*balls);
-                let orders = DefectOrders {
-                    cage: ratio,
-                    outer: balls * ratio,
-                    inner: balls * (1.0 - ratio),
-                    ..*rolling
-                };
+                let orders =
+                    DefectOrders { cage: ratio, outer: balls * ratio, inner: balls * (1.0 - ratio), ..*rolling };
                 FaultOrders::of(&orders, *error)
             }
             Self::Given { orders, .. } => Ok(*orders),
@@ -115,12 +100,7 @@ mod tests {
             orders: FaultOrders::new([Some(3.5), None, None, None], 0.01).unwrap(),
             speed: SpeedProfile::new(&knots).unwrap(),
         };
-        for (from, to, expected) in [
-            (0.0, 1.0, 20.0),
-            (0.5, 1.5, 10.0),
-            (1.25, 1.75, 5.0),
-            (2.0, 9.0, 0.0),
-        ] {
+        for (from, to, expected) in [(0.0, 1.0, 20.0), (0.5, 1.5, 10.0), (1.25, 1.75, 5.0), (2.0, 9.0, 0.0)] {
             let spread = motion.speed_spread_hz(TimeWindow { from, to });
             assert!((spread - expected).abs() < 1e-9, "{from}-{to}: {spread}");
         }

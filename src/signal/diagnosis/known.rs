@@ -41,8 +41,7 @@ pub(super) struct KnownLine {
 impl KnownLine {
     /// Whether it may have so much power over the floor.
     fn explains(&self, spectrum: &LineSpectrum, ratio: f64) -> bool {
-        self.carrier
-            .is_none_or(|carrier| ratio <= spectrum.ratio(carrier))
+        self.carrier.is_none_or(|carrier| ratio <= spectrum.ratio(carrier))
     }
 }
 
@@ -179,11 +178,7 @@ impl Strikes<'_> {
 
 /// Half of the width, in orders, that a known line takes in a spectrum.
 fn half_width(spectrum: &LineSpectrum, line: &KnownLine) -> f64 {
-    let mut widths = if spectrum.ratio(line.order) > STRONG {
-        STRONG_HALF_WIDTH
-    } else {
-        HALF_WIDTH
-    };
+    let mut widths = if spectrum.ratio(line.order) > STRONG { STRONG_HALF_WIDTH } else { HALF_WIDTH };
     if spectrum.is_short() {
         widths *= SHORT_WIDTH;
     }
@@ -218,15 +213,10 @@ impl Mask {
 }
 
 /// The known line that takes an order, the nearest.
-pub(super) fn coincidence<'a>(
-    spectrum: &LineSpectrum,
-    order: f64,
-    known: &'a [KnownLine],
-) -> Option<&'a KnownLine> {
+pub(super) fn coincidence<'a>(spectrum: &LineSpectrum, order: f64, known: &'a [KnownLine]) -> Option<&'a KnownLine> {
     let distance = |line: &KnownLine| (line.order - order).abs();
     let ratio = spectrum.ratio(order);
-    let about = known.iter().filter(|line| {
-        distance(line) <= half_width(spectrum, line) && line.explains(spectrum, ratio)
-    });
+    let about =
+        known.iter().filter(|line| distance(line) <= half_width(spectrum, line) && line.explains(spectrum, ratio));
     about.min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

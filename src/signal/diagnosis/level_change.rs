@@ -50,10 +50,7 @@ pub fn level_changes(
     (now, now_window): (&TimeSeries, TimeWindow),
     (earlier, earlier_window): (&TimeSeries, TimeWindow),
 ) -> Result<Vec<LevelChange>, DiagnosisError> {
-    let parts = [
-        now.window(now_window.from, now_window.to)?,
-        earlier.window(earlier_window.from, earlier_window.to)?,
-    ];
+    let parts = [now.window(now_window.from, now_window.to)?, earlier.window(earlier_window.from, earlier_window.to)?];
     let whole = |part: &TimeSeries| {
         let mean = part.mean();
         let squares: Vec<f64> = part.values().iter().map(|v| (v - mean).powi(2)).collect();
@@ -73,10 +70,7 @@ pub fn level_changes(
         [whole(&parts[0]), whole(&parts[1])]
     } else {
         let common_hz = [1.0 / least_s, end_hz];
-        [
-            within(&spectra[0], common_hz),
-            within(&spectra[1], common_hz),
-        ]
+        [within(&spectra[0], common_hz), within(&spectra[1], common_hz)]
     };
     let rms = [all[0].power.sqrt(), all[1].power.sqrt()];
     let mut changes = vec![change(None, rms, &all[0], &all[1])];
@@ -98,18 +92,11 @@ pub fn level_changes(
 /// Mean of squares with the scatter between their blocks.
 fn scattered(squares: &[f64]) -> Scattered {
     let length = squares.len().div_ceil(BLOCKS).max(1);
-    let blocks: Vec<f64> = squares
-        .chunks(length)
-        .map(|block| block.iter().sum::<f64>() / block.len() as f64)
-        .collect();
+    let blocks: Vec<f64> = squares.chunks(length).map(|block| block.iter().sum::<f64>() / block.len() as f64).collect();
     let count = blocks.len() as f64;
     let power = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
     let freedom = (count - 1.0).max(1.0);
-    let square = blocks
-        .iter()
-        .map(|block| (block - power).powi(2))
-        .sum::<f64>()
-        / freedom;
+    let square = blocks.iter().map(|block| (block - power).powi(2)).sum::<f64>() / freedom;
     Scattered {
         power,
         variance: square / (count * power * power).max(f64::MIN_POSITIVE),
@@ -167,11 +154,7 @@ mod tests {
             let centre = change.centre_hz.unwrap();
             // 2.8 to 5.6 kHz
             let tone = (centre - 3981.0).abs() < 1.0;
-            let expected = if tone {
-                ChangeConclusion::Grew
-            } else {
-                ChangeConclusion::AsBefore
-            };
+            let expected = if tone { ChangeConclusion::Grew } else { ChangeConclusion::AsBefore };
             assert_eq!(change.conclusion, expected, "{change:?}");
         }
         // 4 values in each of 20 blocks of 2 s: octaves from 57 Hz on; 4 kHz is the last below 10 kHz / 1.41
@@ -198,27 +181,17 @@ mod tests {
     fn of_two_sampling_rates_what_both_reach_is_compared() {
         let now = noise(3, 1.0, 0.0);
         let mut half = Noise(4);
-        let values = (0..20_000)
-            .map(|_| 0.5_f64.sqrt() * half.normal())
-            .collect();
+        let values = (0..20_000).map(|_| 0.5_f64.sqrt() * half.normal()).collect();
         let earlier = TimeSeries::new(0.0, 1.0 / 10e3, "g", values).unwrap();
         let changes = level_changes((&now, now.span()), (&earlier, earlier.span())).unwrap();
         // the scatter of 20 000 squares is 0.06 dB
-        assert!(
-            changes[0].change_db.unwrap().abs() < 0.25,
-            "{:?}",
-            changes[0]
-        );
+        assert!(changes[0].change_db.unwrap().abs() < 0.25, "{:?}", changes[0]);
     }
 
     #[test]
     fn silence_is_not_compared() {
         let silent = TimeSeries::new(0.0, 1e-3, "g", vec![0.0; 5000]).unwrap();
         let changes = level_changes((&silent, silent.span()), (&silent, silent.span())).unwrap();
-        assert!(
-            changes
-                .iter()
-                .all(|c| c.conclusion == ChangeConclusion::NotCompared)
-        );
+        assert!(changes.iter().all(|c| c.conclusion == ChangeConclusion::NotCompared));
     }
 }

@@ -54,9 +54,7 @@ impl ChangeConclusion {
             return Self::Fell;
         }
         match (low, high) {
-            (Some(low), Some(high)) if low > -AS_BEFORE_WITHIN_DB && high < AS_BEFORE_WITHIN_DB => {
-                Self::AsBefore
-            }
+            (Some(low), Some(high)) if low > -AS_BEFORE_WITHIN_DB && high < AS_BEFORE_WITHIN_DB => Self::AsBefore,
             _ => Self::NotCertain,
         }
     }

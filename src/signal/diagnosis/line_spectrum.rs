@@ -104,17 +104,12 @@ impl LineSpectrum {
             let about = &ratio[bin.saturating_sub(1)..(bin + 2).min(bins)];
             about.iter().fold(1.0_f64, |most, &ratio| most.max(ratio))
         };
-        let level: Vec<f64> = (0..bins)
-            .map(|bin| near(bin).sqrt().min(LARGEST_LEVEL))
-            .collect();
+        let level: Vec<f64> = (0..bins).map(|bin| near(bin).sqrt().min(LARGEST_LEVEL)).collect();
         // of the two or three bins of a tooth the largest: 0.8 deviations above the mean
         let typical = gamma_quantile(averages, 0.8).sqrt();
         // one-sided, and the gain of the window
         let gain = 2.0 / (window.iter().sum::<f64>() * scale);
-        let amplitude = power
-            .iter()
-            .map(|power| gain * (power / stretches as f64).sqrt())
-            .collect();
+        let amplitude = power.iter().map(|power| gain * (power / stretches as f64).sqrt()).collect();
         Ok(Self {
             step,
             resolution,
@@ -158,14 +153,12 @@ impl LineSpectrum {
 
     /// Power over the floor, the largest within half of the resolution; 0 outside.
     pub(super) fn ratio(&self, order: f64) -> f64 {
-        self.bin(order)
-            .map_or(0.0, |bin| Self::largest(&self.ratio, bin))
+        self.bin(order).map_or(0.0, |bin| Self::largest(&self.ratio, bin))
     }
 
     /// Amplitude over the mean of the envelope, the largest within half of the resolution; 0 outside.
     pub(super) fn amplitude(&self, order: f64) -> f64 {
-        self.bin(order)
-            .map_or(0.0, |bin| Self::largest(&self.amplitude, bin))
+        self.bin(order).map_or(0.0, |bin| Self::largest(&self.amplitude, bin))
     }
 
     /// Whether noise would have a line as high once in a hundred places.
@@ -196,7 +189,5 @@ fn stretches_of(turns: f64, revolutions: f64) -> usize {
 /// Quantile of the mean of so many exponential variables, at so many standard deviations of the normal distribution: the transform of
 /// Wilson and Hilferty (1931), within 2 % for one variable.
 pub(super) fn gamma_quantile(averages: f64, deviations: f64) -> f64 {
-    (1.0 - 1.0 / (9.0 * averages) + deviations / (3.0 * averages.sqrt()))
-        .max(0.0)
-        .powi(3)
+    (1.0 - 1.0 / (9.0 * averages) + deviations / (3.0 * averages.sqrt())).max(0.0).powi(3)
 }

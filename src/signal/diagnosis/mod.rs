@@ -81,9 +81,8 @@ pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, Li
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
 pub use verdict::{
-    BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB,
-    LEAST_CAGE_STRENGTH_DB, LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS,
-    LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB, LEAST_STRENGTH_DB, NAMED_BELOW, SideLine,
-    UNSEEN_ABOVE, UnexplainedImpacts, probability,
+    BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB, LEAST_CAGE_STRENGTH_DB,
+    LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS, LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB,
+    LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts, probability,
 };
 pub use window::Diagnosis;

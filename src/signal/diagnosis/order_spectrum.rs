@@ -57,8 +57,7 @@ impl EnvelopeOrderSpectrum {
         // a series over turns in the place of seconds
         let series = TimeSeries::new(0.0, 1.0 / grid.per_turn(), part.unit(), means)?;
         let turned = series.duration_s();
-        let spectrum =
-            amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / (PADDING * turned))?;
+        let spectrum = amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / (PADDING * turned))?;
         Ok(Self {
             order: spectrum.frequency_hz,
             amplitude: spectrum.amplitude,
@@ -108,11 +107,7 @@ mod tests {
         let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(2.0), turns, 40.0).unwrap();
         assert!((spectrum.turns - 50.0).abs() < 0.05);
         // the average over a hundredth of a turn takes 0.2 % of this line, leakage of its image as much
-        assert!(
-            (spectrum.at(3.57) / 0.5 - 1.0).abs() < 0.01,
-            "{}",
-            spectrum.at(3.57)
-        );
+        assert!((spectrum.at(3.57) / 0.5 - 1.0).abs() < 0.01, "{}", spectrum.at(3.57));
         assert!((spectrum.mean - 3.0).abs() < 0.01);
         // first zero of the window at 1 / turns, and no line elsewhere
         assert!(spectrum.at(3.57 + 1.0 / spectrum.turns) < 0.02);
@@ -125,15 +120,10 @@ mod tests {
         // 100 averages a turn for orders up to 40; a line at 60 comes through at 40
         let values = (0..100_000).map(|k| 1.0 + (TAU * 60.0 * 20.0 * f64::from(k) / 100e3).cos());
         let envelope = TimeSeries::new(0.0, 1e-5, "g", values.collect()).unwrap();
-        let spectrum =
-            EnvelopeOrderSpectrum::new(&envelope, window(1.0), |t| 20.0 * t, 40.0).unwrap();
+        let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(1.0), |t| 20.0 * t, 40.0).unwrap();
         let gain = (0.6 * PI).sin() / (0.6 * PI);
         // sums of 50 samples in the place of integrals, and leakage of the image's image
-        assert!(
-            (spectrum.at(40.0) / gain - 1.0).abs() < 0.01,
-            "{}",
-            spectrum.at(40.0)
-        );
+        assert!((spectrum.at(40.0) / gain - 1.0).abs() < 0.01, "{}", spectrum.at(40.0));
         assert!(spectrum.at(37.3) < 0.02);
     }
 

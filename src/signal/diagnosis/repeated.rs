@@ -12,9 +12,7 @@ const BEGINNING: usize = 16;
 /// [`DiagnosisError::Repeated`].
 pub(super) fn check_repeated(signal: &TimeSeries) -> Result<(), DiagnosisError> {
     match period(signal.values()) {
-        Some(samples) => Err(DiagnosisError::Repeated {
-            period_s: samples as f64 * signal.step_s(),
-        }),
+        Some(samples) => Err(DiagnosisError::Repeated { period_s: samples as f64 * signal.step_s() }),
         None => Ok(()),
     }
 }
@@ -27,9 +25,7 @@ fn period(values: &[f64]) -> Option<usize> {
         return None;
     }
     let periods = 1..=values.len() * 2 / 3;
-    periods
-        .filter(|&samples| same(beginning, &values[samples..]))
-        .find(|&samples| same(values, &values[samples..]))
+    periods.filter(|&samples| same(beginning, &values[samples..])).find(|&samples| same(values, &values[samples..]))
 }
 
 #[cfg(test)]
@@ -55,10 +51,7 @@ mod tests {
         // one value of 121 960 that differs is no repetition
         let mut other = piece.repeat(40);
         other[100_000] += 1e-9;
-        assert!(!matches!(
-            judged(other),
-            Err(DiagnosisError::Repeated { .. })
-        ));
+        assert!(!matches!(judged(other), Err(DiagnosisError::Repeated { .. })));
     }
 
     #[test]
@@ -66,14 +59,8 @@ mod tests {
         let ramp: Vec<f64> = (0..30).map(f64::from).collect();
         assert_eq!(period(&ramp), None);
         assert_eq!(period(&ramp.repeat(2)), Some(30));
-        assert_eq!(
-            period(&[ramp.repeat(1), ramp[..16].to_vec()].concat()),
-            Some(30)
-        );
-        assert_eq!(
-            period(&[ramp.repeat(1), ramp[..14].to_vec()].concat()),
-            None
-        );
+        assert_eq!(period(&[ramp.repeat(1), ramp[..16].to_vec()].concat()), Some(30));
+        assert_eq!(period(&[ramp.repeat(1), ramp[..14].to_vec()].concat()), None);
         assert_eq!(period(&[1.0; 100]), None);
         assert_eq!(period(&ramp[..3]), None);
     }

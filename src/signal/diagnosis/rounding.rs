@@ -19,10 +19,7 @@ const FINEST_STEP: f64 = 1.0 / (1 << 22) as f64;
 ///
 /// # Errors
 /// [`DiagnosisError::NoNoise`].
-pub(super) fn check_noise(
-    signal: &TimeSeries,
-    [from_hz, to_hz]: [f64; 2],
-) -> Result<(), DiagnosisError> {
+pub(super) fn check_noise(signal: &TimeSeries, [from_hz, to_hz]: [f64; 2]) -> Result<(), DiagnosisError> {
     let mean = signal.mean();
     let centred: Vec<f64> = signal.values().iter().map(|value| value - mean).collect();
     let step = step(&centred);
@@ -41,10 +38,7 @@ pub(super) fn check_noise(
     // mean of sin^8 is 35 / 128; the median of a bin's power is ln 2 of its mean
     let floor = median / (LN_2 * count * 35.0 / 128.0);
     if floor < LEAST_FLOOR * step * step / 12.0 {
-        return Err(DiagnosisError::NoNoise {
-            noise: floor.sqrt(),
-            step,
-        });
+        return Err(DiagnosisError::NoNoise { noise: floor.sqrt(), step });
     }
     Ok(())
 }
@@ -76,12 +70,7 @@ mod tests {
     fn what_has_no_noise_is_refused() {
         let orders = FaultOrders::of(&bearing(), 0.01).unwrap();
         let sine = |t: f64| (TAU * 107.3 * t).sin();
-        let sines = |t: f64| {
-            [25.0, 89.6, 1234.5, 2222.2]
-                .map(|f| (TAU * f * t).sin())
-                .iter()
-                .sum()
-        };
+        let sines = |t: f64| [25.0, 89.6, 1234.5, 2222.2].map(|f| (TAU * f * t).sin()).iter().sum();
         let chirp = |t: f64| (TAU * (100.0 + 100.0 * t) * t).sin();
         let square = |t: f64| (TAU * 50.0 * t + 0.1).sin().signum();
         let whole = |x: f64| x;
@@ -94,10 +83,7 @@ mod tests {
             for (how, stored) in stored.iter().enumerate() {
                 let series = series(signal, stored);
                 let found = Diagnosis::of(&series, None, series.span(), steady, &orders);
-                assert!(
-                    matches!(found, Err(DiagnosisError::NoNoise { .. })),
-                    "{which} {how}: {found:?}"
-                );
+                assert!(matches!(found, Err(DiagnosisError::NoNoise { .. })), "{which} {how}: {found:?}");
             }
         }
     }
@@ -105,9 +91,7 @@ mod tests {
     /// The noise of a recorder of 16 bits is half of its step at least.
     #[test]
     fn noise_of_half_a_step_is_enough() {
-        let tones: Vec<f64> = (0..4 * RATE as usize)
-            .map(|k| 2e4 * (TAU * 107.3 * k as f64 / RATE).sin())
-            .collect();
+        let tones: Vec<f64> = (0..4 * RATE as usize).map(|k| 2e4 * (TAU * 107.3 * k as f64 / RATE).sin()).collect();
         let noisy = with_noise(&tones, 0.5, 61);
         let rounded = noisy.values().iter().map(|value| value.round() / 32768.0);
         let series = TimeSeries::new(0.0, 1.0 / RATE, "g", rounded.collect()).unwrap();

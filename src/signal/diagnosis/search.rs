@@ -61,28 +61,17 @@ impl Search<'_> {
     }
 
     /// The best comb of a part; lines beside the harmonics count where that scores more.
-    pub(super) fn part(
-        &self,
-        masked: &[Masked<'_>],
-        fault: Fault,
-        order: f64,
-    ) -> Option<Candidate> {
+    pub(super) fn part(&self, masked: &[Masked<'_>], fault: Fault, order: f64) -> Option<Candidate> {
         let relative_reach = self.orders.error(fault) + self.speed_error;
         let reach = relative_reach * order;
         let of = |beside| {
-            Some(Candidate {
-                fault: Some(fault),
-                fit: best_fit(masked, order, reach, beside)?,
-                beside,
-                relative_reach,
-            })
+            Some(Candidate { fault: Some(fault), fit: best_fit(masked, order, reach, beside)?, beside, relative_reach })
         };
         let alone = of(None);
         match self.side_spacing(fault) {
-            Some(spacing) if fault == Fault::Ball => alone
-                .into_iter()
-                .chain(of(Some(spacing)))
-                .max_by(|a, b| a.fit.score.total_cmp(&b.fit.score)),
+            Some(spacing) if fault == Fault::Ball => {
+                alone.into_iter().chain(of(Some(spacing))).max_by(|a, b| a.fit.score.total_cmp(&b.fit.score))
+            }
             _ => alone,
         }
     }
@@ -100,29 +89,16 @@ impl Search<'_> {
     }
 
     /// Probability by chance of a candidate, its own lines taken out of the controls.
-    pub(super) fn chance(
-        &self,
-        masked: &[Masked<'_>],
-        candidate: &Candidate,
-        own: &[KnownLine],
-    ) -> Option<f64> {
+    pub(super) fn chance(&self, masked: &[Masked<'_>], candidate: &Candidate, own: &[KnownLine]) -> Option<f64> {
         let without: Vec<Masked<'_>> = masked
             .iter()
             .map(|masked| {
                 let mut mask = masked.mask.clone();
                 mask.take(&masked.spectrum.lines, own);
-                Masked {
-                    spectrum: masked.spectrum,
-                    mask,
-                }
+                Masked { spectrum: masked.spectrum, mask }
             })
             .collect();
-        let Candidate {
-            fit,
-            beside,
-            relative_reach,
-            ..
-        } = candidate;
+        let Candidate { fit, beside, relative_reach, .. } = candidate;
         let scores = control_scores(&without, fit.order, *relative_reach, *beside);
         let by_chance = ByChance::of(scores)?;
         let searches = match candidate.fault {

@@ -102,11 +102,7 @@ impl ShaftSpeed {
         turns: impl Fn(f64) -> f64,
         orders: &FaultOrders,
     ) -> Result<Self, DiagnosisError> {
-        let as_given = |error, source| Self {
-            factor: 1.0,
-            error,
-            source,
-        };
+        let as_given = |error, source| Self { factor: 1.0, error, source };
         if orders.is_exact() {
             return Ok(as_given(0.0, SpeedSource::Exact));
         }
@@ -118,10 +114,7 @@ impl ShaftSpeed {
         let shown = sharpened(
             &grid,
             orders,
-            &[
-                (signal.start_s(), signal.step_s(), signal.values()),
-                (envelope.start_s, envelope.step_s, &magnitude),
-            ],
+            &[(signal.start_s(), signal.step_s(), signal.values()), (envelope.start_s, envelope.step_s, &magnitude)],
         )?;
         Ok(shown.unwrap_or_else(|| as_given(UNSEEN_ERROR, SpeedSource::Given)))
     }
@@ -172,9 +165,7 @@ fn sharpened(
         let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
         // the middle of those that are about as good, and how far they reach
         let near = fits.iter().filter(|fit| fit.0 >= AS_GOOD * most);
-        let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| {
-            (low.min(fit.1), high.max(fit.1))
-        });
+        let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| (low.min(fit.1), high.max(fit.1)));
         (most, low, high)
     };
     // probability that chance finds as good a comb in as wide a search
@@ -192,20 +183,15 @@ fn sharpened(
         let clear = sharper && high - low < LARGEST_ERROR;
         (clear && chance(most, teeth, LARGEST_ERROR) < SEEN_BELOW).then_some((factor, error))
     };
-    let seen = |centre: f64, teeth: &[f64], reach: f64| {
-        chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW
-    };
+    let seen = |centre: f64, teeth: &[f64], reach: f64| chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW;
     // every multiple together is sharpest, where those show too that no part's lines can be taken for
     let free = free_multiples(orders);
     let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
     let moves = |factor: f64| (factor - 1.0).abs() > UNSEEN_ERROR;
     // a strong line of the shaft at the given speed reaches a little farther than it should
-    let better = |factor: f64, error: f64| {
-        AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0
-    };
-    let shown = fit(&every).filter(|&(factor, error)| {
-        seen(factor, &free, error) && (!moves(factor) || better(factor, error))
-    });
+    let better = |factor: f64, error: f64| AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0;
+    let shown =
+        fit(&every).filter(|&(factor, error)| seen(factor, &free, error) && (!moves(factor) || better(factor, error)));
     let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
         return Ok(None);
     };
@@ -222,20 +208,13 @@ fn sharpened(
     } else {
         SpeedSource::Sharpened
     };
-    Ok(Some(ShaftSpeed {
-        factor,
-        error,
-        source,
-    }))
+    Ok(Some(ShaftSpeed { factor, error, source }))
 }
 
 /// Multiples of the shaft's order that are no part's line at a speed within the largest error.
 fn free_multiples(orders: &FaultOrders) -> Vec<f64> {
     let parts = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
-    let parts: Vec<f64> = parts
-        .iter()
-        .filter_map(|&part| orders.order(part))
-        .collect();
+    let parts: Vec<f64> = parts.iter().filter_map(|&part| orders.order(part)).collect();
     let free = |multiple: &f64| {
         let nearest = |part: &f64| (multiple / part).round().max(1.0) * part;
         let mut parts = parts.iter();
@@ -247,9 +226,7 @@ fn free_multiples(orders: &FaultOrders) -> Vec<f64> {
 /// Orders, related to no simple ratio of the shaft's, at which its comb is tried for what it scores by chance.
 fn controls() -> impl Iterator<Item = f64> {
     let simple = [0.5, 2.0 / 3.0, 1.0, 1.5, 2.0];
-    let centres = std::iter::successors(Some(CONTROLS[0]), |centre| {
-        Some(centre * (1.0 + 0.5 * LARGEST_ERROR))
-    });
+    let centres = std::iter::successors(Some(CONTROLS[0]), |centre| Some(centre * (1.0 + 0.5 * LARGEST_ERROR)));
     let centres = centres.take_while(|centre| *centre < CONTROLS[1]);
     centres.filter(move |centre| {
         let related = |ratio: &f64| (centre / ratio - 1.0).abs() < 2.0 * LARGEST_ERROR;
@@ -271,8 +248,7 @@ pub(super) fn speed_of_races(
     }
     let found = |fault: Fault| {
         let verdict = faults.iter().find(|verdict| verdict.fault == fault)?;
-        let certain = verdict.conclusion == Conclusion::Named
-            || verdict.false_alarm.is_some_and(|p| p < CERTAIN_BELOW);
+        let certain = verdict.conclusion == Conclusion::Named || verdict.false_alarm.is_some_and(|p| p < CERTAIN_BELOW);
         let seen = verdict.harmonics_seen >= LEAST_SHORT_HARMONICS;
         verdict.order.filter(|_| certain && seen)
     };
@@ -296,7 +272,6 @@ pub(super) fn share_a_fundamental(outer: f64, inner: f64, error: f64) -> bool {
         let k = f64::from(k);
         let fundamental = outer / k;
         let nearest = (inner / fundamental).round();
-        nearest <= f64::from(HARMONICS_OF_ONE)
-            && (inner - nearest * fundamental).abs() <= error * (1.0 + nearest / k)
+        nearest <= f64::from(HARMONICS_OF_ONE) && (inner - nearest * fundamental).abs() <= error * (1.0 + nearest / k)
     })
 }

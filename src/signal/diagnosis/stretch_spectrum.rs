@@ -21,11 +21,7 @@ const NOISE_BANDWIDTH: f64 = 1.5;
 /// revolutions, between 32 and 64; the whole of a shorter one.
 pub(super) fn stretch_revolutions(turns: f64) -> f64 {
     let wanted = (turns / WANTED).clamp(SHORTEST, LONGEST);
-    if count(turns, wanted) < 2 {
-        turns
-    } else {
-        wanted
-    }
+    if count(turns, wanted) < 2 { turns } else { wanted }
 }
 
 /// Stretches that share a half with the next at most.
@@ -50,12 +46,7 @@ pub(super) struct StretchSpectrum {
 
 impl StretchSpectrum {
     /// Spectra of values at equal angles, `per_turn` a revolution, up to an order, in stretches of so many revolutions (Hann).
-    pub(super) fn new(
-        values: &[f64],
-        per_turn: f64,
-        highest: f64,
-        revolutions: f64,
-    ) -> Result<Self, DiagnosisError> {
+    pub(super) fn new(values: &[f64], per_turn: f64, highest: f64, revolutions: f64) -> Result<Self, DiagnosisError> {
         let all = values.len();
         let length = ((revolutions * per_turn).round() as usize).clamp(1, all);
         let stretches = count(all as f64, length as f64);
@@ -86,13 +77,7 @@ impl StretchSpectrum {
         let median = gamma_quantile(stretches as f64, 0.0);
         let floor = running_median(&mean, reach);
         let floor: Vec<f64> = floor.iter().map(|floor| floor / median).collect();
-        Ok(Self {
-            step,
-            resolution,
-            sums,
-            mean: running_sum(&mean),
-            floor: running_sum(&floor),
-        })
+        Ok(Self { step, resolution, sums, mean: running_sum(&mean), floor: running_sum(&floor) })
     }
 
     pub(super) fn stretches(&self) -> usize {

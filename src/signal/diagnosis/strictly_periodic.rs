@@ -60,9 +60,7 @@ pub(super) fn say_strictly_periodic(
 fn near_tones(white: &WhiteSpectrum) -> Vec<bool> {
     let over = white.over_median();
     let about = |bin: usize| &over[bin.saturating_sub(1)..(bin + 2).min(over.len())];
-    (0..over.len())
-        .map(|bin| about(bin).iter().any(|&over| over > TONE))
-        .collect()
+    (0..over.len()).map(|bin| about(bin).iter().any(|&over| over > TONE)).collect()
 }
 
 /// Frequency (Hz) near `line` (Hz, relative reach) of which most multiples within a band (Hz) are tones, and how many, if chance makes that
@@ -114,9 +112,7 @@ fn best(
 mod tests {
     use super::*;
     use crate::signal::diagnosis::Diagnosis;
-    use crate::signal::diagnosis::tests::{
-        RATE, bearing, judged, named, steady, verdict, with_noise,
-    };
+    use crate::signal::diagnosis::tests::{RATE, bearing, judged, named, steady, verdict, with_noise};
     use std::f64::consts::TAU;
 
     /// Bursts of 3.5 kHz at exact instants, `frequency_hz` times a second for 4 s, and noise of a level.
@@ -142,10 +138,7 @@ mod tests {
             let found = bursts(25.0 * orders.outer, level);
             let outer = verdict(&found, Fault::OuterRace);
             let told = says(&found, Fault::OuterRace) && outer.conclusion == Conclusion::NotEnough;
-            assert!(
-                told || named(&found) == [Fault::OuterRace],
-                "{level}: {outer:#?}"
-            );
+            assert!(told || named(&found) == [Fault::OuterRace], "{level}: {outer:#?}");
             assert!(!says(&found, Fault::InnerRace), "{level}");
         }
     }
@@ -155,11 +148,7 @@ mod tests {
         // another order; every second and every third half of the line; the shaft's multiples
         for order in [3.2, 2.0 * 3.585, 1.5 * 3.585, 1.0] {
             let found = bursts(25.0 * order, 0.02);
-            assert!(
-                !says(&found, Fault::OuterRace),
-                "{order}: {:#?}",
-                found.faults
-            );
+            assert!(!says(&found, Fault::OuterRace), "{order}: {:#?}", found.faults);
         }
     }
 }

@@ -32,11 +32,7 @@ impl Noise {
 }
 
 /// A signal of `seconds`, made of the shaft's angle in turns and noise.
-pub(super) fn signal(
-    seconds: f64,
-    turns: impl Fn(f64) -> f64,
-    mut value: impl FnMut(f64, f64) -> f64,
-) -> TimeSeries {
+pub(super) fn signal(seconds: f64, turns: impl Fn(f64) -> f64, mut value: impl FnMut(f64, f64) -> f64) -> TimeSeries {
     let samples = (seconds * RATE) as usize;
     let values = (0..samples).map(|k| {
         let t = k as f64 / RATE;
@@ -76,12 +72,7 @@ pub(super) fn with_noise(values: &[f64], level: f64, seed: u64) -> TimeSeries {
     TimeSeries::new(0.0, 1.0 / RATE, "m/s^2", noisy.collect()).unwrap()
 }
 
-pub(super) fn judged(
-    series: &TimeSeries,
-    turns: impl Fn(f64) -> f64,
-    orders: &DefectOrders,
-    error: f64,
-) -> Diagnosis {
+pub(super) fn judged(series: &TimeSeries, turns: impl Fn(f64) -> f64, orders: &DefectOrders, error: f64) -> Diagnosis {
     let orders = FaultOrders::of(orders, error).unwrap();
     Diagnosis::of(series, None, series.span(), turns, &orders).unwrap()
 }
@@ -131,10 +122,7 @@ fn an_inner_race_in_a_load_zone_has_lines_at_the_shafts_distance() {
     let found = judged(&with_noise(&values, 0.15, 2), steady, &orders, 0.005);
     assert_eq!(named(&found), [Fault::InnerRace], "{:#?}", found.faults);
     let inner = verdict(&found, Fault::InnerRace);
-    let sides = inner
-        .side_lines
-        .iter()
-        .filter(|line| line.seen && line.offset.abs() == 1);
+    let sides = inner.side_lines.iter().filter(|line| line.seen && line.offset.abs() == 1);
     assert!(sides.count() >= 4, "{:?}", inner.side_lines);
 }
 
@@ -174,26 +162,18 @@ fn weak_lines_are_seen_and_not_named() {
 fn what_comes_once_a_turn_names_nothing() {
     let orders = bearing();
     let mut noise = Noise(4);
-    let unbalance = signal(1.2, steady, |_, turns| {
-        10.0 * (TAU * turns).cos() + 0.3 * noise.normal()
-    });
+    let unbalance = signal(1.2, steady, |_, turns| 10.0 * (TAU * turns).cos() + 0.3 * noise.normal());
     let found = judged(&unbalance, steady, &orders, 0.01);
     assert_eq!(named(&found), [], "{:#?}", found.faults);
     let knocks = struck(1.2, steady, 1.0, |_| 1.0);
     let found = judged(&with_noise(&knocks, 0.1, 5), steady, &orders, 0.01);
     assert_eq!(named(&found), [], "{:#?}", found.faults);
     // the same knocks with an inner race that strikes once a turn cannot be told from the shaft
-    let alike = DefectOrders {
-        inner: 1.0,
-        ..orders
-    };
+    let alike = DefectOrders { inner: 1.0, ..orders };
     let found = judged(&with_noise(&knocks, 0.1, 5), steady, &alike, 0.0);
     let inner = verdict(&found, Fault::InnerRace);
     assert_eq!(inner.conclusion, Conclusion::NotEnough);
-    assert_eq!(
-        inner.harmonics[0].coincides_with.as_deref(),
-        Some("1 x shaft")
-    );
+    assert_eq!(inner.harmonics[0].coincides_with.as_deref(), Some("1 x shaft"));
 }
 
 /// Noise whose strength follows the balls that pass under the load, smoothly: a healthy bearing.
@@ -210,11 +190,7 @@ fn a_smooth_modulation_at_the_ball_pass_is_seen_and_not_named() {
     assert!(outer.harmonics[0].seen && outer.harmonics[0].above_floor_db > 10.0);
     assert!(outer.false_alarm.unwrap() < NAMED_BELOW);
     assert_eq!(outer.conclusion, Conclusion::NotEnough, "{outer:#?}");
-    assert!(
-        outer.why.contains("balls passing under the load"),
-        "{}",
-        outer.why
-    );
+    assert!(outer.why.contains("balls passing under the load"), "{}", outer.why);
 }
 
 /// Bursts that the floor of the noise hides but for three harmonics are as smooth as a modulation if those fall off fast.
@@ -246,8 +222,7 @@ fn a_resonance_that_hums_hides_no_bursts() {
     let angle = TAU * 11e3 / RATE;
     let decay = (-0.02 * angle).exp();
     for value in &mut values {
-        let next =
-            0.5 * noise.normal() + 2.0 * decay * angle.cos() * hum[0] - decay * decay * hum[1];
+        let next = 0.5 * noise.normal() + 2.0 * decay * angle.cos() * hum[0] - decay * decay * hum[1];
         hum = [next, hum[0]];
         *value += next;
     }
@@ -257,12 +232,7 @@ fn a_resonance_that_hums_hides_no_bursts() {
     assert!(outer.false_alarm.unwrap() < 1e-9, "{outer:#?}");
     assert!(outer.harmonics_seen >= 4, "{outer:#?}");
     assert!(found.envelope.contains("whitened"), "{}", found.envelope);
-    assert!(
-        found
-            .faults
-            .iter()
-            .all(|v| v.fault == Fault::OuterRace || v.false_alarm.is_none_or(|p| p > NAMED_BELOW))
-    );
+    assert!(found.faults.iter().all(|v| v.fault == Fault::OuterRace || v.false_alarm.is_none_or(|p| p > NAMED_BELOW)));
 }
 
 /// The ball of Tadina and Boltezar (2011), order 3.489: its even harmonics lie on multiples of the shaft, and it strikes for a third
@@ -291,11 +261,7 @@ fn harmonics_beyond_the_judged_ones_explain_lines_too() {
     assert_eq!(named(&found), [Fault::OuterRace]);
     let inner = verdict(&found, Fault::InnerRace);
     let fifth = inner.harmonics.iter().find(|h| h.harmonic == 5).unwrap();
-    assert_eq!(
-        fifth.coincides_with.as_deref(),
-        Some("15 x outer race"),
-        "{inner:#?}"
-    );
+    assert_eq!(fifth.coincides_with.as_deref(), Some("15 x outer race"), "{inner:#?}");
 }
 
 #[test]
@@ -310,11 +276,7 @@ fn short_windows_say_so() {
         outer.why,
         "The window has 4.0 revolutions. At least 4.5 are needed to tell these lines from the floor about them."
     );
-    assert!(
-        found
-            .sentence()
-            .starts_with("not enough evidence: outer race")
-    );
+    assert!(found.sentence().starts_with("not enough evidence: outer race"));
 }
 
 /// The stated probability against how often noise reaches it: 200 windows of noise of 12 revolutions, three faults each
@@ -332,10 +294,7 @@ fn noise_is_as_alarming_as_stated() {
             let window = series.span();
             let found = Diagnosis::of(&series, None, window, |t| speed * t, &orders).unwrap();
             indicated += named(&found).len();
-            let chances = found
-                .faults
-                .iter()
-                .filter_map(|verdict| verdict.false_alarm);
+            let chances = found.faults.iter().filter_map(|verdict| verdict.false_alarm);
             for chance in chances {
                 judged += 1;
                 for (count, limit) in below.iter_mut().zip([0.01, 0.05, 0.2]) {
@@ -369,8 +328,5 @@ fn orders_are_checked() {
         message([Some(f64::NAN), None, None, None], 0.0),
         "order of the outer race: expected a number above 0 and at most 200, found NaN"
     );
-    assert_eq!(
-        message([None; 4], 0.2),
-        "relative error of the orders: expected 0 to 0.1, found 0.2"
-    );
+    assert_eq!(message([None; 4], 0.2), "relative error of the orders: expected 0 to 0.1, found 0.2");
 }

@@ -28,35 +28,20 @@ fn a_ball_whose_own_lines_are_smeared_shows_by_the_cages() {
     assert_eq!(named(&found), [Fault::Ball], "{:#?}", found.faults);
     let lines = verdict(&found, Fault::Ball).cage_lines.as_ref().unwrap();
     // half of the resolution of 150 revolutions at the second harmonic: the third and fourth are weak
-    assert!(
-        (lines.order - 1.002 * orders.cage).abs() < 0.5 / 150.0 / 2.0,
-        "{lines:?}"
-    );
+    assert!((lines.order - 1.002 * orders.cage).abs() < 0.5 / 150.0 / 2.0, "{lines:?}");
     assert!(lines.strength_db > LEAST_CAGE_LINES_DB);
-    assert!(
-        verdict(&found, Fault::Cage)
-            .why
-            .contains("A ball that differs")
-    );
+    assert!(verdict(&found, Fault::Cage).why.contains("A ball that differs"));
 }
 
 #[test]
 fn noise_alone_and_a_race_that_is_indicated_name_no_ball() {
     let orders = bearing();
-    let quiet = judged(
-        &one_ball_differs(6.0, orders.cage, 0.0, 32),
-        steady,
-        &orders,
-        0.01,
-    );
+    let quiet = judged(&one_ball_differs(6.0, orders.cage, 0.0, 32), steady, &orders, 0.01);
     assert_eq!(named(&quiet), [], "{:#?}", quiet.faults);
     // a dent, and one ball that differs
     let ball = one_ball_differs(6.0, orders.cage, 0.4, 31);
     let values = struck(6.0, steady, orders.outer, |_| 5.0);
-    let both = values
-        .iter()
-        .zip(ball.values())
-        .map(|(dent, ball)| dent + ball);
+    let both = values.iter().zip(ball.values()).map(|(dent, ball)| dent + ball);
     let series = TimeSeries::new(0.0, 1.0 / RATE, "m/s^2", both.collect()).unwrap();
     let found = judged(&series, steady, &orders, 0.01);
     assert_eq!(named(&found), [Fault::OuterRace], "{:#?}", found.faults);

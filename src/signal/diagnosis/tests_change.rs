@@ -12,8 +12,7 @@ fn impacts(seconds: f64, strength: f64, noise: f64, seed: u64) -> TimeSeries {
 
 fn changes(now: &TimeSeries, earlier: &TimeSeries) -> Vec<LineChange> {
     let orders = FaultOrders::of(&bearing(), 0.01).unwrap();
-    let found = [now, earlier]
-        .map(|signal| Diagnosis::of(signal, None, signal.span(), steady, &orders).unwrap());
+    let found = [now, earlier].map(|signal| Diagnosis::of(signal, None, signal.span(), steady, &orders).unwrap());
     let now = ComparedSignal::new(now, now.span(), steady, orders, &found[0]);
     let earlier = ComparedSignal::new(earlier, earlier.span(), steady, orders, &found[1]);
     line_changes(&now, &earlier).unwrap()
@@ -21,38 +20,22 @@ fn changes(now: &TimeSeries, earlier: &TimeSeries) -> Vec<LineChange> {
 
 fn outer(changes: &[LineChange]) -> &LineChange {
     let mut changes = changes.iter();
-    changes
-        .find(|change| change.fault == Some(Fault::OuterRace))
-        .unwrap()
+    changes.find(|change| change.fault == Some(Fault::OuterRace)).unwrap()
 }
 
 #[test]
 fn growth_is_measured_and_other_parts_did_not_grow() {
-    for (growth, expected) in [
-        (12.0, ChangeConclusion::Grew),
-        (0.0, ChangeConclusion::AsBefore),
-    ] {
+    for (growth, expected) in [(12.0, ChangeConclusion::Grew), (0.0, ChangeConclusion::AsBefore)] {
         let strength = 10_f64.powf(growth / 20.0);
         let found = changes(&impacts(4.0, strength, 0.1, 1), &impacts(4.0, 1.0, 0.1, 2));
         let change = outer(&found);
         assert_eq!(change.conclusion, expected, "{change:#?}");
         let [low, high] = change.interval_db.map(Option::unwrap);
-        assert!(
-            low <= growth && growth <= high && high - low < 3.0,
-            "{change:#?}"
-        );
-        assert!(
-            found[1..]
-                .iter()
-                .all(|c| c.conclusion != ChangeConclusion::Grew),
-            "{found:#?}"
-        );
+        assert!(low <= growth && growth <= high && high - low < 3.0, "{change:#?}");
+        assert!(found[1..].iter().all(|c| c.conclusion != ChangeConclusion::Grew), "{found:#?}");
         // where it strikes, to what 40 revolutions separate at the fifth harmonic
         let order = 0.996 * bearing().outer;
-        assert!(
-            (change.order_now.unwrap() - order).abs() < 1.0 / 40.0 / 5.0,
-            "{change:#?}"
-        );
+        assert!((change.order_now.unwrap() - order).abs() < 1.0 / 40.0 / 5.0, "{change:#?}");
         let (now, earlier) = (change.now.unwrap(), change.earlier.unwrap());
         assert!((20.0 * (now / earlier).log10() - change.change_db.unwrap()).abs() < 1e-9);
     }
@@ -75,12 +58,7 @@ fn damage_of_another_part_before_hides_no_new_one() {
     let load = |angle: f64| 2.0 * (0.5 + 0.5 * (std::f64::consts::TAU * angle).cos());
     let inner = with_noise(&struck(8.0, steady, 0.996 * bearing().inner, load), 0.1, 11);
     let found = changes(&inner, &impacts(8.0, 1.0, 0.1, 12));
-    let of = |fault| {
-        found
-            .iter()
-            .find(|change| change.fault == Some(fault))
-            .unwrap()
-    };
+    let of = |fault| found.iter().find(|change| change.fault == Some(fault)).unwrap();
     let inner = of(Fault::InnerRace);
     let outer = of(Fault::OuterRace);
     assert_eq!(inner.conclusion, ChangeConclusion::Grew, "{inner:#?}");
@@ -112,11 +90,7 @@ fn what_was_not_there_has_a_lower_bound() {
     assert_eq!(change.conclusion, ChangeConclusion::Grew, "{change:#?}");
     assert_eq!((change.change_db, change.earlier), (None, None));
     assert!(change.interval_db[0].unwrap() > 6.0 && change.interval_db[1].is_none());
-    assert!(
-        change.words().starts_with("at least +"),
-        "{}",
-        change.words()
-    );
+    assert!(change.words().starts_with("at least +"), "{}", change.words());
     assert!(change.why.contains("lower bound"), "{}", change.why);
 }
 
@@ -128,11 +102,7 @@ fn a_band_beyond_the_earlier_signal_cannot_be_compared() {
     let slow = TimeSeries::new(0.0, 3.0 * earlier.step_s(), "m/s^2", slow).unwrap();
     let found = changes(&impacts(4.0, 2.0, 0.1, 8), &slow);
     let change = outer(&found);
-    assert_eq!(
-        change.conclusion,
-        ChangeConclusion::NotCompared,
-        "{change:#?}"
-    );
+    assert_eq!(change.conclusion, ChangeConclusion::NotCompared, "{change:#?}");
     assert!(change.why.contains("ends at 5333 Hz"), "{}", change.why);
 }
 
@@ -143,16 +113,8 @@ fn what_stays_is_rarely_said_to_grow() {
     for run in 0..40 {
         let pair = [2 * run + 100, 2 * run + 101].map(|seed| impacts(1.6, 1.0, 0.5, seed));
         let found = changes(&pair[0], &pair[1]);
-        let wrong = |change: &&LineChange| {
-            matches!(
-                change.conclusion,
-                ChangeConclusion::Grew | ChangeConclusion::Fell
-            )
-        };
-        assert!(
-            !found.iter().any(|change| wrong(&change)),
-            "{run}: {found:#?}"
-        );
+        let wrong = |change: &&LineChange| matches!(change.conclusion, ChangeConclusion::Grew | ChangeConclusion::Fell);
+        assert!(!found.iter().any(|change| wrong(&change)), "{run}: {found:#?}");
         let [low, high] = outer(&found).interval_db;
         held += u32::from(low.is_none_or(|low| low <= 0.0) && high.is_none_or(|high| high >= 0.0));
     }

@@ -27,19 +27,12 @@ fn sidebands_count_for_the_inner_race_alone() {
     let found = judged(&both_races(1.0, 3.0, 42), steady, &bearing(), 0.01);
     for (fault, counts) in [(Fault::InnerRace, true), (Fault::OuterRace, false)] {
         let verdict = verdict(&found, fault);
-        let free = verdict
-            .harmonics
-            .iter()
-            .filter(|h| h.coincides_with.is_none());
+        let free = verdict.harmonics.iter().filter(|h| h.coincides_with.is_none());
         let levels: Vec<f64> = free.map(|h| h.above_floor_db.clamp(0.0, 26.0)).collect();
         let mean = levels.iter().sum::<f64>() / levels.len() as f64 + 10.0 * 1.28_f64.log10();
         // levels are those at a resolution of 1 / 64, the window has 1 / 50
         let strength = verdict.strength_db.unwrap();
-        assert_eq!(
-            strength > mean + 0.5,
-            counts,
-            "{fault:?}: {strength} dB, harmonics {mean} dB"
-        );
+        assert_eq!(strength > mean + 0.5, counts, "{fault:?}: {strength} dB, harmonics {mean} dB");
     }
 }
 
@@ -49,26 +42,12 @@ fn both_races_sharpen_the_speed() {
     let orders = bearing();
     // the shaft is slower by 0.7 % than it is said to be, and has no lines
     let found = judged(&signal, |t| 1.007 * steady(t), &orders, 0.01);
-    assert_eq!(
-        found.speed_source,
-        SpeedSource::Races,
-        "{:#?}",
-        found.faults
-    );
-    assert!(
-        (found.speed_hz / 25.0 - 1.0).abs() < 2.0 * found.speed_error,
-        "{}",
-        found.speed_hz
-    );
+    assert_eq!(found.speed_source, SpeedSource::Races, "{:#?}", found.faults);
+    assert!((found.speed_hz / 25.0 - 1.0).abs() < 2.0 * found.speed_error, "{}", found.speed_hz);
     // the resolution of 50 revolutions over eight harmonics, of two races, over seven balls
     assert!((found.speed_error / (2.0_f64.sqrt() / 50.0 / 8.0 / 7.0) - 1.0).abs() < 0.02);
     // orders that belong to no whole number of balls say nothing
-    let odd = [
-        Some(1.006 * orders.outer),
-        Some(1.006 * orders.inner),
-        None,
-        None,
-    ];
+    let odd = [Some(1.006 * orders.outer), Some(1.006 * orders.inner), None, None];
     let odd = FaultOrders::new(odd, 0.01).unwrap();
     let found = Diagnosis::of(&signal, None, signal.span(), steady, &odd).unwrap();
     assert_eq!(named(&found), [Fault::OuterRace, Fault::InnerRace]);

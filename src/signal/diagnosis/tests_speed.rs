@@ -19,10 +19,7 @@ fn the_shafts_lines_sharpen_the_speed() {
     let series = with_noise(&values, 0.3, 22);
     let found = judged(&series, |t| 1.012 * steady(t), &orders, 0.01);
     assert_eq!(found.speed_source, SpeedSource::Sharpened);
-    assert!(
-        (found.speed_hz / 25.0 - 1.0).abs() < found.speed_error,
-        "{found:#?}"
-    );
+    assert!((found.speed_hz / 25.0 - 1.0).abs() < found.speed_error, "{found:#?}");
     // the resolution of 110 revolutions over eight lines, and as much again for lines that are a bin wide
     assert!(found.speed_error < 5e-3, "{}", found.speed_error);
     assert!((found.given_speed_hz - 25.3).abs() < 1e-9);
@@ -102,11 +99,7 @@ fn a_changed_speed_is_said_and_own_lines_hold_the_given_one() {
     assert!(alone.sentence().contains("where 25.00 Hz were given"));
     shaft_lines(&mut values, 25.0, 1.0);
     let both = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
-    assert!(
-        (both.speed_hz / 25.0 - 1.0).abs() < 2e-3,
-        "{}",
-        both.speed_hz
-    );
+    assert!((both.speed_hz / 25.0 - 1.0).abs() < 2e-3, "{}", both.speed_hz);
     assert_eq!(both.speed_change(), None);
 }
 
@@ -124,18 +117,9 @@ fn lines_of_a_race_are_not_taken_for_the_shafts() {
     // the shaft's own lines beside them are found
     let mut values = struck(8.8, steady, orders.outer, |_| 1.0);
     shaft_lines(&mut values, 25.0, 1.0);
-    let found = judged(
-        &with_noise(&values, 0.3, 28),
-        |t| 1.01 * steady(t),
-        &orders,
-        0.01,
-    );
+    let found = judged(&with_noise(&values, 0.3, 28), |t| 1.01 * steady(t), &orders, 0.01);
     assert_eq!(found.speed_source, SpeedSource::Sharpened);
-    assert!(
-        (found.speed_hz / 25.0 - 1.0).abs() < 2e-3,
-        "{}",
-        found.speed_hz
-    );
+    assert!((found.speed_hz / 25.0 - 1.0).abs() < 2e-3, "{}", found.speed_hz);
 }
 
 /// 6203: the shaft's own first lines beside those of the outer race hold the given speed, however strong.

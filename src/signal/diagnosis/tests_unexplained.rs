@@ -24,9 +24,7 @@ fn impacts_that_belong_to_no_part_are_said() {
     assert!((impacts.order - 2.2).abs() < 0.15 / 64.0, "{impacts:?}");
     assert!(impacts.harmonics_seen >= 4);
     assert!(
-        found
-            .sentence()
-            .ends_with("Hz with 4 harmonics belong to no part of this bearing"),
+        found.sentence().ends_with("Hz with 4 harmonics belong to no part of this bearing"),
         "{}",
         found.sentence()
     );
@@ -38,9 +36,7 @@ fn weak_lines_halfway_are_no_fundamental() {
     let (order, mut noise) = (2.2, Noise(7));
     let values = signal(4.4, steady, |_, turns| {
         let line = |k: f64| (TAU * k * order * turns).cos();
-        let falling: f64 = (1..=5)
-            .map(|k| 0.5 * 0.5_f64.powi(k - 1) * line(f64::from(k)))
-            .sum();
+        let falling: f64 = (1..=5).map(|k| 0.5 * 0.5_f64.powi(k - 1) * line(f64::from(k))).sum();
         let halfway = 0.045 * (line(0.5) + line(1.5) + line(2.5));
         (1.0 + falling + halfway) * noise.normal()
     });
@@ -53,24 +49,11 @@ fn weak_lines_halfway_are_no_fundamental() {
 #[test]
 fn the_cage_of_another_bearing_is_said() {
     let cage = 0.9 * bearing().cage;
-    let found = judged(
-        &one_ball_differs(6.0, cage, 0.3, 31),
-        steady,
-        &bearing(),
-        0.01,
-    );
+    let found = judged(&one_ball_differs(6.0, cage, 0.3, 31), steady, &bearing(), 0.01);
     let impacts = alone(&found);
     // half of the resolution of 150 revolutions at the second harmonic
-    assert!(
-        (impacts.order - cage).abs() < 0.5 / 150.0 / 2.0,
-        "{impacts:?}"
-    );
-    let quiet = judged(
-        &one_ball_differs(6.0, cage, 0.0, 32),
-        steady,
-        &bearing(),
-        0.01,
-    );
+    assert!((impacts.order - cage).abs() < 0.5 / 150.0 / 2.0, "{impacts:?}");
+    let quiet = judged(&one_ball_differs(6.0, cage, 0.0, 32), steady, &bearing(), 0.01);
     assert_eq!(quiet.unexplained, []);
 }
 

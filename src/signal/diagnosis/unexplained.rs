@@ -32,11 +32,7 @@ pub(super) fn has_teeth_between(masked: &[Masked<'_>], fit: &Fit, part: u32) -> 
 
 impl Search<'_> {
     /// The best comb that is none of a part, of the shaft, or of what an explained part and the shaft or the cage make together.
-    pub(super) fn something_else(
-        &self,
-        masked: &[Masked<'_>],
-        explained: &[Fault],
-    ) -> Option<Candidate> {
+    pub(super) fn something_else(&self, masked: &[Masked<'_>], explained: &[Fault]) -> Option<Candidate> {
         let [from, to] = UNEXPLAINED_ORDERS;
         let resolution = self.spectra.first()?.lines.resolution;
         let mut best: Option<Fit> = None;
@@ -62,17 +58,11 @@ impl Search<'_> {
             let mut fits = parts
                 .filter(|part| best.order / f64::from(*part) >= least)
                 .filter_map(|part| Some((part, fit_at(best.order / f64::from(part))?)));
-            let same = fits.find(|(part, fit)| {
-                fit.score >= SAME_COMB * best.score && has_teeth_between(masked, fit, *part)
-            });
+            let same =
+                fits.find(|(part, fit)| fit.score >= SAME_COMB * best.score && has_teeth_between(masked, fit, *part));
             same.map(|(_, fit)| fit)
         });
-        lowest.or(best).map(|fit| Candidate {
-            fault: None,
-            fit,
-            beside: None,
-            relative_reach: 0.0,
-        })
+        lowest.or(best).map(|fit| Candidate { fault: None, fit, beside: None, relative_reach: 0.0 })
     }
 
     /// Whether an order is one of the shaft's, or one of a part: its first harmonics, and of a ball its spin. Of a part that explains lines also what

@@ -227,9 +227,7 @@ fn first_seen(harmonics: &[Harmonic]) -> bool {
 
 impl Evidence {
     pub(super) fn of(harmonics: &[Harmonic], lines: &LineSpectrum) -> Self {
-        let deciding = harmonics
-            .iter()
-            .filter(|h| h.side == 0 && h.harmonic <= lines.harmonics);
+        let deciding = harmonics.iter().filter(|h| h.side == 0 && h.harmonic <= lines.harmonics);
         let free: Vec<&Harmonic> = deciding.filter(|h| h.coincides_with.is_none()).collect();
         // a finer resolution takes the floor down and leaves the lines
         let finer_db = 10.0 * (REVOLUTIONS * lines.resolution).max(1.0).log10();
@@ -242,11 +240,7 @@ impl Evidence {
                 impulsiveness: LEAST_SHORT_IMPULSIVENESS,
             }
         } else {
-            Least {
-                seen: LEAST_HARMONICS,
-                strength_db: LEAST_STRENGTH_DB,
-                impulsiveness: LEAST_IMPULSIVENESS,
-            }
+            Least { seen: LEAST_HARMONICS, strength_db: LEAST_STRENGTH_DB, impulsiveness: LEAST_IMPULSIVENESS }
         };
         Self {
             free: free.len(),
@@ -262,12 +256,8 @@ impl Evidence {
     pub(super) fn is_clear(&self) -> bool {
         self.seen >= self.least.seen
             && self.first
-            && self
-                .strength_db
-                .is_some_and(|db| db >= self.least.strength_db)
-            && self
-                .impulsiveness
-                .is_none_or(|x| x >= self.least.impulsiveness)
+            && self.strength_db.is_some_and(|db| db >= self.least.strength_db)
+            && self.impulsiveness.is_none_or(|x| x >= self.least.impulsiveness)
     }
 }
 
@@ -296,23 +286,14 @@ pub fn probability(chance: f64) -> String {
 }
 
 /// Conclusion and reason.
-pub(super) fn conclude(
-    verdict: &FaultVerdict,
-    evidence: &Evidence,
-    chance: f64,
-) -> (Conclusion, String) {
+pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64) -> (Conclusion, String) {
     let (free, seen) = (evidence.free, evidence.seen);
     let strength = evidence.strength_db.unwrap_or(0.0);
-    let mut found = format!(
-        "{seen} of {free} free harmonics stand out; probability by chance {}",
-        probability(chance)
-    );
+    let mut found = format!("{seen} of {free} free harmonics stand out; probability by chance {}", probability(chance));
     if chance >= UNSEEN_ABOVE {
         return (Conclusion::NotSeen, format!("{found}."));
     }
-    found.push_str(&format!(
-        "; {strength:.0} dB above the floor on the average"
-    ));
+    found.push_str(&format!("; {strength:.0} dB above the floor on the average"));
     if let Some([from, to]) = verdict.band_hz {
         found.push_str(&format!(", band {from:.0} to {to:.0} Hz"));
     }
@@ -342,13 +323,8 @@ pub(super) fn conclude(
             evidence.least.seen
         ));
     }
-    if verdict
-        .impulsiveness
-        .is_some_and(|x| x < evidence.least.impulsiveness)
-    {
-        return not_enough(
-            "That is a slow modulation, which balls passing under the load make without any damage.",
-        );
+    if verdict.impulsiveness.is_some_and(|x| x < evidence.least.impulsiveness) {
+        return not_enough("That is a slow modulation, which balls passing under the load make without any damage.");
     }
     if strength < evidence.least.strength_db {
         return not_enough(

@@ -62,10 +62,7 @@ impl Diagnosis {
         window.check_inside(signal.start_s(), signal.step_s(), samples)?;
         let judged = signal.window(window.from, window.to)?;
         if judged.kurtosis().is_none() {
-            return Err(DiagnosisError::Constant {
-                from_s: window.from,
-                to_s: window.to,
-            });
+            return Err(DiagnosisError::Constant { from_s: window.from, to_s: window.to });
         }
         check_band(asked_hz, signal)?;
         let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
@@ -78,19 +75,11 @@ impl Diagnosis {
         let mut speed = ShaftSpeed::of(signal, &white, asked_hz, window, &turns, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
-        let given_speed_hz =
-            (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
+        let given_speed_hz = (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
         let search = |speed: ShaftSpeed| -> Result<(Spectra, Found), DiagnosisError> {
             let sharp = |time: f64| speed.factor * turns(time);
             let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
-            let spectra = band_spectra(
-                &white,
-                impulsive.as_ref(),
-                &grid,
-                within_hz,
-                strikes_hz,
-                highest,
-            )?;
+            let spectra = band_spectra(&white, impulsive.as_ref(), &grid, within_hz, strikes_hz, highest)?;
             let search = Search {
                 spectra: &spectra.lines,
                 fine: &spectra.fine,
@@ -109,26 +98,13 @@ impl Diagnosis {
             speed = races;
             (spectra, found) = search(speed)?;
         }
-        say_strictly_periodic(
-            &mut found.faults,
-            &white,
-            within_hz,
-            orders,
-            speed.factor * given_speed_hz,
-            speed,
-        );
+        say_strictly_periodic(&mut found.faults, &white, within_hz, orders, speed.factor * given_speed_hz, speed);
         let sharp = |time: f64| speed.factor * turns(time);
-        let best = spectra
-            .lines
-            .get(found.spectrum)
-            .ok_or(DiagnosisError::NoEnvelope)?;
+        let best = spectra.lines.get(found.spectrum).ok_or(DiagnosisError::NoEnvelope)?;
         let envelope = white.envelope(best.band_hz);
         let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
         let shown = TimeSeries::new(envelope.start_s, envelope.step_s, "", magnitude)?;
-        let shown_window = TimeWindow {
-            from: window.from,
-            to: window.to.min(shown.end_s()),
-        };
+        let shown_window = TimeWindow { from: window.from, to: window.to.min(shown.end_s()) };
         Ok(Self {
             speed_hz: speed.factor * given_speed_hz,
             given_speed_hz,
@@ -151,9 +127,7 @@ impl Diagnosis {
 
     /// Takes the indication of a fault back, for a reason that the signal does not know.
     pub fn doubt(&mut self, fault: Fault, reason: &str) {
-        let indicated = |verdict: &&mut FaultVerdict| {
-            verdict.fault == fault && verdict.conclusion == Conclusion::Named
-        };
+        let indicated = |verdict: &&mut FaultVerdict| verdict.fault == fault && verdict.conclusion == Conclusion::Named;
         if let Some(verdict) = self.faults.iter_mut().find(indicated) {
             verdict.conclusion = Conclusion::NotEnough;
             verdict.why = format!("{} {reason}", verdict.why);
@@ -186,9 +160,9 @@ impl Diagnosis {
         let speed = format!("{:.2}", self.speed_hz);
         match self.speed_source {
             SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
-            SpeedSource::Given => Some(format!(
-                "no line of the signal confirms the speed of {speed} Hz: {consequence}"
-            )),
+            SpeedSource::Given => {
+                Some(format!("no line of the signal confirms the speed of {speed} Hz: {consequence}"))
+            }
             SpeedSource::EverySecond => Some(format!(
                 "lines stand halfway between those of a shaft at {speed} Hz, so that it may turn half as fast: {consequence}"
             )),
@@ -216,32 +190,17 @@ impl Diagnosis {
     #[must_use]
     pub fn sentence(&self) -> String {
         let of = |conclusion: Conclusion| {
-            let of = self
-                .faults
-                .iter()
-                .filter(|verdict| verdict.conclusion == conclusion);
+            let of = self.faults.iter().filter(|verdict| verdict.conclusion == conclusion);
             of.map(|verdict| verdict.fault.name()).collect::<Vec<_>>()
         };
-        let parts = [
-            Conclusion::Named,
-            Conclusion::NotEnough,
-            Conclusion::NotSeen,
-        ];
-        let parts = parts
-            .into_iter()
-            .map(|conclusion| (of(conclusion), conclusion.words()));
+        let parts = [Conclusion::Named, Conclusion::NotEnough, Conclusion::NotSeen];
+        let parts = parts.into_iter().map(|conclusion| (of(conclusion), conclusion.words()));
         let parts = parts.filter(|(faults, _)| !faults.is_empty());
-        let mut parts: Vec<String> = parts
-            .map(|(faults, word)| format!("{word}: {}", faults.join(", ")))
-            .collect();
+        let mut parts: Vec<String> = parts.map(|(faults, word)| format!("{word}: {}", faults.join(", "))).collect();
         let alone = self.by_signal_alone.iter().map(|fault| fault.name());
         let alone: Vec<&str> = alone.collect();
         if !alone.is_empty() {
-            parts.push(format!(
-                "by the signal alone {}: {}",
-                Conclusion::Named.words(),
-                alone.join(", ")
-            ));
+            parts.push(format!("by the signal alone {}: {}", Conclusion::Named.words(), alone.join(", ")));
         }
         parts.extend(self.unexplained.iter().map(|impacts| {
             format!(

@@ -17,9 +17,7 @@ mod power;
 mod stored;
 
 use super::coupled::CoupledSystem;
-use crate::numerics::ode::{
-    Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State,
-};
+use crate::numerics::ode::{Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State};
 use integral::Integral;
 use power::Powers;
 use schemars::JsonSchema;
@@ -65,11 +63,7 @@ impl EnergyBalance {
     /// What does not add up, `input - dissipated - stored`, in units of what was exchanged; 0 if nothing was.
     pub fn error(&self) -> f64 {
         let gap = self.input_j() - self.dissipated_j() - self.stored_j;
-        if self.exchanged_j > 0.0 {
-            gap / self.exchanged_j
-        } else {
-            0.0
-        }
+        if self.exchanged_j > 0.0 { gap / self.exchanged_j } else { 0.0 }
     }
 }
 
@@ -106,12 +100,7 @@ impl EnergyMeter {
     pub fn balance(&self, system: &mut CoupledSystem, end: &State) -> Option<EnergyBalance> {
         let mut force = vec![0.0; end.y.len()];
         system.force_into(end.t, &end.y, &end.v, &mut force);
-        let now = Instant {
-            step: 0,
-            t: end.t,
-            y: &end.y,
-            v: &end.v,
-        };
+        let now = Instant { step: 0, t: end.t, y: &end.y, v: &end.v };
         let integrals = self.integral.of(self.step);
         let [loads_j, rotation_j, modal_damping_j, contact, blending_j] = integrals;
         Some(EnergyBalance {

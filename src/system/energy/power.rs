@@ -77,19 +77,10 @@ impl Powers {
         if group.penetration[lane] <= -system.inner.rise() {
             return;
         }
-        let (n, e) = (
-            group.inner_normal.map(|n| n[lane]),
-            system.balls.direction_of(j),
-        );
+        let (n, e) = (group.inner_normal.map(|n| n[lane]), system.balls.direction_of(j));
         let turn = system.radius(j) * motion.cage.speed;
-        let moving = [
-            rate * e[0] - turn * e[1] - motion.centre[0],
-            rate * e[1] + turn * e[0] - motion.centre[1],
-        ];
-        let rates = [
-            -(n[0] * moving[0] + n[1] * moving[1]),
-            n[0] * moving[1] - n[1] * moving[0],
-        ];
+        let moving = [rate * e[0] - turn * e[1] - motion.centre[0], rate * e[1] + turn * e[0] - motion.centre[1]];
+        let rates = [-(n[0] * moving[0] + n[1] * moving[1]), n[0] * moving[1] - n[1] * moving[0]];
         let on_race = group.on_inner.map(|force| force[lane]);
         let tangential = n[0] * on_race[1] - n[1] * on_race[0];
         let (damage, place) = system.inner_place(j, rates, &motion.shaft);
@@ -97,8 +88,8 @@ impl Powers {
             Damage::Flat(_) => place.spin[1],
             _ => place.turning,
         };
-        self.flows[1] += turn * (on_race[1] * e[0] - on_race[0] * e[1])
-            - tangential * group.inner_distance[lane] * carrier;
+        self.flows[1] +=
+            turn * (on_race[1] * e[0] - on_race[0] * e[1]) - tangential * group.inner_distance[lane] * carrier;
         self.flows[3] += system.inner.energy(damage, &place, rates).dissipated;
         let around = rates[1] / group.inner_distance[lane];
         self.flows[4] += system.inner.blending(damage, &place, rates, around);
@@ -124,9 +115,7 @@ impl Powers {
         if system.outer.is_irregular() {
             let moved = lanes::dot(self.row.iter(), &self.velocities);
             let at = system.tangential_place(j);
-            system
-                .tangential
-                .slopes_into(at, speed / TAU, &mut self.row);
+            system.tangential.slopes_into(at, speed / TAU, &mut self.row);
             let carried = lanes::dot(self.row.iter(), amplitudes);
             let carrier = match damage {
                 Damage::Flat(_) => system.radius(j) * place.spin[1],
@@ -136,16 +125,10 @@ impl Powers {
             along -= carried + moved;
         }
         self.flows[1] -= group.outer_radial[lane] * climbed;
-        let RaceEnergy {
-            dissipated,
-            damping,
-            ..
-        } = system.outer.energy(damage, &place, [towards, along]);
+        let RaceEnergy { dissipated, damping, .. } = system.outer.energy(damage, &place, [towards, along]);
         self.flows[3] += dissipated;
         let around = along / system.radius(j);
-        self.flows[4] += system
-            .outer
-            .blending(damage, &place, [towards, along], around);
+        self.flows[4] += system.outer.blending(damage, &place, [towards, along], around);
         if let Some(coupling) = &system.residual {
             let weight = coupling.weight::<0>().as_flattened()[j];
             self.yielding[j] = [damping, displaced + weight];
@@ -158,10 +141,8 @@ impl CoupledSystem {
     fn load_power(&self, now: &Instant<'_>, motion: &Motion) -> f64 {
         let [mut x, mut y] = self.setup.shaft_load(now.t);
         let ([cos, sin], unbalance) = (self.work.shaft_direction, self.setup.shaft.unbalance);
-        let (centrifugal, tangential) = (
-            unbalance * motion.shaft.speed * motion.shaft.speed,
-            unbalance * motion.shaft.acceleration,
-        );
+        let (centrifugal, tangential) =
+            (unbalance * motion.shaft.speed * motion.shaft.speed, unbalance * motion.shaft.acceleration);
         x += centrifugal * cos + tangential * sin;
         y += centrifugal * sin - tangential * cos;
         let weight = self.gravity.as_flattened().iter().zip(&now.v[..self.modes]);
@@ -178,20 +159,10 @@ impl CoupledSystem {
     }
 
     /// What ball `j` feels at the inner race, and its place there at rates towards and along the race, m/s.
-    pub(super) fn inner_place(
-        &self,
-        j: usize,
-        [rate, along]: [f64; 2],
-        shaft: &RotationState,
-    ) -> (Damage, RacePlace) {
+    pub(super) fn inner_place(&self, j: usize, [rate, along]: [f64; 2], shaft: &RotationState) -> (Damage, RacePlace) {
         let gap = self.balls.inner_gap(j);
-        let mut place = RacePlace {
-            penetration: gap.penetration,
-            rate,
-            along,
-            turning: shaft.speed,
-            ..RacePlace::default()
-        };
+        let mut place =
+            RacePlace { penetration: gap.penetration, rate, along, turning: shaft.speed, ..RacePlace::default() };
         if !self.inner.is_irregular() {
             return (Damage::None, place);
         }
@@ -213,12 +184,7 @@ impl CoupledSystem {
 
     /// What ball `j` feels at the outer race, and its place there at the rates of the last evaluation; on an irregular race
     /// `row` becomes that of the tangential displacement.
-    pub(super) fn outer_place(
-        &self,
-        j: usize,
-        displaced: f64,
-        row: &mut [Lanes],
-    ) -> (Damage, RacePlace) {
+    pub(super) fn outer_place(&self, j: usize, displaced: f64, row: &mut [Lanes]) -> (Damage, RacePlace) {
         let mut place = RacePlace {
             penetration: self.balls.get(j, |ball| &ball.gap) - displaced,
             rate: self.balls.get(j, |ball| &ball.rate),

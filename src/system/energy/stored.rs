@@ -8,22 +8,17 @@ use crate::numerics::ode::Instant;
 impl CoupledSystem {
     /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.
     pub(in crate::system) fn has_energy(&self) -> bool {
-        self.setup.formulation == Formulation::Consistent
-            && self.setup.balls_inertia == BallsInertia::Dynamic
+        self.setup.formulation == Formulation::Consistent && self.setup.balls_inertia == BallsInertia::Dynamic
     }
 
     /// Kinetic and elastic energy of a state at which the force was evaluated last, J.
     pub(in crate::system) fn stored_energy(&self, &Instant { t, y, v, .. }: &Instant<'_>) -> f64 {
         let modes = self.modes;
-        let of_modes: f64 = (0..modes)
-            .map(|i| v[i] * v[i] + self.linear[i].squared_frequency * y[i] * y[i])
-            .sum();
+        let of_modes: f64 = (0..modes).map(|i| v[i] * v[i] + self.linear[i].squared_frequency * y[i] * y[i]).sum();
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let kinetic = self.setup.shaft.mass * squares(&v[modes..modes + 2])
             + self.setup.geometry.ball_mass() * squares(&v[modes + 2..]);
-        let contacts: f64 = (0..self.balls.count)
-            .map(|j| self.contact_energy(t, j))
-            .sum();
+        let contacts: f64 = (0..self.balls.count).map(|j| self.contact_energy(t, j)).sum();
         0.5 * (of_modes + kinetic) + contacts
     }
 

@@ -40,9 +40,6 @@ impl StaticCondition {
     /// The same with `factor` times the force on the shaft.
     #[must_use]
     pub fn loaded(self, factor: f64) -> Self {
-        Self {
-            load: self.load.map(|force| factor * force),
-            ..self
-        }
+        Self { load: self.load.map(|force| factor * force), ..self }
     }
 }

@@ -66,11 +66,7 @@ impl Equilibrium {
     /// # Errors
     /// [`SystemError::NotSupported`], [`SystemError::NoEquilibrium`],
     /// [`SystemError::NothingHoldsTheShaft`].
-    pub fn find(
-        structure: &Structure,
-        setup: &BearingSetup,
-        condition: StaticCondition,
-    ) -> Result<Self, SystemError> {
+    pub fn find(structure: &Structure, setup: &BearingSetup, condition: StaticCondition) -> Result<Self, SystemError> {
         let (mut problem, loads) = Problem::new(structure, setup, condition)?;
         let start = start(setup, condition, 0.0)?;
         let found = problem.descend(start)?;
@@ -109,9 +105,7 @@ impl Equilibrium {
             }
         }
         let results = found.iter();
-        Ok(results
-            .map(|found| problem.result(found, &loads, structure))
-            .collect())
+        Ok(results.map(|found| problem.result(found, &loads, structure)).collect())
     }
 
     /// Whether every displacement from it that a contact or the structure feels needs work.
@@ -131,8 +125,7 @@ impl Problem<'_> {
                 let contacts: f64 = (0..balls)
                     .map(|j| {
                         let force = &evaluation.outer[j];
-                        loads[(row, 2 * j)] * force.radial
-                            + loads[(row, 2 * j + 1)] * force.tangential
+                        loads[(row, 2 * j)] * force.radial + loads[(row, 2 * j + 1)] * force.tangential
                     })
                     .sum();
                 contacts + loads[(row, 2 * balls)]
@@ -171,9 +164,7 @@ impl Problem<'_> {
             .static_response(&column)
             .map(|response| {
                 [0, 1].map(|component| {
-                    let sum: f64 = (0..nodes)
-                        .map(|node| response[(3 * node + component, 0)])
-                        .sum();
+                    let sum: f64 = (0..nodes).map(|node| response[(3 * node + component, 0)]).sum();
                     sum / nodes as f64
                 })
             })
@@ -209,11 +200,7 @@ fn keep(all: &mut Vec<Found>, new: Found) {
 }
 
 /// Shaft displaced into the clearance at an angle (rad) from the load, balls touching the outer race.
-fn start(
-    setup: &BearingSetup,
-    condition: StaticCondition,
-    angle: f64,
-) -> Result<DVector<f64>, SystemError> {
+fn start(setup: &BearingSetup, condition: StaticCondition, angle: f64) -> Result<DVector<f64>, SystemError> {
     let [x, y] = condition.load;
     let size = x.hypot(y);
     let play = setup.geometry.radial_play();

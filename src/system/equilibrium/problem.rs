@@ -40,18 +40,14 @@ impl<'a> Problem<'a> {
         condition: StaticCondition,
     ) -> Result<(Self, DenseMatrix), SystemError> {
         let balls = setup.balls();
-        let angles: Vec<f64> = (0..balls)
-            .map(|j| setup.cage.ball_angle(condition.cage_angle, j as u32))
-            .collect();
+        let angles: Vec<f64> = (0..balls).map(|j| setup.cage.ball_angle(condition.cage_angle, j as u32)).collect();
         let rows = contact_rows(structure, setup, &angles);
         let weighted = setup.formulation == Formulation::Consistent;
         let loads =
-            DenseMatrix::from_fn(structure.dof(), 2 * balls + 1, |row, column| {
-                match column.checked_sub(2 * balls) {
-                    None => rows[(row, column)],
-                    Some(_) if weighted => structure.gravity()[row],
-                    Some(_) => 0.0,
-                }
+            DenseMatrix::from_fn(structure.dof(), 2 * balls + 1, |row, column| match column.checked_sub(2 * balls) {
+                None => rows[(row, column)],
+                Some(_) if weighted => structure.gravity()[row],
+                Some(_) => 0.0,
             });
         let responses = structure.static_response(&loads)?;
         let at_contacts = rows.transpose() * &responses;
@@ -122,12 +118,7 @@ impl<'a> Problem<'a> {
                 }
             }
         }
-        Evaluation {
-            gradient,
-            hessian,
-            inner,
-            outer,
-        }
+        Evaluation { gradient, hessian, inner, outer }
     }
 
     /// Outer contact forces for given ball positions, and their derivatives [balls x balls] with
@@ -139,8 +130,7 @@ impl<'a> Problem<'a> {
                 .map(|j| {
                     let s = z[2 + j];
                     let shift = race[2 * j + 1] / (self.touching_radius() + s);
-                    self.races
-                        .outer_force(j, self.angles[j], shift, s - race[2 * j])
+                    self.races.outer_force(j, self.angles[j], shift, s - race[2 * j])
                 })
                 .collect();
             let vector = DVector::from_fn(2 * balls, |i, _| match i % 2 {
@@ -178,9 +168,8 @@ impl<'a> Problem<'a> {
         let follow = DMatrix::identity(2 * balls, 2 * balls) + &tangent * &self.flexibility;
         let stiffness = follow.lu().solve(&tangent).unwrap_or(tangent);
         self.race = race;
-        let radial = DMatrix::from_fn(balls, balls, |i, j| {
-            0.5 * (stiffness[(2 * i, 2 * j)] + stiffness[(2 * j, 2 * i)])
-        });
+        let radial =
+            DMatrix::from_fn(balls, balls, |i, j| 0.5 * (stiffness[(2 * i, 2 * j)] + stiffness[(2 * j, 2 * i)]));
         (forces, radial)
     }
 
@@ -198,11 +187,7 @@ impl<'a> Problem<'a> {
 
 /// Rows of the race's displacement at the balls, as columns [dof x 2 balls]: radial, then
 /// tangential at the raceway, for each ball.
-pub(in crate::system) fn contact_rows(
-    structure: &Structure,
-    setup: &BearingSetup,
-    angles: &[f64],
-) -> DenseMatrix {
+pub(in crate::system) fn contact_rows(structure: &Structure, setup: &BearingSetup, angles: &[f64]) -> DenseMatrix {
     let ring = structure.ring();
     let arm = setup.raceway_arm(ring.section().radius);
     let mut columns = DenseMatrix::zeros(structure.dof(), 2 * angles.len());

@@ -44,13 +44,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    fn new(
-        z: DVector<f64>,
-        evaluation: Evaluation,
-        iterations: usize,
-        eigen: &Eigen,
-        falling: f64,
-    ) -> Self {
+    fn new(z: DVector<f64>, evaluation: Evaluation, iterations: usize, eigen: &Eigen, falling: f64) -> Self {
         let curvatures = eigen.eigenvalues.iter();
         Self {
             z,
@@ -64,8 +58,7 @@ impl Found {
     /// Smallest curvature among directions that a contact holds, N/m.
     pub(super) fn least_curvature(&self) -> f64 {
         let held = self.curvatures.iter().copied();
-        held.filter(|value| value.abs() > HELD)
-            .fold(f64::INFINITY, f64::min)
+        held.filter(|value| value.abs() > HELD).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -84,13 +77,7 @@ impl Problem<'_> {
             let balanced = self.balanced(&evaluation, before);
             before = evaluation.gradient.amax();
             if balanced && !saddle {
-                return Ok(Found::new(
-                    z,
-                    evaluation,
-                    iterations,
-                    &eigen,
-                    self.falling(),
-                ));
+                return Ok(Found::new(z, evaluation, iterations, &eigen, self.falling()));
             }
             go_on(&evaluation, iterations)?;
             let step = if balanced {
@@ -100,9 +87,7 @@ impl Problem<'_> {
                     true => [LONGEST_STEP; 2],
                     false => FAR,
                 };
-                newton(&eigen, &evaluation.gradient, most, |curvature| {
-                    curvature.abs().max(HELD)
-                })
+                newton(&eigen, &evaluation.gradient, most, |curvature| curvature.abs().max(HELD))
             };
             evaluation = self.walk(&mut z, step, &evaluation);
             iterations += 1;
@@ -119,21 +104,12 @@ impl Problem<'_> {
         loop {
             let eigen = evaluation.hessian.clone().symmetric_eigen();
             if self.balanced(&evaluation, before) {
-                return Ok(Found::new(
-                    z,
-                    evaluation,
-                    iterations,
-                    &eigen,
-                    self.falling(),
-                ));
+                return Ok(Found::new(z, evaluation, iterations, &eigen, self.falling()));
             }
             go_on(&evaluation, iterations)?;
-            let mut step = newton(
-                &eigen,
-                &evaluation.gradient,
-                [LONGEST_STEP; 2],
-                |curvature| curvature.abs().max(HELD).copysign(curvature),
-            );
+            let mut step = newton(&eigen, &evaluation.gradient, [LONGEST_STEP; 2], |curvature| {
+                curvature.abs().max(HELD).copysign(curvature)
+            });
             before = evaluation.gradient.amax();
             let size = evaluation.gradient.norm();
             for _ in 0..HALVINGS {
@@ -163,12 +139,7 @@ impl Problem<'_> {
 
     /// Goes along `step`, shortened until the potential's slope along it says that the minimum was
     /// not overrun by more than half.
-    fn walk(
-        &mut self,
-        z: &mut DVector<f64>,
-        mut step: DVector<f64>,
-        before: &Evaluation,
-    ) -> Evaluation {
+    fn walk(&mut self, z: &mut DVector<f64>, mut step: DVector<f64>, before: &Evaluation) -> Evaluation {
         let slope = before.gradient.dot(&step).abs();
         for _ in 0..HALVINGS {
             let trial = &*z + &step;
@@ -189,10 +160,7 @@ impl Problem<'_> {
 fn go_on(evaluation: &Evaluation, iterations: usize) -> Result<(), SystemError> {
     let residual_n = evaluation.gradient.amax();
     if iterations == MAX_ITERATIONS || !residual_n.is_finite() {
-        return Err(SystemError::NoEquilibrium {
-            iterations,
-            residual_n,
-        });
+        return Err(SystemError::NoEquilibrium { iterations, residual_n });
     }
     Ok(())
 }
@@ -200,17 +168,9 @@ fn go_on(evaluation: &Evaluation, iterations: usize) -> Result<(), SystemError> 
 /// Newton's step with the curvatures as `used` makes them, at most so far (m) along directions that contacts hold, which is the
 /// limit of any coordinate too, and along the others: a ball that nothing holds crosses the clearance in such steps, however little
 /// it weighs.
-fn newton(
-    eigen: &Eigen,
-    gradient: &DVector<f64>,
-    [held, free]: [f64; 2],
-    used: impl Fn(f64) -> f64,
-) -> DVector<f64> {
+fn newton(eigen: &Eigen, gradient: &DVector<f64>, [held, free]: [f64; 2], used: impl Fn(f64) -> f64) -> DVector<f64> {
     let mut step = DVector::zeros(gradient.len());
-    let pairs = eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter());
+    let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
     for (&curvature, direction) in pairs {
         let along = direction.dot(gradient) / used(curvature);
         let most = if curvature > HELD { held } else { free };

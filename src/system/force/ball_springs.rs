@@ -17,9 +17,7 @@ pub(super) fn find_own_springs(system: &CoupledSystem, springs: &mut [f64], size
     springs[..balls].fill(0.0);
     mode_sizes(system, &mut sizes[..system.modes]);
     sizes[system.modes..balls].fill(0.0);
-    if system.setup.balls_inertia == BallsInertia::QuasiStatic
-        || system.setup.formulation == Formulation::Printed
-    {
+    if system.setup.balls_inertia == BallsInertia::QuasiStatic || system.setup.formulation == Formulation::Printed {
         springs[balls..].fill(0.0);
         sizes[balls..].fill(0.0);
         return;
@@ -68,10 +66,6 @@ fn mode_sizes(system: &CoupledSystem, sizes: &mut [f64]) {
 #[inline(always)]
 fn tangent(force: f64, overlap: f64) -> f64 {
     // no branch, so that the lanes stay together
-    let overlap = if overlap > 0.0 {
-        overlap
-    } else {
-        f64::INFINITY
-    };
+    let overlap = if overlap > 0.0 { overlap } else { f64::INFINITY };
     1.5 * force / overlap
 }

@@ -25,14 +25,7 @@ impl SecondOrderSystem for CoupledSystem {
         self.work.force = g;
     }
 
-    fn force_and_tangent_into(
-        &mut self,
-        t: f64,
-        y: &[f64],
-        v: &[f64],
-        g: &mut [f64],
-        tangent: &mut Tangent,
-    ) {
+    fn force_and_tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64], tangent: &mut Tangent) {
         evaluate(self, t, y, v, g);
         self.add_tangent(t, [y, v, g], tangent);
     }
@@ -69,19 +62,11 @@ impl SecondOrderSystem for CoupledSystem {
         };
         let beyond = |value: &f64| value.abs() > limit;
         // all at once, as in nearly every call none is
-        if !positions
-            .iter()
-            .fold(false, |any, value| any | beyond(value))
-        {
+        if !positions.iter().fold(false, |any, value| any | beyond(value)) {
             return Ok(());
         }
         match positions.iter().position(beyond) {
-            Some(place) => Err(Divergence::OutOfRange {
-                what: name(place),
-                value: positions[place],
-                limit,
-                unit: "m",
-            }),
+            Some(place) => Err(Divergence::OutOfRange { what: name(place), value: positions[place], limit, unit: "m" }),
             None => Ok(()),
         }
     }
@@ -151,8 +136,7 @@ impl CoupledSystem {
             let rows = lanes::first::<M, _>(&group.rows);
             for (force, [a, b, c, d]) in forces.iter_mut().zip(rows) {
                 *force = lanes::each(|l| {
-                    (force[l] + (radial[0] * a[l] + radial[1] * b[l]))
-                        + (radial[2] * c[l] + radial[3] * d[l])
+                    (force[l] + (radial[0] * a[l] + radial[1] * b[l])) + (radial[2] * c[l] + radial[3] * d[l])
                 });
             }
         }
@@ -174,8 +158,7 @@ impl CoupledSystem {
                 if force != 0.0 {
                     let at = self.tangential_place(number * LANES + lane);
                     let (work, row) = (&mut self.work.modal_force, &mut self.work.scratch_row);
-                    self.tangential
-                        .values_into(at, &self.work.amplitudes, row.iter_mut());
+                    self.tangential.values_into(at, &self.work.amplitudes, row.iter_mut());
                     lanes::add_scaled(work, force, row);
                 }
             }
@@ -193,10 +176,7 @@ impl CoupledSystem {
         let unbalance = self.setup.shaft.unbalance;
         if unbalance != 0.0 {
             let [cos, sin] = self.work.shaft_direction;
-            let (centrifugal, tangential) = (
-                unbalance * shaft.speed * shaft.speed,
-                unbalance * shaft.acceleration,
-            );
+            let (centrifugal, tangential) = (unbalance * shaft.speed * shaft.speed, unbalance * shaft.acceleration);
             total[0] += centrifugal * cos + tangential * sin;
             total[1] += centrifugal * sin - tangential * cos;
         }
@@ -208,12 +188,7 @@ impl CoupledSystem {
 
     /// Contacts, weight and centrifugal load on the balls.
     #[inline(always)]
-    fn ball_forces<const B: usize>(
-        &mut self,
-        centre: &CentreMotion,
-        cage: &RotationState,
-        g: &mut [f64],
-    ) {
+    fn ball_forces<const B: usize>(&mut self, centre: &CentreMotion, cage: &RotationState, g: &mut [f64]) {
         let gravity = self.setup.gravity;
         let frame = [0, 1].map(|k| gravity[k] - centre.acceleration[k]);
         let softness = self.ball_mobility;
@@ -226,9 +201,7 @@ impl CoupledSystem {
             let outer = &group.outer_radial;
             let force = lanes::each(|l| {
                 let inner = -(x[l] * cos[l] + y[l] * sin[l]);
-                (touching + s[l]) * square
-                    + (inner - outer[l]) * softness
-                    + (cos[l] * frame[0] + sin[l] * frame[1])
+                (touching + s[l]) * square + (inner - outer[l]) * softness + (cos[l] * frame[0] + sin[l] * frame[1])
             });
             lanes::put(&force, out);
         }

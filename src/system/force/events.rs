@@ -48,9 +48,7 @@ impl CoupledSystem {
         }
         for (group, inner) in self.balls.groups.iter().zip(inner.chunks_mut(LANES)) {
             let [cos, sin] = &group.direction;
-            let gaps = self
-                .inner_race
-                .gaps([cos, sin], &group.displacement, relative);
+            let gaps = self.inner_race.gaps([cos, sin], &group.displacement, relative);
             for (l, inner) in inner.iter_mut().enumerate() {
                 *inner = gaps.penetration[l] + group.oversize[l];
             }

@@ -52,10 +52,7 @@ impl CoupledSystem {
                     force[l] * positive(1.0 + law.damping * approach)
                 });
             }
-            group.on_inner = [
-                lanes::each(|l| -force[l] * n_x[l]),
-                lanes::each(|l| -force[l] * n_y[l]),
-            ];
+            group.on_inner = [lanes::each(|l| -force[l] * n_x[l]), lanes::each(|l| -force[l] * n_y[l])];
             group.penetration = penetration;
             group.inner_distance = gap.distance;
             group.inner_normal = gap.normal;
@@ -67,21 +64,13 @@ impl CoupledSystem {
         let mut sums = [[0.0; LANES]; 2];
         for group in lanes::first::<B, _>(&self.balls.groups) {
             let [x, y] = &group.on_inner;
-            sums = [
-                lanes::each(|l| sums[0][l] + x[l]),
-                lanes::each(|l| sums[1][l] + y[l]),
-            ];
+            sums = [lanes::each(|l| sums[0][l] + x[l]), lanes::each(|l| sums[1][l] + y[l])];
         }
         self.work.on_shaft = [lanes::total(&sums[0]), lanes::total(&sums[1])];
     }
 
     /// The same for balls near a race that carries waves or defects, or that may meet a ball's flat.
-    fn irregular_inner_forces(
-        &mut self,
-        velocity: [f64; 2],
-        shaft: &RotationState,
-        cage: &RotationState,
-    ) {
+    fn irregular_inner_forces(&mut self, velocity: [f64; 2], shaft: &RotationState, cage: &RotationState) {
         let rise = self.inner.rise();
         for j in 0..self.balls.count {
             let gap = self.balls.inner_gap(j);
@@ -91,10 +80,7 @@ impl CoupledSystem {
             let (n, e) = (gap.normal, self.balls.direction_of(j));
             let rate = self.balls.get(j, |ball| &ball.displacement_rate);
             let turn = self.radius(j) * cage.speed;
-            let moving = [
-                rate * e[0] - turn * e[1] - velocity[0],
-                rate * e[1] + turn * e[0] - velocity[1],
-            ];
+            let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
             let approach = -(n[0] * moving[0] + n[1] * moving[1]);
             let across = n[0] * moving[1] - n[1] * moving[0];
             let force = self.irregular_inner_force(j, &gap, [approach, across], shaft);

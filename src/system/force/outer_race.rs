@@ -44,12 +44,7 @@ impl CoupledSystem {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
             let s = lanes::each(|l| s[l] + oversize[l]);
-            let mut gap = Gaps {
-                limit,
-                radial,
-                amplitudes,
-                rows: lanes::first_mut::<M, _>(&mut group.rows),
-            };
+            let mut gap = Gaps { limit, radial, amplitudes, rows: lanes::first_mut::<M, _>(&mut group.rows) };
             let gap = [
                 gap.of::<0>(s[0], places.get(0)),
                 gap.of::<1>(s[1], places.get(1)),
@@ -95,8 +90,7 @@ impl CoupledSystem {
     /// Whether a ball is near enough to the race to be reached by what the other balls do.
     #[inline(always)]
     pub(super) fn is_near(&self, j: usize) -> bool {
-        self.balls.get(j, |ball| &ball.gap) > -self.reach
-            || self.setup.balls_inertia == BallsInertia::QuasiStatic
+        self.balls.get(j, |ball| &ball.gap) > -self.reach || self.setup.balls_inertia == BallsInertia::QuasiStatic
     }
 
     /// How far the kept modes and the weight can have moved the race anywhere, m.
@@ -116,12 +110,7 @@ impl CoupledSystem {
     /// is known.
     #[inline(always)]
     fn rates_towards_outer_race<const B: usize, const M: usize>(&mut self, cage: &RotationState) {
-        let Work {
-            amplitudes,
-            velocities,
-            scratch_row,
-            ..
-        } = &mut self.work;
+        let Work { amplitudes, velocities, scratch_row, .. } = &mut self.work;
         let amplitudes = lanes::first::<M, _>(amplitudes);
         let velocities = lanes::first::<M, _>(velocities);
         let scratch_row = lanes::first_mut::<M, _>(scratch_row);
@@ -133,12 +122,10 @@ impl CoupledSystem {
                 if group.gap[l] <= -self.reach {
                     continue;
                 }
-                self.radial
-                    .slopes_into(places.get(l), cage.speed / TAU, scratch_row);
+                self.radial.slopes_into(places.get(l), cage.speed / TAU, scratch_row);
                 let rows = lanes::first::<M, _>(&group.rows).iter();
                 let rows = rows.map(|rows| &rows[l]);
-                let race =
-                    lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
+                let race = lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
                 group.rate[l] = group.displacement_rate[l] - race;
             }
             let touching = self.inner_race.touching_radius;
@@ -193,9 +180,7 @@ impl CoupledSystem {
         }
         let at = self.tangential_place(j);
         let work = &mut self.work;
-        let along = self
-            .tangential
-            .values_into(at, &work.amplitudes, work.scratch_row.iter_mut());
+        let along = self.tangential.values_into(at, &work.amplitudes, work.scratch_row.iter_mut());
         let shift = along / self.radius(j);
         let [spin, speed] = self.work.spin[j];
         let place = RacePlace {

@@ -72,29 +72,16 @@ impl CoupledSystem {
     /// Directions of the shaft and of all balls, and the balls' places: one sine and cosine, the others by rotation through
     /// the fixed spacing.
     #[inline(always)]
-    pub(super) fn place_balls<const B: usize>(
-        &mut self,
-        shaft: &RotationState,
-        cage: &RotationState,
-    ) {
+    pub(super) fn place_balls<const B: usize>(&mut self, shaft: &RotationState, cage: &RotationState) {
         self.work.cage_angle = cage.angle;
         let turn = reduced_turn(self.setup.cage.ball_angle(cage.angle, 0));
         let [[cos, sin], shaft] = directions([turn, reduced_turn(shaft.angle)]);
         self.work.shaft_direction = shaft;
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let [c, s] = &group.spacing;
-            group.direction = [
-                lanes::each(|l| cos * c[l] - sin * s[l]),
-                lanes::each(|l| sin * c[l] + cos * s[l]),
-            ];
+            group.direction = [lanes::each(|l| cos * c[l] - sin * s[l]), lanes::each(|l| sin * c[l] + cos * s[l])];
             let place = lanes::each(|l| turn + group.spacing_turns[l]);
-            group.turn = lanes::each(|l| {
-                if place[l] < 1.0 {
-                    place[l]
-                } else {
-                    place[l] - 1.0
-                }
-            });
+            group.turn = lanes::each(|l| if place[l] < 1.0 { place[l] } else { place[l] - 1.0 });
         }
     }
 

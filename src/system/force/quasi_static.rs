@@ -65,20 +65,11 @@ impl CoupledSystem {
     /// Puts every ball where it stands, its outer force included; `centre` is that of the inner race, m.
     ///
     /// With residual flexibility the balls are taken in turns until their forces do not change.
-    pub(super) fn settle_balls(
-        &mut self,
-        centre: [f64; 2],
-        shaft: &RotationState,
-        cage: &RotationState,
-    ) {
+    pub(super) fn settle_balls(&mut self, centre: [f64; 2], shaft: &RotationState, cage: &RotationState) {
         let (mass, gravity) = (self.setup.geometry.ball_mass(), self.setup.gravity);
         self.clear_outer_radial();
         // displacements of the race, before they are overwritten by overlaps
-        let sweeps = if self.residual.is_some() {
-            MAX_SWEEPS
-        } else {
-            1
-        };
+        let sweeps = if self.residual.is_some() { MAX_SWEEPS } else { 1 };
         for j in 0..self.balls.count {
             self.work.known[j].0 = -self.balls.get(j, |ball| &ball.gap);
         }
@@ -98,8 +89,7 @@ impl CoupledSystem {
                 let before = self.balls.get(j, |ball| &ball.outer_radial);
                 let (overlap, balance) = self.settle(j, &seat);
                 self.balls.set(j, |ball| &mut ball.gap, overlap);
-                self.balls
-                    .set(j, |ball| &mut ball.displacement, balance.position);
+                self.balls.set(j, |ball| &mut ball.displacement, balance.position);
                 self.keep_outer(j, &balance.outer);
                 change = change.max((balance.outer.radial - before).abs());
                 largest = largest.max(balance.outer.radial.abs());
@@ -131,11 +121,7 @@ impl CoupledSystem {
                 high = overlap;
             }
             let newton = overlap - balance.excess / balance.slope;
-            overlap = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            overlap = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             balance = self.balance(j, seat, overlap);
         }
         (overlap, balance)
@@ -156,9 +142,7 @@ impl CoupledSystem {
             let in_series = free.inner_overlap.max(0.0) * ratio / (1.0 + ratio);
             let alone = under(free.excess, outer);
             let mut width = 1.5 * alone;
-            let start = in_series
-                .min(alone)
-                .max(under(self.load(seat).max(0.0), outer));
+            let start = in_series.min(alone).max(under(self.load(seat).max(0.0), outer));
             while self.balance(j, seat, touching + width).excess > 0.0 && width < 1.0 {
                 width *= 2.0;
             }
@@ -205,12 +189,7 @@ impl CoupledSystem {
     }
 
     /// Force of ball `j` at rest on the inner race.
-    pub(super) fn inner_force_at(
-        &self,
-        j: usize,
-        gap: &InnerGap,
-        shaft: &RotationState,
-    ) -> RaceForce {
+    pub(super) fn inner_force_at(&self, j: usize, gap: &InnerGap, shaft: &RotationState) -> RaceForce {
         if self.inner.is_irregular() {
             self.irregular_inner_force(j, gap, [0.0; 2], shaft)
         } else {

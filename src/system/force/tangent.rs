@@ -100,8 +100,7 @@ impl CoupledSystem {
         if by_rate > 0.0 {
             let at = self.radial.locate(&self.balls.groups[j / LANES].turn);
             let (place, scale) = (at.get(j % LANES), speed / TAU);
-            self.radial
-                .slopes_into(place, scale, &mut self.work.scratch_row);
+            self.radial.slopes_into(place, scale, &mut self.work.scratch_row);
             for i in 0..modes {
                 term.position[i] -= by_rate * self.scratch(i);
             }
@@ -110,13 +109,7 @@ impl CoupledSystem {
     }
 
     /// Inner contact of a ball, for a `velocity` of the race's centre.
-    fn add_inner(
-        &self,
-        j: usize,
-        velocity: [f64; 2],
-        [shaft, cage]: [&RotationState; 2],
-        tangent: &mut Tangent,
-    ) {
+    fn add_inner(&self, j: usize, velocity: [f64; 2], [shaft, cage]: [&RotationState; 2], tangent: &mut Tangent) {
         if self.balls.get(j, |ball| &ball.inner_force) <= 0.0 {
             return;
         }
@@ -124,10 +117,7 @@ impl CoupledSystem {
         let (n, t) = (gap.normal, [-gap.normal[1], gap.normal[0]]);
         let rate = self.balls.get(j, |ball| &ball.displacement_rate);
         let turn = self.radius(j) * cage.speed;
-        let moving = [
-            rate * e[0] - turn * e[1] - velocity[0],
-            rate * e[1] + turn * e[0] - velocity[1],
-        ];
+        let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
         let (apart, across) = (product(n, moving), product(t, moving));
         let force = if self.inner.is_irregular() {
             self.irregular_inner_force(j, &gap, [-apart, across], shaft)
@@ -146,8 +136,7 @@ impl CoupledSystem {
         }
         term.left[ball] = -self.ball_mobility * along;
         // a ball farther out goes round faster: cage speed times e turned by a right angle
-        term.position[ball] =
-            rr * along + rt * aside + by_rate * (turning * aside - cage.speed * aside);
+        term.position[ball] = rr * along + rt * aside + by_rate * (turning * aside - cage.speed * aside);
         term.velocity[ball] = by_rate * along;
         self.follow_centre(&mut term);
         let mut term = tangent.add();

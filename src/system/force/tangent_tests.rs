@@ -7,8 +7,8 @@ use super::super::load::LoadProfile;
 use super::super::structure::Structure;
 use crate::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect};
 use crate::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, Race, RaceContacts, SlipProfile,
-    SpeedKnot, SpeedProfile, Wave,
+    BearingDimensions, BearingGeometry, Cage, ContactMaterial, Race, RaceContacts, SlipProfile, SpeedKnot,
+    SpeedProfile, Wave,
 };
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
@@ -61,17 +61,12 @@ pub(super) fn preloaded() -> BearingSetup {
     .unwrap()
     .with_radial_play(-1.5e-6)
     .unwrap();
-    let steel = ContactMaterial {
-        young: 206e9,
-        poisson: 0.3,
-    };
+    let steel = ContactMaterial { young: 206e9, poisson: 0.3 };
     let (speed, slip) = (SpeedProfile::constant(30.0), SlipProfile::constant(0.0));
     BearingSetup {
         cage: Cage::new(&geometry, speed.unwrap(), slip.unwrap(), FIRST).unwrap(),
         geometry,
-        stiffness: RaceContacts::new(&geometry, steel, steel, steel)
-            .unwrap()
-            .stiffness(),
+        stiffness: RaceContacts::new(&geometry, steel, steel, steel).unwrap().stiffness(),
         contact_damping: 0.0,
         formulation: Formulation::Consistent,
         balls_inertia: BallsInertia::Dynamic,
@@ -79,11 +74,7 @@ pub(super) fn preloaded() -> BearingSetup {
         oversizes: Vec::new(),
         race_defects: Vec::new(),
         flats: Vec::new(),
-        shaft: Shaft {
-            mass: 0.15,
-            unbalance: 2e-5,
-            loads: Vec::new(),
-        },
+        shaft: Shaft { mass: 0.15, unbalance: 2e-5, loads: Vec::new() },
         gravity: GRAVITY,
     }
 }
@@ -100,10 +91,7 @@ pub(super) fn dented(race: Race, aside: f64) -> BearingSetup {
         curvature: CurvatureReading::Total,
     };
     let dent = Dent::new(&sound.geometry, race, shape, sound.stiffness).unwrap();
-    BearingSetup {
-        race_defects: vec![RaceDefect::Dent(dent)],
-        ..sound
-    }
+    BearingSetup { race_defects: vec![RaceDefect::Dent(dent)], ..sound }
 }
 
 /// What is asked of the tangent.
@@ -117,12 +105,7 @@ struct Asked {
 
 impl Asked {
     fn of(setup: BearingSetup) -> Self {
-        Self {
-            setup,
-            modes: ModeSelection::Count(10),
-            residual: false,
-            pushed: 2e-7,
-        }
+        Self { setup, modes: ModeSelection::Count(10), residual: false, pushed: 2e-7 }
     }
 }
 
@@ -136,8 +119,7 @@ fn errors(asked: Asked) -> (Vec<f64>, usize) {
     let rest = Equilibrium::find(&structure, &setup, at).unwrap();
     let damping = ModeDamping::Modal(0.03);
     let (kept, residual) = (asked.modes, asked.residual);
-    let mut system =
-        CoupledSystem::new(&structure, &modes, setup, kept, damping, residual).unwrap();
+    let mut system = CoupledSystem::new(&structure, &modes, setup, kept, damping, residual).unwrap();
     let State { t, mut y, mut v } = system.state_at(0.0, &rest, &modes);
     let (n, dof) = (system.modes(), y.len());
     // how far (m) a unit of each coordinate moves a contact
@@ -162,20 +144,15 @@ fn errors(asked: Asked) -> (Vec<f64>, usize) {
         } else {
             dv[i - dof] = step;
         }
-        let moved = |a: &[f64], b: &[f64], sign: f64| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| a + sign * b).collect()
-        };
+        let moved =
+            |a: &[f64], b: &[f64], sign: f64| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + sign * b).collect() };
         for (sign, g) in [(1.0, &mut more), (-1.0, &mut less)] {
             system.force_into(t, &moved(&y, &dy, sign), &moved(&v, &dv, sign), g);
         }
         let mut told = vec![0.0; dof];
         tangent.apply(&dy, &dv, &mut told);
         for row in 0..dof {
-            let block = if row < n {
-                0
-            } else {
-                1 + usize::from(row >= n + 2)
-            };
+            let block = if row < n { 0 } else { 1 + usize::from(row >= n + 2) };
             let change = 0.5 * (more[row] - less[row]);
             errors[block] = errors[block].max((change - told[row]).abs());
             // by positions: velocities of damped contacts change it as much or less
@@ -192,18 +169,12 @@ fn errors(asked: Asked) -> (Vec<f64>, usize) {
 fn check(what: &str, asked: Asked, bound: f64) -> usize {
     let (errors, terms) = errors(asked);
     println!("{what}: {errors:?}, {terms} terms");
-    assert!(
-        errors.iter().all(|error| *error < bound),
-        "{what}: {errors:?}"
-    );
+    assert!(errors.iter().all(|error| *error < bound), "{what}: {errors:?}");
     terms
 }
 
 pub(super) fn damped(setup: BearingSetup) -> BearingSetup {
-    BearingSetup {
-        contact_damping: 2.0,
-        ..setup
-    }
+    BearingSetup { contact_damping: 2.0, ..setup }
 }
 
 #[test]
@@ -214,29 +185,16 @@ fn on_circles_it_is_the_derivative() {
     // seven balls: three terms each
     assert_eq!(all, 21);
     check("damped", Asked::of(damped(preloaded())), bound);
-    let lifted = |setup| Asked {
-        pushed: 4e-6,
-        ..Asked::of(setup)
-    };
+    let lifted = |setup| Asked { pushed: 4e-6, ..Asked::of(setup) };
     let some = check("some lifted off", lifted(preloaded()), bound);
     assert!(some < all && some > 6, "{some} terms");
-    check(
-        "damped, some lifted off",
-        lifted(damped(preloaded())),
-        bound,
-    );
+    check("damped, some lifted off", lifted(damped(preloaded())), bound);
     let oversizes = (0..7).map(|ball| 1e-7 * f64::from(ball)).collect();
-    let sizes = BearingSetup {
-        oversizes,
-        ..preloaded()
-    };
+    let sizes = BearingSetup { oversizes, ..preloaded() };
     check("balls of different size", Asked::of(sizes), bound);
     let printed = |setup| Asked {
         modes: ModeSelection::All,
-        ..Asked::of(BearingSetup {
-            formulation: Formulation::Printed,
-            ..setup
-        })
+        ..Asked::of(BearingSetup { formulation: Formulation::Printed, ..setup })
     };
     check("printed", printed(preloaded()), bound);
     check("printed, damped", printed(damped(preloaded())), bound);
@@ -254,32 +212,13 @@ fn off_circles_it_is_near_the_derivative() {
         }
     }
     let sound = preloaded();
-    let shape = FlatShape {
-        radius: 1.2e-3,
-        depth: 0.3e-6,
-        rim_radius: 0.05e-3,
-        curvature: CurvatureReading::Total,
-    };
-    let flat = FlatOnBall {
-        ball: 0,
-        shape: BallFlat::new(&sound.geometry, shape, sound.stiffness).unwrap(),
-        angle: 0.03,
-    };
-    let flats = BearingSetup {
-        flats: vec![flat],
-        ..preloaded()
-    };
+    let shape = FlatShape { radius: 1.2e-3, depth: 0.3e-6, rim_radius: 0.05e-3, curvature: CurvatureReading::Total };
+    let flat =
+        FlatOnBall { ball: 0, shape: BallFlat::new(&sound.geometry, shape, sound.stiffness).unwrap(), angle: 0.03 };
+    let flats = BearingSetup { flats: vec![flat], ..preloaded() };
     check("flat", Asked::of(flats), 1e-5);
-    let waves = [Race::Inner, Race::Outer].map(|race| Wave {
-        race,
-        order: 14,
-        amplitude: 0.2e-6,
-        phase: 0.3,
-    });
-    let waves = BearingSetup {
-        waves: waves.to_vec(),
-        ..preloaded()
-    };
+    let waves = [Race::Inner, Race::Outer].map(|race| Wave { race, order: 14, amplitude: 0.2e-6, phase: 0.3 });
+    let waves = BearingSetup { waves: waves.to_vec(), ..preloaded() };
     // the waves' bend is in it
     check("waves", Asked::of(waves), 1e-6);
 }
@@ -288,24 +227,13 @@ fn off_circles_it_is_near_the_derivative() {
 fn with_what_is_left_out_it_is_near_the_derivative() {
     // the residual of 62 modes moves others' contacts by half a percent of their own overlap; its part of the rates, from ball to ball
     // and by turning, is left out
-    let residual = |setup| Asked {
-        residual: true,
-        modes: ModeSelection::Count(10),
-        ..Asked::of(setup)
-    };
+    let residual = |setup| Asked { residual: true, modes: ModeSelection::Count(10), ..Asked::of(setup) };
     check("residual", residual(preloaded()), 0.02);
     check("residual, damped", residual(damped(preloaded())), 0.15);
-    let light = |setup| BearingSetup {
-        balls_inertia: BallsInertia::QuasiStatic,
-        ..setup
-    };
+    let light = |setup| BearingSetup { balls_inertia: BallsInertia::QuasiStatic, ..setup };
     // normals of both contacts differ by displacements over radii, 1e-3
     check("without inertia", Asked::of(light(preloaded())), 1e-3);
-    check(
-        "without inertia, residual",
-        residual(light(preloaded())),
-        0.02,
-    );
+    check("without inertia, residual", residual(light(preloaded())), 0.02);
 }
 
 #[test]
@@ -313,13 +241,9 @@ fn a_state_that_is_no_number_gives_a_force_that_is_none() {
     let structure = structure();
     let modes = structure.modes().unwrap();
     let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
-    let light = BearingSetup {
-        balls_inertia: BallsInertia::QuasiStatic,
-        ..preloaded()
-    };
+    let light = BearingSetup { balls_inertia: BallsInertia::QuasiStatic, ..preloaded() };
     for setup in [damped(preloaded()), light] {
-        let mut system =
-            CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
+        let mut system = CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
         let none = vec![f64::NAN; system.linear().len()];
         let mut force = vec![0.0; none.len()];
         system.force_into(0.0, &none, &none, &mut force);
@@ -330,15 +254,12 @@ fn a_state_that_is_no_number_gives_a_force_that_is_none() {
 #[test]
 fn what_is_prescribed_changes_at_the_knots_of_speed_slip_and_loads() {
     let mut setup = preloaded();
-    let knots =
-        [(0.2, 10.0), (0.7, 30.0)].map(|(time, frequency_hz)| SpeedKnot { time, frequency_hz });
+    let knots = [(0.2, 10.0), (0.7, 30.0)].map(|(time, frequency_hz)| SpeedKnot { time, frequency_hz });
     let slip = SlipProfile::over_time(&[(0.0, 0.0), (0.5, 0.02)]);
     let speed = SpeedProfile::new(&knots);
     setup.cage = Cage::new(&setup.geometry, speed.unwrap(), slip.unwrap(), FIRST).unwrap();
-    setup.shaft.loads = vec![
-        LoadProfile::constant([1.0, 0.0]),
-        LoadProfile::through(&[(0.3, [0.0; 2]), (0.9, [2.0, 0.0])]),
-    ];
+    setup.shaft.loads =
+        vec![LoadProfile::constant([1.0, 0.0]), LoadProfile::through(&[(0.3, [0.0; 2]), (0.9, [2.0, 0.0])])];
     let structure = structure();
     let modes = structure.modes().unwrap();
     let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));

@@ -49,9 +49,7 @@ impl CoupledSystem {
             for group in first_mut::<B, _>(&mut self.balls.groups) {
                 let (own, [law, tangent]) = (&group.own, &group.law);
                 let before = group.outer_radial;
-                let after = each(|l| {
-                    positive(before[l] + (law[l] - before[l]) / (1.0 + own[l] * tangent[l]))
-                });
+                let after = each(|l| positive(before[l] + (law[l] - before[l]) / (1.0 + own[l] * tangent[l])));
                 change = each(|l| f64::max(change[l], (after[l] - before[l]).abs()));
                 largest = each(|l| f64::max(largest[l], after[l]));
                 group.outer_radial = after;
@@ -71,10 +69,8 @@ impl CoupledSystem {
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
             let force = self.work.known[j].2;
-            self.balls
-                .set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
-            self.balls
-                .set(j, |ball| &mut ball.outer_tangential, force.tangential);
+            self.balls.set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
+            self.balls.set(j, |ball| &mut ball.outer_tangential, force.tangential);
         }
     }
 
@@ -231,8 +227,7 @@ impl CoupledSystem {
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
         let rate = self.balls.groups[group].rate[lane];
         let (known, known_rate, _) = self.work.known[j];
-        let near = (s - known).abs() <= SAME_PLACE * s.abs()
-            && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
+        let near = (s - known).abs() <= SAME_PLACE * s.abs() && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
         // also where none is known
         if !near {
             self.work.known[j] = (s, rate, self.outer_force(j, s));
@@ -322,12 +317,7 @@ impl CoupledSystem {
         };
         let forces = self.balls.all(|ball| &ball.outer_radial).enumerate();
         let others = forces.filter(|&(k, _)| k != j);
-        (
-            coupling.between(j, j),
-            others
-                .map(|(k, force)| coupling.between(j, k) * force)
-                .sum(),
-        )
+        (coupling.between(j, j), others.map(|(k, force)| coupling.between(j, k) * force).sum())
     }
 }
 

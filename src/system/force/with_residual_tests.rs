@@ -21,10 +21,7 @@ fn forces(setup: BearingSetup, kept: usize) -> [Vec<f64>; 2] {
         let damping = ModeDamping::Modal(0.03);
         CoupledSystem::new(&structure, &modes, setup.clone(), selection, damping, true).unwrap()
     };
-    let (mut few, mut all) = (
-        system(ModeSelection::Count(kept)),
-        system(ModeSelection::All),
-    );
+    let (mut few, mut all) = (system(ModeSelection::Count(kept)), system(ModeSelection::All));
     let State { t, mut y, mut v } = few.state_at(0.0, &rest, &modes);
     for i in kept..y.len() {
         let sign = f64::sin((i * i + 1) as f64);
@@ -35,17 +32,15 @@ fn forces(setup: BearingSetup, kept: usize) -> [Vec<f64>; 2] {
     few.force_into(t, &y, &v, &mut found);
 
     let count = all.modes();
-    let whole = |short: &[f64], others: &[f64]| -> Vec<f64> {
-        [&short[..kept], &others[kept..count], &short[kept..]].concat()
-    };
+    let whole =
+        |short: &[f64], others: &[f64]| -> Vec<f64> { [&short[..kept], &others[kept..count], &short[kept..]].concat() };
     let (mut others, mut rates) = (vec![0.0; count], vec![0.0; count]);
     let mut forces = [0, 1, 2].map(|_| vec![0.0; count + y.len() - kept]);
     let dt = 1e-9;
     for _ in 0..3000 {
         for (force, time) in forces.iter_mut().zip([-dt, 0.0, dt]) {
-            let at = |from: &[f64], rate: &[f64]| -> Vec<f64> {
-                from.iter().zip(rate).map(|(y, v)| y + time * v).collect()
-            };
+            let at =
+                |from: &[f64], rate: &[f64]| -> Vec<f64> { from.iter().zip(rate).map(|(y, v)| y + time * v).collect() };
             let place = whole(&at(&y, &v), &at(&others, &rates));
             all.force_into(t + time, &place, &whole(&v, &rates), force);
         }
@@ -92,11 +87,7 @@ fn a_damper_sees_how_fast_the_residual_gives_way() {
 /// makes 5e-4 there, and the tangential force in a dent, which the residual leaves out, 1.3e-2; undamped contacts differ by 8e-6.
 #[test]
 fn a_soft_residual_is_solved_ball_by_ball() {
-    let setups = [
-        (preloaded(), 1e-4),
-        (damped(preloaded()), 2e-3),
-        (dented(Race::Outer, 0.01), 3e-2),
-    ];
+    let setups = [(preloaded(), 1e-4), (damped(preloaded()), 2e-3), (dented(Race::Outer, 0.01), 3e-2)];
     for (number, (setup, bound)) in setups.into_iter().enumerate() {
         let found = difference(setup, 1);
         assert!(found < bound, "{number}: {found:e}");

@@ -87,10 +87,7 @@ impl RaceContact {
         let geometry = &setup.geometry;
         let (sign, touching_radius) = match race {
             Race::Outer => (1.0, geometry.outer_race_radius() - geometry.ball_radius()),
-            Race::Inner => (
-                -1.0,
-                geometry.effective_inner_race_radius() + geometry.ball_radius(),
-            ),
+            Race::Inner => (-1.0, geometry.effective_inner_race_radius() + geometry.ball_radius()),
         };
         let own = || {
             let defects = setup.race_defects.iter();
@@ -108,10 +105,7 @@ impl RaceContact {
         Self {
             race,
             sign,
-            plain: HertzContact {
-                stiffness: setup.stiffness.at(race),
-                damping: setup.contact_damping,
-            },
+            plain: HertzContact { stiffness: setup.stiffness.at(race), damping: setup.contact_damping },
             touching_radius,
             irregular: !waviness.is_empty() || own().next().is_some() || !setup.flats.is_empty(),
             rise: waviness.most() + own().fold(0.0, |most, defect| defect.rise().max(most)),
@@ -170,9 +164,7 @@ impl RaceContact {
     /// Number of the defect that a ball in direction `e` (unit vector in the race's frame) may feel.
     #[inline]
     pub(crate) fn defect_at(&self, e: [f64; 2]) -> Option<usize> {
-        self.defects
-            .iter()
-            .position(|arc| e[0] * arc.middle[0] + e[1] * arc.middle[1] >= arc.reach)
+        self.defects.iter().position(|arc| e[0] * arc.middle[0] + e[1] * arc.middle[1] >= arc.reach)
     }
 
     /// Number of defects.
@@ -239,11 +231,7 @@ impl RaceContact {
         }
         let [height, slope, _] = self.waviness.at(at.angle).map(|part| self.sign * part);
         let moving = at.along / self.radius(at.penetration) - at.turning;
-        RacePlace {
-            penetration: at.penetration - height,
-            rate: at.rate - slope * moving,
-            ..*at
-        }
+        RacePlace { penetration: at.penetration - height, rate: at.rate - slope * moving, ..*at }
     }
 
     /// The same without waves.
@@ -262,10 +250,7 @@ impl RaceContact {
         match damage {
             Damage::None => None,
             Damage::Race(defect) => {
-                let place = PolarPosition {
-                    radius,
-                    angle: at.angle,
-                };
+                let place = PolarPosition { radius, angle: at.angle };
                 let mut contacts = DefectContacts::none();
                 let defect = &self.defects[defect].defect;
                 defect.contacts_into(place, &mut contacts);
@@ -284,10 +269,7 @@ impl RaceContact {
         let mut sum = RaceForce::default();
         for contact in contacts.pressing() {
             let [n_r, n_t] = [contact.normal_radial, contact.normal_tangential];
-            let law = HertzContact {
-                stiffness: contact.stiffness,
-                damping: self.plain.damping,
-            };
+            let law = HertzContact { stiffness: contact.stiffness, damping: self.plain.damping };
             let force = law.linearised(contact.delta, contact.rate(self.sign * rate, along));
             sum.radial += force.force * n_r;
             sum.tangential += force.force * n_t;

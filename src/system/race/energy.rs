@@ -23,11 +23,7 @@ impl RaceContact {
     /// Energy of a ball at a place, its damping forces those of the place's rates; they work at the rates `moving`: of the
     /// penetration, and of the ball's centre along increasing angle, m/s.
     pub(crate) fn energy(&self, damage: Damage, at: &RacePlace, moving: [f64; 2]) -> RaceEnergy {
-        let moving = RacePlace {
-            rate: moving[0],
-            along: moving[1],
-            ..*at
-        };
+        let moving = RacePlace { rate: moving[0], along: moving[1], ..*at };
         let (at, moving) = (self.on_waves(at), self.on_waves(&moving));
         let Some((contacts, along)) = self.contacts(damage, &at) else {
             let law = self.plain;
@@ -42,10 +38,7 @@ impl RaceContact {
         let moved = moving.along - at.along;
         let mut sum = RaceEnergy::default();
         for contact in contacts.pressing() {
-            let law = HertzContact {
-                stiffness: contact.stiffness,
-                damping: self.plain.damping,
-            };
+            let law = HertzContact { stiffness: contact.stiffness, damping: self.plain.damping };
             let evaluated = contact.rate(self.sign * at.rate, along);
             let rate = contact.rate(self.sign * moving.rate, along + moved);
             let elastic = law.force(contact.delta, 0.0);
@@ -61,13 +54,7 @@ impl RaceContact {
     /// Power that a ball's contacts get without being pressed, W: what their stiffness changes by as they move along a profile,
     /// `(2/5) delta^(5/2) dk/dt`; from a difference of their energy along the motion. `turn` is the angular speed of the ball's
     /// radius vector about the race's centre, rad/s.
-    pub(crate) fn blending(
-        &self,
-        damage: Damage,
-        at: &RacePlace,
-        moving: [f64; 2],
-        turn: f64,
-    ) -> f64 {
+    pub(crate) fn blending(&self, damage: Damage, at: &RacePlace, moving: [f64; 2], turn: f64) -> f64 {
         if damage == Damage::None {
             return 0.0;
         }

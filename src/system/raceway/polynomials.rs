@@ -28,11 +28,7 @@ pub(super) struct ElementPolynomials {
 
 impl ElementPolynomials {
     /// Raises the degree until the polynomials reproduce `sample(element, xi)`.
-    pub(super) fn fit(
-        elements: usize,
-        modes: usize,
-        sample: &impl Fn(usize, f64) -> Vec<f64>,
-    ) -> Self {
+    pub(super) fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
         let mut fitted = Self::of_degree(elements, modes, DEGREES[0], sample);
         for degree in &DEGREES[1..] {
             if fitted.deviation(sample) <= ACCURACY {
@@ -44,12 +40,7 @@ impl ElementPolynomials {
     }
 
     /// Interpolation at the Chebyshev points, converted to powers.
-    fn of_degree(
-        elements: usize,
-        modes: usize,
-        degree: usize,
-        sample: &impl Fn(usize, f64) -> Vec<f64>,
-    ) -> Self {
+    fn of_degree(elements: usize, modes: usize, degree: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
         let count = degree + 1;
         let point = |k: usize| ((k as f64 + 0.5) * PI / count as f64).cos();
         let chebyshev = chebyshev_to_powers(degree);
@@ -75,11 +66,7 @@ impl ElementPolynomials {
                 }
             }
         }
-        Self {
-            elements,
-            modes,
-            powers,
-        }
+        Self { elements, modes, powers }
     }
 
     /// Value and first two derivatives of a group of modes by the local coordinate of an element.

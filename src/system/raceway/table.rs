@@ -50,11 +50,7 @@ impl RacewayTable {
     fn fit(elements: usize, modes: usize, sample: &impl Fn(usize, f64) -> Vec<f64>) -> Self {
         let polynomials = ElementPolynomials::fit(elements, modes, sample);
         let cuts = polynomials.cuts();
-        Self {
-            pieces: (elements * cuts) as f64,
-            groups: modes.div_ceil(LANES),
-            quintics: polynomials.cut(cuts),
-        }
+        Self { pieces: (elements * cuts) as f64, groups: modes.div_ceil(LANES), quintics: polynomials.cut(cuts) }
     }
 
     /// Groups of modes: the length of a row, at least one.
@@ -149,18 +145,12 @@ impl Places {
         let whole = each(|l| nearest_whole(place[l] - 0.5));
         // also what is not a number gets a piece, and shows itself in the value
         let piece = each(|l| if whole[l] < last { whole[l] } else { last });
-        Self {
-            pieces: together(each(|l| piece[l] + WHOLE)),
-            xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)),
-        }
+        Self { pieces: together(each(|l| piece[l] + WHOLE)), xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)) }
     }
 
     #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Place {
-        Place {
-            piece: self.pieces[lane].to_bits() as u32 as usize,
-            xi: self.xi[lane],
-        }
+        Place { piece: self.pieces[lane].to_bits() as u32 as usize, xi: self.xi[lane] }
     }
 }
 
@@ -226,10 +216,7 @@ mod tests {
                 let [value, slope] = [&row, &slopes].map(|row| row.as_flattened()[place]);
                 // values are good to 1e-12 of the largest, slopes to that over a piece's length
                 assert!((value - cos).abs() < 1e-11, "{wave} {turn}");
-                assert!(
-                    (slope + f64::from(wave) * sin).abs() < 1e-8,
-                    "{wave} {turn}"
-                );
+                assert!((slope + f64::from(wave) * sin).abs() < 1e-8, "{wave} {turn}");
                 expected += amplitudes.as_flattened()[place] * cos;
             }
             assert!((sum - expected).abs() < 1e-10, "{turn}");

@@ -50,10 +50,8 @@ impl Coupling {
     pub(crate) fn new(mut residual: ResidualFlexibility, balls: usize) -> Self {
         let groups = balls.div_ceil(LANES);
         let columns = balls + 1;
-        let blank = |columns: usize| Stretch {
-            number: usize::MAX,
-            quintics: vec![[[0.0; LANES]; 6]; columns * groups],
-        };
+        let blank =
+            |columns: usize| Stretch { number: usize::MAX, quintics: vec![[[0.0; LANES]; 6]; columns * groups] };
         // the balls say how finely a turn is cut
         let sensors = std::mem::take(&mut residual.sensors);
         let mut coupling = Self {
@@ -189,13 +187,7 @@ impl Coupling {
     fn make(&mut self, slot: usize, number: usize) {
         let half = 0.5 * TAU / self.stretches as f64;
         let places = [-1.0, 0.0, 1.0].map(|x| self.touches(number, x));
-        let mut stretch = std::mem::replace(
-            &mut self.made[slot],
-            Stretch {
-                number,
-                quintics: Vec::new(),
-            },
-        );
+        let mut stretch = std::mem::replace(&mut self.made[slot], Stretch { number, quintics: Vec::new() });
         self.each_entry(&places, |place, lane, [first, middle, last]| {
             let mean = |k: usize| 0.5 * (last[k] + first[k]);
             let rise = |k: usize| 0.5 * (last[k] - first[k]);
@@ -213,11 +205,7 @@ impl Coupling {
 
     /// Hands out value and slope (by the cage angle) of every entry at each of these places: its place among the columns'
     /// groups, its lane.
-    fn each_entry<const N: usize>(
-        &self,
-        places: &[Vec<Touch>; N],
-        mut take: impl FnMut(usize, usize, [[f64; 2]; N]),
-    ) {
+    fn each_entry<const N: usize>(&self, places: &[Vec<Touch>; N], mut take: impl FnMut(usize, usize, [[f64; 2]; N])) {
         let residual = &self.residual;
         let width = residual.width;
         for j in 0..self.balls {
@@ -230,10 +218,7 @@ impl Coupling {
                 take(k * self.groups + group, lane, entry);
                 take(j * self.groups + k / LANES, k % LANES, entry);
             }
-            let others = residual
-                .weight
-                .chunks(width)
-                .chain(residual.sensors.chunks(width));
+            let others = residual.weight.chunks(width).chain(residual.sensors.chunks(width));
             for (column, over_ring) in (self.balls..).zip(others) {
                 let entry = std::array::from_fn(|at| residual.along(over_ring, &places[at][j]));
                 take(column * self.groups + group, lane, entry);
@@ -247,8 +232,7 @@ impl Coupling {
         let by_stretch = elements as f64 / self.stretches as f64;
         let spacing = elements as f64 / self.balls as f64;
         let touch = |j: usize| {
-            let element =
-                |x: f64| (number as f64 + 0.5 * (x + 1.0)) * by_stretch + j as f64 * spacing;
+            let element = |x: f64| (number as f64 + 0.5 * (x + 1.0)) * by_stretch + j as f64 * spacing;
             let whole = element(0.0).floor();
             let inside = (element(x) - whole).clamp(0.0, 1.0);
             self.residual.touch(whole as usize % elements, inside)
@@ -319,9 +303,7 @@ mod tests {
             coupling.turn_to(turn);
             let columns = (0..balls).map(|k| {
                 coupling.turn_column::<0>(k, true);
-                (0..balls)
-                    .map(|j| coupling.between(j, k))
-                    .collect::<Vec<_>>()
+                (0..balls).map(|j| coupling.between(j, k)).collect::<Vec<_>>()
             });
             columns.collect::<Vec<_>>().concat()
         };

@@ -52,19 +52,11 @@ struct Touch {
 impl ResidualFlexibility {
     /// # Errors
     /// [`SystemError::NotSupported`] if the structure is free.
-    pub(super) fn new(
-        structure: &Structure,
-        modes: &StructureModes,
-        kept: &[usize],
-    ) -> Result<Self, SystemError> {
+    pub(super) fn new(structure: &Structure, modes: &StructureModes, kept: &[usize]) -> Result<Self, SystemError> {
         let (dof, ring) = (structure.dof(), structure.ring());
         let ring_dof = ring.dof();
         let loads = DenseMatrix::from_fn(dof, ring_dof + 1, |i, j| {
-            if j == ring_dof {
-                structure.gravity()[i]
-            } else {
-                f64::from(u8::from(i == j))
-            }
+            if j == ring_dof { structure.gravity()[i] } else { f64::from(u8::from(i == j)) }
         });
         let mut response = structure.static_response(&loads)?;
         for &mode in kept {
@@ -80,9 +72,8 @@ impl ResidualFlexibility {
             }
         }
         let sensors = structure.sensors();
-        let sensor_rows =
-            DenseMatrix::from_fn(sensors.len(), dof, |sensor, row| sensors[sensor].row[row])
-                * response.subcols(0, ring_dof);
+        let sensor_rows = DenseMatrix::from_fn(sensors.len(), dof, |sensor, row| sensors[sensor].row[row])
+            * response.subcols(0, ring_dof);
         let width = ring_dof + ELEMENT_DOF / 2;
         let polar = polar_components(ring, width);
         let on_ring = response.subrows(0, ring_dof);
@@ -91,10 +82,7 @@ impl ResidualFlexibility {
         // over loads, row by row
         let by_rows = |over_ring: faer::MatRef<'_, f64>| -> Vec<f64> {
             let polar = sparse_times_dense(&polar, &over_ring.transpose().to_owned());
-            (0..polar.ncols())
-                .flat_map(|row| polar.col_as_slice(row))
-                .copied()
-                .collect()
+            (0..polar.ncols()).flat_map(|row| polar.col_as_slice(row)).copied().collect()
         };
         Ok(Self {
             elements: ring.nodes(),
@@ -116,24 +104,15 @@ impl ResidualFlexibility {
         // elements, each a turn of the interpolation, in a radian
         let by_angle = self.elements as f64 / TAU;
         let at = self.interpolation.locate(&[inside; LANES]).get(0);
-        let mut touch = Touch {
-            element,
-            row: Row::default(),
-            slope: Row::default(),
-        };
-        self.interpolation
-            .values_into(at, &Row::default(), touch.row.iter_mut());
-        self.interpolation
-            .slopes_into(at, by_angle, &mut touch.slope);
+        let mut touch = Touch { element, row: Row::default(), slope: Row::default() };
+        self.interpolation.values_into(at, &Row::default(), touch.row.iter_mut());
+        self.interpolation.slopes_into(at, by_angle, &mut touch.slope);
         touch
     }
 
     /// Radial displacement at one place for a radial force at another, m/N, and its derivative while both turn, m/(N rad).
     fn between(&self, at: &Touch, force: &Touch) -> [f64; 2] {
-        let (top, first) = (
-            ELEMENT_DOF / 2 * at.element,
-            ELEMENT_DOF / 2 * force.element,
-        );
+        let (top, first) = (ELEMENT_DOF / 2 * at.element, ELEMENT_DOF / 2 * force.element);
         let mut sums = [0.0; 2];
         let (rows, slopes) = (at.row.as_flattened(), at.slope.as_flattened());
         for (a, (row, slope)) in rows.iter().zip(slopes).take(ELEMENT_DOF).enumerate() {
@@ -162,9 +141,7 @@ impl ResidualFlexibility {
         };
         let bounds = self.interpolation.bounds();
         let interpolated = bounds.as_flattened().iter().take(ELEMENT_DOF).enumerate();
-        interpolated
-            .map(|(k, bound)| bound * most(k % components))
-            .sum()
+        interpolated.map(|(k, bound)| bound * most(k % components)).sum()
     }
 }
 
@@ -176,13 +153,7 @@ fn polar_components(ring: &Ring, width: usize) -> SparseMatrix {
         let node = repeated % ring.nodes();
         let (sin, cos) = ring.node_angle(node).sin_cos();
         let (row, column) = (3 * repeated, 3 * node);
-        for (down, across, value) in [
-            (0, 0, -sin),
-            (0, 1, cos),
-            (1, 0, cos),
-            (1, 1, sin),
-            (2, 2, 1.0),
-        ] {
+        for (down, across, value) in [(0, 0, -sin), (0, 1, cos), (1, 0, cos), (1, 1, sin), (2, 2, 1.0)] {
             polar.add(row + down, column + across, value);
         }
     }

@@ -13,9 +13,7 @@ fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = std::str::from_utf8(parts.next().unwrap_or_default()) else {
         return;
     };
-    let set = parts
-        .next()
-        .and_then(|argument| std::str::from_utf8(argument).ok());
+    let set = parts.next().and_then(|argument| std::str::from_utf8(argument).ok());
     let source = Source {
         path: PathBuf::from("cases/fuzz.toml"),
         text: text.to_owned(),
@@ -29,15 +27,8 @@ fuzz_target!(|bytes: &[u8]| {
 
 /// What later stages rely on.
 fn check(case: &Case) {
-    case.validate()
-        .expect("a case that was read holds its rules");
-    for purpose in [
-        Purpose::Modes,
-        Purpose::Condense,
-        Purpose::Frf,
-        Purpose::Run,
-        Purpose::Chart,
-    ] {
+    case.validate().expect("a case that was read holds its rules");
+    for purpose in [Purpose::Modes, Purpose::Condense, Purpose::Frf, Purpose::Run, Purpose::Chart] {
         let _ = case.ready_for(purpose);
     }
     assert!(case.target() > 0.0);

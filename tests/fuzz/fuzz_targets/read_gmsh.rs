@@ -12,10 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     match Mesh::from_gmsh_bytes(bytes, Path::new("fuzz.msh"), LengthUnit::Millimetre) {
         Ok(mesh) => check(&mesh),
         // the walk accepts what mshio cannot read: the two must agree
-        Err(MeshError::Gmsh {
-            fault: MshError::Reader { what },
-            ..
-        }) => panic!("mshio disagrees: {what}"),
+        Err(MeshError::Gmsh { fault: MshError::Reader { what }, .. }) => panic!("mshio disagrees: {what}"),
         Err(error) => assert!((1..1000).contains(&error.to_string().len())),
     }
 });

@@ -11,10 +11,7 @@ use plummer::formats::{MeasuredError, SignalRequest};
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("fuzz.mat");
     for rate_hz in [None, Some(1e3)] {
-        let mut request = SignalRequest {
-            channels: Vec::new(),
-            rate_hz,
-        };
+        let mut request = SignalRequest { channels: Vec::new(), rate_hz };
         let known = match signals_from_mat(bytes, path, &request) {
             Err(MeasuredError::Choose { known, .. }) => known,
             Err(error) => return assert!(!error.to_string().is_empty()),

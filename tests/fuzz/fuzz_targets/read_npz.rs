@@ -5,9 +5,7 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
-use plummer::formats::{
-    NpzReader, SignalRequest, read_modes_npz, read_signals, read_superelement_npz,
-};
+use plummer::formats::{NpzReader, SignalRequest, read_modes_npz, read_signals, read_superelement_npz};
 
 fuzz_target!(|bytes: &[u8]| {
     let path = file();
@@ -30,10 +28,6 @@ fuzz_target!(|bytes: &[u8]| {
 /// A file of this process's own, in memory where the system has a folder for that.
 fn file() -> PathBuf {
     let memory = PathBuf::from("/dev/shm");
-    let folder = if memory.is_dir() {
-        memory
-    } else {
-        std::env::temp_dir()
-    };
+    let folder = if memory.is_dir() { memory } else { std::env::temp_dir() };
     folder.join(format!("plummer-fuzz-{}.npz", std::process::id()))
 }

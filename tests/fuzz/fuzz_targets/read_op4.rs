@@ -12,11 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
         Ok(matrices) => {
             for matrix in &matrices {
                 let (rows, columns) = matrix.shape();
-                assert!(
-                    matrix
-                        .entries()
-                        .all(|(row, column, _)| row < rows && column < columns)
-                );
+                assert!(matrix.entries().all(|(row, column, _)| row < rows && column < columns));
             }
         }
         Err(error) => assert!((1..1000).contains(&error.to_string().len())),

@@ -3,12 +3,9 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect,
-    Section, Slip,
+    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Section, Slip,
 };
-use super::range::{
-    above, above_zero, below, degrees, known_isotropic, not_empty, ratio, zero_or_more,
-};
+use super::range::{above, above_zero, below, degrees, known_isotropic, not_empty, ratio, zero_or_more};
 use super::rule::{BrokenRule, Rule};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
@@ -69,10 +66,7 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
     let limit = 0.01 * bearing.ball_radius;
     for (index, &difference) in differences.iter().enumerate() {
         let key = format!("{key}[{index}]");
-        let [what, minus] = [
-            "a hundredth of the ball's radius",
-            "minus a hundredth of the ball's radius",
-        ];
+        let [what, minus] = ["a hundredth of the ball's radius", "minus a hundredth of the ball's radius"];
         above(key.as_str(), difference, minus, -limit)?;
         below(key, difference, what, limit)?;
     }
@@ -122,12 +116,7 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     known_isotropic(case, "bearing.race_material", &races.outer)?;
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
     above_zero("bearing.inner_race_radius", inner)?;
-    above(
-        "bearing.outer_race_radius",
-        bearing.outer_race_radius,
-        "`bearing.inner_race_radius`",
-        inner,
-    )?;
+    above("bearing.outer_race_radius", bearing.outer_race_radius, "`bearing.inner_race_radius`", inner)?;
     if let Some(face) = outer_face(case) {
         below(
             "bearing.outer_race_radius",
@@ -149,8 +138,7 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
 /// `sqrt(12 I / A)`.
 fn outer_face(case: &Case) -> Option<f64> {
     let ring = case.ring.as_ref()?;
-    let of_section =
-        |section: &Section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
+    let of_section = |section: &Section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
     let faces = ring.sections.iter().map(of_section);
     faces.chain(ring.outer_radius).reduce(f64::max)
 }
@@ -167,13 +155,7 @@ fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
     {
         let (how, what) = ("at most", "a tenth of the ball's radius either way");
         let other = limit;
-        return Err(Rule::Beyond {
-            found,
-            how,
-            what,
-            other,
-        }
-        .at("bearing.radial_play"));
+        return Err(Rule::Beyond { found, how, what, other }.at("bearing.radial_play"));
     }
     let pitch = 0.5 * (bearing.inner_race_radius + bearing.outer_race_radius);
     // A ball of the pitch radius or more leaves no angle: then none fits beside it.
@@ -215,11 +197,7 @@ pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-fn dent_rules(
-    bearing: &Bearing,
-    dent: &DentDefect,
-    at: impl Fn(&str) -> String,
-) -> Result<(), BrokenRule> {
+fn dent_rules(bearing: &Bearing, dent: &DentDefect, at: impl Fn(&str) -> String) -> Result<(), BrokenRule> {
     above_zero(at("length"), dent.length)?;
     above_zero(at("depth"), dent.depth)?;
     above_zero(at("rim_radius"), dent.rim_radius)?;
@@ -235,42 +213,18 @@ fn dent_rules(
         Race::Inner => bearing.inner_race_radius,
         Race::Outer => bearing.outer_race_radius,
     };
-    below(
-        at("length"),
-        dent.length,
-        "the race's circumference",
-        2.0 * PI * radius,
-    )?;
-    below(
-        at("depth"),
-        dent.depth,
-        "`bearing.ball_radius`",
-        bearing.ball_radius,
-    )?;
-    below(
-        at("rim_radius"),
-        dent.rim_radius,
-        "half the defect's length",
-        0.5 * dent.length,
-    )
+    below(at("length"), dent.length, "the race's circumference", 2.0 * PI * radius)?;
+    below(at("depth"), dent.depth, "`bearing.ball_radius`", bearing.ball_radius)?;
+    below(at("rim_radius"), dent.rim_radius, "half the defect's length", 0.5 * dent.length)
 }
 
-fn flat_rules(
-    bearing: &Bearing,
-    flat: &FlatDefect,
-    at: impl Fn(&str) -> String,
-) -> Result<(), BrokenRule> {
+fn flat_rules(bearing: &Bearing, flat: &FlatDefect, at: impl Fn(&str) -> String) -> Result<(), BrokenRule> {
     if flat.ball >= bearing.balls {
         let (found, expected) = (flat.ball, "the number of a ball, counted from 0");
         return Err(Rule::Count { found, expected }.at(at("ball")));
     }
     let ball = bearing.ball_radius;
-    above(
-        at("flat_radius"),
-        flat.flat_radius,
-        "`bearing.ball_radius`",
-        ball,
-    )?;
+    above(at("flat_radius"), flat.flat_radius, "`bearing.ball_radius`", ball)?;
     above_zero(at("depth"), flat.depth)?;
     below(at("depth"), flat.depth, "`bearing.ball_radius`", ball)?;
     above_zero(at("rim_radius"), flat.rim_radius)

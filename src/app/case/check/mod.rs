@@ -52,10 +52,7 @@ pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
             groups.push((key, support.group.as_str()));
         }
         for (index, mass) in housing.masses.iter().enumerate() {
-            groups.push((
-                format!("housing.masses[{index}].group"),
-                mass.group.as_str(),
-            ));
+            groups.push((format!("housing.masses[{index}].group"), mass.group.as_str()));
         }
         for (index, link) in housing.links.iter().enumerate() {
             for group in &link.between {

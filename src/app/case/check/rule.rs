@@ -47,9 +47,7 @@ pub enum Rule {
         names: Box<Choices>,
     },
     /// A material with directions where none can be followed.
-    #[error(
-        "\"{found}\" is orthotropic, expected an isotropic material: rings and contacts have no other"
-    )]
+    #[error("\"{found}\" is orthotropic, expected an isotropic material: rings and contacts have no other")]
     NotIsotropic {
         /// The name as written.
         found: String,
@@ -164,9 +162,7 @@ pub enum Rule {
         most: usize,
     },
     /// A ring that nothing keeps from turning.
-    #[error(
-        "found \"sliding\" and no springs in `ring.supports`, which leaves the ring free to turn"
-    )]
+    #[error("found \"sliding\" and no springs in `ring.supports`, which leaves the ring free to turn")]
     FreeToTurn,
     /// A ring beside a housing, not connected to it.
     #[error("found a housing and no `ring.tie`, which leaves the ring unconnected")]
@@ -185,19 +181,18 @@ impl Rule {
             Self::Beyond { how: "at least", .. } => {
                 Some("raise the sampling rate or narrow `accuracy.band_hz`".to_owned())
             }
-            Self::LossFactor { .. } => Some(
-                "give this part a material of its own name, without `loss_factor`".to_owned(),
-            ),
+            Self::LossFactor { .. } => {
+                Some("give this part a material of its own name, without `loss_factor`".to_owned())
+            }
             Self::BallsDoNotFit { .. } => Some(
                 "check that all radii are in m and none is a diameter; `bearing.radial_play` overrides the play"
                     .to_owned(),
             ),
             Self::FreeToTurn => Some(
-                "use fit = \"bonded\", or add springs in x and y (in a solid housing in z too) to `ring.supports`".to_owned(),
+                "use fit = \"bonded\", or add springs in x and y (in a solid housing in z too) to `ring.supports`"
+                    .to_owned(),
             ),
-            Self::Unconnected => {
-                Some("add tie = { group = \"NAME OF THE BORE\" } to [ring]".to_owned())
-            }
+            Self::Unconnected => Some("add tie = { group = \"NAME OF THE BORE\" } to [ring]".to_owned()),
             _ => None,
         }
     }
@@ -208,11 +203,7 @@ fn short(number: f64) -> String {
     // The text of a number always reads back.
     let number: f64 = format!("{number:.11e}").parse().unwrap_or(number);
     let size = number.abs();
-    if size > 0.0 && !(1e-3..1e6).contains(&size) {
-        format!("{number:e}")
-    } else {
-        number.to_string()
-    }
+    if size > 0.0 && !(1e-3..1e6).contains(&size) { format!("{number:e}") } else { number.to_string() }
 }
 
 /// A broken rule and the key that breaks it.
@@ -228,10 +219,7 @@ pub struct BrokenRule {
 impl Rule {
     /// Names the key that breaks it.
     pub(crate) fn at(self, key: impl Into<String>) -> BrokenRule {
-        BrokenRule {
-            key: key.into(),
-            rule: self,
-        }
+        BrokenRule { key: key.into(), rule: self }
     }
 }
 

@@ -1,13 +1,10 @@
 //! Materials, housing and ring.
 
 use super::super::path::quoted;
-use super::super::{
-    Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring,
-    RingSupport,
-};
+use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring, RingSupport};
 use super::range::{
-    above, above_zero, below, degrees, density, direction, each_once, known_isotropic,
-    known_material, loss_factor, modulus, not_empty, poisson, share, zero_or_more,
+    above, above_zero, below, degrees, density, direction, each_once, known_isotropic, known_material, loss_factor,
+    modulus, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::fe::material::{MaterialError, RadiusRule};
@@ -46,14 +43,7 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
 
 /// Constants that make a material together.
 fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
-    let OrthotropicMaterial {
-        young,
-        poisson,
-        shear,
-        x_axis,
-        y_axis,
-        ..
-    } = *given;
+    let OrthotropicMaterial { young, poisson, shear, x_axis, y_axis, .. } = *given;
     // the density has its own rule
     crate::fe::material::OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis)?;
     Ok(())
@@ -120,11 +110,7 @@ fn links(housing: &Housing) -> Result<(), BrokenRule> {
 }
 
 /// Springs of the table whose keys `at` names.
-fn springs(
-    at: impl Fn(&str) -> String,
-    stiffness: SpringStiffness,
-    plane: bool,
-) -> Result<(), BrokenRule> {
+fn springs(at: impl Fn(&str) -> String, stiffness: SpringStiffness, plane: bool) -> Result<(), BrokenRule> {
     let [x, y, z] = match stiffness {
         SpringStiffness::Radial(stiffness) => return above_zero(at("radial"), stiffness),
         SpringStiffness::Global(along) => along,
@@ -153,8 +139,8 @@ pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
     sections(case, ring)?;
     for (index, support) in ring.supports.iter().enumerate() {
         // whether a superelement is plane is told by its file
-        let plane = case.superelement().is_none()
-            && (case.meshed_housing()).is_none_or(|housing| housing.plane.is_some());
+        let plane =
+            case.superelement().is_none() && (case.meshed_housing()).is_none_or(|housing| housing.plane.is_some());
         ring_support(&format!("ring.supports[{index}]"), support, plane)?;
     }
     tie(case, ring)
@@ -167,10 +153,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         known_isotropic(case, at("material"), &section.material)?;
         above_zero(at("area"), section.area)?;
         above_zero(at("inertia"), section.inertia)?;
-        for (key, given) in [
-            ("axial_inertia", section.axial_inertia),
-            ("torsion", section.torsion),
-        ] {
+        for (key, given) in [("axial_inertia", section.axial_inertia), ("torsion", section.torsion)] {
             if let Some(value) = given {
                 above_zero(at(key), value)?;
             }
@@ -184,12 +167,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         )?;
         share(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
-            above(
-                "ring.outer_radius",
-                outer,
-                "the section's radius",
-                section.radius,
-            )?;
+            above("ring.outer_radius", outer, "the section's radius", section.radius)?;
         }
     }
     if ring.bond == Bond::Composite && ring.radius_rule == RadiusRule::CommonCentroid {
@@ -250,9 +228,5 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -1,26 +1,19 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load,
-    Method, ModesKept, SensorSpot, StepLength,
+    Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, Method, ModesKept,
+    SensorSpot, StepLength,
 };
 use super::range::{
-    above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor,
-    not_empty, ratio, share, zero_or_more, zero_to_one,
+    above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor, not_empty, ratio, share,
+    zero_or_more, zero_to_one,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::fe::modal::ModeRange;
 use crate::formats::is_array_name;
 
 /// Signals that every simulation records under these names.
-const RESERVED_NAMES: [&str; 6] = [
-    "time_s",
-    "shaft_x",
-    "shaft_y",
-    "ball_radius",
-    "outer_force",
-    "inner_force",
-];
+const RESERVED_NAMES: [&str; 6] = ["time_s", "shaft_x", "shaft_y", "ball_radius", "outer_force", "inner_force"];
 
 pub(super) fn shaft(case: &Case) -> Result<(), BrokenRule> {
     if let Some(shaft) = &case.shaft {
@@ -67,10 +60,7 @@ pub(super) fn speed(case: &Case) -> Result<(), BrokenRule> {
         return Ok(());
     };
     not_empty("speed.profile", speed.profile.len(), "at least one point")?;
-    increasing(
-        "speed.profile",
-        speed.profile.iter().map(|point| point.time),
-    )
+    increasing("speed.profile", speed.profile.iter().map(|point| point.time))
 }
 
 /// Times of the points under `key`.
@@ -100,9 +90,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
         }
         let mesh = match case.superelement() {
             None => "[housing]",
-            Some(_) => {
-                "`housing.mesh` (a superelement has rows of its own sensors: `recovered = \"NAME\"`)"
-            }
+            Some(_) => "`housing.mesh` (a superelement has rows of its own sensors: `recovered = \"NAME\"`)",
         };
         let meshed = case.meshed_housing().is_some();
         let (key, other, present) = match sensor.spot {
@@ -110,11 +98,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
             SensorSpot::Node(_) => ("node", mesh, meshed),
             SensorSpot::Point(_) => ("point", mesh, meshed),
             SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
-            SensorSpot::Recovered(_) => (
-                "recovered",
-                "`housing.superelement`",
-                case.superelement().is_some(),
-            ),
+            SensorSpot::Recovered(_) => ("recovered", "`housing.superelement`", case.superelement().is_some()),
         };
         if !present {
             return Err(Rule::Needs { other }.at(at(key)));
@@ -213,15 +197,11 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
     if let Interface::Nodes(nodes) = &case.condense.interface {
         not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
         let names: Vec<String> = nodes.iter().map(u64::to_string).collect();
-        each_once(names.iter().map(String::as_str), |index| {
-            format!("condense.interface.nodes[{index}]")
-        })?;
+        each_once(names.iter().map(String::as_str), |index| format!("condense.interface.nodes[{index}]"))?;
     }
     match case.condense.fixed_interface_modes {
         FixedInterfaceModes::Auto | FixedInterfaceModes::Count(_) => Ok(()),
-        FixedInterfaceModes::UpToHz(limit) => {
-            above_zero("condense.fixed_interface_modes.up_to_hz", limit)
-        }
+        FixedInterfaceModes::UpToHz(limit) => above_zero("condense.fixed_interface_modes.up_to_hz", limit),
     }
 }
 
@@ -238,9 +218,7 @@ pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
     }
     let names = frf.from.iter().map(|push| push.name.as_str());
     each_once(names, |index| format!("frf.from[{index}].name"))?;
-    each_once(frf.to.iter().map(String::as_str), |index| {
-        format!("frf.to[{index}]")
-    })?;
+    each_once(frf.to.iter().map(String::as_str), |index| format!("frf.to[{index}]"))?;
     for (index, name) in frf.to.iter().enumerate() {
         known_sensor(case, format!("frf.to[{index}]"), name)?;
     }
@@ -266,19 +244,13 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
         return Ok(());
     };
     zero_or_more("transient.start", transient.start)?;
-    above(
-        "transient.end",
-        transient.end,
-        "`transient.start`",
-        transient.start,
-    )?;
+    above("transient.end", transient.end, "`transient.start`", transient.start)?;
     if let Some(radius) = transient.spectral_radius {
         zero_to_one("transient.spectral_radius", radius)?;
         if transient.method != Method::GeneralizedAlpha {
-            return Err(Rule::Needs {
-                other: "`transient.method = \"generalized-alpha\"`",
-            }
-            .at("transient.spectral_radius"));
+            return Err(
+                Rule::Needs { other: "`transient.method = \"generalized-alpha\"`" }.at("transient.spectral_radius")
+            );
         }
     }
     if let StepLength::Seconds(step) = transient.step {
@@ -289,10 +261,8 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
     if let Some(tolerance) = transient.tolerance {
         fraction("transient.tolerance", tolerance)?;
         if !matches!(transient.method, Method::Dop853 | Method::ExponentialAdams) {
-            return Err(Rule::Needs {
-                other: "`transient.method = \"dop853\"` or `\"exponential-adams\"`",
-            }
-            .at("transient.tolerance"));
+            return Err(Rule::Needs { other: "`transient.method = \"dop853\"` or `\"exponential-adams\"`" }
+                .at("transient.tolerance"));
         }
     }
     if let ModesKept::Count(count) = transient.modes {
@@ -356,12 +326,7 @@ fn within_rate(case: &Case, key: &str, [low, high]: [f64; 2]) -> Result<(), Brok
 
 fn below_half_the_rate(case: &Case, key: &str, frequency_hz: f64) -> Result<(), BrokenRule> {
     match &case.transient {
-        Some(transient) => below(
-            key,
-            frequency_hz,
-            "half of `transient.output_hz`",
-            0.5 * transient.output_hz,
-        ),
+        Some(transient) => below(key, frequency_hz, "half of `transient.output_hz`", 0.5 * transient.output_hz),
         None => Ok(()),
     }
 }
@@ -370,13 +335,9 @@ fn below_half_the_rate(case: &Case, key: &str, frequency_hz: f64) -> Result<(), 
 fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), BrokenRule> {
     above(format!("{key}.to"), to, "`from`", from)?;
     match &case.transient {
-        Some(transient) if from < transient.start || to > transient.end => Err(Rule::OutsideRun {
-            from,
-            to,
-            start: transient.start,
-            end: transient.end,
+        Some(transient) if from < transient.start || to > transient.end => {
+            Err(Rule::OutsideRun { from, to, start: transient.start, end: transient.end }.at(key))
         }
-        .at(key)),
         _ => Ok(()),
     }
 }

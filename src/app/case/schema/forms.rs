@@ -35,9 +35,7 @@ pub(in crate::app::case) fn any_of(forms: &[Schema]) -> Schema {
 
 /// A table with exactly one of these keys, for `oneOf`.
 pub(in crate::app::case) fn one_of(keys: &[&str]) -> Value {
-    keys.iter()
-        .map(|key| json!({ "required": [key] }))
-        .collect()
+    keys.iter().map(|key| json!({ "required": [key] })).collect()
 }
 
 /// A table that has all of these keys, for `not`.

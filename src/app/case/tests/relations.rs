@@ -18,10 +18,7 @@ fn variants_are_read_with_the_command_lines_keys() {
 #[test]
 fn a_bad_variant_is_found_when_the_case_is_read() {
     let error = read(&FULL.replace("bearing.balls=6", "bearing.bals=6"), &[]).unwrap_err();
-    let line = 1 + FULL
-        .lines()
-        .position(|text| text.contains("one ball fewer"))
-        .unwrap();
+    let line = 1 + FULL.lines().position(|text| text.contains("one ball fewer")).unwrap();
     assert_eq!(
         error.to_string(),
         format!(
@@ -72,18 +69,7 @@ fn a_command_names_the_table_that_it_lacks() {
 #[test]
 fn a_group_that_the_mesh_lacks_is_named_with_the_nearest() {
     let case = read(FULL, &[]).unwrap();
-    let all = [
-        "case",
-        "feet",
-        "lower",
-        "rim",
-        "lid",
-        "bore",
-        "top",
-        "lid seat",
-        "case seat",
-        "plug",
-    ];
+    let all = ["case", "feet", "lower", "rim", "lid", "bore", "top", "lid seat", "case seat", "plug"];
     let groups: Vec<String> = all.iter().map(|&name| name.to_owned()).collect();
     case.check_groups(&groups).unwrap();
     for (missing, key) in [
@@ -95,31 +81,13 @@ fn a_group_that_the_mesh_lacks_is_named_with_the_nearest() {
         ("top", "sensors[0].group"),
     ] {
         let mut groups = groups.clone();
-        groups
-            .iter_mut()
-            .filter(|name| *name == missing)
-            .for_each(|name| name.push('s'));
+        groups.iter_mut().filter(|name| *name == missing).for_each(|name| name.push('s'));
         let error = case.check_groups(&groups).unwrap_err();
-        let CaseError::UnknownName {
-            place,
-            key: named,
-            names,
-            ..
-        } = &error
-        else {
+        let CaseError::UnknownName { place, key: named, names, .. } = &error else {
             panic!("{error}");
         };
-        assert_eq!(
-            (named.as_str(), names.nearest.as_deref()),
-            (key, Some(format!("{missing}s").as_str()))
-        );
-        let line: usize = place
-            .to_string()
-            .rsplit(':')
-            .next()
-            .unwrap()
-            .parse()
-            .unwrap();
+        assert_eq!((named.as_str(), names.nearest.as_deref()), (key, Some(format!("{missing}s").as_str())));
+        let line: usize = place.to_string().rsplit(':').next().unwrap().parse().unwrap();
         assert!(FULL.lines().nth(line - 1).unwrap().contains(missing));
     }
 }

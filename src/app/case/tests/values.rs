@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{FULL, near, read};
 use crate::app::case::{
-    Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold,
-    InterfaceModes, Linearise, Material, Method, ModesKept, SensorSpot, Source, StepLength,
+    Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold, InterfaceModes, Linearise,
+    Material, Method, ModesKept, SensorSpot, Source, StepLength,
 };
 use crate::fe::element::continuum::{Integration, LinearFormulation};
 use crate::fe::modal::ModeRange;
@@ -17,14 +17,7 @@ use crate::fe::model::{Connection, Link, OverlapRule, SpringStiffness, SupportSh
 fn every_key_of_the_full_case_arrives() {
     let case = read(FULL, &[]).unwrap();
     assert_eq!(case.title, "Everything");
-    assert!(near(
-        case.material("my alloy")
-            .unwrap()
-            .isotropic()
-            .unwrap()
-            .young,
-        71e9
-    ));
+    assert!(near(case.material("my alloy").unwrap().isotropic().unwrap().young, 71e9));
     let housing = case.meshed_housing().unwrap();
     assert_eq!(housing.mesh, Path::new("folder/pedestal.msh"));
     assert!(near(housing.length_unit.to_metres(), 1e-3));
@@ -42,13 +35,7 @@ fn every_key_of_the_full_case_arrives() {
     );
     assert_eq!(housing.overlap, OverlapRule::Allow);
     let between = ["lid seat", "case seat"].map(str::to_owned);
-    assert_eq!(
-        housing.links[0],
-        Link {
-            between,
-            connection: Connection::Tie
-        }
-    );
+    assert_eq!(housing.links[0], Link { between, connection: Connection::Tie });
     assert!(matches!(
         housing.links[1].connection,
         Connection::Spring(SpringStiffness::Global([_, y, _]), SupportShare::PerGroup) if near(y, 2e6)
@@ -87,10 +74,7 @@ fn every_key_of_the_full_case_arrives() {
     let convergence = case.modes.convergence.as_ref().unwrap();
     assert_eq!(convergence.meshes[1], Path::new("folder/pedestal_fine.msh"));
     assert!(convergence.order.is_some_and(|p| near(p, 2.0)));
-    assert_eq!(
-        case.condense.fixed_interface_modes,
-        FixedInterfaceModes::UpToHz(2e5)
-    );
+    assert_eq!(case.condense.fixed_interface_modes, FixedInterfaceModes::UpToHz(2e5));
     assert_eq!(case.condense.interface_modes, InterfaceModes::UpToHz(6e4));
     let transient = case.transient.as_ref().unwrap();
     assert_eq!(transient.step, StepLength::Seconds(1e-7));
@@ -110,10 +94,7 @@ fn loss_factors_are_read_and_written_back() {
     assert_eq!(of("steel").to_bits(), 0.0_f64.to_bits());
     let written = toml::to_string(&case.materials).unwrap();
     let expected = ["loss_factor = 0.002", "loss_factor = 0.04"];
-    assert!(
-        expected.iter().all(|line| written.contains(line)),
-        "{written}"
-    );
+    assert!(expected.iter().all(|line| written.contains(line)), "{written}");
     assert_eq!(written.matches("loss_factor").count(), 2, "{written}");
 }
 
@@ -126,10 +107,7 @@ fn defaults_are_those_of_the_format() {
     let case = read(text, &[]).unwrap();
     assert_eq!(case.title, "case");
     let ring = case.ring.as_ref().unwrap();
-    assert_eq!(
-        (ring.nodes, ring.shear, ring.rotary_inertia),
-        (72, true, true)
-    );
+    assert_eq!((ring.nodes, ring.shear, ring.rotary_inertia), (72, true, true));
     let bearing = case.bearing.as_ref().unwrap();
     assert!(near(bearing.first_ball_deg, 270.0));
     assert!((bearing.play() - 2.5e-6).abs() < 1e-12);
@@ -150,69 +128,29 @@ fn defaults_are_those_of_the_format() {
     assert_eq!((transient.ensemble.runs, transient.ensemble.seed), (20, 1));
     assert!(near(transient.ensemble.perturbation, 1e-9));
     assert_eq!(case.band_hz(), Some([0.0, 5e4]));
-    assert!(near(
-        case.material("steel").unwrap().isotropic().unwrap().young,
-        206e9
-    ));
-    assert!(near(
-        case.material("aluminium")
-            .unwrap()
-            .isotropic()
-            .unwrap()
-            .young,
-        70e9
-    ));
+    assert!(near(case.material("steel").unwrap().isotropic().unwrap().young, 206e9));
+    assert!(near(case.material("aluminium").unwrap().isotropic().unwrap().young, 70e9));
 }
 
 #[test]
 fn a_given_material_takes_the_place_of_a_built_in_one() {
-    let case = read(
-        FULL,
-        &["materials.steel={young=1e9,poisson=0.1,density=1000}"],
-    )
-    .unwrap();
-    assert!(near(
-        case.material("steel").unwrap().isotropic().unwrap().young,
-        1e9
-    ));
-    assert!(near(
-        case.material("bearing steel")
-            .unwrap()
-            .isotropic()
-            .unwrap()
-            .young,
-        206e9
-    ));
+    let case = read(FULL, &["materials.steel={young=1e9,poisson=0.1,density=1000}"]).unwrap();
+    assert!(near(case.material("steel").unwrap().isotropic().unwrap().young, 1e9));
+    assert!(near(case.material("bearing steel").unwrap().isotropic().unwrap().young, 206e9));
 }
 
 #[test]
 fn the_echo_reads_back_as_the_same_case() {
     for set in [
         &[][..],
-        &[
-            "bearing.stiffness=hertz",
-            "damping={modal=0.02}",
-            "modes={count=3}",
-        ][..],
-        &[
-            "damping={alpha=1,beta=1e-7}",
-            "transient.step=auto",
-            "transient.modes=all",
-        ][..],
-        &[
-            "condense.fixed_interface_modes=40",
-            "condense.interface_modes=30",
-            "bearing.race_material=steel",
-        ][..],
+        &["bearing.stiffness=hertz", "damping={modal=0.02}", "modes={count=3}"][..],
+        &["damping={alpha=1,beta=1e-7}", "transient.step=auto", "transient.modes=all"][..],
+        &["condense.fixed_interface_modes=40", "condense.interface_modes=30", "bearing.race_material=steel"][..],
     ] {
         let case = read(FULL, set).unwrap();
         let echo = toml::to_string(&case).unwrap();
-        let again = Case::from_source(Source {
-            path: PathBuf::from("case.toml"),
-            text: echo.clone(),
-            set: Vec::new(),
-        })
-        .unwrap();
+        let again = Case::from_source(Source { path: PathBuf::from("case.toml"), text: echo.clone(), set: Vec::new() })
+            .unwrap();
         let content = |mut case: Case| {
             case.source = Source::default();
             format!("{case:#?}").replace("folder/", "")

@@ -36,13 +36,7 @@ pub struct AnalyzeArguments {
     #[arg(long, allow_hyphen_values = true, value_name = "D", value_parser = positive, requires = "balls")]
     pub ball_diameter: Option<f64>,
     /// Contact angle in degrees
-    #[arg(
-        long,
-        allow_hyphen_values = true,
-        value_name = "DEG",
-        default_value_t = 0.0,
-        requires = "balls"
-    )]
+    #[arg(long, allow_hyphen_values = true, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
     pub contact_angle: f64,
     /// Events per revolution of the shaft: outer=3.58,inner=5.42,ball=4.71,cage=0.398 or some of them; BPFO, BPFI and FTF are other
     /// names of outer, inner and cage. BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
@@ -97,9 +91,7 @@ impl AnalyzeArguments {
         let speed = speeds.into_iter().flatten().filter_map(GivenSpeed::doubt);
         let orders = self.orders.as_ref().and_then(GivenOrders::doubt);
         // more than a tenth is refused
-        let wide = self
-            .geometry_error
-            .filter(|error| (WIDE..=0.1).contains(error));
+        let wide = self.geometry_error.filter(|error| (WIDE..=0.1).contains(error));
         let wide = wide.map(|error| {
             format!(
                 "--geometry-error {error}: lines of different parts lie within {} % of each other, and a sound part may be named by the damaged one's. Give the bearing's own geometry.",
@@ -111,9 +103,7 @@ impl AnalyzeArguments {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    number(text)
-        .filter(|&value| value > 0.0)
-        .ok_or_else(|| format!("expected a number above 0, found \"{text}\""))
+    number(text).filter(|&value| value > 0.0).ok_or_else(|| format!("expected a number above 0, found \"{text}\""))
 }
 
 fn pair(text: &str) -> Option<[f64; 2]> {
@@ -124,9 +114,7 @@ fn pair(text: &str) -> Option<[f64; 2]> {
 fn window(text: &str) -> Result<TimeWindow, String> {
     match pair(text) {
         Some([from, to]) if from < to => Ok(TimeWindow { from, to }),
-        _ => Err(format!(
-            "expected FROM:TO in s, FROM below TO, found \"{text}\""
-        )),
+        _ => Err(format!("expected FROM:TO in s, FROM below TO, found \"{text}\"")),
     }
 }
 
@@ -134,9 +122,7 @@ fn band(text: &str) -> Result<EnvelopeBand, String> {
     match pair(text) {
         Some([from, to]) if 0.0 < from && from < to => Ok(EnvelopeBand::Between([from, to])),
         None if text.trim() == "kurtogram" => Ok(EnvelopeBand::Kurtogram),
-        _ => Err(format!(
-            "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"{text}\""
-        )),
+        _ => Err(format!("expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"{text}\"")),
     }
 }
 
@@ -153,18 +139,9 @@ mod tests {
         assert_eq!(band("500:2e4").unwrap(), between);
         assert_eq!(band("kurtogram").unwrap(), EnvelopeBand::Kurtogram);
         for (message, expected) in [
-            (
-                window("2.8:2.2").unwrap_err(),
-                "expected FROM:TO in s, FROM below TO, found \"2.8:2.2\"",
-            ),
-            (
-                band("0:5").unwrap_err(),
-                "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"0:5\"",
-            ),
-            (
-                positive("nan").unwrap_err(),
-                "expected a number above 0, found \"nan\"",
-            ),
+            (window("2.8:2.2").unwrap_err(), "expected FROM:TO in s, FROM below TO, found \"2.8:2.2\""),
+            (band("0:5").unwrap_err(), "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"0:5\""),
+            (positive("nan").unwrap_err(), "expected a number above 0, found \"nan\""),
         ] {
             assert_eq!(message, expected);
         }

@@ -30,10 +30,7 @@ impl Baseline {
     ///
     /// # Errors
     /// As [`Source::open`].
-    pub(super) fn open(
-        asked: &AnalyzeArguments,
-        options: &Options,
-    ) -> Result<Option<Self>, CliError> {
+    pub(super) fn open(asked: &AnalyzeArguments, options: &Options) -> Result<Option<Self>, CliError> {
         let Some(path) = asked.baseline.clone() else {
             return Ok(None);
         };
@@ -54,20 +51,14 @@ impl Baseline {
         if asked.baseline_speed.is_none() {
             source.prefer_own_speed();
         }
-        Ok(Some(Self {
-            path,
-            source,
-            window: asked.baseline_window,
-        }))
+        Ok(Some(Self { path, source, window: asked.baseline_window }))
     }
 
     /// What is to be said of its signals, as of those of an input.
     pub(super) fn doubts(&self) -> Vec<String> {
         let name = self.path.display();
         let doubts = self.source.doubts.iter();
-        doubts
-            .map(|text| format!("--baseline {name}: {text}"))
-            .collect()
+        doubts.map(|text| format!("--baseline {name}: {text}")).collect()
     }
 
     /// Compares the analysed windows of a signal of an input with the baseline.
@@ -103,9 +94,7 @@ impl Baseline {
                 window: self.window(source, earlier, window),
                 kinematics: &before,
             };
-            let within_hz = window
-                .band
-                .judged_hz(source.settings.band, source.settings.good_to_hz);
+            let within_hz = window.band.judged_hz(source.settings.band, source.settings.good_to_hz);
             let compared = compare_window(window, within_hz, signal, &kinematics, &earlier);
             compared.map_err(|error| AnalyzeError::Baseline {
                 baseline: self.path.clone(),
@@ -121,9 +110,7 @@ impl Baseline {
                     "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
                 ));
             } else if signal.series.values() == earlier.signal.series.values() {
-                change.warnings.push(format!(
-                    "The baseline {name} has the input's own samples: it is a copy of it."
-                ));
+                change.warnings.push(format!("The baseline {name} has the input's own samples: it is a copy of it."));
             }
         }
         Ok(())
@@ -145,17 +132,9 @@ impl Baseline {
     }
 
     /// `--baseline-window`; else the input's own window, if windows are given and the baseline holds it; else all of it.
-    fn window(
-        &self,
-        source: &Source,
-        earlier: &MeasuredSignal,
-        window: &WindowAnalysis,
-    ) -> TimeWindow {
+    fn window(&self, source: &Source, earlier: &MeasuredSignal, window: &WindowAnalysis) -> TimeWindow {
         let series = &earlier.series;
-        let same = TimeWindow {
-            from: window.from,
-            to: window.to,
-        };
+        let same = TimeWindow { from: window.from, to: window.to };
         let samples = series.values().len();
         let holds = |window: &TimeWindow| {
             let inside = window.check_inside(series.start_s(), series.step_s(), samples);

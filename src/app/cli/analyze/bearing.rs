@@ -33,9 +33,7 @@ pub(super) fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>
     if path.extension().is_some() || path.components().count() > 1 {
         return Ok(Some(Named::Case(path)));
     }
-    Err(AnalyzeError::UnknownBearing {
-        found: name.into_owned(),
-    })
+    Err(AnalyzeError::UnknownBearing { found: name.into_owned() })
 }
 
 /// Orders with their relative error: what was typed goes before what a case says. `None` where nothing says them.
@@ -45,14 +43,10 @@ pub(super) fn orders(
     case: Option<&Case>,
     error: f64,
 ) -> Result<Option<FaultOrders>, CliError> {
-    let in_row = |row: Result<DefectOrders, RaceError>| {
-        row.map_err(|error| ComputeError::Geometry(error.into()))
-    };
+    let in_row = |row: Result<DefectOrders, RaceError>| row.map_err(|error| ComputeError::Geometry(error.into()));
     let row: DefectOrders = match (&asked.orders, asked.balls, catalogue, case) {
         (Some(given), ..) => {
-            return Ok(Some(
-                FaultOrders::new(given.0, error).map_err(ComputeError::from)?,
-            ));
+            return Ok(Some(FaultOrders::new(given.0, error).map_err(ComputeError::from)?));
         }
         // clap sees to it that all three numbers are there
         (None, Some(balls), ..) => in_row(
@@ -71,21 +65,12 @@ pub(super) fn orders(
         }
         (None, None, None, None) => return Ok(None),
     };
-    Ok(Some(
-        FaultOrders::of(&row, error).map_err(ComputeError::from)?,
-    ))
+    Ok(Some(FaultOrders::of(&row, error).map_err(ComputeError::from)?))
 }
 
 /// Orders of a bearing of the catalogue, without a contact angle.
-pub(in crate::app::cli) fn catalogue_orders(
-    bearing: &CatalogueBearing,
-) -> Result<DefectOrders, RaceError> {
-    let row = BallRow::new(
-        bearing.balls,
-        bearing.ball_diameter,
-        bearing.pitch_diameter,
-        0.0,
-    )?;
+pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, RaceError> {
+    let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?;
     Ok(row.orders())
 }
 
@@ -102,7 +87,5 @@ pub(super) fn described(bearing: &CatalogueBearing) -> String {
 }
 
 pub(super) fn without_bearing(case: &Case) -> AnalyzeError {
-    AnalyzeError::CaseWithoutBearing {
-        path: case.source.path.clone(),
-    }
+    AnalyzeError::CaseWithoutBearing { path: case.source.path.clone() }
 }

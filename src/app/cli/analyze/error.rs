@@ -88,26 +88,14 @@ impl AnalyzeError {
             }
             Self::UnknownBearing { .. } => Some(format!("bearings: {}", bearing_names())),
             Self::BaselineChannel { known, .. } => {
-                let known: Vec<String> = known
-                    .iter()
-                    .take(LISTED)
-                    .map(|name| format!("\"{name}\""))
-                    .collect();
-                Some(format!(
-                    "--baseline-channel NAME; the baseline has {}",
-                    known.join(", ")
-                ))
+                let known: Vec<String> = known.iter().take(LISTED).map(|name| format!("\"{name}\"")).collect();
+                Some(format!("--baseline-channel NAME; the baseline has {}", known.join(", ")))
             }
-            Self::TooFast { .. } => {
-                Some("check --speed and --rate, or what the file says".to_owned())
+            Self::TooFast { .. } => Some("check --speed and --rate, or what the file says".to_owned()),
+            Self::BaselineUnit { .. } => Some("scale one of the two files to the unit of the other".to_owned()),
+            Self::Baseline { .. } => {
+                Some("see --baseline-window and --baseline-speed for the part of it that counts".to_owned())
             }
-            Self::BaselineUnit { .. } => {
-                Some("scale one of the two files to the unit of the other".to_owned())
-            }
-            Self::Baseline { .. } => Some(
-                "see --baseline-window and --baseline-speed for the part of it that counts"
-                    .to_owned(),
-            ),
             Self::CaseWithoutBearing { .. } => None,
         }
     }

@@ -30,11 +30,7 @@ impl Failure {
 
     /// What a result says of it.
     pub(super) fn summary(&self) -> FailureSummary {
-        FailureSummary {
-            input: self.input.clone(),
-            channel: self.channel.clone(),
-            error: self.message.clone(),
-        }
+        FailureSummary { input: self.input.clone(), channel: self.channel.clone(), error: self.message.clone() }
     }
 
     /// The message, with the file in front if it does not say it.
@@ -43,8 +39,7 @@ impl Failure {
             "" => String::new(),
             channel => format!(", channel \"{channel}\""),
         };
-        let named = self.message.starts_with(&self.input)
-            || self.message.contains(&format!(" {}:", self.input));
+        let named = self.message.starts_with(&self.input) || self.message.contains(&format!(" {}:", self.input));
         if channel.is_empty() && named {
             self.message.clone()
         } else {
@@ -55,25 +50,14 @@ impl Failure {
 
 /// All of them as one error, which names `failed` files of `inputs`; the input is to blame if it is for any of them.
 pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> CliError {
-    let mut lines = vec![format!(
-        "{failed} of {inputs} inputs could not be analysed in full:"
-    )];
-    lines.extend(
-        failures
-            .iter()
-            .take(LISTED)
-            .map(|failure| format!("  {}", failure.line())),
-    );
+    let mut lines = vec![format!("{failed} of {inputs} inputs could not be analysed in full:")];
+    lines.extend(failures.iter().take(LISTED).map(|failure| format!("  {}", failure.line())));
     if failures.len() > LISTED {
         lines.push(format!("  and {} more", failures.len() - LISTED));
     }
     let what = lines.join("\n");
     let mut helps: Vec<&str> = Vec::new();
-    for line in failures
-        .iter()
-        .filter_map(|failure| failure.help.as_deref())
-        .flat_map(str::lines)
-    {
+    for line in failures.iter().filter_map(|failure| failure.help.as_deref()).flat_map(str::lines) {
         if !helps.contains(&line) && helps.len() < LISTED {
             helps.push(line);
         }

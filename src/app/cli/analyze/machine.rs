@@ -65,12 +65,7 @@ impl Machine {
         let simulated = is_run && other.is_none();
         let exact = if simulated { 0.0 } else { GEOMETRY_ERROR };
         Ok(Self {
-            orders: orders(
-                asked,
-                catalogue,
-                bearing,
-                asked.geometry_error.unwrap_or(GEOMETRY_ERROR),
-            )?,
+            orders: orders(asked, catalogue, bearing, asked.geometry_error.unwrap_or(GEOMETRY_ERROR))?,
             setup: setup.map(|setup| (Box::new(setup), asked.geometry_error.unwrap_or(exact))),
             typed: asked.speed.clone(),
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
@@ -84,17 +79,9 @@ impl Machine {
     pub(super) fn motion(&self, signal: &MeasuredSignal) -> Option<(Kinematics<'_>, Vec<String>)> {
         if let (Some((setup, error)), None) = (&self.setup, own_speed(signal)) {
             let kinematics = match Kinematics::of(&setup.cage, &setup.geometry) {
-                Kinematics::Cage {
-                    cage,
-                    balls,
-                    rolling,
-                    ..
-                } => Kinematics::Cage {
-                    cage,
-                    balls,
-                    rolling,
-                    error: *error,
-                },
+                Kinematics::Cage { cage, balls, rolling, .. } => {
+                    Kinematics::Cage { cage, balls, rolling, error: *error }
+                }
                 given => given,
             };
             let words = "Speed, slip and orders are those of the case, whose cage is prescribed.";
@@ -110,38 +97,23 @@ impl Machine {
     }
 
     /// What is to be said where what was typed takes the place of what the file says of itself, or is less than it needs.
-    pub(super) fn overruled(
-        &self,
-        signal: &MeasuredSignal,
-        asked_rate: Option<(&str, f64)>,
-    ) -> Vec<String> {
+    pub(super) fn overruled(&self, signal: &MeasuredSignal, asked_rate: Option<(&str, f64)>) -> Vec<String> {
         let differ = |typed: f64, own: f64| (typed / own - 1.0).abs() > SAME;
         let hz = |value: f64| significant(value, 6);
         let rate = asked_rate.zip(signal.own_rate_hz);
         let rate = rate.filter(|&((_, typed), own)| differ(typed, own));
         let rate = rate.map(|((option, typed), own)| {
-            format!(
-                "{option} takes {} Hz for what the file says are {} Hz",
-                hz(typed),
-                hz(own)
-            )
+            format!("{option} takes {} Hz for what the file says are {} Hz", hz(typed), hz(own))
         });
         let speed = self.typed.as_ref().filter(|_| !self.own_first);
         let speed = speed.zip(own_speed(signal)).map(|(typed, own)| {
             let span = signal.series.span();
             let turns = typed.profile.angle(span.to) - typed.profile.angle(span.from);
-            (
-                turns.abs() / std::f64::consts::TAU / (span.to - span.from),
-                own,
-            )
+            (turns.abs() / std::f64::consts::TAU / (span.to - span.from), own)
         });
         let speed = speed.filter(|&(typed, own)| differ(typed, own));
         let speed = speed.map(|(typed, own)| {
-            format!(
-                "--speed takes {} Hz, on the average, for what the file says are {} Hz",
-                hz(typed),
-                hz(own)
-            )
+            format!("--speed takes {} Hz, on the average, for what the file says are {} Hz", hz(typed), hz(own))
         });
         let span = signal.series.span();
         let beyond = self.typed.iter().filter_map(|typed| {
@@ -163,28 +135,19 @@ impl Machine {
     }
 
     /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.
-    pub(super) fn speed_for(
-        &self,
-        signal: Option<&MeasuredSignal>,
-    ) -> Option<(SpeedProfile, String)> {
+    pub(super) fn speed_for(&self, signal: Option<&MeasuredSignal>) -> Option<(SpeedProfile, String)> {
         let own_first = self.own_first && signal.and_then(own_speed).is_some();
         if let Some(typed) = self.typed.as_ref().filter(|_| !own_first) {
             let words = format!("The shaft turns as --speed says: {}.", typed.text.trim());
             return Some((typed.profile.clone(), words));
         }
         if let Some(hz) = signal.and_then(own_speed) {
-            let words = format!(
-                "The shaft turns as the file says: {} Hz.",
-                significant(hz, 6)
-            );
+            let words = format!("The shaft turns as the file says: {} Hz.", significant(hz, 6));
             return Some((SpeedProfile::constant(hz).ok()?, words));
         }
         let of_case = self.setup.as_ref().map(|(setup, _)| setup.cage.shaft());
         let profile = of_case.or(self.of_case.as_ref())?;
-        Some((
-            profile.clone(),
-            "The shaft turns as the case says.".to_owned(),
-        ))
+        Some((profile.clone(), "The shaft turns as the case says.".to_owned()))
     }
 }
 

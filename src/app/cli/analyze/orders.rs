@@ -9,12 +9,7 @@ use crate::signal::diagnosis::FaultOrders;
 const NAMES: [&str; 4] = ["outer", "inner", "ball", "cage"];
 /// The other names, each with its place and what its number is multiplied by. BSF is the spin of a ball: a flaw on it strikes both
 /// races, twice a spin.
-const OTHER_NAMES: [(&str, usize, f64); 4] = [
-    ("bpfo", 0, 1.0),
-    ("bpfi", 1, 1.0),
-    ("bsf", 2, 2.0),
-    ("ftf", 3, 1.0),
-];
+const OTHER_NAMES: [(&str, usize, f64); 4] = [("bpfo", 0, 1.0), ("bpfi", 1, 1.0), ("bsf", 2, 2.0), ("ftf", 3, 1.0)];
 
 /// How near the sum of both races' orders must be to the number of balls, relative: printed orders are rounded.
 const WHOLE: f64 = 5e-3;
@@ -210,20 +205,12 @@ mod tests {
             ("", format!("{expected} \"\"")),
             ("bsf=x", format!("{expected} \"bsf=x\"")),
             ("outer=3.6,BPFO=1", "outer (BPFO) is there twice".to_owned()),
-            (
-                "ball=4.714,bsf=2.357",
-                "ball (BSF) is there twice".to_owned(),
-            ),
+            ("ball=4.714,bsf=2.357", "ball (BSF) is there twice".to_owned()),
             (
                 "bpfo=3.585,cage=0.4,inner=3.585",
-                "outer and inner are equal: lines of two parts at one order cannot be told apart"
-                    .to_owned(),
+                "outer and inner are equal: lines of two parts at one order cannot be told apart".to_owned(),
             ),
-            (
-                "outer=-1",
-                "order of the outer race: expected a number above 0 and at most 200, found -1"
-                    .to_owned(),
-            ),
+            ("outer=-1", "order of the outer race: expected a number above 0 and at most 200, found -1".to_owned()),
         ] {
             assert_eq!(GivenOrders::parse(text).unwrap_err(), message);
         }

@@ -31,11 +31,7 @@ pub(super) struct Read {
 ///
 /// # Errors
 /// [`MeasuredError`] of a file that cannot be read.
-pub(super) fn read(
-    path: &Path,
-    mut request: SignalRequest,
-    unnamed: Unnamed,
-) -> Result<Read, MeasuredError> {
+pub(super) fn read(path: &Path, mut request: SignalRequest, unnamed: Unnamed) -> Result<Read, MeasuredError> {
     let mut read = Read::default();
     let mut every = false;
     loop {
@@ -49,16 +45,11 @@ pub(super) fn read(
                 read.first.get_or_insert(error);
                 request.rate_hz = Some(1.0);
             }
-            Err(MeasuredError::Choose { known, .. })
-                if unnamed == Unnamed::Every && !known.is_empty() =>
-            {
+            Err(MeasuredError::Choose { known, .. }) if unnamed == Unnamed::Every && !known.is_empty() => {
                 every = true;
                 for name in known {
                     if request.channels.contains(&name) {
-                        let words = format!(
-                            "{}: a second channel \"{name}\" is left out.",
-                            path.display()
-                        );
+                        let words = format!("{}: a second channel \"{name}\" is left out.", path.display());
                         read.left_out.push(words);
                     } else {
                         request.channels.push(name);
@@ -67,23 +58,12 @@ pub(super) fn read(
             }
             Err(MeasuredError::Choose { path, known }) if !known.is_empty() => {
                 request.channels.push(known[0].clone());
-                read.missing.insert(
-                    0,
-                    Missing::Channel {
-                        known: known.clone(),
-                    },
-                );
-                read.first
-                    .get_or_insert(MeasuredError::Choose { path, known });
+                read.missing.insert(0, Missing::Channel { known: known.clone() });
+                read.first.get_or_insert(MeasuredError::Choose { path, known });
             }
-            Err(MeasuredError::Array { name, found, .. })
-                if every && request.channels.len() > 1 =>
-            {
+            Err(MeasuredError::Array { name, found, .. }) if every && request.channels.len() > 1 => {
                 request.channels.retain(|channel| *channel != name);
-                let words = format!(
-                    "{}: array \"{name}\" is left out: it is no signal ({found}).",
-                    path.display()
-                );
+                let words = format!("{}: array \"{name}\" is left out: it is no signal ({found}).", path.display());
                 read.left_out.push(words);
             }
             // the stand-in's fault

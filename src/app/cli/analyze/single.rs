@@ -49,18 +49,10 @@ pub(super) fn single(
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
-    let rows: Vec<AnalysisRow> = windows
-        .iter()
-        .map(|window| AnalysisRow::of(&name, window))
-        .collect();
+    let rows: Vec<AnalysisRow> = windows.iter().map(|window| AnalysisRow::of(&name, window)).collect();
     let table = write_table(folder, &rows)?;
     let result = AnalysisResult {
-        head: result_head(
-            "analyze",
-            &progress,
-            started.elapsed().as_secs_f64(),
-            Some(&files.tables),
-        ),
+        head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
         input: InputSummary {
             defect_orders: Some(source.defect_orders(input, windows.first())?),
             case: source.case.as_ref().map(|path| path.display().to_string()),
@@ -107,29 +99,14 @@ pub(super) fn no_part_judged(reason: &str) -> Verdict {
 
 /// What grew, and the RMS.
 fn change_lines(change: &WindowChange) -> Vec<String> {
-    let mut lines: Vec<String> = change
-        .warnings
-        .iter()
-        .map(|text| format!("  warning: {text}"))
-        .collect();
+    let mut lines: Vec<String> = change.warnings.iter().map(|text| format!("  warning: {text}")).collect();
     let mut grew = change.with(ChangeConclusion::Grew).peekable();
     if grew.peek().is_none() {
         let compared = change.lines.iter().any(|line| line.change_db.is_some());
-        let what = if compared {
-            "nothing grew since"
-        } else {
-            "the lines of no part can be compared with"
-        };
+        let what = if compared { "nothing grew since" } else { "the lines of no part can be compared with" };
         lines.push(format!("  {what} {}", change.baseline));
     }
-    lines.extend(grew.map(|line| {
-        format!(
-            "  {} grew since {}: {}",
-            line.name,
-            change.baseline,
-            line.words()
-        )
-    }));
+    lines.extend(grew.map(|line| format!("  {} grew since {}: {}", line.name, change.baseline, line.words())));
     if let Some(rms) = change.levels.first() {
         let words = change_words(rms.change_db, rms.interval_db);
         lines.push(format!("  RMS {}: {words}", rms.conclusion.words()));
@@ -140,12 +117,8 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
 fn summary(windows: &[WindowAnalysis]) -> String {
     let mut lines = Vec::new();
     for window in windows {
-        let place = format!(
-            "{} from {} to {} s",
-            window.sensor,
-            significant(window.from, 5),
-            significant(window.to, 5)
-        );
+        let place =
+            format!("{} from {} to {} s", window.sensor, significant(window.from, 5), significant(window.to, 5));
         match &window.diagnosis {
             Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
             Ok(diagnosis) => {

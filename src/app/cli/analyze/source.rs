@@ -9,9 +9,7 @@ use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{CliError, Options};
-use crate::app::commands::analyze::{
-    AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis,
-};
+use crate::app::commands::analyze::{AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis};
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::Unwatched;
@@ -20,11 +18,7 @@ use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
 
 /// The results that a run's signals are taken from.
-const RUN: Wanted = Wanted {
-    command: "run",
-    arrays: "signals.npz",
-    instead: "a file of signals",
-};
+const RUN: Wanted = Wanted { command: "run", arrays: "signals.npz", instead: "a file of signals" };
 
 /// Signals with all that an analysis needs.
 pub(super) struct Source {
@@ -51,10 +45,7 @@ impl Source {
         options: &Options,
     ) -> Result<Self, CliError> {
         let is_run = input.is_dir();
-        let mut request = SignalRequest {
-            channels: once(&asked.channel),
-            rate_hz: asked.rate,
-        };
+        let mut request = SignalRequest { channels: once(&asked.channel), rate_hz: asked.rate };
         let (file, case) = if is_run {
             let case = case_of_results(input, RUN, &options.set)?;
             if request.channels.is_empty() {
@@ -95,11 +86,7 @@ impl Source {
             }
         }
         let of_baseline = asked.baseline_rate.is_some() && asked.baseline.as_deref() == Some(input);
-        let option = if of_baseline {
-            "--baseline-rate"
-        } else {
-            "--rate"
-        };
+        let option = if of_baseline { "--baseline-rate" } else { "--rate" };
         let settings = settings(asked, case.as_ref().filter(|_| is_run));
         let mut assumptions = read.left_out;
         let mut doubts = Vec::new();
@@ -110,24 +97,14 @@ impl Source {
                     doubts.push(text);
                 }
             }
-            let notes = machine
-                .motion(signal)
-                .into_iter()
-                .flat_map(|(_, notes)| notes);
+            let notes = machine.motion(signal).into_iter().flat_map(|(_, notes)| notes);
             for note in notes {
                 if !assumptions.contains(&note) {
                     assumptions.push(note);
                 }
             }
         }
-        Ok(Self {
-            signals,
-            settings,
-            case: case.map(|case| case.source.path),
-            assumptions,
-            doubts,
-            machine,
-        })
+        Ok(Self { signals, settings, case: case.map(|case| case.source.path), assumptions, doubts, machine })
     }
 
     /// Lets a speed that the file states go before one that was typed.
@@ -139,19 +116,10 @@ impl Source {
     ///
     /// # Errors
     /// [`CliError`]: a signal of this file without a speed, where another states one; as [`compute_analysis`].
-    pub(super) fn analyse(
-        &self,
-        input: &Path,
-        signal: &MeasuredSignal,
-    ) -> Result<Vec<WindowAnalysis>, CliError> {
+    pub(super) fn analyse(&self, input: &Path, signal: &MeasuredSignal) -> Result<Vec<WindowAnalysis>, CliError> {
         let kinematics = self.kinematics(input, signal)?;
         let alone = std::slice::from_ref(signal);
-        Ok(compute_analysis(
-            alone,
-            &self.settings,
-            &kinematics,
-            &Unwatched,
-        )?)
+        Ok(compute_analysis(alone, &self.settings, &kinematics, &Unwatched)?)
     }
 
     /// Orders in a window of the first signal, as results have them.
@@ -179,20 +147,11 @@ impl Source {
     ///
     /// # Errors
     /// [`AnalyzeError::Missing`]: a signal without a speed, where another states one.
-    pub(super) fn kinematics(
-        &self,
-        input: &Path,
-        signal: &MeasuredSignal,
-    ) -> Result<Kinematics<'_>, AnalyzeError> {
+    pub(super) fn kinematics(&self, input: &Path, signal: &MeasuredSignal) -> Result<Kinematics<'_>, AnalyzeError> {
         let motion = self.machine.motion(signal);
-        let (kinematics, _) = motion.ok_or_else(|| AnalyzeError::Missing {
-            input: input.to_owned(),
-            missing: vec![Missing::Speed],
-        })?;
-        let (series, speed_hz) = (
-            &signal.series,
-            kinematics.mean_speed_hz(signal.series.span()),
-        );
+        let (kinematics, _) =
+            motion.ok_or_else(|| AnalyzeError::Missing { input: input.to_owned(), missing: vec![Missing::Speed] })?;
+        let (series, speed_hz) = (&signal.series, kinematics.mean_speed_hz(signal.series.span()));
         if speed_hz.is_nan() || speed_hz >= 0.5 * series.rate_hz() {
             return Err(AnalyzeError::TooFast {
                 input: input.to_owned(),
@@ -237,9 +196,7 @@ fn flaws(signal: &MeasuredSignal, windows: &[TimeWindow]) -> Vec<String> {
     let parts = windows.iter();
     // a window outside the signal is named where it is analysed
     let parts = parts.filter_map(|window| signal.series.window(window.from, window.to).ok());
-    parts
-        .flat_map(|part| flaws_of(&signal.name, &part))
-        .collect()
+    parts.flat_map(|part| flaws_of(&signal.name, &part)).collect()
 }
 
 fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {

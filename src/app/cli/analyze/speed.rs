@@ -9,7 +9,8 @@ const UNITS: [(&str, f64); 3] = [("hz", 1.0), ("rpm", 1.0 / 60.0), (PER_MINUTE, 
 const PER_MINUTE: &str = "1/min";
 /// Without a unit, a speed above this one may be meant in revolutions per minute, Hz: 30 000 rpm.
 const DOUBTFUL_HZ: f64 = 500.0;
-const EXPECTED: &str = "expected SPEED or T:SPEED,T:SPEED,... (T in s; SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz)";
+const EXPECTED: &str =
+    "expected SPEED or T:SPEED,T:SPEED,... (T in s; SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz)";
 
 /// A shaft speed, and how it was typed.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,18 +35,14 @@ impl GivenSpeed {
             parts => parts
                 .iter()
                 .map(|part| {
-                    let (time, speed) = part
-                        .split_once(':')
-                        .ok_or_else(|| format!("{EXPECTED}, found \"{part}\""))?;
+                    let (time, speed) = part.split_once(':').ok_or_else(|| format!("{EXPECTED}, found \"{part}\""))?;
                     Point::read(Some(time), speed)
                 })
                 .collect::<Result<_, String>>()?,
         };
         let unitless = points.iter().filter(|point| !point.has_unit).count();
         if unitless > 0 && unitless < points.len() {
-            return Err(format!(
-                "expected a unit behind every speed or behind none, found \"{text}\""
-            ));
+            return Err(format!("expected a unit behind every speed or behind none, found \"{text}\""));
         }
         let knots: Vec<SpeedKnot> = points.iter().map(|point| point.knot).collect();
         let speeds = knots.iter().map(|knot| knot.frequency_hz.abs());
@@ -87,13 +84,7 @@ impl Point {
         let time = time.map_or(Some(0.0), number).ok_or_else(found)?;
         let (amount, unit) = unit_of(speed.trim());
         let value = number(amount).ok_or_else(found)?;
-        Ok(Self {
-            knot: SpeedKnot {
-                time,
-                frequency_hz: value * unit.unwrap_or(1.0),
-            },
-            has_unit: unit.is_some(),
-        })
+        Ok(Self { knot: SpeedKnot { time, frequency_hz: value * unit.unwrap_or(1.0) }, has_unit: unit.is_some() })
     }
 }
 
@@ -106,10 +97,7 @@ fn unit_of(text: &str) -> (&str, Option<f64>) {
         let apart = unit != PER_MINUTE || amount.ends_with(char::is_whitespace);
         (apart && end.eq_ignore_ascii_case(unit)).then_some(amount)
     };
-    UNITS
-        .iter()
-        .find_map(|&(unit, hz)| Some((ends_with(unit)?, Some(hz))))
-        .unwrap_or((text, None))
+    UNITS.iter().find_map(|&(unit, hz)| Some((ends_with(unit)?, Some(hz)))).unwrap_or((text, None))
 }
 
 /// A whole number in groups of three digits.
@@ -136,16 +124,8 @@ mod tests {
 
     #[test]
     fn a_unit_is_taken_in_any_case_with_or_without_a_blank() {
-        for text in [
-            "29.95",
-            "29.95Hz",
-            " 29.95 hz ",
-            "1797rpm",
-            "1797 rpm",
-            "1797RPM",
-            "1797 1/min",
-            "1.797e3 1/MIN",
-        ] {
+        for text in ["29.95", "29.95Hz", " 29.95 hz ", "1797rpm", "1797 rpm", "1797RPM", "1797 1/min", "1.797e3 1/MIN"]
+        {
             assert!((hz(text, 0.0) - 29.95).abs() < 1e-12, "{text}");
         }
         for text in ["0:600rpm,8:3000rpm", "0: 10Hz , 8:3000 1/min", "0:10,8:50"] {
@@ -184,14 +164,8 @@ mod tests {
             assert!(message.starts_with(EXPECTED), "{text}: {message}");
         }
         for (text, message) in [
-            (
-                "2:10,1:5",
-                "speed profile row 1: time 1 s must be later than 2 s in the row before",
-            ),
-            (
-                "0:600rpm,8:3000",
-                "expected a unit behind every speed or behind none, found \"0:600rpm,8:3000\"",
-            ),
+            ("2:10,1:5", "speed profile row 1: time 1 s must be later than 2 s in the row before"),
+            ("0:600rpm,8:3000", "expected a unit behind every speed or behind none, found \"0:600rpm,8:3000\""),
         ] {
             assert_eq!(GivenSpeed::parse(text).unwrap_err(), message);
         }

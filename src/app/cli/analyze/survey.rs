@@ -15,8 +15,8 @@ use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::result_head;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
 use crate::app::commands::analyze::{
-    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput,
-    survey_report, survey_section,
+    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput, survey_report,
+    survey_section,
 };
 use crate::report::Section;
 
@@ -78,27 +78,15 @@ pub(super) fn survey(
         progress.finish();
         return Err(failure(&all.failures, failed, inputs.len()));
     }
-    let mut report = survey_report(
-        inputs.len(),
-        &all.rows,
-        all.sections,
-        &all.assumptions,
-        &command(asked),
-    );
+    let mut report = survey_report(inputs.len(), &all.rows, all.sections, &all.assumptions, &command(asked));
     report.warnings.extend(asked.doubts());
-    all.warnings
-        .extend(baseline.iter().flat_map(Baseline::doubts));
+    all.warnings.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&all.warnings, options);
     report.warnings.extend(all.warnings);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
     let table = write_table(folder, &all.rows)?;
     let result = SurveyResult {
-        head: result_head(
-            "analyze",
-            &progress,
-            started.elapsed().as_secs_f64(),
-            Some(&files.tables),
-        ),
+        head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
         inputs: of_inputs,
         failures: all.failures.iter().map(Failure::summary).collect(),
         windows: all.windows,
@@ -154,10 +142,7 @@ impl Analysed {
                 for text in window.change.iter().flat_map(|change| &change.warnings) {
                     analysed.warnings.push(format!("{name}: {text}"));
                 }
-                analysed.windows.push(WindowOfInput {
-                    input: name.clone(),
-                    window: window.summary(),
-                });
+                analysed.windows.push(WindowOfInput { input: name.clone(), window: window.summary() });
                 if shown.fetch_add(1, Ordering::Relaxed) < SHOWN_WINDOWS {
                     analysed.sections.push(survey_section(&name, window));
                 }
@@ -188,10 +173,7 @@ fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Verdict {
     match error {
         Some(CliError::WrongInput { what, help }) => return Verdict::WrongInput { what, help },
         Some(error) => {
-            return Verdict::Bad {
-                what: error.to_string(),
-                help: error.help(),
-            };
+            return Verdict::Bad { what: error.to_string(), help: error.help() };
         }
         None => {}
     }

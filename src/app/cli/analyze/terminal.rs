@@ -4,16 +4,8 @@ use crate::app::commands::analyze::{AnalysisRow, WindowFigures};
 use crate::report::significant;
 use crate::signal::diagnosis::Conclusion;
 
-const HEAD: [&str; 8] = [
-    "file",
-    "channel",
-    "window s",
-    "speed Hz",
-    "RMS",
-    "kurtosis",
-    "indicated",
-    "not enough evidence",
-];
+const HEAD: [&str; 8] =
+    ["file", "channel", "window s", "speed Hz", "RMS", "kurtosis", "indicated", "not enough evidence"];
 /// Columns of numbers, which end at the same place.
 const NUMBERS: std::ops::Range<usize> = 3..6;
 const GAP: &str = "  ";
@@ -21,14 +13,10 @@ const GAP: &str = "  ";
 /// The rows, aligned, under a head.
 pub(super) fn table(rows: &[AnalysisRow]) -> String {
     let head = HEAD.map(str::to_owned);
-    let cells: Vec<[String; 8]> = std::iter::once(head)
-        .chain(rows.iter().map(cells))
-        .collect();
+    let cells: Vec<[String; 8]> = std::iter::once(head).chain(rows.iter().map(cells)).collect();
     let mut widths = [0; 8];
     // what a row without a window says is as long as it is
-    let whole = cells
-        .iter()
-        .zip(std::iter::once(true).chain(rows.iter().map(|row| row.found.is_ok())));
+    let whole = cells.iter().zip(std::iter::once(true).chain(rows.iter().map(|row| row.found.is_ok())));
     for (row, whole) in whole {
         let measured = if whole { HEAD.len() } else { 2 };
         for (width, cell) in widths.iter_mut().zip(row).take(measured) {
@@ -60,10 +48,7 @@ fn grown(row: &AnalysisRow) -> Option<String> {
     let change = row.found.as_ref().ok()?.change.as_ref()?;
     (!change.grew.is_empty()).then(|| {
         let grew = change.grew.join(", ");
-        let text = format!(
-            "{} {}: grew since {}: {grew}",
-            row.input, row.channel, change.baseline
-        );
+        let text = format!("{} {}: grew since {}: {grew}", row.input, row.channel, change.baseline);
         one_line(&text)
     })
 }
@@ -89,9 +74,7 @@ fn cells(row: &AnalysisRow) -> [String; 8] {
         format!("{}-{}", short(figures.from), short(figures.to)),
         significant(figures.speed_hz, 4),
         significant(figures.rms, 3),
-        figures
-            .kurtosis
-            .map_or_else(String::new, |value| significant(value, 3)),
+        figures.kurtosis.map_or_else(String::new, |value| significant(value, 3)),
         indicated(row, figures),
         not_enough,
     ]
@@ -112,23 +95,13 @@ fn indicated(row: &AnalysisRow, figures: &WindowFigures) -> String {
             format!("{}{}", part.fault.name(), strength.unwrap_or_default())
         })
         .collect();
-    if named.is_empty() {
-        row.indicated()
-    } else {
-        named.join(", ")
-    }
+    if named.is_empty() { row.indicated() } else { named.join(", ") }
 }
 
 /// What is between, impacts that belong to no part, and a speed that nothing confirms.
 fn unclear(figures: &WindowFigures, remark: &str) -> String {
-    let parts = figures
-        .names(Conclusion::NotEnough)
-        .into_iter()
-        .map(str::to_owned);
-    let impacts = figures
-        .unexplained
-        .iter()
-        .map(|text| format!("of no part: {text}"));
+    let parts = figures.names(Conclusion::NotEnough).into_iter().map(str::to_owned);
+    let impacts = figures.unexplained.iter().map(|text| format!("of no part: {text}"));
     let remark = (!remark.is_empty()).then(|| one_line(remark));
     let said = parts.chain(impacts).chain(remark);
     said.collect::<Vec<_>>().join(", ")
@@ -177,10 +150,7 @@ mod tests {
                     part(Fault::Ball, Conclusion::NotEnough, Some(1e-2)),
                 ]),
             ),
-            row(
-                "longer.csv",
-                Ok(vec![part(Fault::Cage, Conclusion::NotEnough, None)]),
-            ),
+            row("longer.csv", Ok(vec![part(Fault::Cage, Conclusion::NotEnough, None)])),
             row("c.csv", Err("two\nlines".to_owned())),
             AnalysisRow::failed("d\u{1b}.csv", "", "no such file".to_owned()),
         ];

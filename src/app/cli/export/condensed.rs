@@ -8,8 +8,7 @@ use crate::app::commands::condense::superelement_record;
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::formats::{
-    DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
-    write_superelement_op4,
+    DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem, write_superelement_op4,
 };
 
 /// Whether a case has a housing and something that it is condensed on, coordinates and not modes of an interface.
@@ -29,40 +28,25 @@ pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportEr
     } else {
         return Ok(());
     };
-    Err(ExportError::NothingCondensed {
-        format: to.name(),
-        found,
-    })
+    Err(ExportError::NothingCondensed { format: to.name(), found })
 }
 
 /// `superelement.op4`, `superelement_dofs.csv`.
-pub(super) fn op4(
-    case: &Case,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let record = condensed(case, progress)?;
     let at = |name: &str| folder.path().join(name);
     let write = || -> Result<(), ExportError> {
         write_superelement_op4(&at("superelement.op4"), &record, Op4Format::Binary)?;
-        Ok(write_dofs_csv(
-            &at("superelement_dofs.csv"),
-            &record.labels(),
-        )?)
+        Ok(write_dofs_csv(&at("superelement_dofs.csv"), &record.labels())?)
     };
     write()?;
     let damping = record.damping.as_ref().map(|_| "BAA");
     let structural = record.structural.as_ref().map(|_| "K4AA");
-    let matrices: Vec<&str> = ["KAA", "MAA"]
-        .into_iter()
-        .chain(damping)
-        .chain(structural)
-        .collect();
+    let matrices: Vec<&str> = ["KAA", "MAA"].into_iter().chain(damping).chain(structural).collect();
     let matrices = matrices.join(", ");
     let order = record.order();
-    let of_matrices = format!(
-        "{matrices} [{order} x {order}] of the condensed housing, interface first, SI; binary OUTPUT4"
-    );
+    let of_matrices =
+        format!("{matrices} [{order} x {order}] of the condensed housing, interface first, SI; binary OUTPUT4");
     let of_rows = "which row is which coordinate: row from 0, mtx_row from 1";
     Ok(Export {
         files: vec![
@@ -74,11 +58,7 @@ pub(super) fn op4(
 }
 
 /// `superelement.fem`. A free housing's shapes are relative to the first interface node with six motions, if there is one.
-pub(super) fn mbdyn(
-    case: &Case,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let record = condensed(case, progress)?;
     let reference = reference(&record.interface);
     let path = folder.path().join("superelement.fem");
@@ -93,11 +73,8 @@ pub(super) fn mbdyn(
             format!("free, {mass:.6e} kg, free-free shapes")
         }
     };
-    let what = format!(
-        "{} modes at {} nodes for MBDyn's modal joint, SI; {joint}",
-        written.frequency_hz.len(),
-        written.nodes
-    );
+    let what =
+        format!("{} modes at {} nodes for MBDyn's modal joint, SI; {joint}", written.frequency_hz.len(), written.nodes);
     Ok(Export {
         files: vec![WrittenFile::new(folder.path(), "superelement.fem", &what)?],
         summary: format!("{}\n{what}", counts(&record)),
@@ -112,11 +89,7 @@ fn condensed(case: &Case, progress: &Progress) -> Result<SuperelementRecord, Cli
 }
 
 fn counts(record: &SuperelementRecord) -> String {
-    format!(
-        "{} interface coordinates, {} modes",
-        record.interface.len(),
-        record.modal_hz.len()
-    )
+    format!("{} interface coordinates, {} modes", record.interface.len(), record.modal_hz.len())
 }
 
 /// The first node of the interface that has six coordinates.
@@ -126,10 +99,7 @@ fn reference(interface: &[DofLabel]) -> MbdynReference {
         interface.iter().filter(own).count()
     };
     match interface.iter().find(|label| coordinates(label) == 6) {
-        Some(label) => MbdynReference::Node {
-            body: label.body,
-            node: label.node,
-        },
+        Some(label) => MbdynReference::Node { body: label.body, node: label.node },
         None => MbdynReference::Floating,
     }
 }

@@ -84,16 +84,13 @@ impl ExportError {
             Self::DoesNotFit { .. } | Self::Read(_) => {
                 "run `plummer modes` again with --force, or name the case file".to_owned()
             }
-            Self::NothingCondensed { .. } => {
-                "--to mtx and --to npz write matrices that are not condensed".to_owned()
-            }
+            Self::NothingCondensed { .. } => "--to mtx and --to npz write matrices that are not condensed".to_owned(),
             Self::InterfaceModes { .. } => {
                 "--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"
                     .to_owned()
             }
             Self::Mbdyn(MbdynError::RigidMotions { .. }) => {
-                "MBDyn's bodies are solid: a housing that is free in space, or held by its supports"
-                    .to_owned()
+                "MBDyn's bodies are solid: a housing that is free in space, or held by its supports".to_owned()
             }
             Self::Shapes(_) => "ask for more modes in [modes]".to_owned(),
             _ => return None,

@@ -8,20 +8,13 @@ use super::{CliError, Export, ExportError};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
 use crate::app::scene::FreeSystem;
-use crate::formats::{
-    write_dofs_csv, write_dofs_npz, write_matrix_market, write_modes_npz, write_sparse_npz,
-};
+use crate::formats::{write_dofs_csv, write_dofs_npz, write_matrix_market, write_modes_npz, write_sparse_npz};
 
 const STIFFNESS: &str = "stiffness with springs over the free degrees of freedom, SI (N/m, N, N m)";
-const MASS: &str =
-    "consistent mass with point masses over the free degrees of freedom, SI (kg, kg m, kg m^2)";
+const MASS: &str = "consistent mass with point masses over the free degrees of freedom, SI (kg, kg m, kg m^2)";
 
 /// `stiffness.mtx`, `mass.mtx`, `dofs.csv`.
-pub(super) fn mtx(
-    case: &Case,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn mtx(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let system = FreeSystem::build(case, progress)?;
     progress.stage("write");
     let comment = |what: &str| {
@@ -42,23 +35,13 @@ pub(super) fn mtx(
     let files = [
         ("stiffness.mtx", STIFFNESS),
         ("mass.mtx", MASS),
-        (
-            "dofs.csv",
-            "which row is which degree of freedom: row from 0, mtx_row from 1",
-        ),
+        ("dofs.csv", "which row is which degree of freedom: row from 0, mtx_row from 1"),
     ];
-    Ok(Export {
-        files: listed(folder.path(), &files)?,
-        summary: summary(&system),
-    })
+    Ok(Export { files: listed(folder.path(), &files)?, summary: summary(&system) })
 }
 
 /// `stiffness.npz`, `mass.npz`, `dofs.npz` and `modes.npz`, which stays if it is the source itself.
-pub(super) fn npz(
-    source: &Source,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn npz(source: &Source, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let system = FreeSystem::build(source.case(), progress)?;
     let (_, shapes) = source.shapes(progress)?;
     progress.stage("write");
@@ -76,14 +59,8 @@ pub(super) fn npz(
     let files = [
         ("stiffness.npz", STIFFNESS),
         ("mass.npz", MASS),
-        (
-            "dofs.npz",
-            "which row is which degree of freedom, in the order of the rows",
-        ),
-        (
-            "modes.npz",
-            "frequencies (Hz) and mode shapes at all nodes, those of the ring after those of the mesh",
-        ),
+        ("dofs.npz", "which row is which degree of freedom, in the order of the rows"),
+        ("modes.npz", "frequencies (Hz) and mode shapes at all nodes, those of the ring after those of the mesh"),
     ];
     Ok(Export {
         files: listed(folder.path(), &files)?,

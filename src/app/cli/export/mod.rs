@@ -80,12 +80,7 @@ pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcom
     let mut written: Vec<PathBuf> = written.collect();
     let (path, result) = folder.write_json("export.json", &record)?;
     written.push(path);
-    Ok(Outcome {
-        summary,
-        result,
-        written,
-        verdict: Verdict::Good,
-    })
+    Ok(Outcome { summary, result, written, verdict: Verdict::Good })
 }
 
 impl ExportFormat {
@@ -93,10 +88,7 @@ impl ExportFormat {
     fn files(self, case: &Case) -> Vec<&'static str> {
         let of_bodies = |housing, ring| {
             let housing = case.meshed_housing().map(|_| housing);
-            housing
-                .into_iter()
-                .chain(case.ring.as_ref().map(|_| ring))
-                .collect()
+            housing.into_iter().chain(case.ring.as_ref().map(|_| ring)).collect()
         };
         match self {
             Self::Mtx => vec!["stiffness.mtx", "mass.mtx", "dofs.csv"],

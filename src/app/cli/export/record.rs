@@ -43,11 +43,7 @@ impl WrittenFile {
     pub(super) fn new(folder: &Path, name: &str, what: &str) -> Result<Self, CliError> {
         let path = folder.join(name);
         let found = fs::metadata(&path).map_err(FileError::write(&path))?;
-        Ok(Self {
-            file: name.to_owned(),
-            bytes: found.len(),
-            what: what.to_owned(),
-        })
+        Ok(Self { file: name.to_owned(), bytes: found.len(), what: what.to_owned() })
     }
 }
 

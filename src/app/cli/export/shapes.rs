@@ -18,21 +18,14 @@ struct Bodies {
 }
 
 /// `modes.vtu` of the housing's elements, `ring.vtu` of the ring's line.
-pub(super) fn vtu(
-    source: &Source,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn vtu(source: &Source, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let bodies = Bodies::of(source, progress)?;
     progress.stage("write");
     let mut files = Vec::new();
     if let Some((mesh, shapes)) = &bodies.housing {
         let elements = volumes(mesh);
         let (parts, names) = part_numbers(source.case(), mesh, &elements);
-        let part = Field {
-            name: "part",
-            values: FieldValues::Integers(&parts),
-        };
+        let part = Field { name: "part", values: FieldValues::Integers(&parts) };
         write_grid(folder, "modes.vtu", mesh, &elements, shapes, &[part])?;
         let what = format!(
             "elements of the housing, a point field a mode (displacements along the mesh's axes); cell field part: {names}"
@@ -50,11 +43,7 @@ pub(super) fn vtu(
 }
 
 /// `modes.uff` of the housing's elements, `ring.uff` of the ring's nodes.
-pub(super) fn uff(
-    source: &Source,
-    folder: &OutputFolder,
-    progress: &Progress,
-) -> Result<Export, CliError> {
+pub(super) fn uff(source: &Source, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let bodies = Bodies::of(source, progress)?;
     progress.stage("write");
     let title = &source.case().title;
@@ -64,8 +53,7 @@ pub(super) fn uff(
         let own = at_used_nodes(mesh, &elements, shapes);
         let path = folder.path().join("modes.uff");
         write_uff(&path, title, mesh, elements, &own).map_err(ExportError::from)?;
-        let what =
-            "nodes, elements and mode shapes (dataset 55) of the housing, SI, labels of the mesh";
+        let what = "nodes, elements and mode shapes (dataset 55) of the housing, SI, labels of the mesh";
         files.push(WrittenFile::new(folder.path(), "modes.uff", what)?);
     }
     if let Some(shapes) = &bodies.ring {
@@ -84,15 +72,8 @@ impl Bodies {
         let part = |from: usize, to: usize| ModeShapes {
             frequencies_hz: shapes.frequencies_hz.clone(),
             node_tags: None,
-            points: shapes
-                .points
-                .as_ref()
-                .map(|points| points[from..to].to_vec()),
-            shapes: shapes
-                .shapes
-                .iter()
-                .map(|shape| shape[3 * from..3 * to].to_vec())
-                .collect(),
+            points: shapes.points.as_ref().map(|points| points[from..to].to_vec()),
+            shapes: shapes.shapes.iter().map(|shape| shape[3 * from..3 * to].to_vec()).collect(),
         };
         let all = shapes.count_points();
         let housing = mesh.map(|mesh| (mesh, part(0, nodes)));
@@ -104,15 +85,9 @@ impl Bodies {
         let of_ring = self.ring.as_ref();
         let shapes = self.housing.as_ref().map(|(_, shapes)| shapes).or(of_ring);
         let modes = shapes.map_or(0, ModeShapes::count_modes);
-        let nodes = self
-            .housing
-            .as_ref()
-            .map_or(0, |(mesh, _)| mesh.nodes.len());
+        let nodes = self.housing.as_ref().map_or(0, |(mesh, _)| mesh.nodes.len());
         let ring = of_ring.map_or(0, ModeShapes::count_points);
-        Export {
-            files,
-            summary: format!("{modes} modes at {nodes} nodes of the mesh and {ring} of the ring"),
-        }
+        Export { files, summary: format!("{modes} modes at {nodes} nodes of the mesh and {ring} of the ring") }
     }
 }
 
@@ -124,10 +99,7 @@ fn volumes(mesh: &Mesh) -> Vec<ElementId> {
 
 /// Number of each element's part, from 1 in the order of `housing.parts`, and what the numbers mean.
 fn part_numbers(case: &Case, mesh: &Mesh, elements: &[ElementId]) -> (Vec<i64>, String) {
-    let parts = case
-        .meshed_housing()
-        .into_iter()
-        .flat_map(|housing| &housing.parts);
+    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
     let mut numbers = BTreeMap::new();
     let mut names = Vec::new();
     for (number, part) in (1..).zip(parts) {
@@ -152,28 +124,14 @@ fn write_grid(
     // as many digits as the last mode has, so that programs that sort names keep the order
     let digits = shapes.count_modes().to_string().len();
     let title = |(index, hz): (usize, &f64)| format!("mode {:0digits$}, {hz:.4} Hz", index + 1);
-    let names: Vec<String> = shapes
-        .frequencies_hz
-        .iter()
-        .enumerate()
-        .map(title)
-        .collect();
+    let names: Vec<String> = shapes.frequencies_hz.iter().enumerate().map(title).collect();
     let fields: Vec<Field> = names
         .iter()
         .zip(&shapes.shapes)
-        .map(|(name, shape)| Field {
-            name,
-            values: FieldValues::Vectors(shape),
-        })
+        .map(|(name, shape)| Field { name, values: FieldValues::Vectors(shape) })
         .collect();
     let path = folder.path().join(name);
-    Ok(write_vtu(
-        &path,
-        mesh,
-        elements.iter().copied(),
-        &fields,
-        cells,
-    )?)
+    Ok(write_vtu(&path, mesh, elements.iter().copied(), &fields, cells)?)
 }
 
 /// A closed line of straight elements through the ring's nodes.
@@ -188,17 +146,11 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
             kind: ElementKind::Line2,
             tags,
             connectivity: ends.collect(),
-            entity: Entity {
-                dimension: 1,
-                tag: 1,
-            },
+            entity: Entity { dimension: 1, tag: 1 },
         }],
         nodes,
         groups: Vec::new(),
-        format: MshFormat {
-            version: MshVersion::V41,
-            binary: false,
-        },
+        format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::new(),
     }
 }
@@ -213,9 +165,7 @@ fn at_used_nodes(mesh: &Mesh, elements: &[ElementId], shapes: &ModeShapes) -> Mo
     }
     let nodes: Vec<usize> = (0..used.len()).filter(|&node| used[node]).collect();
     let of_nodes = |shape: &Vec<f64>| {
-        let values = nodes
-            .iter()
-            .flat_map(|&node| &shape[3 * node..3 * node + 3]);
+        let values = nodes.iter().flat_map(|&node| &shape[3 * node..3 * node + 3]);
         values.copied().collect()
     };
     ModeShapes {

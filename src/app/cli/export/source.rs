@@ -19,11 +19,7 @@ use serde_json::Value;
 const SAME_POINT: f64 = 1e-9;
 
 /// The results that shapes are taken from.
-const MODES: Wanted = Wanted {
-    command: "modes",
-    arrays: "modes.npz",
-    instead: "a case file",
-};
+const MODES: Wanted = Wanted { command: "modes", arrays: "modes.npz", instead: "a case file" };
 
 /// A case, and the folder with its results if they are to be taken from there.
 pub(super) struct Source {
@@ -47,10 +43,7 @@ impl Source {
         }
         let case = case_of_results(from, MODES, &[])?;
         same_meshes(&case, &from.join("modes.json"))?;
-        Ok(Self {
-            case,
-            folder: Some(folder),
-        })
+        Ok(Self { case, folder: Some(folder) })
     }
 
     pub(super) fn case(&self) -> &Case {
@@ -71,10 +64,7 @@ impl Source {
     ///
     /// # Errors
     /// [`CliError::Stage`] of the computation, [`ExportError`] if earlier results cannot be read or are of another mesh.
-    pub(super) fn shapes(
-        &self,
-        progress: &Progress,
-    ) -> Result<(Option<Mesh>, ModeShapes), CliError> {
+    pub(super) fn shapes(&self, progress: &Progress) -> Result<(Option<Mesh>, ModeShapes), CliError> {
         let Some(path) = self.modes_npz() else {
             let (mesh, shapes) = compute_mode_shapes(&self.case, progress)?;
             shapes.check().map_err(ExportError::from)?;
@@ -99,11 +89,7 @@ fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
     let json: Value = serde_json::from_slice(&text).unwrap_or_default();
     let then: Vec<FileDigest> = serde_json::from_value(json["meshes"].clone()).unwrap_or_default();
     let now = mesh_digests(case)?;
-    match then
-        .iter()
-        .zip(now)
-        .find(|(then, now)| then.sha256 != now.sha256)
-    {
+    match then.iter().zip(now).find(|(then, now)| then.sha256 != now.sha256) {
         None => Ok(()),
         Some((then, now)) => Err(ResultsError::OtherFile {
             path: result.to_owned(),
@@ -116,30 +102,15 @@ fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
 }
 
 /// Whether shapes are at the nodes of this mesh and of a ring of so many nodes.
-fn check_fit(
-    path: &Path,
-    mesh: Option<&Mesh>,
-    ring_nodes: usize,
-    shapes: &ModeShapes,
-) -> Result<(), ExportError> {
-    let wrong = |expected: String, found: String| ExportError::DoesNotFit {
-        path: path.to_owned(),
-        expected,
-        found,
-    };
+fn check_fit(path: &Path, mesh: Option<&Mesh>, ring_nodes: usize, shapes: &ModeShapes) -> Result<(), ExportError> {
+    let wrong = |expected: String, found: String| ExportError::DoesNotFit { path: path.to_owned(), expected, found };
     let nodes: &[[f64; 3]] = mesh.map_or(&[], |mesh| &mesh.nodes);
     let found = shapes.count_points();
     if found != nodes.len() + ring_nodes {
-        let expected = format!(
-            "{} nodes of the mesh and {ring_nodes} of the ring",
-            nodes.len()
-        );
+        let expected = format!("{} nodes of the mesh and {ring_nodes} of the ring", nodes.len());
         return Err(wrong(expected, format!("{found} nodes")));
     }
-    let largest = nodes
-        .as_flattened()
-        .iter()
-        .fold(0.0_f64, |size, x| size.max(x.abs()));
+    let largest = nodes.as_flattened().iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     let points = shapes.points.iter().flatten();
     for (index, (node, point)) in nodes.iter().zip(points).enumerate() {
         let apart = (0..3).any(|axis| (node[axis] - point[axis]).abs() > SAME_POINT * largest);

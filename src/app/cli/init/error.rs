@@ -50,13 +50,10 @@ impl InitError {
         match self {
             Self::Draft(error) => error.help(),
             Self::Mesh { help, .. } => help.clone(),
-            Self::UnknownBearing { .. } => Some(format!(
-                "names: {}; plummer init --list-bearings says their dimensions",
-                bearing_names()
-            )),
-            Self::Exists { .. } => {
-                Some("replace it with --force, or name another file with --out".to_owned())
+            Self::UnknownBearing { .. } => {
+                Some(format!("names: {}; plummer init --list-bearings says their dimensions", bearing_names()))
             }
+            Self::Exists { .. } => Some("replace it with --force, or name another file with --out".to_owned()),
             Self::NoName { .. } => None,
         }
     }

@@ -29,20 +29,13 @@ fn table() -> String {
          name   bore  outer  width  balls  ball diameter  pitch diameter  mass    BPFO   BPFI    BSF    FTF  source",
     );
     for bearing in CatalogueBearing::all() {
-        let [bore, outer, width, ball, pitch] = [
-            bearing.bore,
-            bearing.outer_diameter,
-            bearing.width,
-            bearing.ball_diameter,
-            bearing.pitch_diameter,
-        ]
-        .map(|length| 1e3 * length);
+        let [bore, outer, width, ball, pitch] =
+            [bearing.bore, bearing.outer_diameter, bearing.width, bearing.ball_diameter, bearing.pitch_diameter]
+                .map(|length| 1e3 * length);
         let star = if bearing.pitch_published { ' ' } else { '*' };
         let orders = catalogue_orders(bearing)
             .ok()
-            .map_or([f64::NAN; 4], |orders| {
-                [orders.outer, orders.inner, orders.ball_spin, orders.cage]
-            });
+            .map_or([f64::NAN; 4], |orders| [orders.outer, orders.inner, orders.ball_spin, orders.cage]);
         let orders = orders.map(|order| format!(" {order:>6.4}")).concat();
         // writing to a String cannot fail
         let _ = write!(
@@ -59,6 +52,8 @@ fn table() -> String {
     for source in Source::ALL {
         let _ = write!(text, "\n{}: {}", source.name(), source.citation());
     }
-    text.push_str("\nMakers choose the balls themselves: those of another maker's bearing of the same name may differ.");
+    text.push_str(
+        "\nMakers choose the balls themselves: those of another maker's bearing of the same name may differ.",
+    );
     text
 }

@@ -33,51 +33,29 @@ pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliErro
     if case.exists() && !options.force {
         return Err(InitError::Exists { path: case }.into());
     }
-    let folder = case
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = case.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     let mesh_in_case = relative::path_from(folder, mesh);
-    let title = case
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let request = DraftRequest {
-        mesh,
-        mesh_in_case: &mesh_in_case,
-        title: &title,
-        length_unit: asked.length_unit,
-        bearing,
-    };
+    let title = case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let request =
+        DraftRequest { mesh, mesh_in_case: &mesh_in_case, title: &title, length_unit: asked.length_unit, bearing };
     let (draft, inspection) = Draft::of_mesh(request).map_err(InitError::from)?;
     if let Verdict::Bad { what, help } = verdict(&inspection) {
         let path = mesh.clone();
         return Err(InitError::Mesh { path, what, help }.into());
     }
-    fs::create_dir_all(folder).map_err(|source| CliError::Folder {
-        path: folder.to_owned(),
-        source,
-    })?;
+    fs::create_dir_all(folder).map_err(|source| CliError::Folder { path: folder.to_owned(), source })?;
     write_atomic(&case, draft.text.as_bytes())?;
     Ok(Outcome {
         summary: summary(&draft, &case),
-        result: json(&DraftResult {
-            plummer: VERSION,
-            command: "init",
-            mesh,
-            case: &case,
-            draft: &draft,
-        })?,
+        result: json(&DraftResult { plummer: VERSION, command: "init", mesh, case: &case, draft: &draft })?,
         written: vec![case],
         verdict: Verdict::Good,
     })
 }
 
 fn named(name: &str) -> Result<&'static CatalogueBearing, InitError> {
-    CatalogueBearing::named(name).ok_or_else(|| InitError::UnknownBearing {
-        found: name.to_owned(),
-    })
+    CatalogueBearing::named(name).ok_or_else(|| InitError::UnknownBearing { found: name.to_owned() })
 }
 
 /// `--out`, else the mesh's name with another ending in the current folder.
@@ -95,8 +73,6 @@ fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, InitError> {
 fn summary(draft: &Draft, case: &Path) -> String {
     let mut lines = draft.findings.clone();
     let case = shell_word(&case.to_string_lossy());
-    lines.push(format!(
-        "Look through the guesses, then: plummer modes {case}"
-    ));
+    lines.push(format!("Look through the guesses, then: plummer modes {case}"));
     lines.join("\n")
 }

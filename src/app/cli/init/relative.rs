@@ -9,21 +9,11 @@ pub(super) fn path_from(folder: &Path, file: &Path) -> String {
     let (Ok(folder), Ok(file)) = (absolute(folder), absolute(file)) else {
         return file.display().to_string();
     };
-    let common = folder
-        .components()
-        .zip(file.components())
-        .take_while(|(a, b)| a == b)
-        .count();
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
     let names = |path: &Path| {
-        path.components()
-            .skip(common)
-            .map(|part| part.as_os_str().to_string_lossy().into_owned())
-            .collect::<Vec<_>>()
+        path.components().skip(common).map(|part| part.as_os_str().to_string_lossy().into_owned()).collect::<Vec<_>>()
     };
-    let shared = folder
-        .components()
-        .take(common)
-        .any(|part| matches!(part, Component::Normal(_)));
+    let shared = folder.components().take(common).any(|part| matches!(part, Component::Normal(_)));
     if !shared {
         return file.display().to_string();
     }
@@ -63,11 +53,7 @@ mod tests {
             ("/x/y", "/x/z/a.msh", "../z/a.msh"),
             ("/x/y", "/z/a.msh", "/z/a.msh"),
         ] {
-            assert_eq!(
-                path_from(Path::new(folder), Path::new(file)),
-                expected,
-                "{folder} {file}"
-            );
+            assert_eq!(path_from(Path::new(folder), Path::new(file)), expected, "{folder} {file}");
         }
     }
 }

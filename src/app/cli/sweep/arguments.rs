@@ -92,10 +92,7 @@ mod tests {
         assert!(Share { number: 2, of: 3 }.has(2) && Share { number: 3, of: 3 }.has(6));
         for wrong in ["0/2", "3/2", "1", "1/", "a/b", "1/0", "-1/2"] {
             let message = share(wrong).unwrap_err();
-            assert!(
-                message.contains("expected K/N with K from 1 to N"),
-                "{message}"
-            );
+            assert!(message.contains("expected K/N with K from 1 to N"), "{message}");
         }
     }
 }

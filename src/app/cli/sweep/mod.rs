@@ -15,8 +15,8 @@ use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interru
 use crate::app::case::Case;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, ScriptsSummary, SweepError, SweepResult, TaskSummary, slurm_scripts,
-    sweep_report, write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepError, SweepResult, TaskSummary, slurm_scripts, sweep_report,
+    write_sweep_npz,
 };
 use crate::report::Document;
 use points::Workers;
@@ -52,17 +52,10 @@ pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome
 }
 
 /// Plans a sweep, or goes on with one, computes its points and merges them; or writes job scripts.
-fn whole(
-    asked: &SweepArguments,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
+fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     let case = Case::load(&asked.from, &options.set)?;
     let axes = asked.vary.iter().map(|argument| {
-        Axis::parse(argument).map_err(|problem| SweepError::Axis {
-            argument: argument.clone(),
-            problem,
-        })
+        Axis::parse(argument).map_err(|problem| SweepError::Axis { argument: argument.clone(), problem })
     });
     let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
     check_points(&plan, &case)?;
@@ -101,12 +94,7 @@ fn whole(
 }
 
 /// One share of the points, of the sweep in a folder.
-fn task(
-    from: &Path,
-    share: Share,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
+fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     let folder = OutputFolder::at(from);
     let plan = read_plan(&folder)?;
     let case = Case::load(&plan.case, &plan.set)?;
@@ -118,9 +106,7 @@ fn task(
     let points = folder.path().join(POINTS);
     progress.stage("points");
     let stop = interrupt::stop_request().map_err(CliError::Signals)?;
-    let numbers: Vec<usize> = (1..=plan.count())
-        .filter(|&number| share.has(number))
-        .collect();
+    let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
     let workers = Workers::new(options, numbers.len(), stop)?;
     let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;
     if let Some(done) = stopped {
@@ -138,30 +124,14 @@ fn task(
     }
     let result = SweepResult::collect(plan, &points)?;
     let mut lines = Vec::new();
-    for point in result
-        .points
-        .iter()
-        .filter(|point| share.has(point.point.number))
-    {
-        let message = point
-            .record
-            .as_ref()
-            .map_or("", |record| record.message.as_str());
-        let line = format!(
-            "point {}: {} {message}",
-            point.point.number,
-            point.state.name()
-        );
+    for point in result.points.iter().filter(|point| share.has(point.point.number)) {
+        let message = point.record.as_ref().map_or("", |record| record.message.as_str());
+        let line = format!("point {}: {} {message}", point.point.number, point.state.name());
         lines.push(line.trim_end().to_owned());
     }
     Ok(Outcome {
         summary: lines.join("\n"),
-        result: json(&TaskSummary {
-            command: "sweep",
-            task: share.number,
-            of: share.of,
-            points: numbers,
-        })?,
+        result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: numbers })?,
         written: vec![points],
         verdict: Verdict::Good,
     })
@@ -195,10 +165,7 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     folder.claim("sweep", force)?;
     if file.exists() {
         // a folder that has a plan is a sweep's own
-        fs::remove_dir_all(&points).map_err(|source| CliError::Folder {
-            path: points.clone(),
-            source,
-        })?;
+        fs::remove_dir_all(&points).map_err(|source| CliError::Folder { path: points.clone(), source })?;
     }
     folder.make_below(Path::new(POINTS))?;
     let text = serde_json::to_string_pretty(plan).unwrap_or_default();
@@ -215,10 +182,7 @@ fn read_plan(folder: &OutputFolder) -> Result<Plan, SweepError> {
         }
         Err(source) => return Err(SweepError::Io { path: plan, source }),
     };
-    serde_json::from_slice(&text).map_err(|error| SweepError::Plan {
-        plan,
-        message: error.to_string(),
-    })
+    serde_json::from_slice(&text).map_err(|error| SweepError::Plan { plan, message: error.to_string() })
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
@@ -261,16 +225,10 @@ fn summary(result: &SweepResult) -> String {
     lines.push(format!("{done} of {all} points done"));
     for point in result.not_done().take(LISTED) {
         let values = point.point.values.join(", ");
-        let message = point
-            .record
-            .as_ref()
-            .map_or("", |record| record.message.as_str());
+        let message = point.record.as_ref().map_or("", |record| record.message.as_str());
         let first = message.lines().next().unwrap_or_default();
         let state = point.state.name();
-        lines.push(format!(
-            "  point {} ({values}): {state} {first}",
-            point.point.number
-        ));
+        lines.push(format!("  point {} ({values}): {state} {first}", point.point.number));
     }
     let more = result.not_done().count().saturating_sub(LISTED);
     if more > 0 {
@@ -298,27 +256,16 @@ fn verdict(result: &SweepResult) -> Verdict {
     }
 }
 
-fn write_scripts(
-    plan: &Plan,
-    folder: &OutputFolder,
-    tasks: usize,
-    options: &Options,
-) -> Result<Outcome, CliError> {
-    let absolute = |path: &Path| {
-        std::path::absolute(path).map_err(|source| SweepError::Io {
-            path: path.to_owned(),
-            source,
-        })
-    };
+fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Options) -> Result<Outcome, CliError> {
+    let absolute =
+        |path: &Path| std::path::absolute(path).map_err(|source| SweepError::Io { path: path.to_owned(), source });
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
     let scripts = slurm_scripts(&program, &absolute(folder.path())?, tasks, threads);
     let mut written: Vec<PathBuf> = Vec::new();
-    for (name, text) in [
-        ("array.sbatch", &scripts.array),
-        ("merge.sbatch", &scripts.merge),
-        ("submit.sh", &scripts.submit),
-    ] {
+    for (name, text) in
+        [("array.sbatch", &scripts.array), ("merge.sbatch", &scripts.merge), ("submit.sh", &scripts.submit)]
+    {
         written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
     }
     let submit = folder.path().join(POINTS).join("submit.sh");
@@ -328,12 +275,7 @@ fn write_scripts(
             plan.count(),
             shell_word(&submit.to_string_lossy())
         ),
-        result: json(&ScriptsSummary {
-            command: "sweep",
-            points: plan.count(),
-            tasks,
-            scripts: &written,
-        })?,
+        result: json(&ScriptsSummary { command: "sweep", points: plan.count(), tasks, scripts: &written })?,
         written,
         verdict: Verdict::Good,
     })
@@ -343,11 +285,7 @@ fn write_scripts(
 fn command_line(plan: &Plan) -> String {
     let file = shell_word(&plan.case.to_string_lossy());
     let mut words = vec![format!("plummer sweep {file}")];
-    words.extend(
-        plan.set
-            .iter()
-            .map(|set| format!("--set {}", shell_word(set))),
-    );
+    words.extend(plan.set.iter().map(|set| format!("--set {}", shell_word(set))));
     for axis in &plan.axes {
         let values = format!("{}={}", axis.key, axis.values.join(","));
         words.push(format!("--vary {}", shell_word(&values)));

@@ -24,10 +24,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// # Errors
 /// [`SweepError::Io`] if the system does not say where it is.
 pub(super) fn program() -> Result<PathBuf, SweepError> {
-    std::env::current_exe().map_err(|source| SweepError::Io {
-        path: "plummer".into(),
-        source,
-    })
+    std::env::current_exe().map_err(|source| SweepError::Io { path: "plummer".into(), source })
 }
 
 /// So many processes at once, so many threads each.
@@ -45,22 +42,13 @@ impl Workers {
     ///
     /// # Errors
     /// [`SweepError::Io`] if the system does not say where this program is.
-    pub(super) fn new(
-        options: &Options,
-        points: usize,
-        stop: StopRequest,
-    ) -> Result<Self, SweepError> {
+    pub(super) fn new(options: &Options, points: usize, stop: StopRequest) -> Result<Self, SweepError> {
         let cores = match options.threads {
             Some(threads) => threads.get(),
             None => thread::available_parallelism().map_or(1, usize::from),
         };
         let count = cores.min(points).max(1);
-        Ok(Self {
-            program: program()?,
-            count,
-            threads: (cores / count).max(1),
-            stop,
-        })
+        Ok(Self { program: program()?, count, threads: (cores / count).max(1), stop })
     }
 
     /// Computes the points of a share that have no result yet; how many of them are there if it was asked to stop before the
@@ -75,18 +63,10 @@ impl Workers {
         share: Share,
         watch: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<usize>, CliError> {
-        let points: Vec<SweepPoint> = plan
-            .points()
-            .filter(|point| share.has(point.number))
-            .collect();
+        let points: Vec<SweepPoint> = plan.points().filter(|point| share.has(point.number)).collect();
         let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let failure = Mutex::new(None);
-        let failed = || {
-            failure
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .is_some()
-        };
+        let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).is_some();
         self.stop.deaf.store(false, Ordering::SeqCst);
         let work = || {
             while !self.stopping() && !failed() {
@@ -184,11 +164,7 @@ impl Workers {
     /// An unfinished run goes on; whatever else is there is replaced.
     fn beginning(&self, command: SweptCommand, folder: &Path) -> &'static str {
         let unfinished = UnfinishedRun::is_in(&folder.join(super::super::run::PARTIAL));
-        if command == SweptCommand::Run && unfinished {
-            "--resume"
-        } else {
-            "--force"
-        }
+        if command == SweptCommand::Run && unfinished { "--resume" } else { "--force" }
     }
 
     /// Waits for a process, and asks it to end when this one is asked to.

@@ -5,8 +5,7 @@ use crate::app::error::ComputeError;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::{FaultOrders, JUDGED_HARMONICS};
 use crate::signal::{
-    Butterworth, DEFAULT_ORDER, FilterBand, Kurtogram, KurtogramBand, SignalError, kurtogram,
-    usual_high_pass_hz,
+    Butterworth, DEFAULT_ORDER, FilterBand, Kurtogram, KurtogramBand, SignalError, kurtogram, usual_high_pass_hz,
 };
 
 /// Multiples of the shaft's speed that a machine's own lines may reach, which are not to be taken for a resonance: unbalance,
@@ -95,10 +94,7 @@ impl UsedBand {
         match asked {
             None => Ok(Self::default()),
             Some(AskedBand::HighPass(corner)) => Ok(Self::above(corner)),
-            Some(AskedBand::Between([from, to])) => Ok(Self {
-                low_pass_hz: Some(to),
-                ..Self::above(from)
-            }),
+            Some(AskedBand::Between([from, to])) => Ok(Self { low_pass_hz: Some(to), ..Self::above(from) }),
             Some(AskedBand::Kurtogram) => {
                 let limits = SearchLimits::new(speed_hz, orders);
                 let stretch = read(window, margin_s(limits.from_hz))?;
@@ -109,25 +105,16 @@ impl UsedBand {
                     |band| {
                         let [from, to] = band.edges_hz();
                         let ends = to > (1.0 - 1e-9) * 0.5 * stretch.rate_hz();
-                        Self {
-                            low_pass_hz: (!ends).then_some(to),
-                            ..Self::above(from)
-                        }
+                        Self { low_pass_hz: (!ends).then_some(to), ..Self::above(from) }
                     },
                 );
-                Ok(Self {
-                    search: Some(search),
-                    ..used
-                })
+                Ok(Self { search: Some(search), ..used })
             }
         }
     }
 
     fn above(corner: f64) -> Self {
-        Self {
-            high_pass_hz: Some(corner),
-            ..Self::default()
-        }
+        Self { high_pass_hz: Some(corner), ..Self::default() }
     }
 
     /// Seconds that are to be read before and after a window.
@@ -140,9 +127,7 @@ impl UsedBand {
     pub fn band_hz(&self) -> Option<[f64; 2]> {
         let found = self.found().and_then(BandSearch::chosen);
         let asked = self.high_pass_hz.zip(self.low_pass_hz);
-        found
-            .map(KurtogramBand::edges_hz)
-            .or(asked.map(<[f64; 2]>::from))
+        found.map(KurtogramBand::edges_hz).or(asked.map(<[f64; 2]>::from))
     }
 
     /// The band that a verdict is sought in, Hz: what was asked for and found, of a simulated signal no higher than `good_to_hz`, where it
@@ -169,11 +154,7 @@ impl UsedBand {
 }
 
 fn margin_s(corner_hz: f64) -> f64 {
-    if corner_hz > 0.0 {
-        MARGIN_PERIODS / corner_hz
-    } else {
-        0.0
-    }
+    if corner_hz > 0.0 { MARGIN_PERIODS / corner_hz } else { 0.0 }
 }
 
 /// Where bands may lie.
@@ -188,17 +169,12 @@ impl SearchLimits {
     /// It begins no lower, or its envelope is that of no carrier, and above the shaft's own lines.
     fn new(speed_hz: f64, orders: &FaultOrders) -> Self {
         let width_hz = f64::from(JUDGED_HARMONICS) * orders.highest() * speed_hz;
-        Self {
-            from_hz: width_hz.max(SHAFT_ORDERS * speed_hz),
-            width_hz,
-        }
+        Self { from_hz: width_hz.max(SHAFT_ORDERS * speed_hz), width_hz }
     }
 
     fn allow(self, band: &KurtogramBand, rate_hz: f64) -> bool {
         let [from, _] = band.edges_hz();
-        from >= self.from_hz
-            && band.width_hz >= self.width_hz
-            && band.centre_hz <= HIGHEST_PART * rate_hz
+        from >= self.from_hz && band.width_hz >= self.width_hz && band.centre_hz <= HIGHEST_PART * rate_hz
     }
 
     fn search(self, stretch: &TimeSeries, window: TimeWindow) -> Result<BandSearch, String> {
@@ -232,12 +208,7 @@ impl SearchLimits {
 
     /// Of the window's signal without what lies below the limits, which would leak into the lower bands.
     fn kurtogram(self, stretch: &TimeSeries, window: TimeWindow) -> Result<Kurtogram, SignalError> {
-        let filter = Butterworth {
-            band: FilterBand::HighPass {
-                cut_off_hz: self.from_hz,
-            },
-            order: DEFAULT_ORDER,
-        };
+        let filter = Butterworth { band: FilterBand::HighPass { cut_off_hz: self.from_hz }, order: DEFAULT_ORDER };
         let part = filter.zero_phase(stretch)?.window(window.from, window.to)?;
         let halvings = (0.5 * part.rate_hz() / self.width_hz).log2();
         let levels = (halvings.floor() as usize).clamp(1, MOST_LEVELS);

@@ -17,26 +17,18 @@ pub(crate) fn band_facts(band: &UsedBand) -> Vec<Fact> {
     let filters = match (band.high_pass_hz, band.low_pass_hz) {
         (None, None) => Fact::new("High-pass", "none"),
         (None, Some(to)) => Fact::new("Low-pass", format!("{} Hz, Kaiser window", hz(to))),
-        (Some(from), None) => Fact::new(
-            "High-pass",
-            format!("{} Hz, Butterworth, zero phase", hz(from)),
-        ),
+        (Some(from), None) => Fact::new("High-pass", format!("{} Hz, Butterworth, zero phase", hz(from))),
         (Some(from), Some(to)) => Fact::new(
             "Band",
-            format!(
-                "{} to {} Hz, Butterworth high-pass and Kaiser low-pass, zero phase",
-                hz(from),
-                hz(to)
-            ),
+            format!("{} to {} Hz, Butterworth high-pass and Kaiser low-pass, zero phase", hz(from), hz(to)),
         ),
     };
     let mut facts = vec![filters];
     match &band.search {
         None => {}
-        Some(Err(reason)) => facts.push(Fact::new(
-            "Band by kurtogram",
-            format!("none, the high-pass is the usual one: {reason}"),
-        )),
+        Some(Err(reason)) => {
+            facts.push(Fact::new("Band by kurtogram", format!("none, the high-pass is the usual one: {reason}")))
+        }
         Some(Ok(search)) => facts.extend(search_facts(search)),
     }
     facts
@@ -81,11 +73,7 @@ pub(crate) fn kurtogram_plot(sensor: &str, search: &BandSearch) -> Plot {
     for row in 0..rows as usize {
         let width = width_of(row as f64);
         let apart = |level: &&[KurtogramBand]| (level[0].width_hz / width).log2().abs();
-        let nearest = levels
-            .iter()
-            .copied()
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-            .unwrap_or_default();
+        let nearest = levels.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or_default();
         let value = |column: usize| {
             let band = nearest.get(column * nearest.len() / columns);
             band.map_or(0.0, |band| band.kurtosis)

@@ -46,24 +46,17 @@ fn used(signal: &TimeSeries) -> UsedBand {
 
 fn facts(band: &UsedBand) -> Vec<String> {
     let facts = band_facts(band).into_iter();
-    facts
-        .map(|fact| format!("{}: {}", fact.name, fact.value))
-        .collect()
+    facts.map(|fact| format!("{}: {}", fact.name, fact.value)).collect()
 }
 
 #[test]
 fn the_band_that_rings_is_taken() {
     // beside it a vibration of the shaft's 10th multiple, a hundred times the noise
-    let signal = signal(50e3, |t| {
-        8.0 * rings(8e3, t) + 100.0 * (TAU * 200.0 * t).sin()
-    });
+    let signal = signal(50e3, |t| 8.0 * rings(8e3, t) + 100.0 * (TAU * 200.0 * t).sin());
     let band = used(&signal);
     let [from, to] = band.band_hz().expect("a band");
     assert!((from..to).contains(&8e3), "{from} {to}");
-    assert_eq!(
-        (band.high_pass_hz, band.low_pass_hz),
-        (Some(from), Some(to))
-    );
+    assert_eq!((band.high_pass_hz, band.low_pass_hz), (Some(from), Some(to)));
     let search = band.found().unwrap();
     assert!((search.width_hz - 800.0).abs() < 1e-9 && (search.from_hz - 800.0).abs() < 1e-9);
     assert!(to - from >= 800.0 && from >= 800.0);
@@ -99,9 +92,8 @@ fn noise_alone_has_no_band() {
     assert!(search.best.kurtosis <= search.best.limit);
     let facts = facts(&band);
     assert!(
-        facts[1].starts_with(
-            "Band by kurtogram: none, the high-pass is the usual one: Gaussian noise may be as impulsive"
-        ),
+        facts[1]
+            .starts_with("Band by kurtogram: none, the high-pass is the usual one: Gaussian noise may be as impulsive"),
         "{facts:?}"
     );
 }
@@ -146,24 +138,15 @@ fn where_no_search_can_be_made_the_usual_high_pass_says_why() {
     let by = |window, speed_hz| used_in(AskedBand::Kurtogram, window, &slow, speed_hz);
     let narrow = by(WINDOW, 20.0);
     assert_eq!(narrow.high_pass_hz, Some(250.0));
-    assert_eq!(
-        reason(&narrow),
-        "no band of 800 Hz or more fits between 800 Hz and the end of the signal at 1000 Hz"
-    );
+    assert_eq!(reason(&narrow), "no band of 800 Hz or more fits between 800 Hz and the end of the signal at 1000 Hz");
     assert_eq!(
         reason(&by(WINDOW, 25.0)),
         "bands would have to begin at 1000 Hz or above, and the signal ends at 1000 Hz"
     );
     assert_eq!(reason(&by(WINDOW, 0.0)), "the shaft rests");
     let short = TimeWindow { from: 0.2, to: 0.3 };
-    assert_eq!(
-        reason(&by(short, 5.0)),
-        "series has 200 samples, the filter or transform needs at least 344"
-    );
-    assert_eq!(
-        facts(&by(WINDOW, 0.0))[1],
-        "Band by kurtogram: none, the high-pass is the usual one: the shaft rests"
-    );
+    assert_eq!(reason(&by(short, 5.0)), "series has 200 samples, the filter or transform needs at least 344");
+    assert_eq!(facts(&by(WINDOW, 0.0))[1], "Band by kurtogram: none, the high-pass is the usual one: the shaft rests");
 }
 
 #[test]
@@ -175,15 +158,10 @@ fn what_is_asked_for_is_used() {
     assert_eq!((corner.band_hz(), corner.search.is_none()), (None, true));
     let between = by(AskedBand::Between([3e3, 9e3]));
     assert_eq!(between.band_hz(), Some([3e3, 9e3]));
-    assert_eq!(
-        facts(&between),
-        ["Band: 3000 to 9000 Hz, Butterworth high-pass and Kaiser low-pass, zero phase"]
-    );
-    for (asked, corner_hz) in [
-        (AskedBand::HighPass(3e3), 3e3),
-        (AskedBand::Between([2e3, 9e3]), 2e3),
-        (AskedBand::Kurtogram, 1e3),
-    ] {
+    assert_eq!(facts(&between), ["Band: 3000 to 9000 Hz, Butterworth high-pass and Kaiser low-pass, zero phase"]);
+    for (asked, corner_hz) in
+        [(AskedBand::HighPass(3e3), 3e3), (AskedBand::Between([2e3, 9e3]), 2e3), (AskedBand::Kurtogram, 1e3)]
+    {
         assert!((asked.corner_hz(8e3) - corner_hz).abs() < 1e-9);
     }
 }

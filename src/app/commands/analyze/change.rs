@@ -7,8 +7,8 @@ use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{
-    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, LineChange,
-    level_changes, line_changes,
+    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, LineChange, level_changes,
+    line_changes,
 };
 
 /// Speeds that differ by more than this part excite resonances differently.
@@ -39,11 +39,7 @@ impl WindowChange {
     }
 
     /// Compares what strikes in two judged signals.
-    fn compare_impacts(
-        &mut self,
-        now: &ComparedSignal<'_>,
-        then: &ComparedSignal<'_>,
-    ) -> Result<(), ComputeError> {
+    fn compare_impacts(&mut self, now: &ComparedSignal<'_>, then: &ComparedSignal<'_>) -> Result<(), ComputeError> {
         self.speed_hz = then.diagnosis().speed_hz;
         self.lines = line_changes(now, then)?;
         if let Some(band_hz) = shown_band(now.diagnosis(), &self.lines) {
@@ -55,14 +51,9 @@ impl WindowChange {
         if !self.lines.iter().any(compared)
             && let Some(doubt) = then.diagnosis().speed_doubt()
         {
-            self.warnings
-                .push(format!("In the earlier signal {doubt}."));
+            self.warnings.push(format!("In the earlier signal {doubt}."));
         }
-        let named: Vec<&str> = then
-            .diagnosis()
-            .named()
-            .map(|verdict| verdict.fault.name())
-            .collect();
+        let named: Vec<&str> = then.diagnosis().named().map(|verdict| verdict.fault.name()).collect();
         if !named.is_empty() {
             self.warnings.push(format!(
                 "The earlier signal indicates a fault by itself: {}. It is no record of a sound bearing.",
@@ -84,10 +75,7 @@ pub fn compare_window(
     kinematics: &Kinematics<'_>,
     earlier: &EarlierSignal<'_>,
 ) -> Result<(), ComputeError> {
-    let span = TimeWindow {
-        from: window.from,
-        to: window.to,
-    };
+    let span = TimeWindow { from: window.from, to: window.to };
     let stretch = stretch(&signal.series, span)?;
     let before = stretch_of(earlier)?;
     let part = before.window(earlier.window.from, earlier.window.to)?;
@@ -118,20 +106,16 @@ pub fn compare_window(
             }
             // said below
             Err(DiagnosisError::Constant { .. }) => {}
-            Err(error @ (DiagnosisError::NoNoise { .. } | DiagnosisError::Repeated { .. })) => {
-                change.warnings.push(format!(
-                    "No impacts can be compared with the earlier signal, {}: {error}.",
-                    change.channel
-                ))
-            }
+            Err(error @ (DiagnosisError::NoNoise { .. } | DiagnosisError::Repeated { .. })) => change
+                .warnings
+                .push(format!("No impacts can be compared with the earlier signal, {}: {error}.", change.channel)),
             Err(error) => return Err(error.into()),
         }
     }
     if part.kurtosis().is_none() {
-        change.warnings.push(format!(
-            "The earlier signal, {}, is constant: nothing can be compared with it.",
-            change.channel
-        ));
+        change
+            .warnings
+            .push(format!("The earlier signal, {}, is constant: nothing can be compared with it.", change.channel));
     }
     let whole_db = change.levels.first().and_then(|level| level.change_db);
     if let Some(db) = whole_db.filter(|db| db.abs() > ANOTHER_SCALE_DB) {
@@ -208,10 +192,7 @@ fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
                 format!("Whether it grew since the earlier signal is not certain: {words}.")
             }
             ChangeConclusion::NotCompared if indicated => {
-                format!(
-                    "It cannot be compared with the earlier signal. {}",
-                    line.why
-                )
+                format!("It cannot be compared with the earlier signal. {}", line.why)
             }
             _ => continue,
         };

@@ -3,9 +3,7 @@
 use super::order_plot::{last_order, order_curve};
 use super::window::WindowAnalysis;
 use super::window::WindowChange;
-use crate::report::{
-    Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant,
-};
+use crate::report::{Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant};
 use crate::signal::diagnosis::{ChangeConclusion, EnvelopeOrderSpectrum, change_words};
 
 /// What grew in each window, on top of a report, and what makes a comparison doubtful.
@@ -68,9 +66,7 @@ fn line_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
         ],
     );
     for line in &change.lines {
-        let band = line
-            .band_hz
-            .map(|[from, to]| format!("{} to {} Hz", significant(from, 4), significant(to, 4)));
+        let band = line.band_hz.map(|[from, to]| format!("{} to {} Hz", significant(from, 4), significant(to, 4)));
         table = table.row([
             Cell::text(line.name.clone()),
             judged(line.conclusion),
@@ -114,21 +110,13 @@ fn level_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
     let plain = |what: &str, earlier: Option<f64>, now: Option<f64>| {
         let ratio = earlier.zip(now).filter(|(earlier, _)| *earlier > 0.0);
         let ratio = ratio.map(|(earlier, now)| format!("{} times", significant(now / earlier, 3)));
-        [
-            Cell::text(what),
-            number(earlier, 3),
-            number(now, 3),
-            Cell::text(ratio.unwrap_or_default()),
-            Cell::text(""),
-        ]
+        [Cell::text(what), number(earlier, 3), number(now, 3), Cell::text(ratio.unwrap_or_default()), Cell::text("")]
     };
-    table
-        .row(plain("peak", Some(change.peak), Some(window.peak)))
-        .row(plain(
-            "kurtosis (no unit)",
-            change.kurtosis,
-            window.kurtosis,
-        ))
+    table.row(plain("peak", Some(change.peak), Some(window.peak))).row(plain(
+        "kurtosis (no unit)",
+        change.kurtosis,
+        window.kurtosis,
+    ))
 }
 
 fn change_plot(

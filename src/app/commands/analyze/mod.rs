@@ -20,8 +20,8 @@ pub use change::{EarlierSignal, compare_window};
 pub use compute::compute_analysis;
 pub use report::analysis_report;
 pub use summary::{
-    AnalysisResult, ChangeSummary, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary,
-    OuterRaceLine, SurveyResult, VerdictSummary, WindowOfInput, WindowSummary,
+    AnalysisResult, ChangeSummary, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary, OuterRaceLine,
+    SurveyResult, VerdictSummary, WindowOfInput, WindowSummary,
 };
 pub use survey_report::{SHOWN_WINDOWS, survey_report, survey_section};
 pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures, analysis_table};

@@ -16,8 +16,7 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
     let Some(bearing) = case.bearing.as_ref() else {
         return Vec::new();
     };
-    let play = (bearing.play() > 0.0)
-        .then(|| format!("the play is {} um", significant(1e6 * bearing.play(), 2)));
+    let play = (bearing.play() > 0.0).then(|| format!("the play is {} um", significant(1e6 * bearing.play(), 2)));
     let damaged: Vec<Fault> = bearing.defects.iter().map(part_of).collect();
     let mut reasons = Vec::new();
     for fault in [Fault::OuterRace, Fault::InnerRace, Fault::Ball] {
@@ -41,12 +40,10 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
 
 fn part_of(defect: &Defect) -> Fault {
     match defect {
-        Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => {
-            match on {
-                Race::Outer => Fault::OuterRace,
-                Race::Inner => Fault::InnerRace,
-            }
-        }
+        Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
+            Race::Outer => Fault::OuterRace,
+            Race::Inner => Fault::InnerRace,
+        },
         Defect::Flat(_) => Fault::Ball,
     }
 }

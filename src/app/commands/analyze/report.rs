@@ -5,21 +5,13 @@ use super::change_report::{change_headlines, change_section};
 use super::order_plot::{last_order, order_curve};
 use super::window::WindowAnalysis;
 use crate::report::{
-    Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table,
-    Verdict, significant,
+    Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, significant,
 };
-use crate::signal::diagnosis::{
-    Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource,
-};
+use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource};
 
 /// Composes the report of signals from files; `source` is the file or folder, `command` the line that made it.
 #[must_use]
-pub fn analysis_report(
-    source: &str,
-    assumptions: &[String],
-    windows: &[WindowAnalysis],
-    command: &str,
-) -> Report {
+pub fn analysis_report(source: &str, assumptions: &[String], windows: &[WindowAnalysis], command: &str) -> Report {
     let mut report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
     report = verdict_headlines(report, windows);
@@ -41,11 +33,7 @@ pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
     for window in windows {
         if let Ok(diagnosis) = &window.diagnosis {
             let named: Vec<&str> = diagnosis.named().map(|v| v.fault.name()).collect();
-            let text = match (
-                named.is_empty(),
-                diagnosis.is_judged(),
-                diagnosis.unexplained.first(),
-            ) {
+            let text = match (named.is_empty(), diagnosis.is_judged(), diagnosis.unexplained.first()) {
                 (false, ..) => format!("fault indicated: {}", named.join(", ")),
                 (true, _, Some(impacts)) => format!(
                     "impacts at {} Hz belong to no part: check bearing and speed",
@@ -73,12 +61,7 @@ pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
                 let alone = names(diagnosis.by_signal_alone.clone());
                 text = format!("{text}; by the signal alone: {alone}");
             }
-            let what = format!(
-                "{}, {}-{} s",
-                window.sensor,
-                round(window.from),
-                round(window.to)
-            );
+            let what = format!("{}, {}-{} s", window.sensor, round(window.from), round(window.to));
             report = report.headline(what, text, Verdict::None);
         }
     }
@@ -89,8 +72,7 @@ pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
 fn uncertain(diagnosis: &Diagnosis) -> Vec<&'static str> {
     let faults = diagnosis.faults.iter();
     let uncertain = faults.filter(|verdict| {
-        verdict.conclusion == Conclusion::NotEnough
-            && verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW)
+        verdict.conclusion == Conclusion::NotEnough && verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW)
     });
     uncertain.map(|verdict| verdict.fault.name()).collect()
 }
@@ -98,9 +80,7 @@ fn uncertain(diagnosis: &Diagnosis) -> Vec<&'static str> {
 /// With a capital first letter.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().collect::<String>() + letters.as_str()
-    })
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }
 
 fn round(time: f64) -> String {
@@ -110,12 +90,7 @@ fn round(time: f64) -> String {
 /// All about a window.
 pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
     let amount = |value: f64| format!("{} {}", significant(value, 3), window.unit);
-    let mut section = Section::new(format!(
-        "{}, {}-{} s",
-        window.sensor,
-        round(window.from),
-        round(window.to)
-    ));
+    let mut section = Section::new(format!("{}, {}-{} s", window.sensor, round(window.from), round(window.to)));
     if let Ok(diagnosis) = &window.diagnosis {
         section = section.table(verdict_table(diagnosis));
         section = change_section(section, window);
@@ -127,13 +102,8 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
         speed_fact(window),
         Fact::new("RMS", amount(window.rms)),
         Fact::new("Peak", amount(window.peak)),
-        Fact::new(
-            "Kurtosis",
-            window
-                .kurtosis
-                .map_or_else(|| "none".to_owned(), |value| significant(value, 4)),
-        )
-        .note("3 for a normal distribution"),
+        Fact::new("Kurtosis", window.kurtosis.map_or_else(|| "none".to_owned(), |value| significant(value, 4)))
+            .note("3 for a normal distribution"),
         Fact::new(
             "Window",
             format!(
@@ -172,10 +142,7 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
         return Fact::new(name, hz(window.speed_hz));
     };
     let shown = match diagnosis.speed_source {
-        SpeedSource::Sharpened
-        | SpeedSource::EverySecond
-        | SpeedSource::EvenOnly
-        | SpeedSource::Races => {
+        SpeedSource::Sharpened | SpeedSource::EverySecond | SpeedSource::EvenOnly | SpeedSource::Races => {
             format!("; given: {}", hz(diagnosis.given_speed_hz))
         }
         SpeedSource::Exact | SpeedSource::Given => String::new(),
@@ -248,9 +215,7 @@ fn families(diagnosis: &Diagnosis, scale: f64) -> Vec<Family> {
         }
     };
     let shaft = Family::new("shaft", scale, 0);
-    std::iter::once(shaft)
-        .chain((1..).zip(&diagnosis.faults).map(of))
-        .collect()
+    std::iter::once(shaft).chain((1..).zip(&diagnosis.faults).map(of)).collect()
 }
 
 fn verdict_table(diagnosis: &Diagnosis) -> Table {
@@ -266,20 +231,14 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
             Column::text("Evidence, and why not more"),
         ],
     );
-    let number = |value: Option<f64>, digits| {
-        value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits))
-    };
+    let number = |value: Option<f64>, digits| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits));
     for verdict in &diagnosis.faults {
         let judged = match verdict.conclusion {
             Conclusion::Named => Verdict::Bad,
             Conclusion::NotEnough | Conclusion::NotSeen => Verdict::None,
         };
         table = table.row([
-            Cell::text(format!(
-                "{} ({})",
-                verdict.fault.name(),
-                verdict.fault.line()
-            )),
+            Cell::text(format!("{} ({})", verdict.fault.name(), verdict.fault.line())),
             Cell::text(verdict.conclusion.words()).judged(judged),
             number(verdict.false_alarm, 2),
             Cell::number(verdict.expected_order, 5),
@@ -319,10 +278,7 @@ fn harmonic_table(diagnosis: &Diagnosis) -> Table {
     );
     let harmonics = diagnosis.faults.iter().flat_map(|verdict: &FaultVerdict| {
         let cage = verdict.cage_lines.iter();
-        verdict
-            .harmonics
-            .iter()
-            .chain(cage.flat_map(|lines| &lines.harmonics))
+        verdict.harmonics.iter().chain(cage.flat_map(|lines| &lines.harmonics))
     });
     for harmonic in harmonics {
         let remark = match &harmonic.coincides_with {
@@ -347,11 +303,7 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
     let mut plot = Plot::new(
         format!(
             "{} of {}, {}-{} s",
-            if window.whitened {
-                "Squared envelope spectrum, whitened,"
-            } else {
-                "Envelope spectrum"
-            },
+            if window.whitened { "Squared envelope spectrum, whitened," } else { "Envelope spectrum" },
             window.sensor,
             round(window.from),
             round(window.to)
@@ -360,13 +312,9 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
         Axis::new("Amplitude", &window.spectrum.unit),
     )
     .curve(
-        Curve::of_spectrum(
-            "envelope",
-            &window.spectrum.frequency_hz,
-            &window.spectrum.amplitude,
-        )
-        .within(0.0, top.max(1.0))
-        .style(CurveStyle::Line),
+        Curve::of_spectrum("envelope", &window.spectrum.frequency_hz, &window.spectrum.amplitude)
+            .within(0.0, top.max(1.0))
+            .style(CurveStyle::Line),
     );
     match smeared(window) {
         Some(text) => plot = plot.caption(text),
@@ -381,11 +329,7 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
         for harmonic in 1..=line.harmonics() {
             let at = f64::from(harmonic) * line.frequency_hz();
             if at < top {
-                let label = if harmonic == 1 {
-                    line.name().to_owned()
-                } else {
-                    format!("{harmonic}x {}", line.name())
-                };
+                let label = if harmonic == 1 { line.name().to_owned() } else { format!("{harmonic}x {}", line.name()) };
                 plot = plot.marker(Marker::new(at, label).family(family));
             }
         }
@@ -396,11 +340,8 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
 /// Why lines over Hz are not compared with peaks, if the speed changes too much for it.
 fn smeared(window: &WindowAnalysis) -> Option<String> {
     let order = window.smeared_above?;
-    let what = if order < 1.0 {
-        "all lines".to_owned()
-    } else {
-        format!("lines above the order {}", significant(order, 3))
-    };
+    let what =
+        if order < 1.0 { "all lines".to_owned() } else { format!("lines above the order {}", significant(order, 3)) };
     Some(format!(
         "The speed changes in this window and smears {what} over Hz: peaks are not compared with them. The order spectrum and the table of harmonics compare orders instead."
     ))

@@ -4,8 +4,7 @@ use super::{WindowAnalysis, WindowChange};
 use crate::app::commands::result::ResultHead;
 use crate::signal::EnvelopePeak;
 use crate::signal::diagnosis::{
-    Diagnosis, Fault, FaultOrders, FaultVerdict, LevelChange, LineChange, SpeedSource,
-    UnexplainedImpacts,
+    Diagnosis, Fault, FaultOrders, FaultVerdict, LevelChange, LineChange, SpeedSource, UnexplainedImpacts,
 };
 use schemars::JsonSchema;
 use serde::Serialize;

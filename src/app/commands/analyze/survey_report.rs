@@ -30,12 +30,9 @@ pub fn survey_report(
     let title = format!("{inputs} files and folders");
     let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of ball bearings by their vibration signals");
-    report =
-        counts(report, rows).section(verdicts(rows, "Analyse a file alone to see its spectra."));
+    report = counts(report, rows).section(verdicts(rows, "Analyse a file alone to see its spectra."));
     if failed > 0 {
-        report = report.warning(format!(
-            "{failed} rows have no window: their last column says why."
-        ));
+        report = report.warning(format!("{failed} rows have no window: their last column says why."));
     }
     if windows(rows) <= SHOWN_WINDOWS {
         report.sections.extend(sections);
@@ -52,29 +49,16 @@ fn windows(rows: &[AnalysisRow]) -> usize {
 
 /// How many windows there are, and what is said of how many, on top of a report.
 pub(crate) fn counts(report: Report, rows: &[AnalysisRow]) -> Report {
-    let count =
-        |wanted: &dyn Fn(&AnalysisRow) -> bool| rows.iter().filter(|row| wanted(row)).count();
+    let count = |wanted: &dyn Fn(&AnalysisRow) -> bool| rows.iter().filter(|row| wanted(row)).count();
     let indicated = |row: &AnalysisRow| {
         let figures = row.found.as_ref();
-        figures.is_ok_and(|figures| {
-            !figures
-                .names(crate::signal::diagnosis::Conclusion::Named)
-                .is_empty()
-        })
+        figures.is_ok_and(|figures| !figures.names(crate::signal::diagnosis::Conclusion::Named).is_empty())
     };
     let unjudged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| !figures.is_judged());
     report
         .headline("Windows analysed", windows(rows).to_string(), Verdict::None)
-        .headline(
-            "Windows with a fault indicated",
-            count(&indicated).to_string(),
-            Verdict::None,
-        )
-        .headline(
-            "Windows without a verdict",
-            count(&unjudged).to_string(),
-            Verdict::None,
-        )
+        .headline("Windows with a fault indicated", count(&indicated).to_string(), Verdict::None)
+        .headline("Windows without a verdict", count(&unjudged).to_string(), Verdict::None)
 }
 
 /// All windows in one table; `instead` says how to see one of them where they are too many to be shown.

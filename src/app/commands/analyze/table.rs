@@ -67,9 +67,7 @@ impl ChangeFigures {
             baseline: change.baseline.clone(),
             rms_db: rms.map_or([None; 3], |rms| figures(rms.change_db, rms.interval_db)),
             parts: parts.collect(),
-            grew: grew
-                .map(|line| format!("{} {}", line.name, line.words()))
-                .collect(),
+            grew: grew.map(|line| format!("{} {}", line.name, line.words())).collect(),
         }
     }
 }
@@ -114,9 +112,7 @@ impl AnalysisRow {
             found: Ok(WindowFigures {
                 from: window.from,
                 to: window.to,
-                speed_doubt: diagnosis
-                    .ok()
-                    .and_then(|found| found.speed_doubt().or_else(|| found.speed_change())),
+                speed_doubt: diagnosis.ok().and_then(|found| found.speed_doubt().or_else(|| found.speed_change())),
                 speed_hz: diagnosis.map_or(window.speed_hz, |found| found.speed_hz),
                 rms: window.rms,
                 unit: window.unit.clone(),
@@ -131,11 +127,7 @@ impl AnalysisRow {
     /// Row of a file, or of a channel of it, that was not analysed.
     #[must_use]
     pub fn failed(input: &str, channel: &str, why: String) -> Self {
-        Self {
-            input: input.to_owned(),
-            channel: channel.to_owned(),
-            found: Err(why),
-        }
+        Self { input: input.to_owned(), channel: channel.to_owned(), found: Err(why) }
     }
 
     /// What is indicated: parts, `none`, `no verdict` or `not analysed`.
@@ -234,16 +226,9 @@ pub fn analysis_table(rows: &[AnalysisRow]) -> Table {
 }
 
 fn change_cells(row: &AnalysisRow) -> Vec<Cell> {
-    let change = row
-        .found
-        .as_ref()
-        .ok()
-        .and_then(|found| found.change.as_ref());
-    let number =
-        |value: Option<f64>| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, 4));
-    let mut cells = vec![Cell::text(
-        change.map_or_else(String::new, |change| change.baseline.clone()),
-    )];
+    let change = row.found.as_ref().ok().and_then(|found| found.change.as_ref());
+    let number = |value: Option<f64>| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, 4));
+    let mut cells = vec![Cell::text(change.map_or_else(String::new, |change| change.baseline.clone()))];
     cells.extend(change.map_or([None; 3], |change| change.rms_db).map(number));
     for fault in Fault::ALL {
         let mut parts = change.into_iter().flat_map(|change| &change.parts);
@@ -255,9 +240,7 @@ fn change_cells(row: &AnalysisRow) -> Vec<Cell> {
 }
 
 fn cells(row: &AnalysisRow) -> Vec<Cell> {
-    let number = |value: Option<f64>, digits| {
-        value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits))
-    };
+    let number = |value: Option<f64>, digits| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits));
     let figures = row.found.as_ref().ok();
     let of = |value: fn(&WindowFigures) -> f64| figures.map(value);
     let mut cells = vec![

@@ -7,12 +7,10 @@ use crate::app::error::ComputeError;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
 use crate::signal::diagnosis::Kinematics;
-use crate::signal::diagnosis::{
-    Diagnosis, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange,
-};
+use crate::signal::diagnosis::{Diagnosis, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange};
 use crate::signal::{
-    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine,
-    PeakSearch, band_limit, envelope_peaks, squared, whiten,
+    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch, band_limit,
+    envelope_peaks, squared, whiten,
 };
 
 /// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
@@ -126,17 +124,8 @@ pub fn analyse(
             let speed_hz = kinematics.mean_speed_hz(window);
             let orders = kinematics.orders(window)?;
             let read = |window, margin_s: f64| read(window, margin_s.max(to - from));
-            let band = UsedBand::of(
-                settings.band.or(settings.shown_band),
-                window,
-                read,
-                speed_hz,
-                &orders,
-            )?;
-            let filter = EnvelopeAnalysis {
-                high_pass_hz: band.high_pass_hz,
-                ..EnvelopeAnalysis::default()
-            };
+            let band = UsedBand::of(settings.band.or(settings.shown_band), window, read, speed_hz, &orders)?;
+            let filter = EnvelopeAnalysis { high_pass_hz: band.high_pass_hz, ..EnvelopeAnalysis::default() };
             let stretch = read(window, band.margin_s())?;
             let envelope_of = |signal: &TimeSeries| match band.low_pass_hz {
                 Some(up_to_hz) => filter.envelope(&band_limit(signal, up_to_hz)?),
@@ -151,13 +140,8 @@ pub fn analyse(
             let part = stretch.window(from, to)?;
             let spectrum = filter.window_of(whitened.as_ref().unwrap_or(&envelope), from, to)?;
             let turns = |time| kinematics.turns(time);
-            let mut diagnosis = Diagnosis::of(
-                &stretch,
-                band.judged_hz(settings.band, settings.good_to_hz),
-                window,
-                turns,
-                &orders,
-            );
+            let mut diagnosis =
+                Diagnosis::of(&stretch, band.judged_hz(settings.band, settings.good_to_hz), window, turns, &orders);
             if let Ok(diagnosis) = &mut diagnosis {
                 for (fault, reason) in &settings.no_signs {
                     diagnosis.doubt(*fault, reason);
@@ -165,23 +149,13 @@ pub fn analyse(
             }
             let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
             let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;
-            let search = PeakSearch {
-                to_hz: Some(HIGHEST_ORDER * speed_hz),
-                ..PeakSearch::default()
-            };
-            let peaks = if speed_hz > 0.0 {
-                envelope_peaks(&spectrum, &lines, &search)
-            } else {
-                Vec::new()
-            };
+            let search = PeakSearch { to_hz: Some(HIGHEST_ORDER * speed_hz), ..PeakSearch::default() };
+            let peaks = if speed_hz > 0.0 { envelope_peaks(&spectrum, &lines, &search) } else { Vec::new() };
             let near = |harmonic: f64, order: f64| {
                 let expected = harmonic * order * speed_hz;
                 let found = spectrum.peak_near(expected, LINE_TOLERANCE);
                 let found = found.filter(|_| harmonic * order <= sharp);
-                (
-                    expected,
-                    found.map(|peak| (peak.frequency_hz, peak.amplitude)),
-                )
+                (expected, found.map(|peak| (peak.frequency_hz, peak.amplitude)))
             };
             let outer = orders.order(Fault::OuterRace).into_iter();
             Ok(WindowAnalysis {
@@ -193,14 +167,9 @@ pub fn analyse(
                 rms: part.rms(),
                 peak: part.peak(),
                 kurtosis: part.kurtosis(),
-                shown: [
-                    thinned(sensor, &part),
-                    thinned("envelope", &envelope.window(from, to)?),
-                ],
+                shown: [thinned(sensor, &part), thinned("envelope", &envelope.window(from, to)?)],
                 whitened: settings.whiten,
-                outer: outer
-                    .flat_map(|order| [near(1.0, order), near(2.0, order)])
-                    .collect(),
+                outer: outer.flat_map(|order| [near(1.0, order), near(2.0, order)]).collect(),
                 band,
                 spectrum,
                 lines,
@@ -243,9 +212,7 @@ fn lines(
         last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS))
     };
     let faults = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
-    let known = faults
-        .into_iter()
-        .filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
+    let known = faults.into_iter().filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
     let mut lines = Vec::new();
     let mut smeared = false;
     for (name, order, harmonics) in std::iter::once(("shaft", 1.0, HARMONICS)).chain(known) {
@@ -269,17 +236,11 @@ mod tests {
         let kept = |spread_hz: f64| {
             let sharp = sharp_order(spread_hz, 2.0);
             let (lines, smeared) = lines(25.0, &orders, None, sharp).unwrap();
-            let kept = lines
-                .iter()
-                .map(|line| (line.name().to_owned(), line.harmonics()));
+            let kept = lines.iter().map(|line| (line.name().to_owned(), line.harmonics()));
             (kept.collect::<Vec<_>>(), smeared)
         };
         let line = |name: &str, harmonics| (name.to_owned(), harmonics);
-        let all = vec![
-            line("shaft", 3),
-            line("outer race", 3),
-            line("inner race", 3),
-        ];
+        let all = vec![line("shaft", 3), line("outer race", 3), line("inner race", 3)];
         assert_eq!(kept(0.0), (all, false));
         // 0.5 Hz is what 2 s separate: sharp up to the order 0.5 / 0.1
         let some = vec![line("shaft", 3), line("outer race", 1)];

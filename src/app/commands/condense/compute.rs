@@ -10,8 +10,7 @@ use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, doubts};
 use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::reduction::{
-    Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction,
-    size_study,
+    Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction, size_study,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::EigenProblem;
@@ -93,9 +92,7 @@ pub fn compute_condense(
     let stage = CondensedHousing::build(case, watch)?.ok_or(ComputeError::NothingToCondense)?;
     watch.stage("estimate");
     let band_hz = stage.choice.band_hz;
-    let mut estimate = stage
-        .condensed
-        .estimate(stage.boundary.attached(), band_hz)?;
+    let mut estimate = stage.condensed.estimate(stage.boundary.attached(), band_hz)?;
     let matrices = stage.matrices();
     let (mut modes, mut interface) = (None, None);
     if comparison == Comparison::Full || case.condense.interface_modes != InterfaceModes::None {
@@ -126,12 +123,7 @@ pub fn compute_condense(
         if let Some(modes) = modes.as_ref().filter(|_| elastic) {
             watch.stage("sizes");
             let rigid = found.relative_errors.iter().take_while(|e| e.is_none());
-            found.sizes = size_study(
-                &stage.condensed.substructure,
-                modes,
-                &found.frequencies_hz,
-                rigid.count(),
-            )?;
+            found.sizes = size_study(&stage.condensed.substructure, modes, &found.frequencies_hz, rigid.count())?;
         }
         full = Some(found);
         if stage.boundary.ring().is_some() {
@@ -157,10 +149,7 @@ fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {
         false => f64::INFINITY,
     };
     let what = match estimate.converged {
-        true => format!(
-            "largest estimated relative error of the {} frequencies in the band",
-            estimate.modes.len()
-        ),
+        true => format!("largest estimated relative error of the {} frequencies in the band", estimate.modes.len()),
         false => "the basis is too poor for an estimate: too many modes below the band's top are left out".to_owned(),
     };
     Check::at_most("estimated error", what, largest, target)
@@ -176,9 +165,8 @@ fn compare(
     let rigid = modes.basis.rigid_modes;
     let full = &modes.basis.frequencies_hz;
     let errors = estimate.modes.iter().zip(full).enumerate();
-    let relative_errors: Vec<Option<f64>> = errors
-        .map(|(place, (mode, hz))| (place >= rigid).then(|| (mode.frequency_hz - hz) / hz))
-        .collect();
+    let relative_errors: Vec<Option<f64>> =
+        errors.map(|(place, (mode, hz))| (place >= rigid).then(|| (mode.frequency_hz - hz) / hz)).collect();
     let pairs = relative_errors.iter().zip(&estimate.modes);
     let factors = pairs.filter_map(|(found, mode)| {
         let found = found.filter(|error| *error > ABOVE_ROUND_OFF)?;
@@ -188,20 +176,13 @@ fn compare(
         let [low, high] = range.unwrap_or([factor; 2]);
         Some([low.min(factor), high.max(factor)])
     });
-    Ok(FullComparison {
-        frequencies_hz: full.clone(),
-        relative_errors,
-        effectivity,
-        sizes: Vec::new(),
-    })
+    Ok(FullComparison { frequencies_hz: full.clone(), relative_errors, effectivity, sizes: Vec::new() })
 }
 
 /// Fixed-interface frequencies of a factorisation of its own.
 fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
     let basis = &stage.condensed.basis;
-    let kept = basis
-        .values()
-        .partition_point(|&value| value < basis.complete_below());
+    let kept = basis.values().partition_point(|&value| value < basis.complete_below());
     let matrices = stage.matrices();
     let interior = &stage.boundary.partition().interior;
     let difference = match kept {
@@ -210,8 +191,7 @@ fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
             let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, interior)?;
             let pairs = problem.lowest(kept)?;
             let both = pairs.values.iter().zip(basis.values());
-            both.map(|(full, reduced)| ((reduced / full).sqrt() - 1.0).abs())
-                .fold(0.0, f64::max)
+            both.map(|(full, reduced)| ((reduced / full).sqrt() - 1.0).abs()).fold(0.0, f64::max)
         }
     };
     let top = basis.complete_below().sqrt() / TAU;

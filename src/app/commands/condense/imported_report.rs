@@ -7,33 +7,18 @@ use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdic
 
 /// Composes the report; `command` is the line that made it.
 pub fn imported_report(case: &Case, imported: &ImportedHousing, command: &str) -> Report {
-    let document = Document::new()
-        .case(case.source.path.display().to_string())
-        .signed_by("Prepared by")
-        .signed_by("Checked by");
+    let document =
+        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let checks = &imported.checks;
     let passed = checks.iter().filter(|check| check.ok()).count();
     let element = &imported.element;
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Checks of a superelement from a file")
         .document(document)
-        .headline(
-            "Checks passed",
-            format!("{passed} of {}", checks.len()),
-            Verdict::of(passed == checks.len()),
-        )
-        .headline(
-            "Coordinates",
-            format!("{} + {}", element.interface_dof, element.modal_dof()),
-            Verdict::None,
-        );
-    let mut modes = Table::new(
-        "Modes with the interface held",
-        [
-            Column::number("Mode", ""),
-            Column::number("Frequency", "Hz"),
-        ],
-    );
+        .headline("Checks passed", format!("{passed} of {}", checks.len()), Verdict::of(passed == checks.len()))
+        .headline("Coordinates", format!("{} + {}", element.interface_dof, element.modal_dof()), Verdict::None);
+    let mut modes =
+        Table::new("Modes with the interface held", [Column::number("Mode", ""), Column::number("Frequency", "Hz")]);
     for (place, &hz) in imported.record.modal_hz.iter().enumerate() {
         modes = modes.row([Cell::text((place + 1).to_string()), Cell::number(hz, 7)]);
     }

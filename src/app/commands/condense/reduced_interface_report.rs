@@ -18,32 +18,17 @@ pub(crate) fn section(result: &CondenseResult, interface: &ReducedInterface) -> 
     let facts = vec![
         Fact::new("Modes of the interface", reduction.kept().to_string())
             .note(format!("of {whole} coordinates; {next}")),
-        Fact::new(
-            "Coordinates of the superelement",
-            result.superelement().order().to_string(),
-        )
-        .note("modes of the interface first, then vectors of the interior"),
-        Fact::new(
-            "Largest rise of a frequency in the band",
-            significant(interface.largest_rise(), 2),
-        )
-        .note("exact: both models are at hand; the estimated errors below have it in them"),
-        Fact::new(
-            "Static flexibility of the interface lost",
-            percent(interface.lost.mean),
-        )
-        .note(format!(
+        Fact::new("Coordinates of the superelement", result.superelement().order().to_string())
+            .note("modes of the interface first, then vectors of the interior"),
+        Fact::new("Largest rise of a frequency in the band", significant(interface.largest_rise(), 2))
+            .note("exact: both models are at hand; the estimated errors below have it in them"),
+        Fact::new("Static flexibility of the interface lost", percent(interface.lost.mean)).note(format!(
             "mean over unit loads on single coordinates, largest {}; for information, no check",
             percent(interface.lost.largest)
         )),
     ];
-    let mut modes = Table::new(
-        "Modes of the interface",
-        [
-            Column::number("Mode", ""),
-            Column::number("Frequency", "Hz"),
-        ],
-    );
+    let mut modes =
+        Table::new("Modes of the interface", [Column::number("Mode", ""), Column::number("Frequency", "Hz")]);
     for (place, value) in reduction.values().iter().enumerate() {
         modes = modes.row([
             Cell::text((place + 1).to_string()),
@@ -55,11 +40,7 @@ pub(crate) fn section(result: &CondenseResult, interface: &ReducedInterface) -> 
     }
     let mut rises = Table::new(
         "What the reduced interface costs",
-        [
-            Column::number("Mode", ""),
-            Column::number("Frequency", "Hz"),
-            Column::number("Relative rise", ""),
-        ],
+        [Column::number("Mode", ""), Column::number("Frequency", "Hz"), Column::number("Relative rise", "")],
     );
     let both = result.estimate.modes.iter().zip(&interface.rises);
     for (place, (mode, rise)) in both.enumerate() {

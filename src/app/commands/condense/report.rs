@@ -14,26 +14,16 @@ use std::f64::consts::TAU;
 ///
 /// # Errors
 /// None yet.
-pub fn condense_report(
-    case: &Case,
-    result: &CondenseResult,
-    command: &str,
-) -> Result<Report, ComputeError> {
-    let document = Document::new()
-        .case(case.source.path.display().to_string())
-        .signed_by("Prepared by")
-        .signed_by("Checked by");
+pub fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Result<Report, ComputeError> {
+    let document =
+        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let failed = result.checks.iter().filter(|check| !check.ok()).count();
     let report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Certificate of a condensed housing")
         .document(document)
         .headline(
             "Checks passed",
-            format!(
-                "{} of {}",
-                result.checks.len() - failed,
-                result.checks.len()
-            ),
+            format!("{} of {}", result.checks.len() - failed, result.checks.len()),
             Verdict::of(failed == 0),
         )
         .headline(
@@ -43,11 +33,7 @@ pub fn condense_report(
         )
         .headline(
             "Coordinates",
-            format!(
-                "{} + {}",
-                result.superelement().interface_dof,
-                result.stage.condensed.basis.count()
-            ),
+            format!("{} + {}", result.superelement().interface_dof, result.stage.condensed.basis.count()),
             Verdict::None,
         );
     let mut report = report
@@ -80,10 +66,7 @@ fn what(result: &CondenseResult) -> Section {
     let stage = &result.stage;
     let element = &stage.condensed.superelement;
     let interface = match &stage.boundary {
-        Boundary::Ring(bodies) => format!(
-            "the {} nodes of the ring, through its tie",
-            bodies.0.nodes()
-        ),
+        Boundary::Ring(bodies) => format!("the {} nodes of the ring, through its tie", bodies.0.nodes()),
         Boundary::Nodes(nodes) => {
             let count = nodes.coordinates.iter().map(|at| at.0);
             let count = count.collect::<std::collections::BTreeSet<_>>().len();
@@ -104,15 +87,8 @@ fn what(result: &CondenseResult) -> Section {
     let mut facts = vec![
         Fact::new("Interface", interface),
         Fact::new("Interface coordinates", element.interface_dof.to_string()),
-        Fact::new(
-            "Interior degrees of freedom",
-            stage.condensed.substructure.interior_dof().to_string(),
-        ),
-        Fact::new(
-            "Fixed-interface modes",
-            (basis.count() - basis.residual_vectors()).to_string(),
-        )
-        .note(size),
+        Fact::new("Interior degrees of freedom", stage.condensed.substructure.interior_dof().to_string()),
+        Fact::new("Fixed-interface modes", (basis.count() - basis.residual_vectors()).to_string()).note(size),
         Fact::new("Residual vectors", basis.residual_vectors().to_string())
             .note("static response of the interior to what a mode of the coupled structure lacks"),
     ];
@@ -184,16 +160,10 @@ fn errors(result: &CondenseResult) -> Section {
     let mut section = Section::new("Error of the reduction")
         .paragraph("The residual of each mode in the interior's equations, solved with the factor of the interior, says what the basis lacks. The modes are computed once more with these vectors; what the frequencies fall by is their error. The full model is not needed for it.");
     if estimate.out_of_band > 0 {
-        section = section.paragraph(format!(
-            "The reduced model has {} of these modes above the band.",
-            estimate.out_of_band
-        ));
+        section =
+            section.paragraph(format!("The reduced model has {} of these modes above the band.", estimate.out_of_band));
     }
-    if let Some(FullComparison {
-        effectivity: Some([low, high]),
-        ..
-    }) = &result.full
-    {
+    if let Some(FullComparison { effectivity: Some([low, high]), .. }) = &result.full {
         section = section.paragraph(format!(
             "Estimated / true error: {} to {}.",
             significant(*low, 3),
@@ -207,16 +177,10 @@ fn vectors(result: &CondenseResult) -> Section {
     let basis = &result.stage.condensed.basis;
     let mut table = Table::new(
         "Vectors of the interior",
-        [
-            Column::number("Vector", ""),
-            Column::number("Frequency with the interface held", "Hz"),
-        ],
+        [Column::number("Vector", ""), Column::number("Frequency with the interface held", "Hz")],
     );
     for (place, value) in basis.values().iter().enumerate() {
-        table = table.row([
-            Cell::text((place + 1).to_string()),
-            Cell::number(value.sqrt() / TAU, 7),
-        ]);
+        table = table.row([Cell::text((place + 1).to_string()), Cell::number(value.sqrt() / TAU, 7)]);
     }
     let complete = basis.complete_below().sqrt() / TAU;
     Section::new("What the interior may do").table(table.footnote(format!(
@@ -245,9 +209,8 @@ fn tie(price: &TiePrice) -> Section {
                 Column::number("MAC", ""),
             ],
         );
-        let number = |value: Option<f64>, digits| {
-            value.map_or_else(|| Cell::text("none"), |value| Cell::number(value, digits))
-        };
+        let number =
+            |value: Option<f64>, digits| value.map_or_else(|| Cell::text("none"), |value| Cell::number(value, digits));
         for mode in modes {
             table = table.row([
                 Cell::text((mode.mode + 1).to_string()),
@@ -268,10 +231,7 @@ fn tie(price: &TiePrice) -> Section {
             1e3 * found.radius_m
         ))
         .table(table("Housing and ring", &found.modes))
-        .table(table(
-            "The ring alone: what the beams themselves cost",
-            &found.ring_alone,
-        ));
+        .table(table("The ring alone: what the beams themselves cost", &found.ring_alone));
     for note in &found.notes {
         section = section.paragraph(note);
     }

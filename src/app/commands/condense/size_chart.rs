@@ -22,9 +22,7 @@ pub(crate) fn section(full: &FullComparison, interface_dof: usize, target: f64) 
 
 fn plot(sizes: &[SizeErrors], target: f64) -> Plot {
     let curve = |name: &str, error: &dyn Fn(&SizeErrors) -> Option<f64>| {
-        let points = sizes
-            .iter()
-            .filter_map(|row| Some((row.size as f64, error(row)?)));
+        let points = sizes.iter().filter_map(|row| Some((row.size as f64, error(row)?)));
         let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
         Curve::new(name, Abscissa::Points(x), y)
     };
@@ -55,8 +53,7 @@ fn table(sizes: &[SizeErrors]) -> Table {
             Column::text("Modes of the interface + fixed-interface modes + residual vectors"),
         ],
     );
-    let number =
-        |error: Option<f64>| error.map_or_else(|| Cell::text("–"), |error| Cell::number(error, 2));
+    let number = |error: Option<f64>| error.map_or_else(|| Cell::text("–"), |error| Cell::number(error, 2));
     for row in sizes {
         table = table.row([
             Cell::text(row.size.to_string()),
@@ -68,9 +65,7 @@ fn table(sizes: &[SizeErrors]) -> Table {
                 |reduced| {
                     format!(
                         "{} + {} + {}",
-                        reduced.interface_modes,
-                        reduced.fixed_interface_modes,
-                        reduced.residual_vectors
+                        reduced.interface_modes, reduced.fixed_interface_modes, reduced.residual_vectors
                     )
                 },
             )),

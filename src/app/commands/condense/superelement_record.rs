@@ -19,14 +19,8 @@ const FIELD: usize = 1 << 20;
 ///
 /// # Errors
 /// [`ComputeError`] of sensors and damping.
-pub fn superelement_record(
-    case: &Case,
-    stage: &CondensedHousing,
-) -> Result<SuperelementRecord, ComputeError> {
-    let coordinates = Coordinates {
-        stage,
-        reduction: None,
-    };
+pub fn superelement_record(case: &Case, stage: &CondensedHousing) -> Result<SuperelementRecord, ComputeError> {
+    let coordinates = Coordinates { stage, reduction: None };
     coordinates.record(case)
 }
 
@@ -39,10 +33,7 @@ pub fn reduced_superelement_record(
     stage: &CondensedHousing,
     reduction: &InterfaceReduction,
 ) -> Result<SuperelementRecord, ComputeError> {
-    let coordinates = Coordinates {
-        stage,
-        reduction: Some(reduction),
-    };
+    let coordinates = Coordinates { stage, reduction: Some(reduction) };
     coordinates.record(case)
 }
 
@@ -82,10 +73,7 @@ impl Coordinates<'_> {
             .iter()
             .map(|sensor| {
                 let place = stage.place_of(sensor)?;
-                Ok(SensorRow {
-                    name: sensor.name.clone(),
-                    row: self.row(&place),
-                })
+                Ok(SensorRow { name: sensor.name.clone(), row: self.row(&place) })
             })
             .collect::<Result<_, ComputeError>>()?;
         let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
@@ -94,13 +82,8 @@ impl Coordinates<'_> {
         let (interface, interface_recovery) = match self.reduction {
             None => (labels, None),
             Some(reduced) => (
-                (0..reduced.kept() as u64)
-                    .map(DofLabel::interface)
-                    .collect(),
-                Some(InterfaceRecovery {
-                    labels,
-                    modes: reduced.modes(),
-                }),
+                (0..reduced.kept() as u64).map(DofLabel::interface).collect(),
+                Some(InterfaceRecovery { labels, modes: reduced.modes() }),
             ),
         };
         Ok(SuperelementRecord {
@@ -133,24 +116,13 @@ impl Coordinates<'_> {
         let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
         let mut of_sensors = BTreeSet::new();
         for sensor in &case.sensors {
-            of_sensors.extend(nodes_at(
-                housing,
-                Named::Sensor(&sensor.name),
-                &sensor.spot,
-            )?);
+            of_sensors.extend(nodes_at(housing, Named::Sensor(&sensor.name), &sensor.spot)?);
         }
         let driven = stage.boundary.partition().driven.iter();
-        let with_bore: BTreeSet<usize> = driven
-            .map(|dof| dof / d)
-            .chain(of_sensors.clone())
-            .collect();
+        let with_bore: BTreeSet<usize> = driven.map(|dof| dof / d).chain(of_sensors.clone()).collect();
         let order = self.element().order();
         let fits = |nodes: &Vec<usize>| !nodes.is_empty() && 3 * nodes.len() * order <= FIELD;
-        let choices = [
-            all,
-            with_bore.into_iter().collect(),
-            of_sensors.into_iter().collect(),
-        ];
+        let choices = [all, with_bore.into_iter().collect(), of_sensors.into_iter().collect()];
         let Some(nodes) = choices.into_iter().find(fits) else {
             return Ok(None);
         };
@@ -171,10 +143,7 @@ impl Coordinates<'_> {
         }
         Ok(Some(FieldRecovery {
             node_tags: nodes.iter().map(|&n| housing.model.node_tags[n]).collect(),
-            positions: nodes
-                .iter()
-                .map(|&n| housing.model.coordinates()[n])
-                .collect(),
+            positions: nodes.iter().map(|&n| housing.model.coordinates()[n]).collect(),
             recovery,
         }))
     }
@@ -194,9 +163,7 @@ fn complete_hz(basis: &InteriorBasis) -> Option<f64> {
 fn weight(stage: &CondensedHousing) -> DenseMatrix {
     let model = &stage.housing.model;
     let d = model.dimension();
-    let falls = DenseMatrix::from_fn(model.dof(), 3, |dof, axis| {
-        f64::from(u8::from(dof % d == axis))
-    });
+    let falls = DenseMatrix::from_fn(model.dof(), 3, |dof, axis| f64::from(u8::from(dof % d == axis)));
     let nodal = sparse_times_dense(&stage.housing.matrices.mass, &falls);
     let turned = match stage.boundary.ring().and_then(|(_, tie)| tie.rotation()) {
         Some(rotation) => transpose_times_dense(rotation, &nodal),

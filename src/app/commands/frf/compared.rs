@@ -69,21 +69,12 @@ pub(crate) fn compare(
     let coupled = stage.full_matrices();
     let structural = StructuralStiffness::assemble(&stage.housing.model)?;
     let structural = structural.map(|k| coupled.motions.congruent(k.matrix()));
-    let damping = HarmonicDamping {
-        alpha,
-        beta,
-        viscous: None,
-        structural: structural.as_ref(),
-    };
+    let damping = HarmonicDamping { alpha, beta, viscous: None, structural: structural.as_ref() };
     let free = &coupled.free_dofs;
     let problem = HarmonicProblem::restricted(&coupled.stiffness, &coupled.mass, &damping, free)?;
     let rows = |places: &[Place]| -> Vec<Vec<f64>> {
-        let whole = places
-            .iter()
-            .map(|place| place.full(&stage.boundary, &coupled));
-        whole
-            .map(|row| free.iter().map(|&dof| row[dof]).collect())
-            .collect()
+        let whole = places.iter().map(|place| place.full(&stage.boundary, &coupled));
+        whole.map(|row| free.iter().map(|&dof| row[dof]).collect()).collect()
     };
     let (from, to) = (rows(&places[0]), rows(&places[1]));
     let loads = DenseMatrix::from_fn(free.len(), from.len(), |row, load| from[load][row]);
@@ -98,24 +89,15 @@ pub(crate) fn compare(
             reduced: Vec::with_capacity(paths.len()),
             full: Vec::with_capacity(paths.len()),
             difference: 0.0,
-            estimated: reduced
-                .estimate
-                .as_ref()
-                .and_then(|estimate| estimate.at(hz)),
+            estimated: reduced.estimate.as_ref().and_then(|estimate| estimate.at(hz)),
             residual: solution.residuals.iter().copied().fold(0.0, f64::max),
         };
         for path in paths {
             let (sensor, load) = path.place;
-            let full: c64 = to[sensor]
-                .iter()
-                .enumerate()
-                .map(|(row, &factor)| solution.displacements[(row, load)] * factor)
-                .sum();
+            let full: c64 =
+                to[sensor].iter().enumerate().map(|(row, &factor)| solution.displacements[(row, load)] * factor).sum();
             let found = own.receptance()[index][(sensor, load)];
-            let closed = reduced
-                .estimate
-                .as_ref()
-                .and_then(|all| all.closed(path.place));
+            let closed = reduced.estimate.as_ref().and_then(|all| all.closed(path.place));
             let level = closed.unwrap_or(full.norm());
             at.difference = at.difference.max((found - full).norm() / level);
             at.reduced.push(found);
@@ -128,11 +110,7 @@ pub(crate) fn compare(
 
 /// The highest peaks of the first path's accelerance, where the estimated error is largest, the band's top, and places
 /// between.
-fn checked_frequencies(
-    reduced: &ReducedPaths<'_>,
-    response: &FrequencyResponse,
-    paths: &[TransferPath],
-) -> Vec<f64> {
+fn checked_frequencies(reduced: &ReducedPaths<'_>, response: &FrequencyResponse, paths: &[TransferPath]) -> Vec<f64> {
     let [low, high] = reduced.band_hz;
     let hz = response.frequencies_hz();
     let magnitude = |place: usize| {
@@ -146,10 +124,7 @@ fn checked_frequencies(
     peaks.truncate(CHECKED);
     let between = (1..=CHECKED).map(|part| low + (high - low) * part as f64 / CHECKED as f64);
     let mut chosen: Vec<f64> = peaks.into_iter().map(|at| hz[at]).chain(between).collect();
-    let worst = reduced
-        .estimate
-        .as_ref()
-        .and_then(|estimate| estimate.largest());
+    let worst = reduced.estimate.as_ref().and_then(|estimate| estimate.largest());
     chosen.extend(worst.map(|(hz, _)| hz));
     chosen
 }

@@ -81,8 +81,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
     watch.stage("response");
     let response = reduced.response(&reduced.frequencies_hz)?;
     let paths = reduced.transfer_paths()?;
-    let (compared, not_compared) =
-        compared::compare(case, asked, &reduced, &response, &paths, watch)?;
+    let (compared, not_compared) = compared::compare(case, asked, &reduced, &response, &paths, watch)?;
     let others = variants(case, watch)?;
     let ranking = ranking::rank(&response, &others, &paths, reduced.band_hz)?;
     let of_mesh = match &reduced.housing {
@@ -110,10 +109,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
 }
 
 /// Responses of the case's variants, by what they differ in.
-pub(crate) fn variants(
-    case: &Case,
-    watch: &impl Watch,
-) -> Result<Vec<(String, FrequencyResponse)>, ComputeError> {
+pub(crate) fn variants(case: &Case, watch: &impl Watch) -> Result<Vec<(String, FrequencyResponse)>, ComputeError> {
     let cases = case.frf_variants()?;
     let mut others = Vec::with_capacity(cases.len());
     if !cases.is_empty() {
@@ -121,11 +117,7 @@ pub(crate) fn variants(
     }
     for (index, variant) in cases.iter().enumerate() {
         watch.fraction(index as f64 / cases.len() as f64);
-        let asked = variant
-            .case
-            .frf
-            .as_ref()
-            .ok_or(ComputeError::NothingToCondense)?;
+        let asked = variant.case.frf.as_ref().ok_or(ComputeError::NothingToCondense)?;
         let other = ReducedPaths::build(&variant.case, asked, &Unwatched)?;
         let response = other.response(&other.frequencies_hz)?;
         others.push((variant.what.clone(), response));

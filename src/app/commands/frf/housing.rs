@@ -44,10 +44,7 @@ impl FrfHousing {
     pub fn attached(&self) -> Option<Attached<'_>> {
         match self {
             Self::Mesh(stage) => stage.boundary.attached(),
-            Self::File(imported) => Some(Attached {
-                stiffness: imported.1.stiffness(),
-                mass: imported.1.mass(),
-            }),
+            Self::File(imported) => Some(Attached { stiffness: imported.1.stiffness(), mass: imported.1.mass() }),
         }
     }
 
@@ -55,21 +52,15 @@ impl FrfHousing {
     ///
     /// # Errors
     /// [`ComputeError`] for a place that is not there.
-    pub(crate) fn rows<'c>(
-        &self,
-        spots: impl Iterator<Item = Spot<'c>>,
-    ) -> Result<Vec<Vec<f64>>, ComputeError> {
+    pub(crate) fn rows<'c>(&self, spots: impl Iterator<Item = Spot<'c>>) -> Result<Vec<Vec<f64>>, ComputeError> {
         match self {
             Self::Mesh(stage) => {
                 let places = places(stage, spots)?;
-                Ok(places
-                    .iter()
-                    .map(|at| at.reduced(&stage.condensed))
-                    .collect())
+                Ok(places.iter().map(|at| at.reduced(&stage.condensed)).collect())
             }
-            Self::File(imported) => spots
-                .map(|(name, spot, direction)| imported.0.row(name, spot, direction, &imported.1))
-                .collect(),
+            Self::File(imported) => {
+                spots.map(|(name, spot, direction)| imported.0.row(name, spot, direction, &imported.1)).collect()
+            }
         }
     }
 }
@@ -83,7 +74,5 @@ pub(crate) fn places<'c>(
     spots: impl Iterator<Item = Spot<'c>>,
 ) -> Result<Vec<Place>, ComputeError> {
     let bodies = stage.bodies();
-    spots
-        .map(|(name, spot, direction)| Place::new(bodies, name, spot, direction))
-        .collect()
+    spots.map(|(name, spot, direction)| Place::new(bodies, name, spot, direction)).collect()
 }

@@ -1,9 +1,7 @@
 //! Variants of a case by what its paths transmit.
 
 use super::path::TransferPath;
-use crate::fe::reduction::frf::{
-    BandVariant, FrequencyResponse, FrfError, RankedVariant, rank_in_band,
-};
+use crate::fe::reduction::frf::{BandVariant, FrequencyResponse, FrfError, RankedVariant, rank_in_band};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -32,22 +30,13 @@ pub(crate) fn rank(
     }
     let accelerance = |response: &FrequencyResponse, place: (usize, usize)| -> Vec<f64> {
         let values = response.frequencies_hz().iter().zip(response.receptance());
-        values
-            .map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm())
-            .collect()
+        values.map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm()).collect()
     };
-    let all = || {
-        std::iter::once(("as given", own)).chain(
-            others
-                .iter()
-                .map(|(what, response)| (what.as_str(), response)),
-        )
-    };
+    let all =
+        || std::iter::once(("as given", own)).chain(others.iter().map(|(what, response)| (what.as_str(), response)));
     let mut ranking = Vec::with_capacity(paths.len());
     for (path, transfer) in paths.iter().enumerate() {
-        let magnitudes: Vec<Vec<f64>> = all()
-            .map(|(_, response)| accelerance(response, transfer.place))
-            .collect();
+        let magnitudes: Vec<Vec<f64>> = all().map(|(_, response)| accelerance(response, transfer.place)).collect();
         let variants: Vec<BandVariant<'_>> = all()
             .zip(&magnitudes)
             .map(|((name, response), magnitudes)| BandVariant {
@@ -56,10 +45,7 @@ pub(crate) fn rank(
                 magnitudes,
             })
             .collect();
-        ranking.push(RankedPath {
-            path,
-            variants: rank_in_band(&variants, band_hz, 1.0)?,
-        });
+        ranking.push(RankedPath { path, variants: rank_in_band(&variants, band_hz, 1.0)? });
     }
     Ok(ranking)
 }

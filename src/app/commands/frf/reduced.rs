@@ -9,8 +9,8 @@ use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::{mass_damping, modal_damping, viscous_matrix};
 use crate::app::scene::places::{Named, Place};
 use crate::fe::reduction::frf::{
-    FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition,
-    ReducedSystem, Resonance, direct_response, frequency_list,
+    FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem, Resonance,
+    direct_response, frequency_list,
 };
 use crate::fe::reduction::{BasisChoice, BasisSize, InteriorDamping, ResponseEstimate, UNCOUPLED};
 use crate::numerics::Watch;
@@ -59,11 +59,8 @@ impl<'c> Asked<'c> {
         let sensors = case.sensors.iter().filter(named);
         let from = frf.from.iter();
         [
-            from.map(|push| (Named::Force(&push.name), &push.spot, push.direction))
-                .collect(),
-            sensors
-                .map(|sensor| (Named::Sensor(&sensor.name), &sensor.spot, sensor.direction))
-                .collect(),
+            from.map(|push| (Named::Force(&push.name), &push.spot, push.direction)).collect(),
+            sensors.map(|sensor| (Named::Sensor(&sensor.name), &sensor.spot, sensor.direction)).collect(),
         ]
     }
 }
@@ -73,17 +70,10 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
-    pub fn build(
-        case: &'c Case,
-        frf: &'c case::Frf,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    pub fn build(case: &'c Case, frf: &'c case::Frf, watch: &impl Watch) -> Result<Self, ComputeError> {
         let asked = Asked { case, frf };
         let choice = basis_choice(case);
-        let band_hz = frf
-            .band_hz
-            .or(case.band_hz())
-            .unwrap_or([0.0, choice.band_hz]);
+        let band_hz = frf.band_hz.or(case.band_hz()).unwrap_or([0.0, choice.band_hz]);
         if let Some(path) = case.superelement() {
             watch.stage("read");
             return Self::of(asked, FrfHousing::read(case, path)?, band_hz);
@@ -101,9 +91,7 @@ impl<'c> ReducedPaths<'c> {
             watch.stage("basis for the responses");
             for _ in 0..ENLARGEMENTS {
                 match (reduced.housing, &reduced.estimate) {
-                    (FrfHousing::Mesh(stage), Some(estimate))
-                        if estimate.lacking() > MARGIN * target =>
-                    {
+                    (FrfHousing::Mesh(stage), Some(estimate)) if estimate.lacking() > MARGIN * target => {
                         let stage = stage.with_forces(estimate.forces().clone())?;
                         reduced = Self::of(asked, meshed(stage), band_hz)?;
                     }
@@ -146,16 +134,7 @@ impl<'c> ReducedPaths<'c> {
                 &frequencies_hz,
             )?),
         };
-        Ok(Self {
-            asked,
-            housing,
-            band_hz,
-            frequencies_hz,
-            estimate,
-            system,
-            paths,
-            superposition,
-        })
+        Ok(Self { asked, housing, band_hz, frequencies_hz, estimate, system, paths, superposition })
     }
 
     /// Places of forces and sensors on a condensed housing.
@@ -164,10 +143,7 @@ impl<'c> ReducedPaths<'c> {
     /// None that [`ReducedPaths::build`] did not have.
     pub fn places(&self, stage: &CondensedHousing) -> Result<[Vec<Place>; 2], ComputeError> {
         let [from, to] = self.asked.ends();
-        Ok([
-            places(stage, from.into_iter())?,
-            places(stage, to.into_iter())?,
-        ])
+        Ok([places(stage, from.into_iter())?, places(stage, to.into_iter())?])
     }
 
     /// Responses at ascending frequencies, Hz: sums of modes where damping does not couple them, which is exact and quick.
@@ -201,9 +177,7 @@ impl<'c> ReducedPaths<'c> {
                 let parts = self.superposition.contributions(sensor, load, hz)?;
                 let carried = shares.modes.iter().take(CARRIED).map(|share| CarriedPart {
                     frequency_hz: share.frequency_hz,
-                    receptance: (0..hz.len())
-                        .map(|place| parts[(share.mode, place)])
-                        .collect(),
+                    receptance: (0..hz.len()).map(|place| parts[(share.mode, place)]).collect(),
                 });
                 paths.push(TransferPath {
                     from: from.name().to_owned(),
@@ -222,11 +196,7 @@ impl<'c> ReducedPaths<'c> {
 /// of the responses says what else it needs.
 fn first_choice(choice: BasisChoice, band_hz: f64) -> BasisChoice {
     match choice.size {
-        BasisSize::Auto(_) => BasisChoice {
-            size: BasisSize::UpTo(band_hz),
-            enhanced: false,
-            band_hz,
-        },
+        BasisSize::Auto(_) => BasisChoice { size: BasisSize::UpTo(band_hz), enhanced: false, band_hz },
         _ => BasisChoice { band_hz, ..choice },
     }
 }
@@ -244,17 +214,9 @@ fn frequencies(
         .iter()
         .enumerate()
         .filter(|(_, hz)| **hz > 0.0 && **hz <= 1.1 * high)
-        .map(|(mode, &frequency_hz)| Resonance {
-            frequency_hz,
-            ratio: superposition.ratio(mode).unwrap_or(0.0),
-        })
+        .map(|(mode, &frequency_hz)| Resonance { frequency_hz, ratio: superposition.ratio(mode).unwrap_or(0.0) })
         .collect();
-    let grid = FrequencyGrid {
-        band_hz,
-        intervals: INTERVALS,
-        points_a_bandwidth: 4,
-        reach: 3.0,
-    };
+    let grid = FrequencyGrid { band_hz, intervals: INTERVALS, points_a_bandwidth: 4, reach: 3.0 };
     let mut frequencies_hz = frequency_list(&grid, &resonances)?;
     let checked = frf.check_hz.iter().flatten().copied();
     frequencies_hz.extend(checked.filter(|hz| (low..=high).contains(hz)));

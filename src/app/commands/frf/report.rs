@@ -8,8 +8,7 @@ use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table,
-    Verdict, significant,
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table, Verdict, significant,
 };
 use faer::c64;
 
@@ -21,13 +20,10 @@ const LISTED: usize = 8;
 /// # Errors
 /// [`ComputeError::Frf`].
 pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
-    let document = Document::new()
-        .case(case.source.path.display().to_string())
-        .signed_by("Prepared by")
-        .signed_by("Checked by");
-    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle("Transfer paths")
-        .document(document);
+    let document =
+        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
+    let mut report =
+        Report::new(&case.title, command, env!("CARGO_PKG_VERSION")).subtitle("Transfer paths").document(document);
     let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
     report = match (&result.estimate, result.largest_estimate()) {
         (None, _) => report.headline("Estimated error", "not known", Verdict::None),
@@ -38,16 +34,10 @@ pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Repo
         }
     };
     report = match result.largest_difference() {
-        Some(largest) => report.headline(
-            "Largest difference from the full model",
-            significant(largest.1, 2),
-            passes(largest),
-        ),
-        None => report.headline(
-            "Difference from the full model",
-            "not computed",
-            Verdict::None,
-        ),
+        Some(largest) => {
+            report.headline("Largest difference from the full model", significant(largest.1, 2), passes(largest))
+        }
+        None => report.headline("Difference from the full model", "not computed", Verdict::None),
     };
     report = report.section(model(result));
     for path in 0..result.paths.len() {
@@ -88,11 +78,8 @@ fn model(result: &FrfResult) -> Section {
             Fact::new("Modes", element.modal_dof().to_string()),
         ],
     };
-    let of_response = [Fact::new(
-        "Frequencies",
-        result.response.frequencies_hz().len().to_string(),
-    )
-    .note("equal steps of the band, and four to the half-power bandwidth of every resonance")];
+    let of_response = [Fact::new("Frequencies", result.response.frequencies_hz().len().to_string())
+        .note("equal steps of the band, and four to the half-power bandwidth of every resonance")];
     Section::new("Model").facts(of_housing.into_iter().chain(of_response))
 }
 
@@ -104,28 +91,15 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
     }
     let (sensor, load) = path.place;
     let all = result.response.frequencies_hz();
-    let accelerance = result
-        .response
-        .path(sensor, load, FrfQuantity::Accelerance)?;
-    let full: Vec<(f64, c64)> = result
-        .compared
-        .iter()
-        .map(|at| {
-            (
-                at.frequency_hz,
-                accelerance_of(at.frequency_hz, at.full[index]),
-            )
-        })
-        .collect();
+    let accelerance = result.response.path(sensor, load, FrfQuantity::Accelerance)?;
+    let full: Vec<(f64, c64)> =
+        result.compared.iter().map(|at| (at.frequency_hz, accelerance_of(at.frequency_hz, at.full[index]))).collect();
     let reduced: Vec<(f64, c64)> = all.iter().copied().zip(accelerance).collect();
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
     let size = || Axis::new("Acceleration over force", "1/kg").log();
-    let mut magnitude = Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve(
-        "reduced",
-        &reduced,
-        |h| h.norm(),
-    ));
+    let mut magnitude =
+        Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve("reduced", &reduced, |h| h.norm()));
     let degrees = |h: c64| h.arg().to_degrees();
     let mut phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
         .curve(curve("reduced", &reduced, degrees));
@@ -133,18 +107,12 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
         magnitude = magnitude.curve(curve("full", &full, |h| h.norm()).style(CurveStyle::Points));
         phase = phase.curve(curve("full", &full, degrees).style(CurveStyle::Points));
     }
-    let mut parts = Plot::new(
-        "Accelerance of the modes that carry most",
-        frequency(),
-        size(),
-    )
-    .curve(curve("all", &reduced, |h| h.norm()));
+    let mut parts =
+        Plot::new("Accelerance of the modes that carry most", frequency(), size())
+            .curve(curve("all", &reduced, |h| h.norm()));
     for part in &path.carried {
-        let values: Vec<(f64, c64)> = all
-            .iter()
-            .zip(&part.receptance)
-            .map(|(&hz, &receptance)| (hz, accelerance_of(hz, receptance)))
-            .collect();
+        let values: Vec<(f64, c64)> =
+            all.iter().zip(&part.receptance).map(|(&hz, &receptance)| (hz, accelerance_of(hz, receptance))).collect();
         let name = format!("{:.0} Hz", part.frequency_hz);
         parts = parts.curve(curve(name, &values, |h| h.norm()));
     }
@@ -162,9 +130,7 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
         table = table.row([
             Cell::text((share.mode + 1).to_string()),
             Cell::number(share.frequency_hz, 6),
-            share
-                .ratio
-                .map_or_else(|| Cell::text("rigid"), |ratio| Cell::number(ratio, 3)),
+            share.ratio.map_or_else(|| Cell::text("rigid"), |ratio| Cell::number(ratio, 3)),
             Cell::number(100.0 * share.share, 3),
             Cell::number(100.0 * share.alone, 3),
         ]);
@@ -184,23 +150,13 @@ fn accelerance_of(hz: f64, receptance: c64) -> c64 {
 fn curve(name: impl Into<String>, values: &[(f64, c64)], of: impl Fn(c64) -> f64) -> Curve {
     let moving = || values.iter().filter(|(_, h)| h.norm() > 0.0);
     let hz = moving().map(|(hz, _)| *hz).collect();
-    Curve::new(
-        name,
-        Abscissa::Points(hz),
-        moving().map(|(_, h)| of(*h)).collect(),
-    )
+    Curve::new(name, Abscissa::Points(hz), moving().map(|(_, h)| of(*h)).collect())
 }
 
 fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
-    let estimated = estimate
-        .frequencies_hz
-        .iter()
-        .zip(&estimate.relative_errors);
-    let positive =
-        |(hz, error): (f64, f64)| (error > 0.0 && error.is_finite()).then_some((hz, error));
-    let (hz, error) = estimated
-        .filter_map(|(&hz, &error)| positive((hz, error)))
-        .unzip();
+    let estimated = estimate.frequencies_hz.iter().zip(&estimate.relative_errors);
+    let positive = |(hz, error): (f64, f64)| (error > 0.0 && error.is_finite()).then_some((hz, error));
+    let (hz, error) = estimated.filter_map(|(&hz, &error)| positive((hz, error))).unzip();
     let [low, high] = result.band_hz;
     let mut plot = Plot::new(
         "Error of the reduced responses, the largest of the paths",
@@ -209,18 +165,12 @@ fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
     )
     .curve(Curve::new("estimated", Abscissa::Points(hz), error));
     let target = vec![result.target; 2];
-    plot = plot.curve(Curve::new(
-        "target",
-        Abscissa::Points(vec![low, high]),
-        target,
-    ));
+    plot = plot.curve(Curve::new("target", Abscissa::Points(vec![low, high]), target));
     if result.compared.is_empty() {
         return Section::new("Error of the reduced responses").plot(plot);
     }
     let compared = result.compared.iter();
-    let (hz, difference) = compared
-        .filter_map(|at| positive((at.frequency_hz, at.difference)))
-        .unzip();
+    let (hz, difference) = compared.filter_map(|at| positive((at.frequency_hz, at.difference))).unzip();
     let points = Curve::new("against the full model", Abscissa::Points(hz), difference);
     let residual = result.compared.iter().map(|compared| compared.residual);
     Section::new("Error of the reduced responses")
@@ -250,11 +200,7 @@ fn compared_table(result: &FrfResult) -> Table {
             cells.push(Cell::number(full.norm(), 6));
         }
         let outside = || Cell::text("outside the band");
-        cells.push(
-            compared
-                .estimated
-                .map_or_else(outside, |error| Cell::number(error, 2)),
-        );
+        cells.push(compared.estimated.map_or_else(outside, |error| Cell::number(error, 2)));
         let verdict = Verdict::of(compared.difference <= result.target);
         cells.push(Cell::number(compared.difference, 2).judged(verdict));
         table = table.row(cells);
@@ -264,9 +210,8 @@ fn compared_table(result: &FrfResult) -> Table {
 
 fn ranking(result: &FrfResult) -> Section {
     let [low, high] = result.band_hz;
-    let mut section = Section::new("Which variant transmits least").paragraph(format!(
-        "Energy mean of the accelerance from {low:.0} to {high:.0} Hz, the quietest first."
-    ));
+    let mut section = Section::new("Which variant transmits least")
+        .paragraph(format!("Energy mean of the accelerance from {low:.0} to {high:.0} Hz, the quietest first."));
     for ranked in &result.ranking {
         let path = &result.paths[ranked.path];
         let mut table = Table::new(

@@ -20,7 +20,8 @@ const HOUSING: &str = "title = \"small\"\n\
     [frf]\nfrom = [{ name = \"load zone\", ring_deg = 270, direction = [0, -1, 0] },\n\
       { name = \"aside\", ring_deg = 0, direction = [1, 0, 0] }]\n";
 
-const DAMPED: &str = "[damping]\nratios = [{ frequency_hz = 3000, ratio = 0.01 }, { frequency_hz = 60000, ratio = 0.01 }]\n";
+const DAMPED: &str =
+    "[damping]\nratios = [{ frequency_hz = 3000, ratio = 0.01 }, { frequency_hz = 60000, ratio = 0.01 }]\n";
 
 fn case(text: String, set: &[&str]) -> Case {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -72,24 +73,14 @@ fn a_path_that_symmetry_closes_is_told_and_no_error() {
 /// The response to a force is the sum of those to its parts, across the ring's plane too.
 #[test]
 fn a_force_on_a_ring_in_space_has_three_parts() {
-    let parts = [
-        [1.0, 0.5, 2.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-    ];
-    let from = parts.iter().enumerate().map(|(number, direction)| {
-        format!("{{ name = \"{number}\", ring_deg = 30, direction = {direction:?} }}")
-    });
+    let parts = [[1.0, 0.5, 2.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let from = parts
+        .iter()
+        .enumerate()
+        .map(|(number, direction)| format!("{{ name = \"{number}\", ring_deg = 30, direction = {direction:?} }}"));
     let from = format!("frf.from=[{}]", from.collect::<Vec<_>>().join(","));
     let sensor = "sensors=[{name='s',ring_deg=100,direction=[0.3,0.4,0.5]}]";
-    let set = [
-        &*from,
-        sensor,
-        "frf.to=['s']",
-        "frf.check_hz=[5000, 15000]",
-        "frf.band_hz=[0, 20000]",
-    ];
+    let set = [&*from, sensor, "frf.to=['s']", "frf.check_hz=[5000, 15000]", "frf.band_hz=[0, 20000]"];
     let case = Case::example("transfer/pedestal", &set);
     let found = compute_frf(&case, &Unwatched).unwrap();
     assert!(found.passes(), "{:?}", found.largest_difference());
@@ -109,15 +100,9 @@ fn a_direction_across_a_plane_model_is_refused() {
         compute_frf(&case, &Unwatched).unwrap_err().to_string()
     };
     let force = message("frf.from=[{name='axial',ring_deg=270,direction=[0,1,1]}]");
-    assert!(
-        force.starts_with("force \"axial\": direction has a part across"),
-        "{force}"
-    );
+    assert!(force.starts_with("force \"axial\": direction has a part across"), "{force}");
     let sensor = message("sensors.0.direction=[0,1,0.01]");
-    assert!(
-        sensor.starts_with("sensor \"top\": direction has a part across"),
-        "{sensor}"
-    );
+    assert!(sensor.starts_with("sensor \"top\": direction has a part across"), "{sensor}");
 }
 
 #[test]
@@ -153,19 +138,13 @@ fn strong_mass_damping_is_estimated() {
                 assert!((0.5..5.0).contains(&factor), "{alpha}: {at:?}");
             }
         }
-        assert!(
-            found.compared.iter().any(|at| at.difference > 1e-9),
-            "{alpha}"
-        );
+        assert!(found.compared.iter().any(|at| at.difference > 1e-9), "{alpha}");
     }
 }
 
 #[test]
 fn a_basis_that_is_too_small_does_not_pass() {
-    let small = [
-        "condense.fixed_interface_modes=0",
-        "condense.enhanced=false",
-    ];
+    let small = ["condense.fixed_interface_modes=0", "condense.enhanced=false"];
     let found = result(&accuracy("1e-4"), &small);
     assert!(!found.passes());
     // the estimate alone tells
@@ -182,10 +161,8 @@ fn undamped_and_lossy_housings_are_compared_too() {
     assert_eq!(found.compared.len(), 2);
     assert!(found.passes(), "{:?}", found.compared);
     // a loss factor that the ring does not have couples the modes: no sum of modes
-    let lossy = result(
-        &accuracy("1e-3"),
-        &["materials.aluminium={young=70e9, poisson=0.33, density=2700, loss_factor=0.05}"],
-    );
+    let lossy =
+        result(&accuracy("1e-3"), &["materials.aluminium={young=70e9, poisson=0.33, density=2700, loss_factor=0.05}"]);
     assert!(lossy.passes(), "{:?}", lossy.largest_difference());
     let imaginary = |found: &FrfResult| found.response.receptance()[10][(0, 0)].im.abs();
     assert!(imaginary(&lossy) > 10.0 * imaginary(&result(&accuracy("1e-3"), &[])));
@@ -196,12 +173,7 @@ fn the_modes_that_carry_a_path_add_up_to_it() {
     let found = result(&accuracy("1e-3"), &[]);
     let path = &found.paths[0];
     let strongest = &path.carried[0];
-    let peak = found
-        .response
-        .frequencies_hz()
-        .iter()
-        .position(|hz| *hz >= strongest.frequency_hz)
-        .unwrap();
+    let peak = found.response.frequencies_hz().iter().position(|hz| *hz >= strongest.frequency_hz).unwrap();
     let whole = found.response.receptance()[peak][path.place];
     // at its own resonance a mode of 1 % damping is nearly all
     assert!((strongest.receptance[peak] - whole).norm() < 0.1 * whole.norm());
@@ -209,14 +181,9 @@ fn the_modes_that_carry_a_path_add_up_to_it() {
 
 #[test]
 fn the_variant_with_softer_supports_transmits_less_above_its_resonance() {
-    let variants =
-        "frf.variants=[{what=\"soft\", set=[\"housing.supports[0].spring={x=1e6, y=1e6}\"]}]";
+    let variants = "frf.variants=[{what=\"soft\", set=[\"housing.supports[0].spring={x=1e6, y=1e6}\"]}]";
     let found = result(&accuracy("1e-2"), &[variants]);
-    let names: Vec<&str> = found.ranking[0]
-        .variants
-        .iter()
-        .map(|variant| &*variant.name)
-        .collect();
+    let names: Vec<&str> = found.ranking[0].variants.iter().map(|variant| &*variant.name).collect();
     assert_eq!(names.len(), 2);
     let level = |name: &str| {
         let at = names.iter().position(|own| *own == name).unwrap();
@@ -238,31 +205,17 @@ fn a_superelement_from_a_file_has_the_responses_that_it_came_with() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("superelement.npz");
     let whole = case(meshed, &size);
-    let stage = CondensedHousing::build(&whole, &Unwatched)
-        .unwrap()
-        .unwrap();
+    let stage = CondensedHousing::build(&whole, &Unwatched).unwrap().unwrap();
     write_superelement_npz(&path, &superelement_record(&whole, &stage).unwrap()).unwrap();
     let ring = &HOUSING[HOUSING.find("[ring]").unwrap()..HOUSING.find("tie = ").unwrap()];
     let frf = &HOUSING[HOUSING.find("[frf]").unwrap()..];
-    let imported = format!(
-        "[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}",
-        accuracy("0.1")
-    );
+    let imported = format!("[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}", accuracy("0.1"));
     let imported = case(imported, &[]);
     imported.ready_for(Purpose::Frf).unwrap();
     let found = compute_frf(&imported, &Unwatched).unwrap();
     assert!(found.estimate.is_none() && found.compared.is_empty() && found.passes());
-    assert!(
-        found
-            .not_compared
-            .unwrap()
-            .contains("superelement from a file")
-    );
-    let both = found
-        .response
-        .receptance()
-        .iter()
-        .zip(expected.response.receptance());
+    assert!(found.not_compared.unwrap().contains("superelement from a file"));
+    let both = found.response.receptance().iter().zip(expected.response.receptance());
     assert_eq!(found.paths.len(), 2);
     for (found, expected) in both {
         for load in 0..2 {
@@ -273,15 +226,9 @@ fn a_superelement_from_a_file_has_the_responses_that_it_came_with() {
     }
     // a force cannot act on a mesh that is not known
     let on_mesh = case(
-        format!(
-            "[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}",
-            accuracy("0.1")
-        ),
+        format!("[housing]\nsuperelement = {path:?}\n{ring}{race}{frf}{}", accuracy("0.1")),
         &["frf.from=[{node=1, direction=[0, 1, 0]}]"],
     );
     let error = compute_frf(&on_mesh, &Unwatched).unwrap_err();
-    assert!(
-        error.is_input() && error.to_string().contains("node 1"),
-        "{error}"
-    );
+    assert!(error.is_input() && error.to_string().contains("node 1"), "{error}");
 }

@@ -61,10 +61,7 @@ impl Rim {
     /// The rim of the elements of the highest dimension.
     pub fn of(mesh: &Mesh, dimension: usize) -> Self {
         let faces = mesh.boundary_faces(mesh.element_ids(dimension));
-        let keys = faces
-            .iter()
-            .enumerate()
-            .map(|(place, face)| (key(&face.nodes, face.kind.corners()), place));
+        let keys = faces.iter().enumerate().map(|(place, face)| (key(&face.nodes, face.kind.corners()), place));
         let by_corners = keys.collect();
         Self { faces, by_corners }
     }
@@ -73,10 +70,7 @@ impl Rim {
     pub fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
         self.faces.iter().map(move |face| {
             let corners = &face.nodes[..face.kind.corners()];
-            Facet {
-                corners: corners.iter().map(|&node| mesh.nodes[node]).collect(),
-                inside: Some(middle(mesh, face)),
-            }
+            Facet { corners: corners.iter().map(|&node| mesh.nodes[node]).collect(), inside: Some(middle(mesh, face)) }
         })
     }
 }
@@ -102,11 +96,7 @@ fn facets(mesh: &Mesh, rim: &Rim, group: &PhysicalGroup) -> Vec<Facet> {
         let corners = block.kind.corners();
         let face = rim.by_corners.get(&key(nodes, corners));
         Facet {
-            corners: nodes
-                .iter()
-                .take(corners)
-                .map(|&node| mesh.nodes[node])
-                .collect(),
+            corners: nodes.iter().take(corners).map(|&node| mesh.nodes[node]).collect(),
             inside: face.map(|&place| middle(mesh, &rim.faces[place])),
         }
     });
@@ -146,9 +136,5 @@ pub(crate) fn cylinders(
         named.then(surface(b).total_cmp(&surface(a)))
     });
     let bore = (!holes.is_empty()).then(|| holes.remove(0));
-    Cylinders {
-        bore,
-        holes,
-        outside,
-    }
+    Cylinders { bore, holes, outside }
 }

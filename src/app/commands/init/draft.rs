@@ -74,9 +74,7 @@ fn write(found: &Found<'_>) -> Draft {
         bore: found.bore.clone(),
         other_holes: found.holes.clone(),
         bearing: found.bearing.map(|numbers| numbers.bearing.name),
-        parts: parts
-            .map(|part| [part.group.clone(), part.material.to_owned()])
-            .collect(),
+        parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
         supports: found.groups.supports.clone(),
         findings,
         text: page.text(),

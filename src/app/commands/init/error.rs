@@ -60,24 +60,16 @@ impl DraftError {
         match self {
             Self::Mesh(_) => None,
             Self::NoPart { what, .. } => {
-                let word = if *what == "volumes" {
-                    "Volume"
-                } else {
-                    "Surface"
-                };
+                let word = if *what == "volumes" { "Volume" } else { "Surface" };
                 Some(format!(
                     "name it in gmsh, Physical {word}(\"housing\") = {{...}};, and save the mesh again; plummer inspect shows what is there"
                 ))
             }
-            Self::NoHousing { .. } => {
-                Some("mesh the volume in gmsh (Mesh 3;) and save it again".to_owned())
+            Self::NoHousing { .. } => Some("mesh the volume in gmsh (Mesh 3;) and save it again".to_owned()),
+            Self::Shell { .. } => Some("shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned()),
+            Self::BearingSize { nearest, .. } => {
+                Some(format!("{nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"))
             }
-            Self::Shell { .. } => {
-                Some("shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned())
-            }
-            Self::BearingSize { nearest, .. } => Some(format!(
-                "{nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"
-            )),
         }
     }
 }

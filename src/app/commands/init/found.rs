@@ -91,32 +91,17 @@ pub(crate) fn find<'a>(
     let plane = dimension == 2;
     if plane && extent[2] > 1e-9 * inventory.bounding_box.diagonal() {
         let height = extent[2];
-        return Err(DraftError::Shell {
-            path: path(),
-            height,
-        });
+        return Err(DraftError::Shell { path: path(), height });
     }
     let rim = Rim::of(mesh, dimension);
-    let Cylinders {
-        bore,
-        holes,
-        outside,
-    } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
-    let groups = Groups::of(
-        mesh,
-        dimension,
-        bore.as_ref().map(|bore| bore.group.as_str()),
-    );
+    let Cylinders { bore, holes, outside } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
+    let groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
     if groups.parts.is_empty() {
         // a name that two groups share is no name
-        let solids = mesh
-            .groups
-            .iter()
-            .filter(|group| group.dimension == dimension);
+        let solids = mesh.groups.iter().filter(|group| group.dimension == dimension);
         let named = solids.map(|group| mesh.group(&group.name));
-        if let Some(shared) = named
-            .filter_map(Result::err)
-            .find(|error| matches!(error, MeshError::AmbiguousGroup { .. }))
+        if let Some(shared) =
+            named.filter_map(Result::err).find(|error| matches!(error, MeshError::AmbiguousGroup { .. }))
         {
             return Err(shared.into());
         }
@@ -127,36 +112,20 @@ pub(crate) fn find<'a>(
     let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
     let (unit, unit_from) = unit::unit(request.length_unit, longest, radius, request.bearing);
     let metres = unit.to_metres();
-    let directions = Directions::of(
-        bore.as_ref()
-            .map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis),
-    );
+    let directions = Directions::of(bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis));
     let middle = inventory.bounding_box;
     let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
     let centre = bore.as_ref().map_or(middle, |bore| bore.cylinder.centre);
     let seen = [directions.up, directions.axis];
     let spot = sensor::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen);
-    let in_metres = |list: Vec<Candidate>| {
-        list.into_iter()
-            .map(|found| scaled(found, metres))
-            .collect()
-    };
+    let in_metres = |list: Vec<Candidate>| list.into_iter().map(|found| scaled(found, metres)).collect();
     let bore = bore.map(|bore| scaled(bore, metres));
     // no bore: a template for the smallest bearing
     let diameter = bore.as_ref().map_or(0.0, |bore| 2.0 * bore.radius_m);
     let (bearing, same_size) = fitting(&request, bore.as_ref())?;
-    let usual = CatalogueBearing::nearest(diameter)
-        .first()
-        .map(|(bearing, _)| *bearing);
-    let of = bearing
-        .or(request.bearing)
-        .or(usual)
-        .unwrap_or(&CatalogueBearing::all()[0]);
-    let diameter = if diameter > 0.0 {
-        diameter
-    } else {
-        of.outer_diameter
-    };
+    let usual = CatalogueBearing::nearest(diameter).first().map(|(bearing, _)| *bearing);
+    let of = bearing.or(request.bearing).or(usual).unwrap_or(&CatalogueBearing::all()[0]);
+    let diameter = if diameter > 0.0 { diameter } else { of.outer_diameter };
     Ok(Found {
         request,
         plane,
@@ -205,31 +174,20 @@ pub(crate) fn fitting(
         if (bearing.outer_diameter / diameter - 1.0).abs() <= TOLERANCE {
             return Ok((Some(bearing), Vec::new()));
         }
-        let names = nearest.iter().map(|(bearing, _)| {
-            format!(
-                "{} ({} mm)",
-                bearing.name,
-                page::number(1e3 * bearing.outer_diameter, 6)
-            )
-        });
+        let names = nearest
+            .iter()
+            .map(|(bearing, _)| format!("{} ({} mm)", bearing.name, page::number(1e3 * bearing.outer_diameter, 6)));
         return Err(DraftError::BearingSize {
             bearing: bearing.name,
             outer_mm: 1e3 * bearing.outer_diameter,
             group: bore.group.clone(),
             bore_mm: 1e3 * diameter,
-            nearest: format!(
-                "nearest of the catalogue: {}",
-                names.collect::<Vec<_>>().join(", ")
-            ),
+            nearest: format!("nearest of the catalogue: {}", names.collect::<Vec<_>>().join(", ")),
         });
     }
-    let fits: Vec<&CatalogueBearing> = nearest
-        .into_iter()
-        .filter(|(_, off)| off.abs() <= TOLERANCE)
-        .map(|(bearing, _)| bearing)
-        .collect();
-    let common =
-        |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
+    let fits: Vec<&CatalogueBearing> =
+        nearest.into_iter().filter(|(_, off)| off.abs() <= TOLERANCE).map(|(bearing, _)| bearing).collect();
+    let common = |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
     let chosen = fits.iter().find(common).or(fits.first()).copied();
     Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))
 }

@@ -27,19 +27,11 @@ impl Directions {
                 axis = unit;
             }
         }
-        let upwards = if axis.y.abs() > 0.9 {
-            Vector3::z()
-        } else {
-            Vector3::y()
-        };
+        let upwards = if axis.y.abs() > 0.9 { Vector3::z() } else { Vector3::y() };
         let up = (upwards - axis * axis.dot(&upwards)).normalize();
         // without negative zeros
         let plain = |vector: Vector3<f64>| -> [f64; 3] { vector.map(|part| part + 0.0).into() };
-        Self {
-            axis: plain(axis),
-            zero: plain(up.cross(&axis)),
-            up: plain(up),
-        }
+        Self { axis: plain(axis), zero: plain(up.cross(&axis)), up: plain(up) }
     }
 }
 
@@ -61,17 +53,11 @@ mod tests {
             let y = frame.vector_to_mesh([0.0, 1.0, 0.0]);
             for place in 0..3 {
                 assert!((y[place] - up[place]).abs() < 1e-12, "{axis:?}: {y:?}");
-                assert!(
-                    (y[place] - found.up[place]).abs() < 1e-12,
-                    "{axis:?}: {y:?}"
-                );
+                assert!((y[place] - found.up[place]).abs() < 1e-12, "{axis:?}: {y:?}");
             }
         }
         let snapped = Directions::of([1.0, 0.0, 1e-8]).axis;
-        assert_eq!(
-            snapped.map(f64::to_bits),
-            [1.0_f64, 0.0, 0.0].map(f64::to_bits)
-        );
+        assert_eq!(snapped.map(f64::to_bits), [1.0_f64, 0.0, 0.0].map(f64::to_bits));
         let kept = Directions::of([1.0, 0.0, 1e-4]).axis;
         assert!(kept[2] > 9e-5);
     }

@@ -3,9 +3,8 @@
 use crate::fe::mesh::{Mesh, PhysicalGroup};
 
 /// Parts of names of what is held.
-const SUPPORTS: [&str; 11] = [
-    "foot", "feet", "base", "bolt", "support", "fixed", "clamp", "mount", "ground", "root", "screw",
-];
+const SUPPORTS: [&str; 11] =
+    ["foot", "feet", "base", "bolt", "support", "fixed", "clamp", "mount", "ground", "root", "screw"];
 
 /// Parts of names of points where something is measured.
 const SENSORS: [&str; 5] = ["sensor", "accel", "probe", "pickup", "top"];
@@ -80,11 +79,8 @@ impl Groups {
         let mut taken: Vec<Vec<bool>> = counts.collect();
         let mut on_housing = vec![false; mesh.nodes.len()];
         // large groups first: of two that overlap the one that holds more is the part
-        let mut solids: Vec<&PhysicalGroup> = mesh
-            .groups
-            .iter()
-            .filter(|group| group.dimension == dimension && usable(mesh, group))
-            .collect();
+        let mut solids: Vec<&PhysicalGroup> =
+            mesh.groups.iter().filter(|group| group.dimension == dimension && usable(mesh, group)).collect();
         solids.sort_by_key(|group| std::cmp::Reverse(group.elements.len()));
         for group in solids {
             if group.elements.iter().any(|id| taken[id.block][id.index]) {
@@ -105,10 +101,7 @@ impl Groups {
         }
         let order = |name: &str| mesh.groups.iter().position(|group| group.name == name);
         found.parts.sort_by_key(|part| order(&part.group));
-        found.without_part = mesh
-            .element_ids(dimension)
-            .filter(|id| !taken[id.block][id.index])
-            .count();
+        found.without_part = mesh.element_ids(dimension).filter(|id| !taken[id.block][id.index]).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         for group in &mesh.groups {
             if bore.is_some_and(|bore| bore.name == group.name) {
@@ -129,19 +122,13 @@ impl Groups {
     ) {
         let name = group.name.as_str();
         let mut leave = |note| {
-            self.others.push(Other {
-                group: name.to_owned(),
-                dimension: group.dimension,
-                note,
-            });
+            self.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
         };
         if group.elements.is_empty() {
             return leave(Some("has no elements"));
         }
         if !usable(mesh, group) {
-            return leave(Some(
-                "another group has this name too: give each its own in gmsh",
-            ));
+            return leave(Some("another group has this name too: give each its own in gmsh"));
         }
         if group.dimension >= dimension {
             return;
@@ -156,9 +143,7 @@ impl Groups {
             if !whole {
                 leave(Some("looks like a support, but lies on no part"));
             } else if touches_bore {
-                leave(Some(
-                    "looks like a support, but shares nodes with the bore, which follow the ring",
-                ));
+                leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
                 self.at_bore.push(name.to_owned());
             } else {
                 self.supports.push(name.to_owned());

@@ -93,17 +93,11 @@ pub(crate) fn quoted(text: &str) -> String {
 
 /// A number with so many significant digits, as short as TOML takes it.
 pub(crate) fn number(value: f64, digits: usize) -> String {
-    let rounded: f64 = format!("{:.*e}", digits.saturating_sub(1), value)
-        .parse()
-        .unwrap_or(value);
+    let rounded: f64 = format!("{:.*e}", digits.saturating_sub(1), value).parse().unwrap_or(value);
     if rounded.abs() < f64::MIN_POSITIVE {
         return "0".to_owned();
     }
-    if (1e-2..1e6).contains(&rounded.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
+    if (1e-2..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// Numbers in an array; what is below `floor` is 0.
@@ -150,15 +144,7 @@ mod tests {
 
     #[test]
     fn every_name_reads_back_and_stays_on_its_line() {
-        for name in [
-            "bore",
-            "a \"b\"",
-            "c:\\d",
-            "two\nlines",
-            "tab\tr\r",
-            "é \u{2028}",
-            "#",
-        ] {
+        for name in ["bore", "a \"b\"", "c:\\d", "two\nlines", "tab\tr\r", "é \u{2028}", "#"] {
             let quoted = quoted(name);
             assert!(!quoted.contains(['\n', '\r', '\u{2028}']), "{quoted}");
             let read: toml::Table = toml::from_str(&format!("a = {quoted}")).unwrap();
@@ -176,10 +162,7 @@ mod tests {
         });
         page.value("c", "2");
         let text = page.text();
-        assert_eq!(
-            text,
-            "\n#[a]\n#b = 1                                      # why\n\nc = 2\n"
-        );
+        assert_eq!(text, "\n#[a]\n#b = 1                                      # why\n\nc = 2\n");
         let read: toml::Table = toml::from_str(&text).unwrap();
         assert_eq!(read.len(), 1);
         let bare = text.replace("\n#", "\n");
@@ -193,10 +176,7 @@ mod tests {
         page.note(&"word ".repeat(60));
         page.value_from("a", "1", &"word ".repeat(30));
         let text = page.text();
-        assert!(
-            text.lines().all(|line| line.chars().count() <= 118),
-            "{text}"
-        );
+        assert!(text.lines().all(|line| line.chars().count() <= 118), "{text}");
         assert!(text.lines().last() == Some("a = 1"), "{text}");
         assert_eq!(list(&[]), "none");
         assert_eq!(list(&["a".into(), "b".into(), "c".into()]), "a, b and c");

@@ -21,11 +21,7 @@ pub(crate) fn spot(
     radius: f64,
     [up, axis]: [[f64; 3]; 2],
 ) -> Option<[f64; 3]> {
-    let (centre, up, axis) = (
-        Vector3::from(centre),
-        Vector3::from(up),
-        Vector3::from(axis),
-    );
+    let (centre, up, axis) = (Vector3::from(centre), Vector3::from(up), Vector3::from(axis));
     let side = up.cross(&axis);
     let height = |point: &Vector3<f64>| up.dot(&(point - centre));
     let beside = |point: &Vector3<f64>| {
@@ -44,9 +40,7 @@ pub(crate) fn spot(
         if outwards(&facet).is_none_or(|normal| normal.dot(&up) < FACING) {
             continue;
         }
-        let near = corners
-            .iter()
-            .min_by(|a, b| beside(a).total_cmp(&beside(b)));
+        let near = corners.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
         let Some(corner) = near.filter(|corner| height(corner) > 1.001 * radius) else {
             continue;
         };

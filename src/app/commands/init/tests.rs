@@ -17,54 +17,14 @@ fn named(name: &str) -> &'static CatalogueBearing {
 fn a_unit_is_given_told_by_the_bearing_or_guessed() {
     let bearing = Some(named("6205"));
     for (given, longest, radius, bearing, expected) in [
-        (
-            Some(LengthUnit::Inch),
-            44.0,
-            Some(26.0),
-            bearing,
-            (LengthUnit::Inch, UnitFrom::Given),
-        ),
-        (
-            None,
-            44.0,
-            Some(26.0),
-            bearing,
-            (LengthUnit::Millimetre, UnitFrom::Bearing),
-        ),
-        (
-            None,
-            4.4,
-            Some(26.1 / 25.4),
-            bearing,
-            (LengthUnit::Inch, UnitFrom::Bearing),
-        ),
-        (
-            None,
-            4.4,
-            Some(1.0),
-            bearing,
-            (LengthUnit::Millimetre, UnitFrom::Extent),
-        ),
-        (
-            None,
-            44.0,
-            Some(26.0),
-            None,
-            (LengthUnit::Millimetre, UnitFrom::Extent),
-        ),
-        (
-            None,
-            0.044,
-            None,
-            None,
-            (LengthUnit::Metre, UnitFrom::Extent),
-        ),
+        (Some(LengthUnit::Inch), 44.0, Some(26.0), bearing, (LengthUnit::Inch, UnitFrom::Given)),
+        (None, 44.0, Some(26.0), bearing, (LengthUnit::Millimetre, UnitFrom::Bearing)),
+        (None, 4.4, Some(26.1 / 25.4), bearing, (LengthUnit::Inch, UnitFrom::Bearing)),
+        (None, 4.4, Some(1.0), bearing, (LengthUnit::Millimetre, UnitFrom::Extent)),
+        (None, 44.0, Some(26.0), None, (LengthUnit::Millimetre, UnitFrom::Extent)),
+        (None, 0.044, None, None, (LengthUnit::Metre, UnitFrom::Extent)),
     ] {
-        assert_eq!(
-            unit(given, longest, radius, bearing),
-            expected,
-            "{longest} {radius:?}"
-        );
+        assert_eq!(unit(given, longest, radius, bearing), expected, "{longest} {radius:?}");
     }
 }
 
@@ -75,15 +35,10 @@ fn a_scaled_ring_is_like_that_of_a_bearing_of_this_size() {
     let found = RingNumbers::of(named("625"), 12e-3);
     assert!((found.scale - 0.75).abs() < 1e-12);
     let section = found.section;
-    for (found, expected, within) in [
-        (section.area, 5.37e-6, 0.2),
-        (section.inertia, 8.88e-13, 0.5),
-        (section.radius, 5.314e-3, 0.03),
-    ] {
-        assert!(
-            (found / expected - 1.0).abs() < within,
-            "{found} {expected}"
-        );
+    for (found, expected, within) in
+        [(section.area, 5.37e-6, 0.2), (section.inertia, 8.88e-13, 0.5), (section.radius, 5.314e-3, 0.03)]
+    {
+        assert!((found / expected - 1.0).abs() < within, "{found} {expected}");
     }
     // as a solid body grows: twice as large, four times the area, 16 times the second moment
     let twice = RingNumbers::of(named("625"), 24e-3).section;
@@ -113,10 +68,7 @@ fn numbers_of_6205() {
     let [mass, unbalance] = shaft(25e-3);
     // a bar of 25 mm and 250 mm: 0.963 kg; 6.3 mm/s at 25 Hz: 40.1 um
     assert!((mass - 0.9633).abs() < 1e-3, "{mass}");
-    assert!(
-        (unbalance / (mass * 40.107e-6) - 1.0).abs() < 1e-4,
-        "{unbalance}"
-    );
+    assert!((unbalance / (mass * 40.107e-6) - 1.0).abs() < 1e-4, "{unbalance}");
     assert!((BALANCE / SPEED_HZ - 2.52e-4).abs() < 1e-12);
 }
 
@@ -136,14 +88,13 @@ fn squares(names: &str, elements: &[&str]) -> Mesh {
 fn notes(groups: &Groups) -> Vec<(&str, &str)> {
     let others = groups.others.iter();
     let noted = others.map(|other| (other.group.as_str(), other.note.unwrap_or_default()));
-    noted
-        .map(|(name, note)| (name, note.split([':', ',']).next().unwrap_or_default()))
-        .collect()
+    noted.map(|(name, note)| (name, note.split([':', ',']).next().unwrap_or_default())).collect()
 }
 
 #[test]
 fn groups_are_parts_supports_and_sensors_by_dimension_and_name() {
-    let names = "2 1 \"steel half\"\n2 2 \"rest\"\n1 3 \"Feet\"\n1 4 \"seat\"\n1 5 \"rim\"\n0 6 \"top\"\n1 7 \"base\"\n";
+    let names =
+        "2 1 \"steel half\"\n2 2 \"rest\"\n1 3 \"Feet\"\n1 4 \"seat\"\n1 5 \"rim\"\n0 6 \"top\"\n1 7 \"base\"\n";
     let mesh = squares(
         names,
         &[
@@ -157,26 +108,14 @@ fn groups_are_parts_supports_and_sensors_by_dimension_and_name() {
         ],
     );
     let groups = Groups::of(&mesh, 2, Some("seat"));
-    let parts: Vec<(&str, &str, bool)> = groups
-        .parts
-        .iter()
-        .map(|part| (part.group.as_str(), part.material, part.by_name))
-        .collect();
-    assert_eq!(
-        parts,
-        [("steel half", "steel", true), ("rest", "aluminium", false)]
-    );
+    let parts: Vec<(&str, &str, bool)> =
+        groups.parts.iter().map(|part| (part.group.as_str(), part.material, part.by_name)).collect();
+    assert_eq!(parts, [("steel half", "steel", true), ("rest", "aluminium", false)]);
     assert_eq!(groups.supports, ["Feet"]);
     assert_eq!(groups.sensor.as_deref(), Some("top"));
     assert_eq!(groups.without_part, 0);
     // node 5 is the seat's too, and what is tied cannot be fixed
-    assert_eq!(
-        notes(&groups),
-        [
-            ("rim", "shares nodes with the bore"),
-            ("base", "looks like a support")
-        ]
-    );
+    assert_eq!(notes(&groups), [("rim", "shares nodes with the bore"), ("base", "looks like a support")]);
     // without a ring it can
     assert_eq!(Groups::of(&mesh, 2, None).supports, ["Feet", "base"]);
 }
@@ -186,13 +125,7 @@ fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
     let names = "2 1 \"all\"\n2 2 \"half\"\n1 3 \"twice\"\n0 4 \"twice\"\n";
     let mesh = squares(
         names,
-        &[
-            "1 3 2 1 1 1 2 5 4",
-            "2 3 2 1 1 2 3 6 5",
-            "3 3 2 2 1 1 2 5 4",
-            "4 1 2 3 3 1 2",
-            "5 15 2 4 4 4",
-        ],
+        &["1 3 2 1 1 1 2 5 4", "2 3 2 1 1 2 3 6 5", "3 3 2 2 1 1 2 5 4", "4 1 2 3 3 1 2", "5 15 2 4 4 4"],
     );
     let groups = Groups::of(&mesh, 2, None);
     assert_eq!(groups.parts.len(), 1);
@@ -205,10 +138,7 @@ fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
     assert_eq!(noted.iter().filter(|note| **note == twice).count(), 2);
     // the right half in no group at all, and the base under it
     let names = "2 1 \"left\"\n1 3 \"base\"\n";
-    let mesh = squares(
-        names,
-        &["1 3 2 1 1 1 2 5 4", "2 3 2 0 2 2 3 6 5", "3 1 2 3 3 2 3"],
-    );
+    let mesh = squares(names, &["1 3 2 1 1 1 2 5 4", "2 3 2 0 2 2 3 6 5", "3 1 2 3 3 2 3"]);
     let groups = Groups::of(&mesh, 2, None);
     assert_eq!((groups.parts.len(), groups.without_part), (1, 1));
     assert_eq!(groups.supports.len(), 0);

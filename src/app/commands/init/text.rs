@@ -35,10 +35,7 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
         .into_iter()
         .zip(axis)
         .find(|(_, part)| part.abs() > 1.0 - 1e-12)
-        .map_or_else(
-            || format!("({}, {}, {})", number(x, 4), number(y, 4), number(z, 4)),
-            |(name, _)| name.to_owned(),
-        );
+        .map_or_else(|| format!("({}, {}, {})", number(x, 4), number(y, 4), number(z, 4)), |(name, _)| name.to_owned());
     let turn = if cylinder.turn > 0.999 {
         "all round".to_owned()
     } else {
@@ -47,16 +44,9 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let off = if cylinder.farthest_m < ROUND_OFF * cylinder.radius_m {
         "its nodes on it but for round-off".to_owned()
     } else {
-        format!(
-            "its nodes within {} m of it (rms {} m)",
-            number(cylinder.farthest_m, 2),
-            number(cylinder.rms_m, 2)
-        )
+        format!("its nodes within {} m of it (rms {} m)", number(cylinder.farthest_m, 2), number(cylinder.rms_m, 2))
     };
-    format!(
-        "a {what} of radius {} mm about {about}, {turn}, {off}",
-        millimetre(cylinder.radius_m)
-    )
+    format!("a {what} of radius {} mm about {about}, {turn}, {off}", millimetre(cylinder.radius_m))
 }
 
 fn names(cylinders: &[FoundCylinder]) -> String {
@@ -70,11 +60,7 @@ fn names(cylinders: &[FoundCylinder]) -> String {
 /// Why the bore is the bore, or why there is none.
 fn bore_sentence(found: &Found<'_>) -> String {
     let mut sentence = match &found.bore {
-        Some(bore) => format!(
-            "Group {} is {}.",
-            quoted(&bore.group),
-            describe(bore, found.plane)
-        ),
+        Some(bore) => format!("Group {} is {}.", quoted(&bore.group), describe(bore, found.plane)),
         None => format!(
             "No group is a {} hole within 1 % of its radius: no bore is known. If there is one, name it in gmsh: \
              Physical {}(\"bore\").",
@@ -94,14 +80,8 @@ fn bore_sentence(found: &Found<'_>) -> String {
 }
 
 pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
-    let mut lines = vec![
-        format!(
-            "length_unit = \"{}\": {}",
-            found.unit.symbol(),
-            unit_origin(found)
-        ),
-        bore_sentence(found),
-    ];
+    let mut lines =
+        vec![format!("length_unit = \"{}\": {}", found.unit.symbol(), unit_origin(found)), bore_sentence(found)];
     lines.push(match (&found.bearing, &found.bore) {
         (Some(numbers), _) => format!("Bearing {}.", bearing_origin(found, numbers)),
         (None, Some(bore)) => format!(
@@ -111,26 +91,12 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
         (None, None) => "[ring] and [bearing] are templates.".to_owned(),
     });
     let parts = found.groups.parts.iter().map(|part| {
-        let sure = if part.by_name {
-            "by its name"
-        } else {
-            "a guess"
-        };
+        let sure = if part.by_name { "by its name" } else { "a guess" };
         format!("{} of {} ({sure})", quoted(&part.group), part.material)
     });
     lines.push(format!("Parts: {}.", list(&parts.collect::<Vec<_>>())));
-    let supports: Vec<String> = found
-        .groups
-        .supports
-        .iter()
-        .map(|name| quoted(name))
-        .collect();
-    let at_bore: Vec<String> = found
-        .groups
-        .at_bore
-        .iter()
-        .map(|name| quoted(name))
-        .collect();
+    let supports: Vec<String> = found.groups.supports.iter().map(|name| quoted(name)).collect();
+    let at_bore: Vec<String> = found.groups.at_bore.iter().map(|name| quoted(name)).collect();
     lines.push(match (supports.is_empty(), at_bore.is_empty()) {
         (false, _) => format!("Held, by their names: {}.", list(&supports)),
         (true, true) => "Nothing is held: no group is named like a support.".to_owned(),
@@ -149,10 +115,7 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
         ));
     }
     if found.bodies > 1 {
-        lines.push(format!(
-            "The mesh has {} bodies that share no nodes: join them under housing.links.",
-            found.bodies
-        ));
+        lines.push(format!("The mesh has {} bodies that share no nodes: join them under housing.links.", found.bodies));
     }
     lines
 }
@@ -173,24 +136,13 @@ pub(crate) fn head(page: &mut Page, found: &Found<'_>) {
 
 pub(crate) fn housing(page: &mut Page, found: &Found<'_>) {
     page.table("[housing]");
-    page.value_from(
-        "mesh",
-        quoted(found.request.mesh_in_case),
-        "relative to this file",
-    );
-    page.value_from(
-        "length_unit",
-        quoted(found.unit.symbol()),
-        &unit_origin(found),
-    );
+    page.value_from("mesh", quoted(found.request.mesh_in_case), "relative to this file");
+    page.value_from("length_unit", quoted(found.unit.symbol()), &unit_origin(found));
     if found.plane {
         let thickness = found.ring.section_width();
         page.value_from(
             "plane",
-            format!(
-                "{{ assumption = \"stress\", thickness = {} }}",
-                number(thickness, FEW)
-            ),
+            format!("{{ assumption = \"stress\", thickness = {} }}", number(thickness, FEW)),
             "guess: as thick as the bearing is wide, m",
         );
     }
@@ -198,11 +150,7 @@ pub(crate) fn housing(page: &mut Page, found: &Found<'_>) {
     page.line("parts = [");
     for part in &found.groups.parts {
         let origin = if part.by_name { "by its name" } else { "guess" };
-        let item = format!(
-            "  {{ group = {}, material = \"{}\" }},",
-            quoted(&part.group),
-            part.material
-        );
+        let item = format!("  {{ group = {}, material = \"{}\" }},", quoted(&part.group), part.material);
         page.line(&format!("{item:<58} # material: {origin}"));
     }
     page.line("]");
@@ -214,33 +162,19 @@ pub(crate) fn housing(page: &mut Page, found: &Found<'_>) {
     }
     supports(page, found);
     if found.bodies > 1 {
-        page.note(&format!(
-            "{} bodies share no nodes; surfaces that touch move as one with",
-            found.bodies
-        ));
+        page.note(&format!("{} bodies share no nodes; surfaces that touch move as one with", found.bodies));
         page.line("#links = [{ between = [\"GROUP A\", \"GROUP B\"], tie = true }]");
     }
     others(page, found);
 }
 
 fn supports(page: &mut Page, found: &Found<'_>) {
-    let axes = if found.plane {
-        "\"x\", \"y\""
-    } else {
-        "\"x\", \"y\", \"z\""
-    };
+    let axes = if found.plane { "\"x\", \"y\"" } else { "\"x\", \"y\", \"z\"" };
     let named = &found.groups.supports;
     if let ([], Some(group)) = (named.as_slice(), found.groups.at_bore.first()) {
         page.note("the housing is free; nodes of the bore follow the ring and cannot be fixed too, but springs may hold them (N/m, a guess):");
-        let along = if found.plane {
-            "x = 1e8, y = 1e8"
-        } else {
-            "x = 1e8, y = 1e8, z = 1e8"
-        };
-        let item = format!(
-            "supports = [{{ group = {}, spring = {{ {along} }}, per = \"group\" }}]",
-            quoted(group)
-        );
+        let along = if found.plane { "x = 1e8, y = 1e8" } else { "x = 1e8, y = 1e8, z = 1e8" };
+        let item = format!("supports = [{{ group = {}, spring = {{ {along} }}, per = \"group\" }}]", quoted(group));
         page.template(true, |page| page.line(&item));
         return;
     }
@@ -285,11 +219,7 @@ pub(crate) fn ring(page: &mut Page, found: &Found<'_>) {
     page.note("the bearing's outer ring in the bore");
     page.note(&bore_sentence(found));
     let section = found.ring.section;
-    let diameter = 2.0
-        * found
-            .bore
-            .as_ref()
-            .map_or(0.5 * found.ring.of.outer_diameter, |bore| bore.radius_m);
+    let diameter = 2.0 * found.bore.as_ref().map_or(0.5 * found.ring.of.outer_diameter, |bore| bore.radius_m);
     page.template(template, |page| {
         page.line("[ring]");
         page.value_from("nodes", "72", "usual: an element every 5 degrees");
@@ -300,18 +230,11 @@ pub(crate) fn ring(page: &mut Page, found: &Found<'_>) {
             format!("inertia = {}", number(section.inertia, FEW)),
         ];
         if !found.plane {
-            keys.push(format!(
-                "axial_inertia = {}",
-                number(section.axial_inertia, FEW)
-            ));
+            keys.push(format!("axial_inertia = {}", number(section.axial_inertia, FEW)));
         }
         keys.push(format!("radius = {}", number(section.radius, FEW + 2)));
         page.line(&format!("sections = [{{ {} }}]", keys.join(", ")));
-        page.value_from(
-            "outer_radius",
-            number(0.5 * diameter, DIGITS),
-            "mesh: that of the bore, m",
-        );
+        page.value_from("outer_radius", number(0.5 * diameter, DIGITS), "mesh: that of the bore, m");
         tie(page, found);
     });
 }
@@ -328,21 +251,12 @@ fn section_origin(found: &Found<'_>) -> String {
         "1" => String::new(),
         scale => format!(", scaled by {scale} to the bore"),
     };
-    format!(
-        "catalogue: the outer ring of {}, {shape}{scaled} (m^2, m^4, m)",
-        ring.of.name
-    )
+    format!("catalogue: the outer ring of {}, {shape}{scaled} (m^2, m^4, m)", ring.of.name)
 }
 
 fn tie(page: &mut Page, found: &Found<'_>) {
-    let group = found
-        .bore
-        .as_ref()
-        .map_or("GROUP", |bore| bore.group.as_str());
-    let (centre, radius) = found
-        .bore
-        .as_ref()
-        .map_or(([0.0; 3], 1.0), |bore| (bore.centre_m, bore.radius_m));
+    let group = found.bore.as_ref().map_or("GROUP", |bore| bore.group.as_str());
+    let (centre, radius) = found.bore.as_ref().map_or(([0.0; 3], 1.0), |bore| (bore.centre_m, bore.radius_m));
     page.note(
         "mesh: centre (m) and axis of the cylinder; in the middle of its length; zero_deg: so that the bearing's 90 degrees point up",
     );
@@ -428,25 +342,13 @@ pub(crate) fn bearing(page: &mut Page, found: &Found<'_>) {
         page.line("[[bearing.defects]]");
         page.value("on", "\"outer\"");
         page.value("angle_deg", "270");
-        page.value_from(
-            "length",
-            number(0.2 * scale * bearing.ball_diameter, 2),
-            "along the race, m",
-        );
-        page.value_from(
-            "depth",
-            number(0.004 * scale * bearing.ball_diameter, 2),
-            "m",
-        );
+        page.value_from("length", number(0.2 * scale * bearing.ball_diameter, 2), "along the race, m");
+        page.value_from("depth", number(0.004 * scale * bearing.ball_diameter, 2), "m");
     });
 }
 
 pub(crate) fn motion(page: &mut Page, found: &Found<'_>) {
-    let bore = found
-        .bearing
-        .map_or(found.ring.of.bore * found.ring.scale, |numbers| {
-            numbers.bearing.bore
-        });
+    let bore = found.bearing.map_or(found.ring.of.bore * found.ring.scale, |numbers| numbers.bearing.bore);
     let [mass, unbalance] = shaft(bore);
     page.table("[shaft]");
     page.value_from(
@@ -460,24 +362,15 @@ pub(crate) fn motion(page: &mut Page, found: &Found<'_>) {
     page.value_from(
         "unbalance",
         number(unbalance, 3),
-        &format!(
-            "usual, kg m: balance quality G {} of ISO 21940-11 at {SPEED_HZ} Hz",
-            number(1e3 * BALANCE, 3)
-        ),
+        &format!("usual, kg m: balance quality G {} of ISO 21940-11 at {SPEED_HZ} Hz", number(1e3 * BALANCE, 3)),
     );
-    page.value_from(
-        "gravity",
-        "[0, -9.81]",
-        "down in the bearing's frame, m/s^2",
-    );
+    page.value_from("gravity", "[0, -9.81]", "down in the bearing's frame, m/s^2");
     page.note("another load, e.g. a belt's pull in N:");
     page.line("#loads = [{ force = [0, -100] }]");
     page.table("[damping]");
     page.value_from("modal", "0.02", "guess: 2 % of critical in every mode");
     page.table("[speed]");
-    page.note(
-        "guess: a motor of four poles at 50 Hz mains, without slip; a run-up has several points",
-    );
+    page.note("guess: a motor of four poles at 50 Hz mains, without slip; a run-up has several points");
     page.line(&format!("profile = [{{ time = 0, hz = {SPEED_HZ} }}]"));
 }
 
@@ -487,20 +380,11 @@ pub(crate) fn sensors(page: &mut Page, found: &Found<'_>) {
     match (&found.groups.sensor, found.spot) {
         (Some(group), _) => page.value_from("group", quoted(group), "guess, by its name"),
         (None, Some(point)) => {
-            let floor =
-                1e-9 * found.unit.to_metres() * found.extent.into_iter().fold(0.0, f64::max);
-            page.value_from(
-                "point",
-                numbers(&point, 6, floor),
-                "guess: on the outside, above the bearing, m",
-            );
+            let floor = 1e-9 * found.unit.to_metres() * found.extent.into_iter().fold(0.0, f64::max);
+            page.value_from("point", numbers(&point, 6, floor), "guess: on the outside, above the bearing, m");
         }
         // a mesh has corners: this is for a mesh that lost them
         (None, None) => page.value_from("point", "[0, 0, 0]", "guess, m"),
     }
-    page.value_from(
-        "direction",
-        numbers(&found.directions.up, DIGITS, 1e-9),
-        "up",
-    );
+    page.value_from("direction", numbers(&found.directions.up, DIGITS, 1e-9), "up");
 }

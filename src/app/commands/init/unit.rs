@@ -38,10 +38,6 @@ pub(crate) fn unit(
             return (unit, UnitFrom::Bearing);
         }
     }
-    let unit = if longest < LONGEST_METRES {
-        LengthUnit::Metre
-    } else {
-        LengthUnit::Millimetre
-    };
+    let unit = if longest < LONGEST_METRES { LengthUnit::Metre } else { LengthUnit::Millimetre };
     (unit, UnitFrom::Extent)
 }

@@ -7,8 +7,7 @@ use super::shape_view::shown_places;
 use crate::fe::modal::MatchedBy;
 use crate::fe::modal::ModalSurvey;
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, Headline, Matrix, Plot, Section, Table, Verdict,
-    significant,
+    Abscissa, Axis, Cell, Column, Curve, Headline, Matrix, Plot, Section, Table, Verdict, significant,
 };
 
 /// Modes in the plot over the mesh size: as many as have colours of their own.
@@ -23,11 +22,7 @@ const REPEATED: f64 = 1e-4;
 /// A number with its sign, with so many significant digits.
 pub fn signed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    if value > 0.0 {
-        format!("+{text}")
-    } else {
-        text
-    }
+    if value > 0.0 { format!("+{text}") } else { text }
 }
 
 /// A limit as it was given, without trailing zeros.
@@ -45,11 +40,7 @@ pub fn mode_numbers(modes: &[usize]) -> String {
 /// What a pair or a lone mode misses, in words; "ok" for nothing.
 pub fn misses_text(misses: &[Miss]) -> String {
     let words: Vec<&str> = misses.iter().map(|miss| miss.describe()).collect();
-    if words.is_empty() {
-        "ok".to_owned()
-    } else {
-        words.join(", ")
-    }
+    if words.is_empty() { "ok".to_owned() } else { words.join(", ") }
 }
 
 /// The verdicts for the head of the report.
@@ -83,11 +74,7 @@ pub(crate) fn headlines(result: &ModesResult) -> Vec<Headline> {
                 }
             }
         };
-        found.push(Headline {
-            label: "Largest error of the mesh".to_owned(),
-            value,
-            verdict: Verdict::None,
-        });
+        found.push(Headline { label: "Largest error of the mesh".to_owned(), value, verdict: Verdict::None });
     }
     found
 }
@@ -95,11 +82,7 @@ pub(crate) fn headlines(result: &ModesResult) -> Vec<Headline> {
 /// Estimated error of the case's own mesh with its uncertainty, or what is known instead.
 pub fn error_text(mode: &ModeOnMeshes) -> String {
     match (mode.mesh_error, mode.mesh_error_uncertainty) {
-        (Some(error), Some(around)) => format!(
-            "{} % ± {} %",
-            signed(100.0 * error, 2),
-            significant(100.0 * around, 2)
-        ),
+        (Some(error), Some(around)) => format!("{} % ± {} %", signed(100.0 * error, 2), significant(100.0 * around, 2)),
         (None, Some(range)) => format!("not known (range {} %)", significant(100.0 * range, 2)),
         _ => "not known".to_owned(),
     }
@@ -110,10 +93,7 @@ pub(crate) fn comparison_section(comparison: &FileComparison, survey: &ModalSurv
     let points = &comparison.points;
     let by = match points.by {
         MatchedBy::Tag => "by their tags".to_owned(),
-        MatchedBy::Place => format!(
-            "by place, {} mm apart at most",
-            significant(1e3 * points.largest_distance_m, 2)
-        ),
+        MatchedBy::Place => format!("by place, {} mm apart at most", significant(1e3 * points.largest_distance_m, 2)),
     };
     let mut text = format!(
         "Modes without contact against those of {}. Shapes are compared at {} points, matched {by}; this model has {}, the file {}. A pair passes with a modal assurance criterion (MAC) of at least {} and frequencies within {} %. Repeated modes are compared as a group, by the spaces that they span and their mean frequency.",
@@ -125,10 +105,7 @@ pub(crate) fn comparison_section(comparison: &FileComparison, survey: &ModalSurv
         plain(100.0 * comparison.within),
     );
     let outside = |modes: &[LoneMode]| modes.iter().filter(|mode| !mode.missing).count();
-    let [here, there] = [
-        outside(&comparison.lone_here),
-        outside(&comparison.lone_there),
-    ];
+    let [here, there] = [outside(&comparison.lone_here), outside(&comparison.lone_there)];
     if here + there > 0 {
         text.push_str(&format!(
             " Not judged, because the other side does not reach as far: {here} modes of this case and {there} of the file."
@@ -158,25 +135,13 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
     for pair in &comparison.pairs {
         rows.push((pair.here_hz, pair.here.first().copied(), pair_row(pair)));
     }
-    let missing = |modes: &[LoneMode]| -> Vec<LoneMode> {
-        modes.iter().copied().filter(|mode| mode.missing).collect()
-    };
+    let missing = |modes: &[LoneMode]| -> Vec<LoneMode> { modes.iter().copied().filter(|mode| mode.missing).collect() };
     let lone = |here: [Cell; 2], there: [Cell; 2]| -> Vec<Cell> {
-        let rest = [
-            Cell::text("–"),
-            Cell::text("–"),
-            Cell::text(Miss::Partner.describe()),
-            Cell::badge(Verdict::Bad),
-        ];
+        let rest = [Cell::text("–"), Cell::text("–"), Cell::text(Miss::Partner.describe()), Cell::badge(Verdict::Bad)];
         here.into_iter().chain(there).chain(rest).collect()
     };
     let none = || [Cell::text("–"), Cell::text("–")];
-    let of = |mode: &LoneMode| {
-        [
-            Cell::text((mode.mode + 1).to_string()),
-            Cell::number(mode.hz, 7),
-        ]
-    };
+    let of = |mode: &LoneMode| [Cell::text((mode.mode + 1).to_string()), Cell::number(mode.hz, 7)];
     for mode in missing(&comparison.lone_here) {
         rows.push((mode.hz, Some(mode.mode), lone(of(&mode), none())));
     }
@@ -192,10 +157,7 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
         }
     }
     let places = shown_places(survey);
-    let shown: Vec<Option<usize>> = rows
-        .iter()
-        .map(|row| places.get(row.1?).copied().flatten())
-        .collect();
+    let shown: Vec<Option<usize>> = rows.iter().map(|row| places.get(row.1?).copied().flatten()).collect();
     let table = Table::new(format!("Modes here and in {}", comparison.what), columns);
     let table = rows.into_iter().fold(table, |table, row| table.row(row.2));
     table
@@ -225,9 +187,7 @@ fn pair_row(pair: &ComparedPair) -> Vec<Cell> {
         count(&pair.there),
         Cell::number(pair.there_hz, 7),
         difference.judged(missed(Miss::Frequency)),
-        Cell::text(format!("{:.4}", pair.mac))
-            .value(pair.mac)
-            .judged(missed(Miss::Mac)),
+        Cell::text(format!("{:.4}", pair.mac)).value(pair.mac).judged(missed(Miss::Mac)),
         Cell::text(match pair.misses.is_empty() {
             true => String::new(),
             false => misses_text(&pair.misses),
@@ -304,10 +264,7 @@ fn limit_table(found: &MeshConvergence, survey: &ModalSurvey) -> Table {
     let mut columns = vec![Column::number("Mode", "")];
     columns.extend(found.meshes.iter().map(|mesh| {
         let own = if mesh.own { ", this case" } else { "" };
-        Column::number(
-            format!("h = {} mm{own}", significant(1e3 * mesh.element_size_m, 3)),
-            "Hz",
-        )
+        Column::number(format!("h = {} mm{own}", significant(1e3 * mesh.element_size_m, 3)), "Hz")
     }));
     columns.extend([
         Column::number("Estimate", "Hz"),
@@ -335,19 +292,12 @@ fn limit_table(found: &MeshConvergence, survey: &ModalSurvey) -> Table {
                 None => Cell::text("–"),
             },
             number(mode.mesh_error_uncertainty.map(|around| 100.0 * around), 2),
-            Cell::text(limit.map_or("on no other mesh of its kind", |limit| {
-                limit.behaviour.describe()
-            })),
+            Cell::text(limit.map_or("on no other mesh of its kind", |limit| limit.behaviour.describe())),
         ]);
         table = table.row(cells);
     }
-    let shown = found
-        .modes
-        .iter()
-        .map(|mode| places.get(mode.mode).copied().flatten());
-    table
-        .showing_modes(shown)
-        .footnote("Without an estimate the uncertainty is the range of the frequencies.")
+    let shown = found.modes.iter().map(|mode| places.get(mode.mode).copied().flatten());
+    table.showing_modes(shown).footnote("Without an estimate the uncertainty is the range of the frequencies.")
 }
 
 /// Relative distance from the limit over the mesh size; of repeated modes one.

@@ -117,9 +117,8 @@ pub struct FileComparison {
 impl FileComparison {
     /// Modes of this case that agree, and those that were judged.
     pub fn agreeing(&self) -> [usize; 2] {
-        let count = |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize {
-            pairs.map(|pair| pair.here.len()).sum()
-        };
+        let count =
+            |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize { pairs.map(|pair| pair.here.len()).sum() };
         let passed = count(&mut self.pairs.iter().filter(|pair| pair.misses.is_empty()));
         let missing = self.lone_here.iter().filter(|mode| mode.missing).count();
         [passed, count(&mut self.pairs.iter()) + missing]
@@ -168,25 +167,14 @@ impl<'c> ComparedFile<'c> {
         let own = survey.own_modes(housing);
         let mesh = housing.map(|(mesh, _)| mesh);
         let check = survey.basis.count_check;
-        let own = Side {
-            set: own.set(),
-            covers_hz: [check.above_hz.unwrap_or(0.0), check.below_hz],
-        };
+        let own = Side { set: own.set(), covers_hz: [check.above_hz.unwrap_or(0.0), check.below_hz] };
         let there = placed(&self.asked.file, &self.modes, mesh)?;
         self.judge(&own, survey.basis.rigid_modes, there)
     }
 
-    fn judge(
-        &self,
-        own: &Side,
-        rigid: usize,
-        there: ModeSet,
-    ) -> Result<FileComparison, ComputeError> {
+    fn judge(&self, own: &Side, rigid: usize, there: ModeSet) -> Result<FileComparison, ComputeError> {
         let asked = self.asked;
-        let compared = |source| ComputeError::Compared {
-            file: asked.file.clone(),
-            source: Box::new(source),
-        };
+        let compared = |source| ComputeError::Compared { file: asked.file.clone(), source: Box::new(source) };
         let mut options = ComparisonOptions::default();
         // what passes must be paired
         options.least_mac = options.least_mac.min(asked.mac);
@@ -197,19 +185,9 @@ impl<'c> ComparedFile<'c> {
         let covered = there
             .frequencies_hz
             .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &hz| {
-                [low.min(hz), high.max(hz)]
-            });
-        let there = Side {
-            set: there,
-            covers_hz: covered,
-        };
-        let judge = Judge {
-            asked,
-            own,
-            there: &there,
-            rigid,
-        };
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &hz| [low.min(hz), high.max(hz)]);
+        let there = Side { set: there, covers_hz: covered };
+        let judge = Judge { asked, own, there: &there, rigid };
         let pairs: Vec<ComparedPair> = found.pairs.iter().map(|pair| judge.pair(pair)).collect();
         let lone_here = judge.lone(&found.unpaired_here, own, &there);
         let lone_there = judge.lone(&found.unpaired_there, &there, own);
@@ -227,9 +205,7 @@ impl<'c> ComparedFile<'c> {
                 there: there.set.points.len(),
                 largest_distance_m: found.points.largest_distance,
             },
-            mac: (0..found.mac.nrows())
-                .map(|row| found.mac.row(row).iter().copied().collect())
-                .collect(),
+            mac: (0..found.mac.nrows()).map(|row| found.mac.row(row).iter().copied().collect()).collect(),
             ok: passed && !missing && !pairs.is_empty(),
             pairs,
             lone_here,
@@ -254,10 +230,7 @@ impl Side {
     }
 
     fn mean(&self, modes: &[usize]) -> f64 {
-        let sum: f64 = modes
-            .iter()
-            .map(|&mode| self.set.frequencies_hz[mode])
-            .sum();
+        let sum: f64 = modes.iter().map(|&mode| self.set.frequencies_hz[mode]).sum();
         sum / modes.len().max(1) as f64
     }
 }
@@ -287,11 +260,7 @@ impl Judge<'_> {
             std::cmp::Ordering::Less => self.own.covers(there_hz, within),
             std::cmp::Ordering::Greater => self.there.covers(here_hz, within),
         };
-        let misses = [
-            (pair.mac < self.asked.mac, Miss::Mac),
-            (!agrees, Miss::Frequency),
-            (short, Miss::Count),
-        ];
+        let misses = [(pair.mac < self.asked.mac, Miss::Mac), (!agrees, Miss::Frequency), (short, Miss::Count)];
         ComparedPair {
             here: ascending(&pair.here),
             there: ascending(&pair.there),
@@ -300,22 +269,14 @@ impl Judge<'_> {
             relative_difference: difference,
             mac: pair.mac,
             mean_mac: pair.mean_mac,
-            misses: misses
-                .into_iter()
-                .filter(|miss| miss.0)
-                .map(|miss| miss.1)
-                .collect(),
+            misses: misses.into_iter().filter(|miss| miss.0).map(|miss| miss.1).collect(),
         }
     }
 
     fn lone(&self, modes: &[usize], side: &Side, other: &Side) -> Vec<LoneMode> {
         let of = |&mode: &usize| {
             let hz = side.set.frequencies_hz[mode];
-            LoneMode {
-                mode,
-                hz,
-                missing: other.covers(hz, self.asked.within),
-            }
+            LoneMode { mode, hz, missing: other.covers(hz, self.asked.within) }
         };
         modes.iter().map(of).collect()
     }
@@ -326,13 +287,9 @@ impl Judge<'_> {
 /// # Errors
 /// [`ComputeError::PointsUnknown`] if neither gives their places.
 fn placed(file: &Path, modes: &ModeShapes, mesh: Option<&Mesh>) -> Result<ModeSet, ComputeError> {
-    let unknown = |found| ComputeError::PointsUnknown {
-        file: file.to_owned(),
-        found,
-    };
+    let unknown = |found| ComputeError::PointsUnknown { file: file.to_owned(), found };
     // index in the file of each point, and where it is
-    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh)
-    {
+    let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh) {
         (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),
         (None, Some(tags), Some(mesh)) => {
             let places: HashMap<u64, usize> = mesh.node_tags.iter().copied().zip(0..).collect();

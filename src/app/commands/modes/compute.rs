@@ -71,10 +71,7 @@ impl ModesResult {
     /// Mesh and model of the housing, if there is one.
     pub fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
         let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
-        let coupled = self
-            .structure
-            .as_ref()
-            .and_then(|stage| stage.housing.as_ref());
+        let coupled = self.structure.as_ref().and_then(|stage| stage.housing.as_ref());
         alone.or(coupled.map(|housing| (&housing.mesh, &housing.model)))
     }
 
@@ -85,8 +82,7 @@ impl ModesResult {
 
     /// Whether every expected frequency was found and every comparison passes.
     pub fn passes(&self) -> bool {
-        self.base.expected.iter().all(|expected| expected.ok)
-            && self.comparisons.iter().all(|comparison| comparison.ok)
+        self.base.expected.iter().all(|expected| expected.ok) && self.comparisons.iter().all(|comparison| comparison.ok)
     }
 }
 
@@ -102,14 +98,8 @@ impl Reading {
     /// Nearest mode to a frequency among those that are not the balls' own, Hz.
     pub fn nearest_hz(&self, hz: f64) -> Option<f64> {
         match &self.loaded {
-            Some(loaded) => loaded
-                .nearest(hz)
-                .map(|mode: &LoadedMode| mode.frequency_hz),
-            None => self
-                .unloaded_hz
-                .iter()
-                .copied()
-                .min_by(|a, b| (a - hz).abs().total_cmp(&(b - hz).abs())),
+            Some(loaded) => loaded.nearest(hz).map(|mode: &LoadedMode| mode.frequency_hz),
+            None => self.unloaded_hz.iter().copied().min_by(|a, b| (a - hz).abs().total_cmp(&(b - hz).abs())),
         }
     }
 }
@@ -144,26 +134,15 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     };
     let survey = stage.survey(case.modes.extent, watch)?;
     watch.stage("linearise");
-    let unloaded = UnloadedModes {
-        frequencies_hz: survey.basis.frequencies_hz.clone(),
-        rigid: survey.basis.rigid_modes,
-    };
+    let unloaded =
+        UnloadedModes { frequencies_hz: survey.basis.frequencies_hz.clone(), rigid: survey.basis.rigid_modes };
     let base = reading(case, &stage, unloaded, String::new(), Vec::new())?;
     let statics = match linearised_setup(case)? {
-        Some(setup) => Some(Statics::compute(
-            &stage.structure,
-            &setup,
-            start_time(case),
-        )?),
+        Some(setup) => Some(Statics::compute(&stage.structure, &setup, start_time(case))?),
         None => None,
     };
     let loaded_pass = match linearised_setup(case)?.filter(|_| case.modes.ball_pass) {
-        Some(setup) => Some(LoadedPass::compute(
-            (&stage.structure, &stage.modes),
-            &setup,
-            start_time(case),
-            watch,
-        )?),
+        Some(setup) => Some(LoadedPass::compute((&stage.structure, &stage.modes), &setup, start_time(case), watch)?),
         None => None,
     };
     watch.stage("variants");
@@ -182,17 +161,9 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     let housing = stage.housing.as_ref();
     let housing = housing.map(|housing| (&housing.mesh, &housing.model));
     let setup = linearised_setup(case)?;
-    let at_rest = statics
-        .iter()
-        .flat_map(|statics| &statics.equilibria)
-        .next();
+    let at_rest = statics.iter().flat_map(|statics| &statics.equilibria).next();
     let imported = stage.imported.iter();
-    let top_hz = survey
-        .basis
-        .frequencies_hz
-        .iter()
-        .copied()
-        .fold(0.0, f64::max);
+    let top_hz = survey.basis.frequencies_hz.iter().copied().fold(0.0, f64::max);
     let asked_hz = match case.modes.extent {
         ModeRange::UpToHz(top_hz) | ModeRange::BandHz([_, top_hz]) => top_hz,
         ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
@@ -216,11 +187,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
 }
 
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
-    let AssembledHousing {
-        mesh,
-        model,
-        matrices,
-    } = AssembledHousing::of(case, watch)?;
+    let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
     let mut base = Reading {
         what: String::new(),
@@ -292,28 +259,20 @@ fn reading(
 
 /// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
 /// there are no elastic modes to compare.
-fn condensation_difference(
-    stage: &CoupledStructure,
-    full: &UnloadedModes,
-    extent: ModeRange,
-) -> Option<f64> {
+fn condensation_difference(stage: &CoupledStructure, full: &UnloadedModes, extent: ModeRange) -> Option<f64> {
     stage.housing.as_ref()?;
-    let condensed: Vec<f64> = (0..stage.modes.count())
-        .map(|mode| stage.modes.frequency_hz(mode))
-        .collect();
+    let condensed: Vec<f64> = (0..stage.modes.count()).map(|mode| stage.modes.frequency_hz(mode)).collect();
     let largest = |first: usize| {
         let pairs = condensed.get(first..)?.iter().zip(&full.frequencies_hz);
-        let differences = pairs
-            .skip(full.rigid)
-            .map(|(own, full)| (own / full - 1.0).abs());
+        let differences = pairs.skip(full.rigid).map(|(own, full)| (own / full - 1.0).abs());
         differences.reduce(f64::max)
     };
     match extent {
         ModeRange::Count(_) | ModeRange::AtMost(_) | ModeRange::UpToHz(_) => largest(0),
         // how many modes lie below the band is not known: where they fit best
-        ModeRange::BandHz(_) => (0..=condensed.len().saturating_sub(full.frequencies_hz.len()))
-            .filter_map(largest)
-            .min_by(f64::total_cmp),
+        ModeRange::BandHz(_) => {
+            (0..=condensed.len().saturating_sub(full.frequencies_hz.len())).filter_map(largest).min_by(f64::total_cmp)
+        }
     }
 }
 

@@ -4,9 +4,7 @@ use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{
-    Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson,
-};
+use crate::fe::modal::{Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson};
 use crate::fe::modal::{ModalSurvey, ModeRange, partners};
 use crate::fe::model::HousingModel;
 use crate::numerics::Watch;
@@ -130,9 +128,8 @@ pub(crate) fn mesh_convergence(
     let size = |level: &usize| sequence.levels[*level].element_size;
     order.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let elastic = survey.basis.rigid_modes..own_modes;
-    let modes: Vec<ModeOnMeshes> = elastic
-        .map(|mode| on_meshes(mode, sequence, &found, &order))
-        .collect::<Result<_, _>>()?;
+    let modes: Vec<ModeOnMeshes> =
+        elastic.map(|mode| on_meshes(mode, sequence, &found, &order)).collect::<Result<_, _>>()?;
     Ok(Some(MeshConvergence {
         formal_order: sequence.formal_order,
         notes: notes(case, sequence, &modes),
@@ -162,9 +159,7 @@ struct OnLevel {
 
 fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
     match asked {
-        ModeRange::BandHz([low, high]) => {
-            ModeRange::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high])
-        }
+        ModeRange::BandHz([low, high]) => ModeRange::BandHz([(1.0 - BAND_MARGIN) * low, (1.0 + BAND_MARGIN) * high]),
         // a limit in Hz would cut off modes that a coarse mesh has above it
         ModeRange::Count(_) | ModeRange::AtMost(_) | ModeRange::UpToHz(_) => {
             let [least, part] = MORE;
@@ -175,18 +170,14 @@ fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
 
 /// Which mode of another mesh is which of the case's: by shape, and repeated ones in their order within their group.
 fn recognised(own: &ModeSet, other: &ModesOnMesh, distance: f64) -> Result<OnLevel, ComputeError> {
-    let options = ComparisonOptions {
-        point_tolerance: (distance / own.diagonal()).min(1.0),
-        ..ComparisonOptions::default()
-    };
+    let options =
+        ComparisonOptions { point_tolerance: (distance / own.diagonal()).min(1.0), ..ComparisonOptions::default() };
     let found = ModalComparison::new(own, &other.set, options)?;
     let partners = partners(own, &other.set, &found).into_iter();
     Ok(OnLevel {
         free_dof: other.free_dof,
         matched_points: found.points.pairs.len(),
-        frequencies_hz: partners
-            .map(|partner| partner.map(|partner| partner.hz))
-            .collect(),
+        frequencies_hz: partners.map(|partner| partner.map(|partner| partner.hz)).collect(),
     })
 }
 
@@ -209,9 +200,7 @@ fn on_meshes(
     }
     let own = found[0].frequencies_hz[mode];
     let estimate = limit.as_ref().and_then(|limit| limit.estimate);
-    let error = own
-        .zip(estimate)
-        .map(|(own, estimate)| (own - estimate) / estimate);
+    let error = own.zip(estimate).map(|(own, estimate)| (own - estimate) / estimate);
     let uncertainty = limit.as_ref().map(|limit| match limit.estimate {
         // what the interval leaves beyond the estimate: it holds for the estimate, not for the finest value
         Some(estimate) => (limit.uncertainty - (limit.finest - estimate).abs()).max(0.0) / estimate,
@@ -219,10 +208,7 @@ fn on_meshes(
     });
     Ok(ModeOnMeshes {
         mode,
-        frequencies_hz: order
-            .iter()
-            .map(|&level| found[level].frequencies_hz[mode])
-            .collect(),
+        frequencies_hz: order.iter().map(|&level| found[level].frequencies_hz[mode]).collect(),
         limit,
         mesh_error: error,
         mesh_error_uncertainty: uncertainty,
@@ -240,11 +226,7 @@ fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<St
         ));
     }
     let own = &sequence.levels[0];
-    for other in sequence
-        .levels
-        .iter()
-        .filter(|level| level.kinds != own.kinds)
-    {
+    for other in sequence.levels.iter().filter(|level| level.kinds != own.kinds) {
         notes.push(format!(
             "{} has {} where this case's mesh has {}: it is shown and not extrapolated with, since unlike elements have unlike errors.",
             other.mesh.display(),
@@ -253,40 +235,29 @@ fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<St
         ));
     }
     if alike == 1 {
-        notes.push(
-            "No other mesh has the elements of this case's own: its error is not known.".to_owned(),
-        );
+        notes.push("No other mesh has the elements of this case's own: its error is not known.".to_owned());
     }
     let named = |of: &dyn Fn(&ModeOnMeshes) -> bool| -> Option<String> {
         let chosen = modes.iter().filter(|mode| of(mode));
         let names: Vec<String> = chosen.map(|mode| (mode.mode + 1).to_string()).collect();
         (!names.is_empty()).then(|| names.join(", "))
     };
-    let behaves = |mode: &ModeOnMeshes, behaviour| {
-        mode.limit
-            .as_ref()
-            .is_some_and(|limit| limit.behaviour == behaviour)
-    };
+    let behaves =
+        |mode: &ModeOnMeshes, behaviour| mode.limit.as_ref().is_some_and(|limit| limit.behaviour == behaviour);
     for (behaviour, what) in [
         (Behaviour::Oscillating, "go to and fro from mesh to mesh"),
         (Behaviour::Diverging, "change by steps that do not shrink"),
     ] {
         if let Some(names) = named(&|mode| behaves(mode, behaviour)) {
-            notes.push(format!(
-                "Frequencies that {what} are not extrapolated, their error is not known: mode {names}."
-            ));
+            notes
+                .push(format!("Frequencies that {what} are not extrapolated, their error is not known: mode {names}."));
         }
     }
     if let Some(names) = named(&|mode| mode.frequencies_hz.iter().any(Option::is_none)) {
-        notes.push(format!(
-            "Not recognised by its shape on every mesh: mode {names}."
-        ));
+        notes.push(format!("Not recognised by its shape on every mesh: mode {names}."));
     }
     if case.ring.is_some() {
-        notes.push(
-            "The ring keeps its nodes on all meshes: its own discretisation is not in the error."
-                .to_owned(),
-        );
+        notes.push("The ring keeps its nodes on all meshes: its own discretisation is not in the error.".to_owned());
     }
     notes
 }

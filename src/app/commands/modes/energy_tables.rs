@@ -13,30 +13,18 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
     let Some(found) = &survey.shares else {
         return Vec::new();
     };
-    let groups: Vec<usize> = (0..found.groups.len())
-        .filter(|&group| !found.parts.contains(&found.groups[group]))
-        .collect();
+    let groups: Vec<usize> =
+        (0..found.groups.len()).filter(|&group| !found.parts.contains(&found.groups[group])).collect();
     let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| {
         let groups = groups.iter().map(|&group| by_group[group]);
-        let whole = parts
-            .iter()
-            .copied()
-            .chain(ring)
-            .chain(attached.iter().copied());
+        let whole = parts.iter().copied().chain(ring).chain(attached.iter().copied());
         whole.chain(groups).collect::<Vec<f64>>()
     };
     let has_ring = survey.ring.is_some();
     let names = |attached: &[String]| {
         let ring = has_ring.then(|| "the ring".to_owned());
-        let whole = found
-            .parts
-            .iter()
-            .cloned()
-            .chain(ring)
-            .chain(attached.iter().cloned());
-        let groups = groups
-            .iter()
-            .map(|&group| format!("in {}", found.groups[group]));
+        let whole = found.parts.iter().cloned().chain(ring).chain(attached.iter().cloned());
+        let groups = groups.iter().map(|&group| format!("in {}", found.groups[group]));
         whole.chain(groups).collect::<Vec<String>>()
     };
     let strain = found.modes.iter().map(|mode| {
@@ -69,24 +57,14 @@ fn table(
     if names.len() < 2 {
         return None;
     }
-    let mut columns = vec![
-        Column::number("Mode", ""),
-        Column::number("Frequency", "Hz"),
-    ];
+    let mut columns = vec![Column::number("Mode", ""), Column::number("Frequency", "Hz")];
     columns.extend(names.iter().map(|name| Column::number(name.clone(), "%")));
     let mut table = Table::new(caption, columns);
     for (mode, shares) in modes.enumerate() {
-        let mut cells = vec![
-            Cell::text((mode + 1).to_string()),
-            Cell::number(survey.basis.frequencies_hz[mode], 6),
-        ];
+        let mut cells = vec![Cell::text((mode + 1).to_string()), Cell::number(survey.basis.frequencies_hz[mode], 6)];
         match shares {
             Some(shares) => cells.extend(shares.into_iter().map(|share| {
-                let text = if share < LISTED_SHARE {
-                    "<0.5".to_owned()
-                } else {
-                    format!("{:.1}", 100.0 * share)
-                };
+                let text = if share < LISTED_SHARE { "<0.5".to_owned() } else { format!("{:.1}", 100.0 * share) };
                 Cell::text(text).value(100.0 * share)
             })),
             None => cells.extend(names.iter().map(|_| Cell::text("-"))),

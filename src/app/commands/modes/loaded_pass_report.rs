@@ -17,9 +17,7 @@ pub(crate) fn loaded_pass_section(pass: &LoadedPass) -> Section {
         &pass.over_load,
         |factor| factor,
     );
-    Section::new("Loaded frequencies as the balls go round")
-        .plot(angle)
-        .plot(load)
+    Section::new("Loaded frequencies as the balls go round").plot(angle).plot(load)
 }
 
 /// The lowest frequencies of modes that are not the balls' own, by their number.
@@ -37,16 +35,10 @@ fn chart(title: &str, x: Axis, points: &[LoadedPoint], show: impl Fn(f64) -> f64
         "Each angle and load at its own equilibrium, without the modes that are the balls' own; numbered by frequency, so that two curves that come close may exchange their modes.",
     );
     for mode in 0..DRAWN {
-        let values = frequencies
-            .iter()
-            .map(|found| found.get(mode).copied().unwrap_or(f64::NAN));
+        let values = frequencies.iter().map(|found| found.get(mode).copied().unwrap_or(f64::NAN));
         let values: Vec<f64> = values.collect();
         if values.iter().any(|value| value.is_finite()) {
-            let curve = Curve::new(
-                format!("mode {}", mode + 1),
-                Abscissa::Points(places.clone()),
-                values,
-            );
+            let curve = Curve::new(format!("mode {}", mode + 1), Abscissa::Points(places.clone()), values);
             plot = plot.curve(curve.style(CurveStyle::Line));
         }
     }

@@ -65,13 +65,8 @@ impl MeshSequence {
         }
         let kinds = levels[0].kinds.iter();
         let degree = kinds.map(|kind| kind.order()).min().unwrap_or(1);
-        let found = Self {
-            formal_order: asked.order.unwrap_or(2.0 * degree as f64),
-            levels,
-        };
-        let alike: Vec<usize> = (0..found.levels.len())
-            .filter(|&level| found.is_alike(level))
-            .collect();
+        let found = Self { formal_order: asked.order.unwrap_or(2.0 * degree as f64), levels };
+        let alike: Vec<usize> = (0..found.levels.len()).filter(|&level| found.is_alike(level)).collect();
         if alike.len() > 1 {
             found.sizes(alike).check().map_err(ComputeError::Sequence)?;
         }
@@ -105,10 +100,7 @@ impl MeshSequence {
     /// Sizes of some of the meshes, as an extrapolation takes them.
     pub fn sizes(&self, levels: impl IntoIterator<Item = usize>) -> MeshLevels {
         MeshLevels {
-            sizes: levels
-                .into_iter()
-                .map(|level| self.levels[level].element_size)
-                .collect(),
+            sizes: levels.into_iter().map(|level| self.levels[level].element_size).collect(),
             formal_order: self.formal_order,
         }
     }
@@ -116,11 +108,7 @@ impl MeshSequence {
 
 /// An error with the mesh that it is about.
 pub(crate) fn at(index: usize, path: &std::path::Path, source: ComputeError) -> ComputeError {
-    ComputeError::OtherMesh {
-        index,
-        path: path.to_owned(),
-        source: Box::new(source),
-    }
+    ComputeError::OtherMesh { index, path: path.to_owned(), source: Box::new(source) }
 }
 
 impl Level {
@@ -128,28 +116,15 @@ impl Level {
         let other = on_mesh(case, path);
         // a case without a housing has no sequence
         let Some(housing) = other.meshed_housing() else {
-            return Ok(Self {
-                mesh: PathBuf::new(),
-                elements: 0,
-                kinds: Vec::new(),
-                measure: 0.0,
-                element_size: 0.0,
-            });
+            return Ok(Self { mesh: PathBuf::new(), elements: 0, kinds: Vec::new(), measure: 0.0, element_size: 0.0 });
         };
         let mesh = Mesh::read_gmsh(&housing.mesh, housing.length_unit)?;
         let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
         other.check_groups(&groups)?;
-        let dimension = mesh
-            .blocks
-            .iter()
-            .map(|block| block.kind.dimension())
-            .max()
-            .unwrap_or(0);
+        let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);
         let all = elements_of(&mesh, dimension);
         let blocks = mesh.blocks.iter().map(|block| block.kind);
-        let mut kinds: Vec<ElementKind> = blocks
-            .filter(|kind| kind.dimension() == dimension)
-            .collect();
+        let mut kinds: Vec<ElementKind> = blocks.filter(|kind| kind.dimension() == dimension).collect();
         kinds.sort_unstable_by_key(|kind| kind.name());
         kinds.dedup();
         let elements = all.clone().count();
@@ -195,9 +170,7 @@ impl ModesOnMesh {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
         let modes = match extent {
             // a coarse mesh may have fewer
-            ModeRange::Count(count) | ModeRange::AtMost(count) => {
-                FullModes::lowest(matrices, count, &Unwatched)
-            }
+            ModeRange::Count(count) | ModeRange::AtMost(count) => FullModes::lowest(matrices, count, &Unwatched),
             other => FullModes::of(matrices, other, &Unwatched),
         }?;
         let free_dof = modes.free_dof();
@@ -220,10 +193,7 @@ mod tests {
             measure,
             element_size: 1.0,
         };
-        let sequence = |other: f64| MeshSequence {
-            levels: vec![level(2.0), level(other)],
-            formal_order: 2.0,
-        };
+        let sequence = |other: f64| MeshSequence { levels: vec![level(2.0), level(other)], formal_order: 2.0 };
         assert!(sequence(1.99).doubts().is_empty());
         let told = sequence(2.04).doubts().join(" ");
         let expected = "The body of modes.convergence.meshes[0] (other.msh) is 2.0 % larger";

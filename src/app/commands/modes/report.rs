@@ -5,8 +5,8 @@ use super::compute::{ModesResult, Reading};
 use super::energy_tables::energy_tables;
 use super::shape_view::shape_view;
 use super::tables::{
-    complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts,
-    material_table, proof_facts,
+    complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts, material_table,
+    proof_facts,
 };
 use crate::app::case::Case;
 use crate::app::commands::modes::loaded_pass_report::loaded_pass_section;
@@ -18,24 +18,17 @@ use crate::app::commands::parts::{assumptions, model_facts};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_setup, race_contacts};
 use crate::report::{
-    Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict,
-    significant,
+    Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict, significant,
 };
 
 /// Composes the report; `command` is the line that made it.
 ///
 /// # Errors
 /// [`ComputeError`] if the case's bearing cannot be built.
-pub fn modes_report(
-    case: &Case,
-    result: &ModesResult,
-    command: &str,
-) -> Result<Report, ComputeError> {
+pub fn modes_report(case: &Case, result: &ModesResult, command: &str) -> Result<Report, ComputeError> {
     let view = shape_view(result);
     let mut report = head(case, result, command);
-    report = report
-        .section(purpose(result))
-        .section(model(case, result, &view)?);
+    report = report.section(purpose(result)).section(model(case, result, &view)?);
     if let Some(mass) = &result.survey.mass {
         let section = Section::new("Mass properties")
             .paragraph("From the mass matrix itself, point masses included.")
@@ -63,10 +56,7 @@ pub fn modes_report(
             }
             report = report.section(mass);
         }
-        let shapes = ModeShapeView {
-            figures: ShapeFigures::Modes,
-            ..view
-        };
+        let shapes = ModeShapeView { figures: ShapeFigures::Modes, ..view };
         report = report.section(Section::new("Mode shapes").shapes(shapes));
     }
     if !result.variants.is_empty() {
@@ -78,10 +68,7 @@ pub fn modes_report(
     }
     let setup = bearing_setup(case)?;
     if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
-        let equilibria = result
-            .statics
-            .iter()
-            .flat_map(|statics| &statics.equilibria);
+        let equilibria = result.statics.iter().flat_map(|statics| &statics.equilibria);
         let table = bearing_table(setup, &contacts, equilibria.clone().next());
         report = report.section(Section::new("Bearing").table(table));
         if let Some(statics) = &result.statics {
@@ -100,46 +87,28 @@ pub fn modes_report(
     }
     let notes = result.convergence.iter();
     let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
-    for text in result
-        .doubts
-        .iter()
-        .cloned()
-        .chain(free_motions(result))
-        .chain(notes)
-    {
+    for text in result.doubts.iter().cloned().chain(free_motions(result)).chain(notes) {
         report = report.warning(text);
     }
     Ok(report)
 }
 
 fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
-    let document = Document::new()
-        .case(case.source.path.display().to_string())
-        .signed_by("Prepared by")
-        .signed_by("Checked by");
+    let document =
+        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Modal verification report")
         .document(document);
     for expected in &result.base.expected {
-        let found = expected.found_hz.map_or_else(
-            || "none".to_owned(),
-            |hz| format!("{} Hz", significant(hz, 4)),
-        );
+        let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
     for of_check in headlines(result) {
         report = report.headline(of_check.label, of_check.value, of_check.verdict);
     }
     let basis = &result.survey.basis;
-    let modes = format!(
-        "{} of {}",
-        basis.count_check.found, basis.count_check.counted
-    );
-    report = report.headline(
-        "Modes found of those that exist",
-        modes,
-        complete(&result.survey),
-    );
+    let modes = format!("{} of {}", basis.count_check.found, basis.count_check.counted);
+    report = report.headline("Modes found of those that exist", modes, complete(&result.survey));
     if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
         let first = format!("{} Hz", significant(*first, 5));
         report = report.headline("First elastic mode", first, Verdict::None);
@@ -150,12 +119,8 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
 fn purpose(result: &ModesResult) -> Section {
     let survey = &result.survey;
     let what = match (&result.structure, result.mesh_and_model()) {
-        (Some(_), Some(_)) => {
-            "a housing and the ring in its bore, coupled in full (nothing condensed)"
-        }
-        (Some(stage), None) if stage.imported.is_some() => {
-            "a ring in a housing that is a superelement from a file"
-        }
+        (Some(_), Some(_)) => "a housing and the ring in its bore, coupled in full (nothing condensed)",
+        (Some(stage), None) if stage.imported.is_some() => "a ring in a housing that is a superelement from a file",
         (Some(_), None) => "a ring on its springs",
         _ => "a housing",
     };
@@ -184,10 +149,7 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
         let extent = inventory.bounding_box.extent().map(|length| 1e3 * length);
         section = section.facts([
             Fact::new("Mesh", mesh.source.display().to_string()),
-            Fact::new(
-                "Size",
-                format!("{:.3} x {:.3} x {:.3} mm", extent[0], extent[1], extent[2]),
-            ),
+            Fact::new("Size", format!("{:.3} x {:.3} x {:.3} mm", extent[0], extent[1], extent[2])),
             Fact::new("Elements", model.elements().len().to_string()),
             Fact::new("Degrees of freedom", result.survey.dof.to_string()),
             Fact::new("Free ones", result.survey.free_dof.to_string()),
@@ -195,9 +157,11 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
     }
     if let Some(stage) = &result.structure {
         let setup = bearing_setup(case)?;
-        section = section
-            .drawing(draw(case, stage, setup.as_ref()))
-            .facts(model_facts(case, stage, result.base.loaded.is_some()));
+        section = section.drawing(draw(case, stage, setup.as_ref())).facts(model_facts(
+            case,
+            stage,
+            result.base.loaded.is_some(),
+        ));
     }
     section = section.table(material_table(case));
     if result.mesh_and_model().is_some() {
@@ -239,23 +203,13 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
     let expected = &base.expected;
     let mut columns = vec![Column::text("Reading")];
     for expected in expected {
-        columns.push(Column::number(
-            format!("near {} kHz", significant(expected.hz / 1e3, 3)),
-            "Hz",
-        ));
+        columns.push(Column::number(format!("near {} kHz", significant(expected.hz / 1e3, 3)), "Hz"));
     }
-    columns.push(Column::number(
-        "Modes below 40 kHz without the balls' own",
-        "kHz",
-    ));
+    columns.push(Column::number("Modes below 40 kHz without the balls' own", "kHz"));
     columns.push(Column::number("Condensation moves by", "%"));
     let mut table = Table::new("Readings side by side", columns);
     for reading in std::iter::once(base).chain(variants) {
-        let name = if reading.what.is_empty() {
-            "this case"
-        } else {
-            &reading.what
-        };
+        let name = if reading.what.is_empty() { "this case" } else { &reading.what };
         let mut cells = vec![Cell::text(name)];
         for expected in &reading.expected {
             let cell = match (expected.found_hz, expected.relative_error) {
@@ -279,18 +233,8 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
 
 fn own_modes(reading: &Reading) -> String {
     let frequencies: Vec<f64> = match &reading.loaded {
-        Some(loaded) => loaded
-            .modes
-            .iter()
-            .filter(|mode| !mode.is_ball_mode())
-            .map(|mode| mode.frequency_hz)
-            .collect(),
+        Some(loaded) => loaded.modes.iter().filter(|mode| !mode.is_ball_mode()).map(|mode| mode.frequency_hz).collect(),
         None => reading.unloaded_hz.clone(),
     };
-    frequencies
-        .iter()
-        .filter(|&&hz| hz < 40e3)
-        .map(|hz| significant(hz / 1e3, 4))
-        .collect::<Vec<_>>()
-        .join(", ")
+    frequencies.iter().filter(|&&hz| hz < 40e3).map(|hz| significant(hz / 1e3, 4)).collect::<Vec<_>>().join(", ")
 }

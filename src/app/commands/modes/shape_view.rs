@@ -4,9 +4,7 @@ use super::compute::ModesResult;
 use crate::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh};
 use crate::fe::modal::{ModalSurvey, RingShapes};
 use crate::fe::model::HousingModel;
-use crate::report::{
-    ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis,
-};
+use crate::report::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis};
 use std::collections::BTreeMap;
 
 /// A face by its sorted corners.
@@ -94,16 +92,10 @@ fn add_band(view: &mut ModeShapeView, ring: &RingShapes) {
     let half = BAND * ring.points.iter().map(reach).fold(0.0, f64::max);
     let first = view.points.len();
     for side in [-half, half] {
-        let edge = ring
-            .points
-            .iter()
-            .map(|point| [point[0], point[1], point[2] + side]);
+        let edge = ring.points.iter().map(|point| [point[0], point[1], point[2] + side]);
         view.points.extend(edge);
     }
-    view.groups.push(ShapeGroup {
-        name: "ring".to_owned(),
-        colour: 0,
-    });
+    view.groups.push(ShapeGroup { name: "ring".to_owned(), colour: 0 });
     for node in 0..nodes {
         let next = (node + 1) % nodes;
         let [a, b, c, d] = [node, next, nodes + next, nodes + node].map(|place| first + place);
@@ -123,10 +115,8 @@ fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
         _ => ids().filter_map(|id| plane_face(mesh, id)).collect(),
     };
     // a model's elements are those of the highest dimension, in the order of the mesh
-    let parts: BTreeMap<(usize, usize), usize> = ids()
-        .zip(model.elements().iter())
-        .map(|(id, element)| ((id.block, id.index), element.part))
-        .collect();
+    let parts: BTreeMap<(usize, usize), usize> =
+        ids().zip(model.elements().iter()).map(|(id, element)| ((id.block, id.index), element.part)).collect();
     let named = named_faces(mesh, dimension);
     // parts first, then the groups of faces that were met
     let mut groups: Vec<String> = model.part_names().to_vec();
@@ -135,13 +125,10 @@ fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
         corners.sort_unstable();
         let part = parts.get(&(face.element.block, face.element.index));
         let group = match named.get(&corners) {
-            Some(&name) => groups
-                .iter()
-                .position(|group| group == name)
-                .unwrap_or_else(|| {
-                    groups.push(name.to_owned());
-                    groups.len() - 1
-                }),
+            Some(&name) => groups.iter().position(|group| group == name).unwrap_or_else(|| {
+                groups.push(name.to_owned());
+                groups.len() - 1
+            }),
             None => part.copied().unwrap_or_default(),
         };
         for corners in triangles(face.kind) {
@@ -162,31 +149,19 @@ fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
     }
     view.edges.sort_unstable();
     view.edges.dedup();
-    view.groups = groups
-        .into_iter()
-        .enumerate()
-        .map(|(colour, name)| ShapeGroup { name, colour })
-        .collect();
+    view.groups = groups.into_iter().enumerate().map(|(colour, name)| ShapeGroup { name, colour }).collect();
 }
 
 /// A plane element as its own face.
 fn plane_face(mesh: &Mesh, element: ElementId) -> Option<BoundaryFace> {
     let block = mesh.blocks.get(element.block)?;
-    Some(BoundaryFace {
-        element,
-        kind: block.kind,
-        nodes: block.element(element.index)?.to_vec(),
-    })
+    Some(BoundaryFace { element, kind: block.kind, nodes: block.element(element.index)?.to_vec() })
 }
 
 /// Names of the groups of faces, by the corners of a face.
 fn named_faces(mesh: &Mesh, dimension: usize) -> BTreeMap<Corners, &str> {
     let mut named = BTreeMap::new();
-    for group in mesh
-        .groups
-        .iter()
-        .filter(|group| dimension == 3 && group.dimension == 2)
-    {
+    for group in mesh.groups.iter().filter(|group| dimension == 3 && group.dimension == 2) {
         for &id in &group.elements {
             let block = &mesh.blocks[id.block];
             let nodes = block.element(id.index).unwrap_or_default();
@@ -204,14 +179,7 @@ fn triangles(kind: ElementKind) -> &'static [[usize; 3]] {
         ElementKind::Tri3 => &[[0, 1, 2]],
         ElementKind::Tri6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
         ElementKind::Quad4 => &[[0, 1, 2], [0, 2, 3]],
-        ElementKind::Quad8 => &[
-            [0, 4, 7],
-            [4, 1, 5],
-            [5, 2, 6],
-            [6, 3, 7],
-            [4, 5, 6],
-            [4, 6, 7],
-        ],
+        ElementKind::Quad8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
         _ => &[],
     }
 }

@@ -10,10 +10,7 @@ use crate::formats::ModeShapes;
 use crate::numerics::Watch;
 
 /// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.
-pub(crate) fn mode_shapes(
-    survey: &ModalSurvey,
-    housing: Option<(&Mesh, &HousingModel)>,
-) -> ModeShapes {
+pub(crate) fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) -> ModeShapes {
     let mut points = Vec::new();
     let mut shapes = vec![Vec::new(); survey.basis.count()];
     if let (Some((mesh, model)), Some(moved)) = (housing, &survey.housing) {
@@ -36,22 +33,14 @@ pub(crate) fn mode_shapes(
         (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
         _ => None,
     };
-    ModeShapes {
-        frequencies_hz: survey.basis.frequencies_hz.clone(),
-        node_tags,
-        points: Some(points),
-        shapes,
-    }
+    ModeShapes { frequencies_hz: survey.basis.frequencies_hz.clone(), node_tags, points: Some(points), shapes }
 }
 
 /// Computes the modes of a case, as many as it asks for, and nothing else: the mesh, if it has one, and the shapes.
 ///
 /// # Errors
 /// [`ComputeError`] of the stages that it goes through.
-pub fn compute_mode_shapes(
-    case: &Case,
-    watch: &impl Watch,
-) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
+pub fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
     if let Some(stage) = CoupledStructure::build(case, watch)? {
         let survey = stage.survey(extent, watch)?;
@@ -59,11 +48,7 @@ pub fn compute_mode_shapes(
         let shapes = mode_shapes(&survey, housing.map(|stage| (&stage.mesh, &stage.model)));
         return Ok((stage.housing.map(|stage| stage.mesh), shapes));
     }
-    let AssembledHousing {
-        mesh,
-        model,
-        matrices,
-    } = AssembledHousing::of(case, watch)?;
+    let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;
     let shapes = mode_shapes(&survey, Some((&mesh, &model)));
     Ok((Some(mesh), shapes))

@@ -144,7 +144,5 @@ impl BallPassSummary {
 }
 
 fn rows(a: &DenseMatrix) -> Vec<Vec<f64>> {
-    (0..a.nrows())
-        .map(|row| a.row(row).iter().copied().collect())
-        .collect()
+    (0..a.nrows()).map(|row| a.row(row).iter().copied().collect()).collect()
 }

@@ -48,31 +48,19 @@ pub(crate) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
     let basis = &survey.basis;
     let check = basis.count_check;
     let range = match check.above_hz {
-        Some(above) => format!(
-            "between {} and {} Hz",
-            significant(above, 7),
-            significant(check.below_hz, 7)
-        ),
+        Some(above) => format!("between {} and {} Hz", significant(above, 7), significant(check.below_hz, 7)),
         None => format!("below {} Hz", significant(check.below_hz, 7)),
     };
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     vec![
-        Fact::new(format!("Modes {range}, counted"), check.counted.to_string()).note(
-            "negative pivots of a factorisation of K - (2 pi f)^2 M: Sylvester's law of inertia",
-        ),
+        Fact::new(format!("Modes {range}, counted"), check.counted.to_string())
+            .note("negative pivots of a factorisation of K - (2 pi f)^2 M: Sylvester's law of inertia"),
         Fact::new(format!("Modes {range}, found"), check.found.to_string()),
-        Fact::new(
-            "Largest relative residual",
-            significant(largest(&basis.residuals), 2),
-        )
-        .note("|K phi - lambda M phi| over its terms"),
-        Fact::new("Orthogonality", significant(basis.orthogonality, 2))
-            .note("largest entry of Phi^T M Phi - 1"),
-        Fact::new(
-            "Modes without strain, of those computed",
-            basis.rigid_modes.to_string(),
-        )
-        .note("strain energy, summed element by element, zero within its error bound"),
+        Fact::new("Largest relative residual", significant(largest(&basis.residuals), 2))
+            .note("|K phi - lambda M phi| over its terms"),
+        Fact::new("Orthogonality", significant(basis.orthogonality, 2)).note("largest entry of Phi^T M Phi - 1"),
+        Fact::new("Modes without strain, of those computed", basis.rigid_modes.to_string())
+            .note("strain energy, summed element by element, zero within its error bound"),
     ]
 }
 
@@ -82,41 +70,24 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
         let texts: Vec<String> = values.iter().map(|value| fixed(1e3 * value, 4)).collect();
         format!("({}) mm", texts.join(", "))
     };
-    let mut facts = vec![Fact::new(
-        "Mass",
-        format!("{} kg", significant(mass.mass, 6)),
-    )];
+    let mut facts = vec![Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)))];
     match &mass.distribution {
         MassDistribution::Plane { centroid, polar } => {
             facts.push(Fact::new("Centroid", millimetres(centroid)));
             facts.push(
-                Fact::new(
-                    "Moment of inertia",
-                    format!("{} kg m^2", significant(*polar, 5)),
-                )
-                .note("about the axis along z through the centroid"),
+                Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)))
+                    .note("about the axis along z through the centroid"),
             );
         }
         MassDistribution::Space { centroid, .. } => {
             facts.push(Fact::new("Centroid", millimetres(centroid)));
             if let Some(principal) = mass.principal() {
-                let moments: Vec<String> = principal
-                    .moments
-                    .iter()
-                    .map(|m| significant(*m, 5))
-                    .collect();
+                let moments: Vec<String> = principal.moments.iter().map(|m| significant(*m, 5)).collect();
                 facts.push(
-                    Fact::new(
-                        "Principal moments",
-                        format!("{} kg m^2", moments.join(", ")),
-                    )
-                    .note("about the centroid"),
+                    Fact::new("Principal moments", format!("{} kg m^2", moments.join(", "))).note("about the centroid"),
                 );
-                let axes: Vec<String> = principal
-                    .axes
-                    .iter()
-                    .map(|a| format!("({})", a.map(|part| fixed(part, 4)).join(", ")))
-                    .collect();
+                let axes: Vec<String> =
+                    principal.axes.iter().map(|a| format!("({})", a.map(|part| fixed(part, 4)).join(", "))).collect();
                 facts.push(Fact::new("Principal axes", axes.join(", ")));
             }
         }
@@ -135,38 +106,23 @@ pub(crate) fn material_table(case: &Case) -> Table {
             Column::number("Density", "kg/m^3"),
         ],
     );
-    let parts = case
-        .meshed_housing()
-        .into_iter()
-        .flat_map(|housing| &housing.parts);
+    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
     let parts = parts.map(|part| (part.group.clone(), part.material.clone()));
     let layers = case.ring.iter().flat_map(|ring| &ring.sections);
     let layers = layers.map(|layer| ("ring".to_owned(), layer.material.clone()));
     for (part, name) in parts.chain(layers) {
         let (elasticity, density) = match case.material(&name) {
             Some(Material::Isotropic(m)) => (
-                format!(
-                    "E = {} GPa, nu = {}",
-                    significant(m.young * 1e-9, 4),
-                    significant(m.poisson, 3)
-                ),
+                format!("E = {} GPa, nu = {}", significant(m.young * 1e-9, 4), significant(m.poisson, 3)),
                 Cell::number(m.density, 5),
             ),
             Some(Material::Orthotropic(m)) => {
                 let young: Vec<String> = m.young.iter().map(|e| significant(e * 1e-9, 4)).collect();
-                (
-                    format!("orthotropic, E = {} GPa", young.join(", ")),
-                    Cell::number(m.density, 5),
-                )
+                (format!("orthotropic, E = {} GPa", young.join(", ")), Cell::number(m.density, 5))
             }
             None => (String::new(), Cell::text("")),
         };
-        table = table.row([
-            Cell::text(part),
-            Cell::text(name),
-            Cell::text(elasticity),
-            density,
-        ]);
+        table = table.row([Cell::text(part), Cell::text(name), Cell::text(elasticity), density]);
     }
     table
 }
@@ -174,23 +130,15 @@ pub(crate) fn material_table(case: &Case) -> Table {
 /// Effective mass of every mode along every direction, in per cent of the whole.
 pub(crate) fn effective_mass_table(survey: &ModalSurvey, found: &Participation) -> Table {
     let names = directions(found.totals.len());
-    let mut columns = vec![
-        Column::number("Mode", ""),
-        Column::number("Frequency", "Hz"),
-    ];
+    let mut columns = vec![Column::number("Mode", ""), Column::number("Frequency", "Hz")];
     columns.extend(names.iter().map(|name| Column::number(*name, "%")));
     let mut table = Table::new("Effective mass", columns);
     let percent = |value: f64| Cell::text(format!("{:.2}", 100.0 * value)).value(100.0 * value);
     for mode in 0..survey.basis.count() {
-        let mut cells = vec![
-            Cell::text((mode + 1).to_string()),
-            Cell::number(survey.basis.frequencies_hz[mode], 6),
-        ];
-        cells.extend((0..names.len()).map(|direction| {
-            found
-                .fraction(mode, direction)
-                .map_or_else(|| Cell::text(""), percent)
-        }));
+        let mut cells = vec![Cell::text((mode + 1).to_string()), Cell::number(survey.basis.frequencies_hz[mode], 6)];
+        cells.extend(
+            (0..names.len()).map(|direction| found.fraction(mode, direction).map_or_else(|| Cell::text(""), percent)),
+        );
         table = table.row(cells);
     }
     let mut sums = vec![Cell::text("sum"), Cell::text("")];
@@ -262,9 +210,6 @@ mod tests {
         let value = |name: &str| facts.iter().find(|fact| fact.name == name).unwrap();
         assert_eq!(value("Centroid").value, "(0.0000, 2.0000, −3.0000) mm");
         let axes = &value("Principal axes").value;
-        assert!(
-            !axes.contains("-0.0") && !axes.contains("−0.0000"),
-            "{axes}"
-        );
+        assert!(!axes.contains("-0.0") && !axes.contains("−0.0000"), "{axes}");
     }
 }

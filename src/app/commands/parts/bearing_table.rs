@@ -40,11 +40,7 @@ fn blank() -> Cell {
 }
 
 /// Geometry, orders and contacts; the patches under the largest forces at rest where there is an equilibrium.
-pub fn bearing_table(
-    setup: &BearingSetup,
-    contacts: &RaceContacts,
-    equilibrium: Option<&Equilibrium>,
-) -> Table {
+pub fn bearing_table(setup: &BearingSetup, contacts: &RaceContacts, equilibrium: Option<&Equilibrium>) -> Table {
     let columns = [
         Column::text("Quantity"),
         Column::number("Value", ""),
@@ -64,17 +60,9 @@ pub fn bearing_table(
         let amplitude = Cell::number(1e6 * wave.amplitude, 4);
         rows = rows.cells(&name, "\u{b5}m", on_race(wave.race, amplitude));
     }
-    let largest = setup
-        .oversizes
-        .iter()
-        .fold(0.0, |most: f64, d| most.max(d.abs()));
+    let largest = setup.oversizes.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     if largest > 0.0 {
-        rows = rows.one(
-            "Largest difference of a ball's radius",
-            "\u{b5}m",
-            1e6 * largest,
-            4,
-        );
+        rows = rows.one("Largest difference of a ball's radius", "\u{b5}m", 1e6 * largest, 4);
     }
     for defect in &setup.race_defects {
         for (name, drop) in drops(&setup.geometry, setup.stiffness, defect) {
@@ -86,14 +74,12 @@ pub fn bearing_table(
         let drop = |race| 1e6 * flat.shape.ball_drop(race);
         let angle = flat.shape.included_angle().to_degrees();
         let name = |what: &str| format!("{what} of the flat on ball {}", flat.ball);
-        rows = rows
-            .both(
-                &name("Drop"),
-                "\u{b5}m",
-                [drop(Race::Inner), drop(Race::Outer)],
-                4,
-            )
-            .one(&name("Included angle"), "deg", angle, 4);
+        rows = rows.both(&name("Drop"), "\u{b5}m", [drop(Race::Inner), drop(Race::Outer)], 4).one(
+            &name("Included angle"),
+            "deg",
+            angle,
+            4,
+        );
     }
     rows.0
 }
@@ -101,29 +87,16 @@ pub fn bearing_table(
 fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {
     let dimensions = geometry.dimensions();
     let mut rows = rows
-        .cells(
-            "Balls",
-            "",
-            [Cell::text(geometry.balls().to_string()), blank(), blank()],
-        )
+        .cells("Balls", "", [Cell::text(geometry.balls().to_string()), blank(), blank()])
         .one("Ball diameter", "mm", 2e3 * geometry.ball_radius(), 6)
         .one("Ball mass", "g", 1e3 * geometry.ball_mass(), 5)
         .one("Pitch diameter", "mm", 2e3 * geometry.pitch_radius(), 6)
         .one("Ball over pitch diameter", "", geometry.diameter_ratio(), 5)
-        .both(
-            "Race radius",
-            "mm",
-            [dimensions.inner_race_radius, dimensions.outer_race_radius].map(|r| 1e3 * r),
-            6,
-        )
+        .both("Race radius", "mm", [dimensions.inner_race_radius, dimensions.outer_race_radius].map(|r| 1e3 * r), 6)
         .both(
             "Groove radius",
             "mm",
-            [
-                dimensions.inner_groove_radius,
-                dimensions.outer_groove_radius,
-            ]
-            .map(|r| 1e3 * r),
+            [dimensions.inner_groove_radius, dimensions.outer_groove_radius].map(|r| 1e3 * r),
             6,
         )
         .both(
@@ -133,20 +106,10 @@ fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {
             4,
         )
         .one("Radial play", "\u{b5}m", 1e6 * geometry.radial_play(), 4)
-        .one(
-            "Diametral clearance",
-            "\u{b5}m",
-            1e6 * geometry.diametral_clearance(),
-            4,
-        )
+        .one("Diametral clearance", "\u{b5}m", 1e6 * geometry.diametral_clearance(), 4)
         .one("Contact angle (radial load)", "deg", 0.0, 3);
     if let Some(angle) = geometry.free_contact_angle() {
-        rows = rows.one(
-            "Free contact angle (axial load)",
-            "deg",
-            angle.to_degrees(),
-            4,
-        );
+        rows = rows.one("Free contact angle (axial load)", "deg", angle.to_degrees(), 4);
     }
     rows
 }
@@ -156,28 +119,14 @@ fn order_rows(rows: Rows, setup: &BearingSetup) -> Rows {
     let unit = "per shaft turn";
     let [least, most] = setup.cage.slip().range().map(|slip| 1e2 * slip);
     let slip = if least < most {
-        Cell::text(format!(
-            "{} to {}",
-            significant(least, 4),
-            significant(most, 4)
-        ))
+        Cell::text(format!("{} to {}", significant(least, 4), significant(most, 4)))
     } else {
         Cell::number(most, 4)
     };
     rows.one("Cage order without slip", unit, orders.cage, 5)
-        .both(
-            "Defect order without slip",
-            unit,
-            [orders.inner, orders.outer],
-            5,
-        )
+        .both("Defect order without slip", unit, [orders.inner, orders.outer], 5)
         .one("Ball spin order", unit, orders.ball_spin, 5)
-        .one(
-            "Ball defect order (two hits a spin)",
-            unit,
-            orders.ball_defect,
-            5,
-        )
+        .one("Ball defect order (two hits a spin)", unit, orders.ball_defect, 5)
         .cells("Slip of the cage", "%", [slip, blank(), blank()])
 }
 
@@ -185,49 +134,19 @@ fn contact_rows(rows: Rows, setup: &BearingSetup, contacts: &RaceContacts) -> Ro
     let unit = "N/m^1.5";
     let both = |value: fn(&HertzStiffness) -> f64| [&contacts.inner, &contacts.outer].map(value);
     rows.both("Curvature sum", "1/mm", both(|c| 1e-3 * c.curvature_sum), 5)
-        .both(
-            "Curvature difference F",
-            "",
-            both(|c| c.curvature_difference),
-            4,
-        )
+        .both("Curvature difference F", "", both(|c| c.curvature_difference), 4)
         .both("Ellipticity of the patch", "", both(|c| c.ellipticity), 4)
-        .both(
-            "Effective modulus",
-            "GPa",
-            both(|c| 1e-9 * c.effective_modulus),
-            5,
-        )
-        .both(
-            "k by Hertz from the geometry",
-            unit,
-            both(|c| c.stiffness),
-            4,
-        )
-        .both(
-            "k in use",
-            unit,
-            [setup.stiffness.inner(), setup.stiffness.outer()],
-            4,
-        )
-        .one(
-            "k in use, both races in series",
-            unit,
-            setup.stiffness.series(),
-            4,
-        )
+        .both("Effective modulus", "GPa", both(|c| 1e-9 * c.effective_modulus), 5)
+        .both("k by Hertz from the geometry", unit, both(|c| c.stiffness), 4)
+        .both("k in use", unit, [setup.stiffness.inner(), setup.stiffness.outer()], 4)
+        .one("k in use, both races in series", unit, setup.stiffness.series(), 4)
 }
 
 /// Patches under the largest force at rest, by Hertz from the geometry whatever k is in use.
 fn patch_rows(rows: Rows, contacts: &RaceContacts, equilibrium: &Equilibrium) -> Rows {
-    let largest = |force: fn(&crate::system::BallLoad) -> f64| {
-        equilibrium.balls.iter().map(force).fold(0.0, f64::max)
-    };
+    let largest = |force: fn(&crate::system::BallLoad) -> f64| equilibrium.balls.iter().map(force).fold(0.0, f64::max);
     let forces = [largest(|ball| ball.inner), largest(|ball| ball.outer)];
-    let patches = [
-        contacts.inner.patch(forces[0]),
-        contacts.outer.patch(forces[1]),
-    ];
+    let patches = [contacts.inner.patch(forces[0]), contacts.outer.patch(forces[1])];
     rows.both("Largest static contact force", "N", forces, 4)
         .both(
             "Its patch, half-axis across the rolling direction",
@@ -235,16 +154,6 @@ fn patch_rows(rows: Rows, contacts: &RaceContacts, equilibrium: &Equilibrium) ->
             patches.map(|patch| 1e6 * patch.longer),
             4,
         )
-        .both(
-            "Its patch, half-axis in the rolling direction",
-            "\u{b5}m",
-            patches.map(|patch| 1e6 * patch.shorter),
-            4,
-        )
-        .both(
-            "Its largest pressure",
-            "MPa",
-            patches.map(|patch| 1e-6 * patch.peak_pressure),
-            4,
-        )
+        .both("Its patch, half-axis in the rolling direction", "\u{b5}m", patches.map(|patch| 1e6 * patch.shorter), 4)
+        .both("Its largest pressure", "MPa", patches.map(|patch| 1e-6 * patch.peak_pressure), 4)
 }

@@ -22,15 +22,13 @@ pub(crate) fn drops(
     };
     let used = |name| Some((name, defect.ball_drop()));
     let both = match defect {
-        RaceDefect::Dent(dent) if dent.shape().width.is_some() => [
-            used("Drop of a ball in the dent, in the plane (in use)"),
-            surface(dent.shape()),
-        ],
+        RaceDefect::Dent(dent) if dent.shape().width.is_some() => {
+            [used("Drop of a ball in the dent, in the plane (in use)"), surface(dent.shape())]
+        }
         RaceDefect::Dent(_) => [used("Drop of a ball in the dent"), None],
-        RaceDefect::SurfaceDent(dent) => [
-            in_plane(dent.shape()),
-            used("Drop of a ball in the dent, in its surface (in use)"),
-        ],
+        RaceDefect::SurfaceDent(dent) => {
+            [in_plane(dent.shape()), used("Drop of a ball in the dent, in its surface (in use)")]
+        }
         RaceDefect::Measured(_) => [used("Drop of a ball in the measured profile"), None],
     };
     both.into_iter().flatten().collect()
@@ -60,9 +58,7 @@ mod tests {
         let stiffness = ContactStiffness::given(1e10, 1e10).unwrap();
         let of = |defect: &RaceDefect| {
             let drops = drops(&geometry, stiffness, defect).into_iter();
-            drops
-                .map(|(name, drop)| format!("{name}: {:.2}", 1e6 * drop))
-                .collect::<Vec<_>>()
+            drops.map(|(name, drop)| format!("{name}: {:.2}", 1e6 * drop)).collect::<Vec<_>>()
         };
         let in_plane = |width| {
             let dent = Dent::new(&geometry, Race::Outer, shape(width), stiffness);
@@ -85,9 +81,6 @@ mod tests {
         );
         assert_eq!(of(&in_plane(None)), ["Drop of a ball in the dent: 15.00"]);
         // no surface dent is as wide as the ball
-        assert_eq!(
-            of(&in_plane(Some(3e-3))),
-            ["Drop of a ball in the dent, in the plane (in use): 15.00"]
-        );
+        assert_eq!(of(&in_plane(Some(3e-3))), ["Drop of a ball in the dent, in the plane (in use): 15.00"]);
     }
 }

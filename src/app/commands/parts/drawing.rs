@@ -26,9 +26,7 @@ pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&Bearing
         caption: Some("Drawn to scale; springs and sensors are symbols.".to_owned()),
         ring: Some(Ring {
             circle: Circle { centre, radius },
-            nodes: (0..ring.nodes())
-                .map(|node| centre.polar(radius, ring.node_angle(node)))
-                .collect(),
+            nodes: (0..ring.nodes()).map(|node| centre.polar(radius, ring.node_angle(node))).collect(),
         }),
         ..Drawing::default()
     };
@@ -63,10 +61,7 @@ fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
     }
     for node in model.spring_nodes() {
         let at = point(node);
-        drawing.springs.push(Spring {
-            at,
-            towards_rad: at.y.atan2(at.x),
-        });
+        drawing.springs.push(Spring { at, towards_rad: at.y.atan2(at.x) });
     }
 }
 
@@ -120,10 +115,7 @@ fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure
             let past = (angle.to_degrees() - from + 1e-6).rem_euclid(360.0) - 1e-6;
             if past < to - from - 1e-6 {
                 let radius = ring.section().radius + support.offset;
-                drawing.springs.push(Spring {
-                    at: Point { x: 0.0, y: 0.0 }.polar(radius, angle),
-                    towards_rad: angle,
-                });
+                drawing.springs.push(Spring { at: Point { x: 0.0, y: 0.0 }.polar(radius, angle), towards_rad: angle });
             }
         }
     }
@@ -140,18 +132,14 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
         },
     };
     drawing.races = vec![circle(Race::Inner), circle(Race::Outer)];
-    let start = case
-        .transient
-        .as_ref()
-        .map_or(0.0, |transient| transient.start);
+    let start = case.transient.as_ref().map_or(0.0, |transient| transient.start);
     let shaft_angle = setup.cage.shaft().angle(start);
     let cage = setup.cage.motion(start);
     for ball in 0..geometry.balls() {
         let angle = setup.cage.ball_angle(cage.angle, ball);
-        drawing.balls.push(Circle {
-            centre: centre.polar(geometry.pitch_radius(), angle),
-            radius: geometry.ball_radius(),
-        });
+        drawing
+            .balls
+            .push(Circle { centre: centre.polar(geometry.pitch_radius(), angle), radius: geometry.ball_radius() });
     }
     for defect in &setup.race_defects {
         let race = circle(defect.race());
@@ -165,12 +153,7 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
             RaceDefect::SurfaceDent(dent) => dent_label(dent.shape()),
             RaceDefect::Measured(_) => format!("profile {:.2} mm long", length * 1e3),
         };
-        drawing.dents.push(Dent {
-            race,
-            angle_rad: defect.angle() + turned,
-            length,
-            label,
-        });
+        drawing.dents.push(Dent { race, angle_rad: defect.angle() + turned, length, label });
     }
 }
 
@@ -183,20 +166,15 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
     let origin = Point { x: 0.0, y: 0.0 };
     for sensor in &case.sensors {
         let at = match &sensor.spot {
-            SensorSpot::RingDeg(degrees) => Some(origin.polar(
-                stage.structure.ring().section().radius,
-                degrees.to_radians(),
-            )),
+            SensorSpot::RingDeg(degrees) => {
+                Some(origin.polar(stage.structure.ring().section().radius, degrees.to_radians()))
+            }
             SensorSpot::Point(point) => stage.housing.as_ref().map(|housing| {
                 let [x, y, _] = housing.model.frame().point(*point);
                 Point { x, y }
             }),
             SensorSpot::Node(tag) => stage.housing.as_ref().and_then(|housing| {
-                let node = housing
-                    .model
-                    .node_tags
-                    .iter()
-                    .position(|found| found == tag)?;
+                let node = housing.model.node_tags.iter().position(|found| found == tag)?;
                 let [x, y] = [0, 1].map(|k| housing.model.ring_coordinates(node)[k]);
                 Some(Point { x, y })
             }),
@@ -205,30 +183,17 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
             SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
                 let nodes = &housing.mesh.group(group).ok()?.nodes;
                 let mean = |k: usize| {
-                    let sum: f64 = nodes
-                        .iter()
-                        .map(|&n| housing.model.ring_coordinates(n)[k])
-                        .sum();
+                    let sum: f64 = nodes.iter().map(|&n| housing.model.ring_coordinates(n)[k]).sum();
                     sum / nodes.len() as f64
                 };
-                Some(Point {
-                    x: mean(0),
-                    y: mean(1),
-                })
+                Some(Point { x: mean(0), y: mean(1) })
             }),
         };
         let [x, y, _] = stage.frame().vector(sensor.direction);
-        let size = sensor
-            .direction
-            .iter()
-            .fold(0.0_f64, |size, part| size.max(part.abs()));
+        let size = sensor.direction.iter().fold(0.0_f64, |size, part| size.max(part.abs()));
         let direction_rad = (x.hypot(y) > 1e-9 * size).then(|| y.atan2(x).rem_euclid(2.0 * PI));
         if let Some(at) = at {
-            drawing.sensors.push(Sensor {
-                name: sensor.name.clone(),
-                at,
-                direction_rad,
-            });
+            drawing.sensors.push(Sensor { name: sensor.name.clone(), at, direction_rad });
         }
     }
 }

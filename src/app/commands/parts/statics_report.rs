@@ -25,11 +25,7 @@ pub(crate) fn statics_section(setup: &BearingSetup, statics: &Statics) -> Sectio
 fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
     let shaft = without_round_off(equilibrium.shaft.map(|x| 1e6 * x));
     let mut table = Table::new(
-        format!(
-            "Static equilibrium: shaft at ({}, {}) \u{b5}m",
-            significant(shaft[0], 4),
-            significant(shaft[1], 4),
-        ),
+        format!("Static equilibrium: shaft at ({}, {}) \u{b5}m", significant(shaft[0], 4), significant(shaft[1], 4),),
         [
             Column::number("Ball", ""),
             Column::number("Angle", "deg"),
@@ -56,16 +52,8 @@ fn degrees(angle: f64) -> f64 {
 
 /// Values beside which some are nothing but round-off, those as zero.
 fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
-    let largest = values
-        .iter()
-        .fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    values.map(|value| {
-        if value.abs() < 1e-9 * largest {
-            0.0
-        } else {
-            value
-        }
-    })
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
 }
 
 fn load_distribution(equilibrium: &Equilibrium) -> Bars {
@@ -80,14 +68,8 @@ fn load_distribution(equilibrium: &Equilibrium) -> Bars {
         balls.iter().map(label),
         Axis::new("Contact force", "N"),
     )
-    .series(
-        "inner race",
-        balls.iter().map(|(_, ball)| ball.inner).collect(),
-    )
-    .series(
-        "outer race",
-        balls.iter().map(|(_, ball)| ball.outer).collect(),
-    )
+    .series("inner race", balls.iter().map(|(_, ball)| ball.inner).collect())
+    .series("outer race", balls.iter().map(|(_, ball)| ball.outer).collect())
 }
 
 /// All equilibria that were found.
@@ -135,31 +117,17 @@ fn equilibria_table(equilibria: &[Equilibrium]) -> Table {
 
 /// Loads and stiffness while the cage turns by one ball spacing.
 fn ball_pass(section: Section, setup: &BearingSetup, statics: &Statics) -> Section {
-    let turned: Vec<f64> = statics
-        .ball_pass
-        .iter()
-        .map(|point| point.turned.to_degrees())
-        .collect();
+    let turned: Vec<f64> = statics.ball_pass.iter().map(|point| point.turned.to_degrees()).collect();
     let over_angle = |value: &dyn Fn(&Equilibrium) -> f64| -> Vec<f64> {
         let points = statics.ball_pass.iter();
-        points
-            .map(|point| point.equilibrium.as_ref().map_or(f64::NAN, value))
-            .collect()
+        points.map(|point| point.equilibrium.as_ref().map_or(f64::NAN, value)).collect()
     };
     let axis = || Axis::new("Cage turned by", "deg");
-    let mut forces = Plot::new(
-        "Load of every ball over a ball pass",
-        axis(),
-        Axis::new("Inner contact force", "N"),
-    );
+    let mut forces = Plot::new("Load of every ball over a ball pass", axis(), Axis::new("Inner contact force", "N"));
     for ball in 0..setup.balls() {
         let force = over_angle(&|rest| rest.balls.get(ball).map_or(f64::NAN, |ball| ball.inner));
         if force.iter().any(|force| *force > 0.0) {
-            let curve = Curve::new(
-                format!("ball {ball}"),
-                Abscissa::Points(turned.clone()),
-                force,
-            );
+            let curve = Curve::new(format!("ball {ball}"), Abscissa::Points(turned.clone()), force);
             forces = forces.curve(curve);
         }
     }

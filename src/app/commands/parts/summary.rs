@@ -48,11 +48,6 @@ impl<'a> CheckSummary<'a> {
     #[must_use]
     pub fn of(checks: &'a [Check]) -> Vec<Self> {
         let checks = checks.iter();
-        checks
-            .map(|check| Self {
-                check,
-                ok: check.ok(),
-            })
-            .collect()
+        checks.map(|check| Self { check, ok: check.ok() }).collect()
     }
 }

@@ -19,22 +19,10 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![
-        Fact::new(
-            "Ring",
-            format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof()),
-        ),
-        Fact::new(
-            "Node radius",
-            format!("{} mm", significant(section.radius * 1e3, 5)),
-        ),
-        Fact::new(
-            "Bending stiffness EI",
-            format!("{} N m^2", significant(section.bending, 4)),
-        ),
-        Fact::new(
-            "Mass per length",
-            format!("{} kg/m", significant(section.mass, 4)),
-        ),
+        Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
+        Fact::new("Node radius", format!("{} mm", significant(section.radius * 1e3, 5))),
+        Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
+        Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
     ];
     if let Some(asked) = &case.ring {
         facts.push(Fact::new(
@@ -51,16 +39,10 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
         ));
     }
     if let Some(imported) = &stage.imported {
-        facts.push(Fact::new(
-            "Superelement",
-            imported.path.display().to_string(),
-        ));
+        facts.push(Fact::new("Superelement", imported.path.display().to_string()));
         facts.push(Fact::new(
             "Its coordinates",
-            format!(
-                "{} ring displacements and {} modes",
-                imported.element.interface_dof, stage.fixed_interface_modes
-            ),
+            format!("{} ring displacements and {} modes", imported.element.interface_dof, stage.fixed_interface_modes),
         ));
     }
     if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
@@ -114,9 +96,7 @@ pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: Option<&LoadedModes>) -> T
     let rows = LISTED_MODES.min(unloaded_hz.len().max(listed.len()));
     let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value)).value(100.0 * value);
     for row in 0..rows {
-        let unloaded = unloaded_hz
-            .get(row)
-            .map_or_else(|| Cell::text(""), |&hz| Cell::number(hz, 5));
+        let unloaded = unloaded_hz.get(row).map_or_else(|| Cell::text(""), |&hz| Cell::number(hz, 5));
         let mut cells = vec![Cell::text((row + 1).to_string()), unloaded];
         match listed.get(row) {
             Some(mode) => cells.extend([
@@ -131,7 +111,10 @@ pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: Option<&LoadedModes>) -> T
     }
     let mut notes = Vec::new();
     if loaded.is_some() {
-        notes.push("Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes.".to_owned());
+        notes.push(
+            "Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes."
+                .to_owned(),
+        );
     }
     if let Some(loaded) = loaded.filter(|loaded| loaded.without_stiffness > 0) {
         notes.push(format!(
@@ -166,13 +149,10 @@ pub(crate) fn expected_table(expected: &[ExpectedMode]) -> Table {
     );
     for row in expected {
         let verdict = Verdict::of(row.ok);
-        let found = row
-            .found_hz
-            .map_or_else(|| Cell::text("none"), |hz| Cell::number(hz, 5));
-        let difference = row.relative_error.map_or_else(
-            || Cell::text(""),
-            |error| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error),
-        );
+        let found = row.found_hz.map_or_else(|| Cell::text("none"), |hz| Cell::number(hz, 5));
+        let difference = row
+            .relative_error
+            .map_or_else(|| Cell::text(""), |error| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error));
         table = table.row([
             Cell::text(&row.what),
             Cell::number(row.hz, 5),
@@ -218,10 +198,7 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             list.push("Balls without inertia in the transient: each stands where its contacts, weight and centrifugal load balance; loaded frequencies keep their mass.".to_owned());
         }
         if setup.contact_damping > 0.0 {
-            list.push(format!(
-                "Contact damping (Hunt-Crossley) {} s/m.",
-                significant(setup.contact_damping, 4)
-            ));
+            list.push(format!("Contact damping (Hunt-Crossley) {} s/m.", significant(setup.contact_damping, 4)));
         }
         if !setup.race_defects.is_empty() || !setup.flats.is_empty() {
             list.push("Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.".to_owned());
@@ -230,17 +207,16 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             list.push("Waves of the races are long beside the patch of a contact: one contact a ball, with the stiffness of the undamaged race.".to_owned());
         }
         if !setup.oversizes.is_empty() {
-            list.push("Balls of different size have the mass and the contact stiffness of the nominal ball.".to_owned());
+            list.push(
+                "Balls of different size have the mass and the contact stiffness of the nominal ball.".to_owned(),
+            );
         }
         if !setup.flats.is_empty() {
             list.push("A ball turns about its own axis as by pure rolling, whatever the cage's slip; where a race is damaged the ball's flat is not felt.".to_owned());
         }
     }
     if let Some(damping) = &case.damping {
-        list.push(format!(
-            "Damping of ring and housing: {}.",
-            damping_words(damping)
-        ));
+        list.push(format!("Damping of ring and housing: {}.", damping_words(damping)));
     }
     if let Some(ring) = &case.ring {
         if ring.sections.len() > 1 {

@@ -60,10 +60,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, Compute
 ///
 /// # Errors
 /// As [`compute_run`].
-pub fn explain_run(
-    case: &Case,
-    watch: &impl Watch,
-) -> Result<(ModelChoice, Vec<String>), ComputeError> {
+pub fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<String>), ComputeError> {
     let run = case.for_run()?;
     let scene = Scene::build(run, watch)?;
     let choice = ModelChoice::of_case(run, &scene)?;
@@ -81,24 +78,14 @@ pub fn compute_kept_run<K: Keeper>(
     keeper: &mut K,
 ) -> Result<RunResult<K::Record>, ComputeError> {
     let run = case.for_run()?;
-    let RunCase {
-        transient: asked, ..
-    } = run;
+    let RunCase { transient: asked, .. } = run;
     let mut scene = Scene::build(run, watch)?;
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
-    let loaded = LoadedModes::at(
-        &scene.stage.structure,
-        &scene.stage.modes,
-        &scene.setup,
-        &scene.equilibrium,
-    )?;
+    let loaded = LoadedModes::at(&scene.stage.structure, &scene.stage.modes, &scene.setup, &scene.equilibrium)?;
     let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
-    let span = Span {
-        duration: asked.end - asked.start,
-        output_hz: asked.output_hz,
-    };
+    let span = Span { duration: asked.end - asked.start, output_hz: asked.output_hz };
     watch.stage("compare with a finer run");
     let horizon = Horizon::of(run, &scene, &choice);
     watch.stage("step");
@@ -107,12 +94,7 @@ pub fn compute_kept_run<K: Keeper>(
     let told = |done| watch.fraction(done);
     let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
     let mut result = RunResult {
-        warnings: [
-            scene.doubts.clone(),
-            choice.warnings(),
-            energy_warning(simulation.energy.as_ref()),
-        ]
-        .concat(),
+        warnings: [scene.doubts.clone(), choice.warnings(), energy_warning(simulation.energy.as_ref())].concat(),
         scene,
         statics,
         choice,
@@ -186,14 +168,8 @@ impl<R: Recording> RunResult<R> {
             "estimated error of the signals in the band: {} of their RMS (target {}{}), {}",
             significant(error, 2),
             significant(choice.target, 2),
-            if error > choice.target {
-                ", missed"
-            } else {
-                ""
-            },
-            horizon
-                .as_deref()
-                .unwrap_or("while nearby solutions stay together"),
+            if error > choice.target { ", missed" } else { "" },
+            horizon.as_deref().unwrap_or("while nearby solutions stay together"),
         )
     }
 
@@ -305,13 +281,8 @@ mod tests {
         };
         for method in ["newmark", "generalized-alpha"] {
             let result = dented(method);
-            assert!(
-                matches!(result.simulation.end, RunEnd::Complete),
-                "{:?}",
-                result.simulation.end
-            );
-            let solves = result.simulation.statistics.solves as f64
-                / result.simulation.statistics.steps as f64;
+            assert!(matches!(result.simulation.end, RunEnd::Complete), "{:?}", result.simulation.end);
+            let solves = result.simulation.statistics.solves as f64 / result.simulation.statistics.steps as f64;
             let (found, expected) = (peak(&result), peak(&expected));
             println!("{method}: {solves:.2} solves a step, {found:.3} N, {expected:.3} N");
             assert!(solves < 3.0, "{method}: {solves}");
@@ -326,15 +297,9 @@ mod tests {
     fn a_blow_up_names_a_step_that_holds_and_leaves_the_instants_before() {
         for method in ["exponential", "exponential-adams"] {
             let with_step = |step: f64| {
-                let [method, step] = [format!("method={method}"), format!("step={step:e}")]
-                    .map(|key| format!("transient.{key}"));
-                smooth(&[
-                    &method,
-                    &step,
-                    "transient.output_hz=1e5",
-                    "transient.end=2e-3",
-                ])
-                .simulation
+                let [method, step] =
+                    [format!("method={method}"), format!("step={step:e}")].map(|key| format!("transient.{key}"));
+                smooth(&[&method, &step, "transient.output_hz=1e5", "transient.end=2e-3"]).simulation
             };
             let far_too_long = with_step(1e-5);
             let RunEnd::BlewUp(blow_up) = &far_too_long.end else {
@@ -347,20 +312,14 @@ mod tests {
             // what was good until then is there: the rows whose low-pass does not reach beyond it
             let good = usize::try_from(blow_up.good_intervals).unwrap();
             let instants = far_too_long.record.time_s.len();
-            assert!(
-                instants <= good && instants + 15 >= good,
-                "{instants} {good}"
-            );
+            assert!(instants <= good && instants + 15 >= good, "{instants} {good}");
             assert!(matches!(with_step(0.5 * limit).end, RunEnd::Complete));
         }
     }
 
     #[test]
     fn structural_damping_is_refused_before_anything_is_computed() {
-        let (lossy, nowhere) = (
-            "materials.aluminium.loss_factor=0.01",
-            "housing.mesh=nowhere.msh",
-        );
+        let (lossy, nowhere) = ("materials.aluminium.loss_factor=0.01", "housing.mesh=nowhere.msh");
         assert_eq!(
             message(&[lossy, nowhere]),
             "materials.aluminium: loss_factor = 0.01 is structural damping, which has a meaning for harmonic motion alone (frf); a run steps through time: leave the key out and give [damping]"

@@ -26,11 +26,7 @@ pub trait Keeper {
     ///
     /// # Errors
     /// [`ComputeError`] if it cannot be opened.
-    fn open(
-        &mut self,
-        sensors: Vec<String>,
-        balls: usize,
-    ) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
 
     /// Asked after every output interval.
     fn wish(&mut self) -> Wish;
@@ -39,12 +35,7 @@ pub trait Keeper {
     ///
     /// # Errors
     /// [`ComputeError`] if it cannot be written.
-    fn keep(
-        &mut self,
-        record: &Self::Record,
-        t: f64,
-        snapshot: &Snapshot,
-    ) -> Result<(), ComputeError>;
+    fn keep(&mut self, record: &Self::Record, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError>;
 
     /// The stepping has ended.
     fn close(&mut self);
@@ -57,11 +48,7 @@ pub struct InMemory;
 impl Keeper for InMemory {
     type Record = RunRecord;
 
-    fn open(
-        &mut self,
-        sensors: Vec<String>,
-        balls: usize,
-    ) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
         Ok((RunRecord::blank(sensors, balls), None))
     }
 
@@ -88,9 +75,7 @@ pub(crate) fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4]
     }
     let mut words = [0; 4];
     for (word, bytes) in words.iter_mut().zip(hasher.finalize().chunks_exact(8)) {
-        *word = bytes
-            .iter()
-            .fold(0, |word, &byte| word << 8 | u64::from(byte));
+        *word = bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
     }
     words
 }

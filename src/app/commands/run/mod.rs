@@ -19,6 +19,5 @@ pub use report::run_report;
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
 pub use summary::{
-    DefectOrdersSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary,
-    OtherEquilibrium, RunSummary,
+    DefectOrdersSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary,
 };

@@ -14,9 +14,7 @@ use crate::app::commands::parts::statics_report::statics_section;
 use crate::app::commands::parts::tables::{expected_table, mode_table};
 use crate::app::commands::parts::{assumptions, model_facts};
 use crate::app::error::ComputeError;
-use crate::report::{
-    Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant,
-};
+use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant};
 use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
@@ -26,18 +24,12 @@ const LISTED_MODES: usize = 20;
 ///
 /// # Errors
 /// [`ComputeError`] if a signal cannot be shown.
-pub fn run_report<R: Recording>(
-    case: &Case,
-    result: &RunResult<R>,
-    command: &str,
-) -> Result<Report, ComputeError> {
+pub fn run_report<R: Recording>(case: &Case, result: &RunResult<R>, command: &str) -> Result<Report, ComputeError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
     let windows = result.windows.iter();
     let name = case.source.path.display().to_string();
-    let rows: Vec<AnalysisRow> = windows
-        .map(|window| AnalysisRow::of(&name, window))
-        .collect();
+    let rows: Vec<AnalysisRow> = windows.map(|window| AnalysisRow::of(&name, window)).collect();
     let few = rows.len() <= SHOWN_WINDOWS;
     report = match few {
         true => verdict_headlines(report, &result.windows),
@@ -54,24 +46,21 @@ pub fn run_report<R: Recording>(
         report = report.warning(text);
     }
     if few {
-        report
-            .sections
-            .extend(result.windows.iter().map(window_section));
+        report.sections.extend(result.windows.iter().map(window_section));
     } else {
         let instead = "`plummer analyze FOLDER --channel NAME` shows one sensor's.";
         report = report.section(verdicts(&rows, instead));
     }
     report = report.section(signals(result)?);
     let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
-    report
-        .sections
-        .extend(scalograms.map(SensorScalogram::section));
+    report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
-    report = report.section(
-        Section::new("Model")
-            .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
-            .facts(model_facts(case, &result.scene.stage, true)),
-    );
+    report =
+        report.section(
+            Section::new("Model")
+                .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
+                .facts(model_facts(case, &result.scene.stage, true)),
+        );
     report = report.section(
         Section::new("What was modelled, and why")
             .paragraph(format!("{}.", capital(&result.estimate_sentence())))
@@ -100,11 +89,7 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
         format!("{} s", significant(result.simulation.simulated_s, 4)),
         Verdict::of(complete && result.distrust().is_none()),
     );
-    report = report.headline(
-        "Real-time factor",
-        significant(result.simulation.realtime_factor(), 3),
-        Verdict::None,
-    );
+    report = report.headline("Real-time factor", significant(result.simulation.realtime_factor(), 3), Verdict::None);
     if let Some(window) = result.windows.first() {
         report = report.headline(
             format!("{} peak, {}-{} s", window.sensor, window.from, window.to),
@@ -118,10 +103,7 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
         for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
             if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
                 report = report.headline(
-                    format!(
-                        "Envelope line at {harmonic} x outer race ({} Hz)",
-                        significant(expected, 4)
-                    ),
+                    format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
                     format!("{} Hz", significant(hz, 4)),
                     Verdict::of((hz / expected - 1.0).abs() <= 0.03),
                 );
@@ -155,13 +137,9 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
             Ok(())
         })?;
         section = section.plot(
-            Plot::new(
-                format!("Acceleration at {name}"),
-                Axis::new("Time", "s"),
-                Axis::new("Acceleration", "m/s^2"),
-            )
-            .curve(Curve::of_thinned(name, grid, thinner))
-            .caption("Drag to zoom, double click to reset."),
+            Plot::new(format!("Acceleration at {name}"), Axis::new("Time", "s"), Axis::new("Acceleration", "m/s^2"))
+                .curve(Curve::of_thinned(name, grid, thinner))
+                .caption("Drag to zoom, double click to reset."),
         );
     }
     Ok(section)
@@ -169,18 +147,13 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
 
 fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let modes = &result.scene.stage.modes;
-    let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES))
-        .map(|mode| modes.frequency_hz(mode))
-        .collect();
+    let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES)).map(|mode| modes.frequency_hz(mode)).collect();
     let expected: Vec<ExpectedMode> = case
         .modes
         .expected
         .iter()
         .map(|expected| {
-            let found_hz = result
-                .loaded
-                .nearest(expected.hz)
-                .map(|mode| mode.frequency_hz);
+            let found_hz = result.loaded.nearest(expected.hz).map(|mode| mode.frequency_hz);
             let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
             ExpectedMode {
                 hz: expected.hz,
@@ -201,55 +174,28 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
     let energy = result.simulation.energy.map(|energy| {
-        let [input, taken, stored, error] = [
-            energy.input_j(),
-            energy.dissipated_j(),
-            energy.stored_j,
-            energy.error().abs(),
-        ]
-        .map(|value| significant(value, 2));
+        let [input, taken, stored, error] =
+            [energy.input_j(), energy.dissipated_j(), energy.stored_j, energy.error().abs()]
+                .map(|value| significant(value, 2));
         Fact::new("Energy that does not add up", error).note(format!(
             "of all that was exchanged: {input} J came in, {taken} J were damped, {stored} J more are stored"
         ))
     });
     let mut facts = vec![
         Fact::new("Method", result.simulation.method.name()),
-        Fact::new(
-            "Step",
-            format!("{} s", significant(result.simulation.step_s(), 4)),
-        ),
+        Fact::new("Step", format!("{} s", significant(result.simulation.step_s(), 4))),
         Fact::new("Steps", result.simulation.statistics.steps.to_string()),
-        Fact::new(
-            "Kept modes",
-            format!(
-                "{} of {}",
-                result.simulation.modes,
-                result.scene.stage.structure.dof()
-            ),
-        )
-        .note(if result.simulation.residual {
-            "the others by their static residual"
-        } else {
-            "without static residual"
-        }),
-        Fact::new(
-            "Wall time of the stepping",
-            format!("{} s", significant(result.simulation.stepping_s, 3)),
+        Fact::new("Kept modes", format!("{} of {}", result.simulation.modes, result.scene.stage.structure.dof())).note(
+            if result.simulation.residual { "the others by their static residual" } else { "without static residual" },
         ),
-        Fact::new(
-            "Real-time factor",
-            significant(result.simulation.realtime_factor(), 3),
-        )
-        .note("simulated time over wall time"),
+        Fact::new("Wall time of the stepping", format!("{} s", significant(result.simulation.stepping_s, 3))),
+        Fact::new("Real-time factor", significant(result.simulation.realtime_factor(), 3))
+            .note("simulated time over wall time"),
         Fact::new(
             "Time per step",
             format!(
                 "{} \u{b5}s",
-                significant(
-                    1e6 * result.simulation.stepping_s
-                        / result.simulation.statistics.steps.max(1) as f64,
-                    3
-                )
+                significant(1e6 * result.simulation.stepping_s / result.simulation.statistics.steps.max(1) as f64, 3)
             ),
         ),
     ];
@@ -280,20 +226,15 @@ mod tests {
         };
         let plots = |sections: &[Section]| {
             let blocks = sections.iter().flat_map(|section| &section.blocks);
-            blocks
-                .filter(|block| matches!(block, Block::Plot(_)))
-                .count()
+            blocks.filter(|block| matches!(block, Block::Plot(_))).count()
         };
-        let titled = |sections: &[Section], title: &str| {
-            sections.iter().any(|section| section.title == title)
-        };
+        let titled = |sections: &[Section], title: &str| sections.iter().any(|section| section.title == title);
         let (few, many) = (sections(SHOWN_WINDOWS), sections(SHOWN_WINDOWS + 1));
         assert!(!titled(&few, "Verdicts") && titled(&many, "Verdicts"));
         assert!(plots(&few) > 2 * SHOWN_WINDOWS && plots(&many) < plots(&few));
         let said = many.iter().flat_map(|section| &section.blocks);
-        let said = said.filter(|block| {
-            matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors"))
-        });
+        let said = said
+            .filter(|block| matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors")));
         assert_eq!(said.count(), 1);
     }
 

@@ -50,11 +50,7 @@ impl SensorScalogram {
         let stretch = simulation.stretch(index, TimeWindow { from, to }, margin_s)?;
         let samples = (to - from) / stretch.step_s();
         let transform = WaveletTransform {
-            frequencies: FrequencyAxis::Logarithmic {
-                from_hz,
-                to_hz,
-                count: FREQUENCIES,
-            },
+            frequencies: FrequencyAxis::Logarithmic { from_hz, to_hz, count: FREQUENCIES },
             cycles: window.cycles,
             decimation: (samples / INSTANTS).ceil().max(1.0) as usize,
         };
@@ -139,15 +135,9 @@ mod tests {
         assert_eq!(scalogram.amplitude.len(), 200 * scalogram.time_s.len());
         // what is read begins in the run, three wavelets long: both cones are outside but for the lowest frequencies
         let signal = result.simulation.signal(0).unwrap();
-        let largest = signal
-            .values()
-            .iter()
-            .fold(0.0_f64, |most, v| most.max(v.abs()));
+        let largest = signal.values().iter().fold(0.0_f64, |most, v| most.max(v.abs()));
         let most = scalogram.amplitude.iter().copied().fold(0.0, f64::max);
-        assert!(
-            most > 0.05 * largest && most < 2.0 * largest,
-            "{most} of {largest}"
-        );
+        assert!(most > 0.05 * largest && most < 2.0 * largest, "{most} of {largest}");
         let section = of_sensor.section();
         assert_eq!(section.title, "Scalogram of P1");
     }

@@ -138,9 +138,7 @@ impl<R: Recording> Simulation<R> {
     ) -> Result<Self, ComputeError> {
         let start_s = state.t;
         let mut schedule = Schedule::covering(span.duration, 1.0 / span.output_hz, model.step)?;
-        let wanted = usize::try_from(schedule.intervals)
-            .unwrap_or(usize::MAX)
-            .saturating_add(1);
+        let wanted = usize::try_from(schedule.intervals).unwrap_or(usize::MAX).saturating_add(1);
         let (ratio, step) = (schedule.steps_per_interval, schedule.step());
         let recorder = Recorder::new(&system, ratio, step, wanted)?;
         schedule.intervals += recorder.intervals_past_the_end();
@@ -201,12 +199,7 @@ impl<R: Recording> Simulation<R> {
     ///
     /// # Errors
     /// [`ComputeError::Series`] for a window that is not in the record, and what reading it returns.
-    pub fn stretch(
-        &self,
-        sensor: usize,
-        window: TimeWindow,
-        margin_s: f64,
-    ) -> Result<TimeSeries, ComputeError> {
+    pub fn stretch(&self, sensor: usize, window: TimeWindow, margin_s: f64) -> Result<TimeSeries, ComputeError> {
         let (rows, step) = (self.record.rows(), self.schedule.interval);
         if rows == 0 {
             return Err(SeriesError::Empty.into());
@@ -217,11 +210,10 @@ impl<R: Recording> Simulation<R> {
         let first = (position(window.from - margin_s).floor() - 1.0).max(0.0) as usize;
         let end = (position(window.to + margin_s).ceil() + 1.0).max(0.0) as usize;
         let mut values = Vec::new();
-        self.record
-            .read(Column::Sensor(sensor), first..end, &mut |piece| {
-                values.extend_from_slice(piece);
-                Ok(())
-            })?;
+        self.record.read(Column::Sensor(sensor), first..end, &mut |piece| {
+            values.extend_from_slice(piece);
+            Ok(())
+        })?;
         let start_s = self.start_s + first as f64 * step;
         Ok(TimeSeries::new(start_s, step, UNIT, values)?)
     }
@@ -295,10 +287,7 @@ impl<R: Recording> Stepping<R> {
                 Wish::Stop if integration.is_complete() => {}
                 Wish::Stop => {
                     self.keep(integration, keeper)?;
-                    return Err(ComputeError::Interrupted {
-                        at_s: integration.state().t,
-                        end_s: self.end_s,
-                    });
+                    return Err(ComputeError::Interrupted { at_s: integration.state().t, end_s: self.end_s });
                 }
             }
         }

@@ -9,9 +9,7 @@ use crate::app::error::ComputeError;
 use crate::app::error::UnfinishedError;
 use crate::app::scene::{Scene, bearing_setup};
 use crate::numerics::Unwatched;
-use crate::numerics::ode::{
-    Method, Schedule, Statistics, Stepping as Going, TransientError, integrate,
-};
+use crate::numerics::ode::{Method, Schedule, Statistics, Stepping as Going, TransientError, integrate};
 use crate::numerics::ode::{NoRecord, Snapshot};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::Kinematics;
@@ -29,11 +27,7 @@ struct Stops {
 impl Keeper for Stops {
     type Record = RunRecord;
 
-    fn open(
-        &mut self,
-        sensors: Vec<String>,
-        balls: usize,
-    ) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
         self.intervals = 0;
         Ok(match self.kept.take() {
             Some((record, snapshot)) => (record, Some(snapshot)),
@@ -54,12 +48,7 @@ impl Keeper for Stops {
         }
     }
 
-    fn keep(
-        &mut self,
-        record: &RunRecord,
-        _: f64,
-        snapshot: &Snapshot,
-    ) -> Result<(), ComputeError> {
+    fn keep(&mut self, record: &RunRecord, _: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         // through words, as a file has them
         let words = snapshot.words().to_vec();
         self.kept = Some((record.clone(), Snapshot::from_words(words)));
@@ -89,14 +78,7 @@ const DENTED: [&str; 2] = [
 #[test]
 fn a_run_that_stops_and_goes_on_gives_the_bits_of_one_that_does_not() {
     let with_inertia = [&["transient.end=3e-4"], &DENTED[..]].concat();
-    let without = [
-        &with_inertia[..],
-        &[
-            "bearing.balls_inertia='quasi-static'",
-            "bearing.contact_damping=0",
-        ],
-    ]
-    .concat();
+    let without = [&with_inertia[..], &["bearing.balls_inertia='quasi-static'", "bearing.contact_damping=0"]].concat();
     let methods: &[&[&str]] = &[
         &["exponential", "step=1.3e-7"],
         &["exponential-adams", "step=1.3e-7"],
@@ -131,17 +113,11 @@ fn goes_on_as_if_it_had_not_stopped(scene: &Scene, case: &Case) -> bool {
     let (run, set) = (case.for_run().unwrap(), &case.source.set);
     let asked = run.transient;
     let model = ModelChoice::of_case(run, scene).unwrap().model;
-    let span = Span {
-        duration: asked.end - asked.start,
-        output_hz: asked.output_hz,
-    };
+    let span = Span { duration: asked.end - asked.start, output_hz: asked.output_hz };
     let whole = Simulation::kept_from_rest(scene, &model, span, true, &mut InMemory, |_| {});
     let whole = whole.unwrap();
     assert!(matches!(whole.end, RunEnd::Complete), "{set:?}");
-    let mut stops = Stops {
-        after: vec![31, 14, 2, 1, 9],
-        ..Stops::default()
-    };
+    let mut stops = Stops { after: vec![31, 14, 2, 1, 9], ..Stops::default() };
     let mut parts = 1;
     let gone_on = loop {
         match Simulation::kept_from_rest(scene, &model, span, true, &mut stops, |_| {}) {
@@ -172,24 +148,15 @@ fn a_run_of_another_model_does_not_go_on() {
         let asked = run.transient;
         let scene = Scene::build(run, &Unwatched).unwrap();
         let model = ModelChoice::of_case(run, &scene).unwrap().model;
-        let span = Span {
-            duration: 1e-4,
-            output_hz: asked.output_hz,
-        };
+        let span = Span { duration: 1e-4, output_hz: asked.output_hz };
         Simulation::kept_from_rest(&scene, &model, span, true, stops, |_| {}).unwrap_err()
     };
-    let mut stops = Stops {
-        after: vec![5],
-        ..Stops::default()
-    };
+    let mut stops = Stops { after: vec![5], ..Stops::default() };
     let error = stopped(&[], &mut stops);
     assert!(matches!(error, ComputeError::Interrupted { .. }), "{error}");
     assert!(!error.is_input());
     let error = stopped(&["shaft.mass=0.15000000000000002"], &mut stops);
-    assert!(
-        matches!(error, ComputeError::Unfinished(UnfinishedError::Model)),
-        "{error}"
-    );
+    assert!(matches!(error, ComputeError::Unfinished(UnfinishedError::Model)), "{error}");
     assert!(error.is_input());
 }
 
@@ -217,26 +184,16 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
         };
         let record: &dyn Recording = &on_disk.simulation.record;
         record.read(column, 0..record.rows(), &mut take).unwrap();
-        assert_eq!(
-            values,
-            in_memory.simulation.record.column(column),
-            "{column:?}"
-        );
+        assert_eq!(values, in_memory.simulation.record.column(column), "{column:?}");
     }
     let windows = |result: &[WindowAnalysis]| format!("{result:?}");
     assert_eq!(windows(&on_disk.windows), windows(&in_memory.windows));
     assert_eq!(on_disk.windows.len(), 1);
     let text = |report: crate::report::Report| {
         let html = report.to_html().unwrap();
-        html.split("application/json")
-            .nth(1)
-            .unwrap_or_default()
-            .to_owned()
+        html.split("application/json").nth(1).unwrap_or_default().to_owned()
     };
-    assert!(
-        text(run_report(&case, &on_disk, "").unwrap())
-            == text(run_report(&case, &in_memory, "").unwrap())
-    );
+    assert!(text(run_report(&case, &on_disk, "").unwrap()) == text(run_report(&case, &in_memory, "").unwrap()));
     assert!(UnfinishedRun::is_in(&path));
     // the end is a checkpoint too: what is left to do is to analyse
     let mut unfinished = UnfinishedRun::resume(&path, identity()).unwrap();
@@ -278,18 +235,12 @@ fn a_stretch_is_a_part_of_the_signal_with_its_instants() {
     let whole = simulation.signal(0).unwrap();
     assert!(part.start_s() <= 2.003 && part.end_s() >= 2.006);
     assert!(part.values().len() <= 305);
-    assert_eq!(
-        part.window(2.004, 2.005).unwrap().values(),
-        whole.window(2.004, 2.005).unwrap().values()
-    );
+    assert_eq!(part.window(2.004, 2.005).unwrap().values(), whole.window(2.004, 2.005).unwrap().values());
     // more before and after than there is
     let all = simulation.stretch(0, window(2.004, 2.005), 1.0).unwrap();
     assert_eq!(all.values(), whole.values());
     let error = simulation.stretch(0, window(2.004, 2.02), 1e-3);
-    assert_eq!(
-        error.unwrap_err().to_string(),
-        whole.window(2.004, 2.02).unwrap_err().to_string()
-    );
+    assert_eq!(error.unwrap_err().to_string(), whole.window(2.004, 2.02).unwrap_err().to_string());
 }
 
 #[test]
@@ -301,19 +252,12 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     let values = (0..100_000).map(|k| {
         let t = f64::from(k) * 1e-5;
         let since = t - (t * 55.0).floor() / 55.0;
-        30.0 * (TAU * 300.3 * t).sin()
-            + 100.0 * (-515.0 * since).exp() * (TAU * 8200.0 * since).sin()
+        30.0 * (TAU * 300.3 * t).sin() + 100.0 * (-515.0 * since).exp() * (TAU * 8200.0 * since).sin()
     });
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
         let settings = AnalysisSettings::of(&case);
-        let mut windows = analyse(
-            "P1",
-            &settings,
-            read,
-            &Kinematics::of(&setup.cage, &setup.geometry),
-        )
-        .unwrap();
+        let mut windows = analyse("P1", &settings, read, &Kinematics::of(&setup.cage, &setup.geometry)).unwrap();
         windows.remove(0).spectrum.amplitude
     };
     let part = analysed(&|window, margin| simulation.stretch(0, window, margin));
@@ -336,26 +280,12 @@ fn a_run_is_stable_up_to_the_limit_that_a_blow_up_names() {
     let model = ModelChoice::of_case(run, &scene).unwrap().model;
     let mut system = scene.system(&model).unwrap();
     let rest = scene.at_rest(&system);
-    for method in [
-        Method::ExponentialAdams { tolerance: None },
-        Method::Exponential,
-    ] {
+    for method in [Method::ExponentialAdams { tolerance: None }, Method::Exponential] {
         let mut run = |h: f64| {
-            let schedule = Schedule {
-                interval: 6.0 * h,
-                steps_per_interval: 6,
-                intervals: 300,
-            };
+            let schedule = Schedule { interval: 6.0 * h, steps_per_interval: 6, intervals: 300 };
             let mut state = rest.clone();
             let on = |_, _| Going::Continue;
-            integrate(
-                &mut system,
-                method,
-                &schedule,
-                &mut state,
-                &mut NoRecord,
-                on,
-            )
+            integrate(&mut system, method, &schedule, &mut state, &mut NoRecord, on)
         };
         let Err(TransientError::BlewUp(blow_up)) = run(1.4e-6) else {
             panic!("1.4e-6 s is too long for {method:?}");

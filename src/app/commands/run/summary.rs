@@ -151,12 +151,7 @@ impl ModelChoice {
     /// What `plummer run --explain --json` says of it, with warnings.
     #[must_use]
     pub fn summary<'a>(&'a self, warnings: &'a [String]) -> ExplainSummary<'a> {
-        ExplainSummary {
-            command: "run --explain",
-            parts: &self.parts,
-            estimated_error: self.estimated_error,
-            warnings,
-        }
+        ExplainSummary { command: "run --explain", parts: &self.parts, estimated_error: self.estimated_error, warnings }
     }
 }
 
@@ -217,12 +212,7 @@ impl<R: Recording> RunResult<R> {
 
 impl EnergySummary {
     fn of(flows: EnergyBalance) -> Self {
-        Self {
-            input: flows.input_j(),
-            dissipated: flows.dissipated_j(),
-            balance_error: flows.error(),
-            flows,
-        }
+        Self { input: flows.input_j(), dissipated: flows.dissipated_j(), balance_error: flows.error(), flows }
     }
 }
 

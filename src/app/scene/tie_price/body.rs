@@ -44,17 +44,9 @@ impl RingBody {
     ///
     /// # Errors
     /// [`NoTiePrice`] for a ring that one rectangle cannot stand for; [`ComputeError`] of its material.
-    pub fn of(
-        case: &Case,
-        asked: &case::Ring,
-        tie: &case::Tie,
-        housing: &AssembledHousing,
-    ) -> Result<Self, Stop> {
+    pub fn of(case: &Case, asked: &case::Ring, tie: &case::Tie, housing: &AssembledHousing) -> Result<Self, Stop> {
         let [section] = asked.sections.as_slice() else {
-            return Err(NoTiePrice::SeveralSections {
-                count: asked.sections.len(),
-            }
-            .into());
+            return Err(NoTiePrice::SeveralSections { count: asked.sections.len() }.into());
         };
         let layer = layer(case, section)?;
         let [height, width] = layer.rectangle();
@@ -71,10 +63,7 @@ impl RingBody {
             ));
         }
         if !asked.shear || !asked.rotary_inertia {
-            notes.push(
-                "The beams leave out shear or rotary inertia, which a body has: see the ring alone."
-                    .to_owned(),
-            );
+            notes.push("The beams leave out shear or rotary inertia, which a body has: see the ring alone.".to_owned());
         }
         let seat = Seat::of(&housing.mesh, &housing.model, tie)?;
         if housing.model.dimension() == 3 && seat.share_outside(width) > 1e-6 {
@@ -87,8 +76,7 @@ impl RingBody {
             radius,
             height,
             width,
-            around: ((SHORT * (radius / height).sqrt()).ceil() as usize)
-                .clamp(AROUND[0], AROUND[1]),
+            around: ((SHORT * (radius / height).sqrt()).ceil() as usize).clamp(AROUND[0], AROUND[1]),
             across: even(height / width, 4),
             along: even(width / height, 12),
         };
@@ -97,11 +85,7 @@ impl RingBody {
             // a section at each node, for its spring
             ring.around = ring.around.next_multiple_of(asked.nodes);
         }
-        Ok(Self {
-            ring,
-            material: layer.material,
-            notes,
-        })
+        Ok(Self { ring, material: layer.material, notes })
     }
 
     /// The material with which elements of the housing's plane model are those of a ring as wide as its section under
@@ -117,12 +101,7 @@ impl RingBody {
         let Some(plane) = plane else {
             return Ok(self.material);
         };
-        let Material {
-            young,
-            poisson,
-            density,
-            ..
-        } = self.material;
+        let Material { young, poisson, density, .. } = self.material;
         let (young, poisson) = match plane.assumption {
             PlaneAssumption::Stress => (young, poisson),
             PlaneAssumption::Strain => {
@@ -131,12 +110,8 @@ impl RingBody {
             }
         };
         let part = self.ring.width / plane.thickness;
-        Material::new(part * young, poisson, part * density).map_err(|source| {
-            ComputeError::Material {
-                name: "the solid ring's".to_owned(),
-                source,
-            }
-        })
+        Material::new(part * young, poisson, part * density)
+            .map_err(|source| ComputeError::Material { name: "the solid ring's".to_owned(), source })
     }
 }
 
@@ -146,18 +121,9 @@ fn even(sides: f64, most: usize) -> usize {
 }
 
 /// Radius of the section's centroid line: its own, or one that brings the outer face to the bore.
-fn placed(
-    layer: &RingLayer,
-    height: f64,
-    bore: f64,
-    notes: &mut Vec<String>,
-) -> Result<f64, NoTiePrice> {
+fn placed(layer: &RingLayer, height: f64, bore: f64, notes: &mut Vec<String>) -> Result<f64, NoTiePrice> {
     let gap = bore - (layer.radius + 0.5 * height);
-    let refused = NoTiePrice::Rectangle {
-        height_m: height,
-        outside_m: layer.radius + 0.5 * height,
-        bore_m: bore,
-    };
+    let refused = NoTiePrice::Rectangle { height_m: height, outside_m: layer.radius + 0.5 * height, bore_m: bore };
     if gap.abs() <= LARGEST_GAP * height {
         if gap.abs() > 1e-6 * bore {
             let side = if gap > 0.0 { "inside" } else { "outside" };
@@ -168,11 +134,7 @@ fn placed(
         }
         // also false for sizes that are no numbers
         let hollow = layer.radius > 0.5 * height;
-        return if hollow {
-            Ok(layer.radius)
-        } else {
-            Err(refused)
-        };
+        return if hollow { Ok(layer.radius) } else { Err(refused) };
     }
     let moved = layer.radius + gap;
     let fits = gap.abs() <= LARGEST_SHIFT * layer.radius && moved > 0.5 * height;
@@ -189,11 +151,7 @@ fn placed(
 }
 
 fn rectangular(layer: &RingLayer) -> RingLayer {
-    RingLayer {
-        axial_inertia: None,
-        torsion: None,
-        ..*layer
-    }
+    RingLayer { axial_inertia: None, torsion: None, ..*layer }
 }
 
 /// Whether what was given beyond area and second moment differs from the rectangle's by more than a thousandth.

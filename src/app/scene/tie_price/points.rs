@@ -33,11 +33,9 @@ impl Points {
 
     /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
     pub fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
-        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| {
-            match row % 3 < dimension {
-                true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
-                false => 0.0,
-            }
+        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
+            true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
+            false => 0.0,
         })
     }
 
@@ -53,12 +51,7 @@ impl Points {
 }
 
 /// Displacements of points of a ring's rigid sections, in the mesh's axes [3 points x modes].
-pub(crate) fn beam_shapes(
-    ring: &Ring,
-    frame: &RingFrame,
-    modes: &DenseMatrix,
-    points: &[[f64; 3]],
-) -> DenseMatrix {
+pub(crate) fn beam_shapes(ring: &Ring, frame: &RingFrame, modes: &DenseMatrix, points: &[[f64; 3]]) -> DenseMatrix {
     let mut shapes = DenseMatrix::zeros(3 * points.len(), modes.ncols());
     for (place, point) in points.iter().enumerate() {
         let [x, y, z] = frame.point(*point);
@@ -71,11 +64,7 @@ pub(crate) fn beam_shapes(
                 Some(rows) => rows.displacement_at(arm, z).map(|row| rows.apply(&row, d)),
                 None => {
                     let tangential = plane.tangential_at(arm);
-                    [
-                        plane.apply(&plane.radial, d),
-                        plane.apply(&tangential, d),
-                        0.0,
-                    ]
+                    [plane.apply(&plane.radial, d), plane.apply(&tangential, d), 0.0]
                 }
             };
             for axis in 0..3 {

@@ -20,8 +20,8 @@ use crate::fe::modal::FullModes;
 use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
 use crate::fe::modal::{Partner, partners};
 use crate::fe::model::{
-    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule,
-    PlaneModel, Ring, SpringStiffness, SupportShare,
+    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule, PlaneModel, Ring,
+    SpringStiffness, SupportShare,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
@@ -155,9 +155,7 @@ pub(crate) fn compared(
     })?;
     let solid = modes_of(&with_body, sought, watch)?;
     // the housing's own nodes come first in both, and the ring's after them
-    let of_housing = beams
-        .motions()
-        .housing(&housing.model, &beams.over_all_rows());
+    let of_housing = beams.motions().housing(&housing.model, &beams.over_all_rows());
     let of_ring = beams.motions().ring(&beams.over_all_rows());
     let of_solid = solid.motions().housing(&with_body, &solid.over_all_rows());
     let nodes = housing.mesh.nodes.len();
@@ -166,19 +164,12 @@ pub(crate) fn compared(
     let dimension = housing.model.dimension();
     let carried = beam_shapes(&ring, frame, &of_ring, &points.places[nodes..]);
     let of_beams =
-        DenseMatrix::from_fn(
-            3 * points.nodes.len(),
-            of_ring.ncols(),
-            |row, mode| match row.checked_sub(3 * nodes) {
-                Some(row) => carried[(row, mode)],
-                None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
-                None => 0.0,
-            },
-        );
-    let sets = [
-        points.set(&beams, of_beams),
-        points.set(&solid, points.shapes(&of_solid, dimension)),
-    ];
+        DenseMatrix::from_fn(3 * points.nodes.len(), of_ring.ncols(), |row, mode| match row.checked_sub(3 * nodes) {
+            Some(row) => carried[(row, mode)],
+            None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
+            None => 0.0,
+        });
+    let sets = [points.set(&beams, of_beams), points.set(&solid, points.shapes(&of_solid, dimension))];
     let mut notes = body.notes.clone();
     notes.extend(note_of_fit(asked_tie.fit));
     if ring.has_springs() {
@@ -218,10 +209,9 @@ pub(crate) fn joined(
     let dimension = model.dimension();
     let meshed = body.ring.added_to(mesh, model.frame(), dimension);
     let mut description = description;
-    description.parts.push(HousingPart {
-        group: meshed.body.clone(),
-        material: body.material_in(description.plane)?.into(),
-    });
+    description
+        .parts
+        .push(HousingPart { group: meshed.body.clone(), material: body.material_in(description.plane)?.into() });
     let outside = body.ring.radius + 0.5 * body.ring.height;
     let area = std::f64::consts::TAU * outside * body.ring.width;
     let connection = match tie.fit {
@@ -233,14 +223,9 @@ pub(crate) fn joined(
     };
     // the rectangle may reach into the housing by a small part of its height
     description.overlap = OverlapRule::Allow;
-    description.links.push(Link {
-        between: [meshed.outer_face.clone(), tie.group.clone()],
-        connection,
-    });
+    description.links.push(Link { between: [meshed.outer_face.clone(), tie.group.clone()], connection });
     let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(Stop::of_joint)?;
-    with_body
-        .attach_ring_springs(&meshed, ring)
-        .map_err(Stop::of_joint)?;
+    with_body.attach_ring_springs(&meshed, ring).map_err(Stop::of_joint)?;
     affordable(with_body.free_dofs().len())?;
     Ok((with_body, meshed))
 }
@@ -248,24 +233,16 @@ pub(crate) fn joined(
 pub(crate) fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
     match free_dof <= LARGEST {
         true => Ok(()),
-        false => Err(NoTiePrice::TooLarge {
-            free_dof,
-            limit: LARGEST,
-        }),
+        false => Err(NoTiePrice::TooLarge { free_dof, limit: LARGEST }),
     }
 }
 
 /// The lowest modes of a model of continuum elements.
-pub(crate) fn modes_of(
-    model: &HousingModel,
-    sought: usize,
-    watch: &impl Watch,
-) -> Result<FullModes, ComputeError> {
+pub(crate) fn modes_of(model: &HousingModel, sought: usize, watch: &impl Watch) -> Result<FullModes, ComputeError> {
     let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
     let mut modes = FullModes::lowest(matrices, sought, watch)?;
-    modes.sharpen(|motions: &CoupledMotions, all: &DenseMatrix| {
-        strain_products(model, &motions.housing(model, all))
-    })?;
+    modes
+        .sharpen(|motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all)))?;
     Ok(modes)
 }
 
@@ -280,10 +257,7 @@ pub(crate) fn ring_alone(
     watch: &impl Watch,
 ) -> Result<Vec<BeamAndSolid>, ComputeError> {
     let in_space = plane.is_none();
-    let free = case::Ring {
-        supports: Vec::new(),
-        ..asked.clone()
-    };
+    let free = case::Ring { supports: Vec::new(), ..asked.clone() };
     let beams = ring(case, &free, in_space)?;
     let sought = count + RIGID + MORE[0].max(count / MORE[1]);
     let mut of_beams = FullModes::lowest(CoupledMatrices::of_ring(&beams), sought, watch)?;
@@ -305,10 +279,7 @@ pub(crate) fn ring_alone(
     let model = HousingModel::new(
         &meshed.mesh,
         HousingDescription {
-            parts: vec![HousingPart {
-                group: meshed.body.clone(),
-                material: body.material_in(plane)?.into(),
-            }],
+            parts: vec![HousingPart { group: meshed.body.clone(), material: body.material_in(plane)?.into() }],
             plane,
             frame: *frame,
             ..HousingDescription::default()
@@ -318,10 +289,7 @@ pub(crate) fn ring_alone(
     let moved = solid.motions().housing(&model, &solid.over_all_rows());
     let points = Points::new(&meshed, section_nodes(&meshed));
     let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
-    let sets = [
-        points.set(&of_beams, on_beams),
-        points.set(&solid, points.shapes(&moved, dimension)),
-    ];
+    let sets = [points.set(&of_beams, on_beams), points.set(&solid, points.shapes(&moved, dimension))];
     side_by_side(&sets, of_beams.basis.rigid_modes, count)
 }
 

@@ -9,8 +9,7 @@ use crate::numerics::Unwatched;
 const STEEL: &str = "[materials.steel]\nyoung = 210e9\npoisson = 0.3\ndensity = 7850\n";
 
 /// The outer ring of the source's bearing (Table 1) in a bore of 6 mm.
-const SECTION: &str =
-    "{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }";
+const SECTION: &str = "{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }";
 
 /// A case beside the repository's meshes; `more` belongs to the ring.
 fn case(housing: &str, young: f64, sections: &str, more: &str) -> Case {
@@ -21,12 +20,8 @@ fn case(housing: &str, young: f64, sections: &str, more: &str) -> Case {
          parts = [{{ group = \"housing\", material = \"aluminium\" }}]\n\
          [ring]\nnodes = 72\nouter_radius = 6e-3\nsections = [{sections}]\n{more}\n"
     );
-    Case::from_source(Source {
-        path: format!("{root}/meshes/case.toml").into(),
-        text,
-        set: Vec::new(),
-    })
-    .expect("a case")
+    Case::from_source(Source { path: format!("{root}/meshes/case.toml").into(), text, set: Vec::new() })
+        .expect("a case")
 }
 
 const PLANE: &str = "mesh = \"ring_6_9_coarse.msh\"\nlength_unit = \"mm\"\n\
@@ -55,12 +50,7 @@ fn computed(case: &Case, count: usize) -> TieComparison {
 fn show(what: &str, found: &TieComparison) {
     println!(
         "{what}: {:.4e} x {:.4e} m at {:.4e} m, {} elements, free dof {:?}, rigid {:?}",
-        found.height_m,
-        found.width_m,
-        found.radius_m,
-        found.elements,
-        found.free_dof,
-        found.rigid_modes
+        found.height_m, found.width_m, found.radius_m, found.elements, found.free_dof, found.rigid_modes
     );
     found.notes.iter().for_each(|note| println!("  {note}"));
     for (name, modes) in [("in the bore", &found.modes), ("alone", &found.ring_alone)] {
@@ -160,10 +150,7 @@ fn a_sliding_ring_keeps_its_springs_and_its_freedom() {
     let slim = (found.height_m / found.radius_m).powi(2);
     let expected = ((1.0 + slim / 4.0) / (1.0 + slim / 12.0)).sqrt() - 1.0;
     // the next power of h / R is 5e-3 of it; the housing does not turn along
-    assert!(
-        (differences[2] / expected - 1.0).abs() < 1e-2,
-        "{differences:?} {expected}"
-    );
+    assert!((differences[2] / expected - 1.0).abs() < 1e-2, "{differences:?} {expected}");
     assert!(found.notes.iter().any(|note| note.contains("slides")));
     assert!(found.notes.iter().any(|note| note.contains("springs hold")));
 }
@@ -195,9 +182,5 @@ fn what_has_no_solid_counterpart_is_refused_with_its_reason() {
     assert_eq!(found, TiePrice::NotComputed(NoTiePrice::NoTie));
     assert_eq!(affordable(LARGEST), Ok(()));
     let too_large = affordable(LARGEST + 1).expect_err("too large");
-    assert!(
-        too_large
-            .to_string()
-            .contains("250001 degrees of freedom, more than 250000")
-    );
+    assert!(too_large.to_string().contains("250001 degrees of freedom, more than 250000"));
 }

@@ -37,11 +37,7 @@ pub(super) struct Family {
 
 /// The families that a chart tries; `frequencies_hz` are those of all modes, ascending, and `source` is the source paper's
 /// method as it is used there.
-pub(super) fn families(
-    settings: &Settings,
-    frequencies_hz: &[f64],
-    [chosen, source]: &[RunModel; 2],
-) -> Vec<Family> {
+pub(super) fn families(settings: &Settings, frequencies_hz: &[f64], [chosen, source]: &[RunModel; 2]) -> Vec<Family> {
     let all = (ModeSelection::All, false);
     let kept = |bands: f64, residual| (ModeSelection::UpTo(bands * settings.band_hz), residual);
     // the basis on which all methods are compared beside that of all modes
@@ -74,10 +70,7 @@ pub(super) fn families(
                 modes,
                 residual,
                 balls_inertia: BallsInertia::Dynamic,
-                method: Method::Dop853 {
-                    tolerance,
-                    events: true,
-                },
+                method: Method::Dop853 { tolerance, events: true },
                 // fine enough that nothing folds into the band
                 step: settings.interval() / 16.0,
             })
@@ -88,9 +81,7 @@ pub(super) fn families(
             .map(|tolerance| RunModel {
                 modes,
                 residual,
-                method: Method::ExponentialAdams {
-                    tolerance: Some(tolerance),
-                },
+                method: Method::ExponentialAdams { tolerance: Some(tolerance) },
                 ..*chosen
             })
             .to_vec(),
@@ -101,15 +92,8 @@ pub(super) fn families(
         families.extend(bases.iter().map(|&basis| fixed(method, basis)));
     }
     families.extend(bases.iter().map(|&basis| halved(basis)));
-    let alpha = Method::GeneralizedAlpha {
-        spectral_radius: SPECTRAL_RADIUS,
-    };
-    let others = [
-        Method::NewmarkExplicit,
-        Method::Newmark,
-        alpha,
-        Method::Splitting,
-    ];
+    let alpha = Method::GeneralizedAlpha { spectral_radius: SPECTRAL_RADIUS };
+    let others = [Method::NewmarkExplicit, Method::Newmark, alpha, Method::Splitting];
     families.extend(others.map(|method| fixed(method, usual)));
     families.push(by_tolerance(usual));
     if settings.effort == Effort::Full {
@@ -119,26 +103,16 @@ pub(super) fn families(
         families.push(implicit);
         families.push(by_tolerance(all));
         families.push(Family {
-            models: SOURCE_STEPS
-                .map(|times| RunModel {
-                    step: times * source.step,
-                    ..*source
-                })
-                .to_vec(),
+            models: SOURCE_STEPS.map(|times| RunModel { step: times * source.step, ..*source }).to_vec(),
         });
     } else {
-        families.push(Family {
-            models: vec![*source],
-        });
+        families.push(Family { models: vec![*source] });
     }
     families
 }
 
 /// Without those that keep the same modes as one before.
-fn distinct(
-    bases: Vec<(ModeSelection, bool)>,
-    frequencies_hz: &[f64],
-) -> Vec<(ModeSelection, bool)> {
+fn distinct(bases: Vec<(ModeSelection, bool)>, frequencies_hz: &[f64]) -> Vec<(ModeSelection, bool)> {
     let kept = |selection: &ModeSelection| match *selection {
         ModeSelection::All => frequencies_hz.len(),
         ModeSelection::Count(count) => count,
@@ -163,20 +137,15 @@ pub(super) fn model_name(model: &RunModel) -> String {
         ModeSelection::Count(count) => format!("{count} modes"),
         ModeSelection::UpTo(hz) => format!("modes up to {} kHz", hz / 1e3),
     };
-    if model.residual {
-        format!("{modes} + residual")
-    } else {
-        modes
-    }
+    if model.residual { format!("{modes} + residual") } else { modes }
 }
 
 /// What of a model is refined, and how far: `step_s` (s), or `tolerance`.
 pub fn parameter_of(model: &RunModel) -> (&'static str, f64) {
     match model.method {
-        Method::Dop853 { tolerance, .. }
-        | Method::ExponentialAdams {
-            tolerance: Some(tolerance),
-        } => ("tolerance", tolerance),
+        Method::Dop853 { tolerance, .. } | Method::ExponentialAdams { tolerance: Some(tolerance) } => {
+            ("tolerance", tolerance)
+        }
         _ => ("step_s", model.step),
     }
 }
@@ -189,17 +158,8 @@ mod tests {
     fn bases_that_keep_the_same_modes_are_tried_once() {
         let up_to = |hz, residual| (ModeSelection::UpTo(hz), residual);
         let all = (ModeSelection::All, false);
-        let bases = vec![
-            up_to(3.0, true),
-            all,
-            up_to(3.5, true),
-            up_to(3.5, false),
-            up_to(5.0, true),
-            up_to(5.0, false),
-        ];
-        assert_eq!(
-            distinct(bases, &[1.0, 3.0, 4.0]),
-            [up_to(3.0, true), all, up_to(3.5, false)]
-        );
+        let bases =
+            vec![up_to(3.0, true), all, up_to(3.5, true), up_to(3.5, false), up_to(5.0, true), up_to(5.0, false)];
+        assert_eq!(distinct(bases, &[1.0, 3.0, 4.0]), [up_to(3.0, true), all, up_to(3.5, false)]);
     }
 }

@@ -66,16 +66,8 @@ impl Chart {
 ///
 /// # Errors
 /// [`ChartError`]; a candidate that fails is no error but an omission.
-pub fn compute_chart(
-    run: RunCase<'_>,
-    effort: Effort,
-    watch: &(impl Watch + Sync),
-) -> Result<Chart, ChartError> {
-    let RunCase {
-        case,
-        transient: asked,
-        ..
-    } = run;
+pub fn compute_chart(run: RunCase<'_>, effort: Effort, watch: &(impl Watch + Sync)) -> Result<Chart, ChartError> {
+    let RunCase { case, transient: asked, .. } = run;
     let scene = Scene::with_all_modes(run, watch)?;
     let settings = Settings::of(run, effort)?;
     watch.stage("starts");
@@ -90,8 +82,7 @@ pub fn compute_chart(
     let automatic = chosen(&automatic(asked, case::Method::Auto))?;
     let source = chosen(&automatic_source(asked))?;
     watch.stage("points");
-    let (mut points, places) =
-        candidates(&scene, &reference, &settings, [automatic, source], watch);
+    let (mut points, places) = candidates(&scene, &reference, &settings, [automatic, source], watch);
     let [chosen, source] = places;
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
@@ -104,34 +95,13 @@ pub fn compute_chart(
     let over_all_starts = [chosen, source].map(|place| {
         let Point { model, error, .. } = &points[place];
         match error {
-            Ok(_) if settings.point_stride() > 1 => {
-                points::over_all_starts(&scene, model, &reference, &settings)
-            }
+            Ok(_) if settings.point_stride() > 1 => points::over_all_starts(&scene, model, &reference, &settings),
             known => known.clone(),
         }
     });
     watch.stage("statistics");
-    let statistics = statistics(
-        case,
-        &scene,
-        &reference,
-        &settings,
-        [&points[chosen], &points[source]],
-        places,
-        watch,
-    );
-    Ok(Chart {
-        scene,
-        settings,
-        starts,
-        reference,
-        points,
-        front,
-        chosen,
-        source,
-        over_all_starts,
-        statistics,
-    })
+    let statistics = statistics(case, &scene, &reference, &settings, [&points[chosen], &points[source]], places, watch);
+    Ok(Chart { scene, settings, starts, reference, points, front, chosen, source, over_all_starts, statistics })
 }
 
 /// What a case asks for with everything left to the program but the method.
@@ -149,10 +119,7 @@ pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::
 
 /// The source paper's method as it is used there: all displacements, its own step.
 fn automatic_source(asked: &case::Transient) -> case::Transient {
-    case::Transient {
-        residual: false,
-        ..automatic(asked, case::Method::NewmarkExplicit)
-    }
+    case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) }
 }
 
 /// All points, and the places of the two that must be there.
@@ -164,9 +131,7 @@ fn candidates(
     watch: &(impl Watch + Sync),
 ) -> (Vec<Point>, [usize; 2]) {
     let modes = &scene.stage.modes;
-    let frequencies_hz: Vec<f64> = (0..modes.count())
-        .map(|mode| modes.frequency_hz(mode))
-        .collect();
+    let frequencies_hz: Vec<f64> = (0..modes.count()).map(|mode| modes.frequency_hz(mode)).collect();
     let families = families(settings, &frequencies_hz, &wanted);
     let progress = Counter::new(watch, families.len());
     let found: Vec<Vec<Point>> = families
@@ -222,10 +187,8 @@ fn statistics(
         ensemble(system, &starts, model, settings, &analysis, done)
     };
     let [_, beside] = models(settings, 0);
-    let measured_by = scene
-        .system(&beside)
-        .map_err(Failure::from)
-        .and_then(|system| run(&Ready::new(scene, system), &beside));
+    let measured_by =
+        scene.system(&beside).map_err(Failure::from).and_then(|system| run(&Ready::new(scene, system), &beside));
     let mut systems = Systems::new(scene);
     let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
         let by = measured_by.as_ref().map_err(Clone::clone)?;
@@ -238,10 +201,7 @@ fn statistics(
     points
         .into_iter()
         .zip(places)
-        .map(|(of, point)| ModelStatistics {
-            point,
-            figures: own(of).map_err(|failure| failure.reason),
-        })
+        .map(|(of, point)| ModelStatistics { point, figures: own(of).map_err(|failure| failure.reason) })
         .collect()
 }
 
@@ -254,11 +214,7 @@ pub(super) struct Counter<'a, W> {
 
 impl<'a, W: Watch> Counter<'a, W> {
     pub(super) fn new(watch: &'a W, count: usize) -> Self {
-        Self {
-            watch,
-            count: count.max(1),
-            done: AtomicUsize::new(0),
-        }
+        Self { watch, count: count.max(1), done: AtomicUsize::new(0) }
     }
 
     pub(super) fn done(&self) {

@@ -63,29 +63,17 @@ impl Settings {
     /// # Errors
     /// [`ChartError::TooShort`].
     pub fn of(run: RunCase<'_>, effort: Effort) -> Result<Self, ChartError> {
-        let RunCase {
-            case,
-            transient: asked,
-            ..
-        } = run;
+        let RunCase { case, transient: asked, .. } = run;
         let band_hz = case.band_hz().map_or(0.5 * asked.output_hz, |band| band[1]);
         let output_hz = SAMPLES_A_PERIOD * band_hz;
         let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz).map_err(ComputeError::from)?;
         let length = asked.end - asked.start;
         let [whole, quick] = SPAN;
-        let span_s = length.min(if effort == Effort::Quick {
-            quick
-        } else {
-            whole
-        });
+        let span_s = length.min(if effort == Effort::Quick { quick } else { whole });
         let window_s = WINDOW_PERIODS / band_hz;
         // two windows tell a growth
         if span_s < 2.0 * window_s {
-            return Err(ChartError::TooShort {
-                found: length,
-                band_hz,
-                needed: 2.0 * window_s,
-            });
+            return Err(ChartError::TooShort { found: length, band_hz, needed: 2.0 * window_s });
         }
         let mut ensemble = asked.ensemble;
         if effort == Effort::Quick {
@@ -116,9 +104,6 @@ impl Settings {
 
     /// What is to be simulated for `seconds` of compared signals.
     pub fn simulated(&self, seconds: f64) -> Span {
-        Span {
-            duration: seconds + self.edge_s,
-            output_hz: self.output_hz,
-        }
+        Span { duration: seconds + self.edge_s, output_hz: self.output_hz }
     }
 }

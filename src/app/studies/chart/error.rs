@@ -23,9 +23,7 @@ pub enum ChartError {
         reason: String,
     },
     /// Too few starts are in equilibrium.
-    #[error(
-        "{found} of {wanted} starts over a ball pass have an equilibrium, at least 2 are needed: {source}"
-    )]
+    #[error("{found} of {wanted} starts over a ball pass have an equilibrium, at least 2 are needed: {source}")]
     NoStarts {
         /// Found.
         found: usize,

@@ -23,12 +23,7 @@ impl Growth {
     ///
     /// # Errors
     /// [`SignalError`] if they do not have the same instants or the reference is zero throughout.
-    pub fn between(
-        other: &Trace,
-        reference: &Trace,
-        span_s: f64,
-        window_s: f64,
-    ) -> Result<Self, SignalError> {
+    pub fn between(other: &Trace, reference: &Trace, span_s: f64, window_s: f64) -> Result<Self, SignalError> {
         let size = reference.rms(0.0, span_s)?;
         // a whole number of windows, up to round-off
         let count = (span_s / window_s * (1.0 + 1e-9)).floor() as usize;
@@ -36,17 +31,12 @@ impl Growth {
             let [from, to] = [window, window + 1].map(|place| place as f64 * window_s);
             Ok(other.difference(reference, from, to)? / size)
         });
-        Ok(Self {
-            window_s,
-            distances: distances.collect::<Result<_, SignalError>>()?,
-        })
+        Ok(Self { window_s, distances: distances.collect::<Result<_, SignalError>>()? })
     }
 
     /// Ends of the windows since the start, s.
     pub fn times_s(&self) -> Vec<f64> {
-        (1..=self.distances.len())
-            .map(|window| window as f64 * self.window_s)
-            .collect()
+        (1..=self.distances.len()).map(|window| window as f64 * self.window_s).collect()
     }
 
     /// Distance in each window, in units of the reference's root mean square over the span.
@@ -78,16 +68,11 @@ impl Growth {
     pub fn rate_per_s(&self) -> Option<f64> {
         let times = self.times_s();
         let points = times.iter().zip(&self.distances);
-        let points: Vec<(f64, f64)> = points
-            .filter(|(_, d)| **d > 0.0)
-            .map(|(t, d)| (*t, d.ln()))
-            .collect();
+        let points: Vec<(f64, f64)> = points.filter(|(_, d)| **d > 0.0).map(|(t, d)| (*t, d.ln())).collect();
         if points.len() < 2 {
             return None;
         }
-        let mean = |value: fn(&(f64, f64)) -> f64| {
-            points.iter().map(value).sum::<f64>() / points.len() as f64
-        };
+        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / points.len() as f64;
         let (t_mean, ln_mean) = (mean(|p| p.0), mean(|p| p.1));
         let products = points.iter().map(|(t, ln)| (t - t_mean) * (ln - ln_mean));
         let squares = points.iter().map(|(t, _)| (t - t_mean).powi(2));
@@ -112,10 +97,7 @@ mod tests {
             });
             TimeSeries::new(2.3, 5e-6, "m/s^2", values.collect()).unwrap()
         };
-        (
-            Trace::of(vec![series(true)]),
-            Trace::of(vec![series(false)]),
-        )
+        (Trace::of(vec![series(true)]), Trace::of(vec![series(false)]))
     }
 
     #[test]
@@ -130,10 +112,7 @@ mod tests {
         assert!((rate / 2000.0 - 1.0).abs() < 1e-4, "{rate}");
         // rms over the first window: mean of exp(2 rate t) over 0 to 0.25 ms is e - 1 = 1.718
         let initial = growth.initial().unwrap();
-        assert!(
-            (initial / (1e-9 * 1.7183_f64.sqrt()) - 1.0).abs() < 0.02,
-            "{initial}"
-        );
+        assert!((initial / (1e-9 * 1.7183_f64.sqrt()) - 1.0).abs() < 0.02, "{initial}");
         assert!((growth.times_s()[3] - 1e-3).abs() < 1e-12);
     }
 

@@ -42,15 +42,14 @@ pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
 pub use report::chart_report;
 pub use stability::{
-    Condition, ConditionStability, ConditionSummary, MethodStability, MethodSummary, Stability,
-    StabilityModel, StabilitySummary, StepRecord, Window, compute_stability, resonance_plot,
-    stability_map, stability_report, stability_section,
+    Condition, ConditionStability, ConditionSummary, MethodStability, MethodSummary, Stability, StabilityModel,
+    StabilitySummary, StepRecord, Window, compute_stability, resonance_plot, stability_map, stability_report,
+    stability_section,
 };
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure, compare, figures};
 pub use summary::{
-    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, FigureSummary, MethodParameter,
-    ModelStatisticsSummary, OmissionSummary, OverAllStarts, Parameter, PointSummary,
-    ReferenceSummary, StartSummary, StatisticsSummary,
+    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, FigureSummary, MethodParameter, ModelStatisticsSummary,
+    OmissionSummary, OverAllStarts, Parameter, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
 };
 pub use trace::{Failure, FailureKind, Trace};

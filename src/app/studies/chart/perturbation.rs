@@ -20,9 +20,7 @@ impl Random {
     fn new(seed: u64, run: u64) -> Self {
         let mut seeded = Self { state: seed };
         let begin = seeded.next();
-        let mut random = Self {
-            state: begin ^ run.wrapping_mul(0x2545_f491_4f6c_dd1d),
-        };
+        let mut random = Self { state: begin ^ run.wrapping_mul(0x2545_f491_4f6c_dd1d) };
         random.next();
         random
     }
@@ -47,11 +45,7 @@ mod tests {
     use super::*;
 
     fn perturbed(size: f64, seed: u64, run: usize) -> State {
-        let mut state = State {
-            t: 1.0,
-            y: vec![2.0; 500],
-            v: vec![-3.0; 500],
-        };
+        let mut state = State { t: 1.0, y: vec![2.0; 500], v: vec![-3.0; 500] };
         perturb(&mut state, size, seed, run);
         state
     }
@@ -59,9 +53,7 @@ mod tests {
     #[test]
     fn changes_are_relative_even_and_their_own() {
         let state = perturbed(1e-3, 1, 0);
-        let parts = |values: &[f64], of: f64| -> Vec<f64> {
-            values.iter().map(|v| (v / of - 1.0) / 1e-3).collect()
-        };
+        let parts = |values: &[f64], of: f64| -> Vec<f64> { values.iter().map(|v| (v / of - 1.0) / 1e-3).collect() };
         let changes = [parts(&state.y, 2.0), parts(&state.v, -3.0)].concat();
         assert!(changes.iter().all(|u| u.abs() <= 1.0 + 1e-9));
         let mean = changes.iter().sum::<f64>() / 1000.0;

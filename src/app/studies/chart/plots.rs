@@ -53,18 +53,12 @@ pub fn work_precision(chart: &Chart) -> Plot {
         let of = chart.points.iter().filter(|point| point.method() == name);
         let (x, y, labels) = curve(&of.collect::<Vec<_>>());
         if !y.is_empty() {
-            plot = plot.curve(
-                Curve::new(name, x, y)
-                    .points(symbol)
-                    .colour(colour)
-                    .labels(labels),
-            );
+            plot = plot.curve(Curve::new(name, x, y).points(symbol).colour(colour).labels(labels));
         }
     }
-    for (name, place, symbol) in [
-        ("program's choice", chart.chosen, Symbol::Ring),
-        ("source's method", chart.source, Symbol::Frame),
-    ] {
+    for (name, place, symbol) in
+        [("program's choice", chart.chosen, Symbol::Ring), ("source's method", chart.source, Symbol::Frame)]
+    {
         let (x, y, _) = curve(&[&chart.points[place]]);
         if !y.is_empty() {
             plot = plot.curve(Curve::new(name, x, y).points(symbol).colour(MARK));
@@ -120,14 +114,10 @@ pub fn growth(chart: &Chart) -> Plot {
         let marked = colours.iter().find(|(marked, ..)| *marked == place);
         // a legend of twenty names says nothing: all but two are grey and go without
         plot = plot.curve(match marked {
-            Some((_, name, colour)) => Curve {
-                name: format!("{name}: start at {}", curve.name),
-                ..curve.colour(*colour)
-            },
-            None => Curve {
-                name: String::new(),
-                ..curve.colour(MARK)
-            },
+            Some((_, name, colour)) => {
+                Curve { name: format!("{name}: start at {}", curve.name), ..curve.colour(*colour) }
+            }
+            None => Curve { name: String::new(), ..curve.colour(MARK) },
         });
     }
     plot
@@ -143,9 +133,7 @@ pub fn between_methods(chart: &Chart) -> Plot {
     let mean = |window| at(window).sum::<f64>() / growths.len() as f64;
     let largest = |window| at(window).fold(0.0, f64::max);
     let windows = || 0..times.len();
-    let curve = |name: &str, values: Vec<f64>| {
-        Curve::new(name, Abscissa::Points(times.clone()), positive(values))
-    };
+    let curve = |name: &str, values: Vec<f64>| Curve::new(name, Abscissa::Points(times.clone()), positive(values));
     Plot::new(
         "Distance of the two reference methods",
         Axis::new("Time since the start", "s"),
@@ -165,13 +153,10 @@ fn extremes(chart: &Chart) -> Vec<(usize, &'static str, usize)> {
     };
     let shortest = starts.clone().min_by(by_horizon);
     let longest = starts.max_by(by_horizon);
-    [
-        shortest.map(|(place, _)| (place, "shortest horizon", 1)),
-        longest.map(|(place, _)| (place, "longest", 0)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    [shortest.map(|(place, _)| (place, "shortest horizon", 1)), longest.map(|(place, _)| (place, "longest", 0))]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Zeros, which a logarithm has no place for, as gaps.

@@ -92,12 +92,7 @@ const FINE: f64 = 0.01;
 
 /// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
 /// or until the error is far below the target or at the floor. Starts in parallel.
-pub(super) fn evaluate(
-    scene: &Scene,
-    family: &Family,
-    reference: &Reference,
-    settings: &Settings,
-) -> Vec<Point> {
+pub(super) fn evaluate(scene: &Scene, family: &Family, reference: &Reference, settings: &Settings) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
     let mut means: Vec<f64> = Vec::new();
     let mut systems = Systems::new(scene);
@@ -127,10 +122,8 @@ fn gains_nothing(means: &[f64]) -> bool {
         return false;
     };
     let (count, part) = STUCK;
-    let stuck = means.len() >= count
-        && means[means.len() - count..]
-            .iter()
-            .all(|mean| (mean / last - 1.0).abs() < part);
+    let stuck =
+        means.len() >= count && means[means.len() - count..].iter().all(|mean| (mean / last - 1.0).abs() < part);
     (*last < CONVERGING && *last > GAIN * before) || stuck
 }
 
@@ -143,11 +136,7 @@ pub(super) fn point(
 ) -> Point {
     let stride = settings.point_stride();
     let error = system.and_then(|system| error(system, model, reference, settings, stride));
-    Point {
-        model: *model,
-        wall_s: None,
-        error,
-    }
+    Point { model: *model, wall_s: None, error }
 }
 
 /// Error of a model over every start, where a point takes some of them.
@@ -233,16 +222,9 @@ fn error_of(
     for (part, growth) in by_growth.iter_mut().zip(GROWTHS) {
         let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
         let mean = over(span_s)?;
-        *part = GrowthError {
-            growth,
-            span_s,
-            mean,
-        };
+        *part = GrowthError { growth, span_s, mean };
     }
-    Ok(StartErrors {
-        over_horizon: over(start.horizon_s)?,
-        by_growth,
-    })
+    Ok(StartErrors { over_horizon: over(start.horizon_s)?, by_growth })
 }
 
 /// Mean and scatter, or that they show nothing.
@@ -262,18 +244,11 @@ fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
                 part.mean += start.by_growth[place].mean / count;
             }
         }
-        Ok(PointError {
-            mean,
-            deviation,
-            largest,
-            by_growth,
-        })
+        Ok(PointError { mean, deviation, largest, by_growth })
     } else {
         Err(Failure {
             kind: FailureKind::TooInaccurate,
-            reason: format!(
-                "the signal differs from the reference by {mean:.2e} of its root mean square"
-            ),
+            reason: format!("the signal differs from the reference by {mean:.2e} of its root mean square"),
             error: Some(mean),
         })
     }
@@ -288,10 +263,7 @@ pub(super) fn measure(
     settings: &Settings,
     done: impl Fn(f64),
 ) {
-    let span = Span {
-        duration: TIMED.min(settings.span_s),
-        output_hz: settings.output_hz,
-    };
+    let span = Span { duration: TIMED.min(settings.span_s), output_hz: settings.output_hz };
     let mut systems = Systems::new(scene);
     let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
     for round in 0..ROUNDS {
@@ -353,10 +325,6 @@ mod tests {
         assert!((error.deviation - 0.02_f64.sqrt()).abs() < 1e-15);
         let failure = judged(&starts([0.5, 2.5])).unwrap_err();
         assert_eq!(failure.kind, FailureKind::TooInaccurate);
-        assert!(
-            failure.reason.contains("by 1.50e0 of its"),
-            "{}",
-            failure.reason
-        );
+        assert!(failure.reason.contains("by 1.50e0 of its"), "{}", failure.reason);
     }
 }

@@ -11,11 +11,7 @@ use crate::system::{BallsInertia, ModeSelection};
 
 /// The smooth scene with a ring of 12 nodes, 0.5 ms from two starts.
 fn small() -> (Scene, Settings) {
-    let set = [
-        "ring.nodes=12",
-        "transient.end=0.5e-3",
-        "transient.ensemble.runs=2",
-    ];
+    let set = ["ring.nodes=12", "transient.end=0.5e-3", "transient.ensemble.runs=2"];
     let case = Case::example("scenes/smooth", &set);
     let run = case.for_run().unwrap();
     let settings = Settings::of(run, Effort::Quick).unwrap();
@@ -30,9 +26,7 @@ fn all_modes(method: Method, steps: &[f64]) -> Family {
         method,
         step: *step,
     };
-    Family {
-        models: steps.iter().map(model).collect(),
-    }
+    Family { models: steps.iter().map(model).collect() }
 }
 
 #[test]
@@ -45,16 +39,11 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
         pool.unwrap().install(|| {
             let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
             let families = [
-                all_modes(
-                    Method::ExponentialAdams { tolerance: None },
-                    &[1.25e-6, 3e-7, 1.5e-7],
-                ),
+                all_modes(Method::ExponentialAdams { tolerance: None }, &[1.25e-6, 3e-7, 1.5e-7]),
                 all_modes(Method::NewmarkExplicit, &[2e-6]),
                 all_modes(Method::Exponential, &[-1.0, 1e-7]),
             ];
-            let points = families
-                .iter()
-                .flat_map(|family| evaluate(&scene, family, &reference, &settings));
+            let points = families.iter().flat_map(|family| evaluate(&scene, family, &reference, &settings));
             let points = points.collect();
             (reference, points)
         })
@@ -62,10 +51,7 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
     let (reference, points) = computed(2);
     let (other, again) = computed(1);
     assert_eq!(points, again);
-    assert_eq!(
-        reference.disagreement.to_bits(),
-        other.disagreement.to_bits()
-    );
+    assert_eq!(reference.disagreement.to_bits(), other.disagreement.to_bits());
     for (a, b) in reference.starts.iter().zip(&other.starts) {
         assert_eq!((&a.trace, &a.growth), (&b.trace, &b.growth));
     }
@@ -74,10 +60,7 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
     let failure = |place: usize| points[place].error.as_ref().unwrap_err();
     assert_eq!(failure(0).kind, FailureKind::BlewUp);
     let reason = &failure(0).reason;
-    assert!(
-        reason.starts_with("the solution blew up at t = 0.0"),
-        "{reason}"
-    );
+    assert!(reason.starts_with("the solution blew up at t = 0.0"), "{reason}");
     // of third order: halving the step leaves an eighth; a sixth with what the first one does not resolve
     let error = |place: usize| points[place].error.as_ref().unwrap().mean;
     assert!(error(2) < error(1) / 6.0, "{:e} {:e}", error(1), error(2));
@@ -91,12 +74,7 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
 
 #[test]
 fn marked_points_take_every_start_and_others_some() {
-    let set = [
-        "ring.nodes=12",
-        "transient.end=0.2e-3",
-        "accuracy.band_hz=[0,160000]",
-        "transient.ensemble.runs=9",
-    ];
+    let set = ["ring.nodes=12", "transient.end=0.2e-3", "accuracy.band_hz=[0,160000]", "transient.ensemble.runs=9"];
     let case = Case::example("scenes/smooth", &set);
     let run = case.for_run().unwrap();
     let settings = Settings::of(run, Effort::Full).unwrap();
@@ -113,9 +91,7 @@ fn marked_points_take_every_start_and_others_some() {
     let halves = [0, 1].map(|first| {
         let mut half = reference.clone();
         half.starts = half.starts.into_iter().skip(first).step_by(2).collect();
-        over_all_starts(&scene, &family.models[0], &half, &settings)
-            .unwrap()
-            .mean
+        over_all_starts(&scene, &family.models[0], &half, &settings).unwrap().mean
     });
     assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
     let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;

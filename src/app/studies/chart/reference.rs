@@ -119,35 +119,23 @@ pub(super) fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
     };
     [
         fullest(
-            Method::Dop853 {
-                tolerance: tolerance * 0.1_f64.powi(times),
-                events: true,
-            },
+            Method::Dop853 { tolerance: tolerance * 0.1_f64.powi(times), events: true },
             SAMPLES * settings.interval(),
         ),
-        fullest(
-            Method::ExponentialAdams { tolerance: None },
-            step * settings.interval() * 0.5_f64.powi(times),
-        ),
+        fullest(Method::ExponentialAdams { tolerance: None }, step * settings.interval() * 0.5_f64.powi(times)),
     ]
 }
 
-fn of_start(
-    system: &Ready,
-    start: &Start,
-    settings: &Settings,
-) -> Result<StartReference, ChartError> {
+fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartReference, ChartError> {
     let (span, window) = (settings.span_s, settings.window_s);
     let run = |model: &RunModel, perturbation: f64| -> Result<Trace, ChartError> {
         let (system, mut state) = system.at(start);
         let seed = settings.ensemble.seed;
         super::perturb(&mut state, perturbation, seed, start.number);
-        Trace::simulate(system, state, model, settings, span).map_err(|failure: Failure| {
-            ChartError::NoReference {
-                method: model.method.name(),
-                start_s: start.time_s,
-                reason: failure.reason,
-            }
+        Trace::simulate(system, state, model, settings, span).map_err(|failure: Failure| ChartError::NoReference {
+            method: model.method.name(),
+            start_s: start.time_s,
+            reason: failure.reason,
         })
     };
     let [mut by, mut beside] = models(settings, 0);

@@ -65,11 +65,7 @@ fn headlines(report: Report, chart: &Chart) -> Report {
         )
         .headline(
             "Horizon, mean over the starts",
-            format!(
-                "{} of {}",
-                ms(reference.mean_horizon_s()),
-                ms(chart.settings.span_s)
-            ),
+            format!("{} of {}", ms(reference.mean_horizon_s()), ms(chart.settings.span_s)),
             Verdict::None,
         );
     let chosen = &chart.points[chart.chosen];
@@ -80,11 +76,8 @@ fn headlines(report: Report, chart: &Chart) -> Report {
             Verdict::of(error.mean <= chart.settings.target),
         );
         if let Some((source, _)) = chart.points[chart.source].measured() {
-            report = report.headline(
-                "Times faster than the source's method",
-                significant(source / wall, 3),
-                Verdict::None,
-            );
+            report =
+                report.headline("Times faster than the source's method", significant(source / wall, 3), Verdict::None);
         }
     }
     report
@@ -109,9 +102,8 @@ fn point_table(caption: &str, first: Column) -> Table {
 }
 
 fn point_row(first: Cell, point: &Point) -> Vec<Cell> {
-    let number = |value: Option<f64>, digits| {
-        value.map_or_else(|| Cell::text("–"), |value| Cell::number(value, digits))
-    };
+    let number =
+        |value: Option<f64>, digits| value.map_or_else(|| Cell::text("–"), |value| Cell::number(value, digits));
     let (name, value) = point.parameter();
     let step = (name == "step_s").then_some(1e6 * value);
     let tolerance = (name == "tolerance").then_some(value);
@@ -156,10 +148,7 @@ fn marked(chart: &Chart) -> Vec<(&Point, String)> {
 }
 
 fn marked_table(chart: &Chart) -> Table {
-    let mut table = point_table(
-        "Points that none beats, and those to compare with",
-        Column::text("What"),
-    );
+    let mut table = point_table("Points that none beats, and those to compare with", Column::text("What"));
     for (point, what) in marked(chart) {
         table = table.row(point_row(Cell::text(what), point));
     }
@@ -169,10 +158,7 @@ fn marked_table(chart: &Chart) -> Table {
             ("program's choice, all starts", chart.chosen, chosen),
             ("source's method, all starts", chart.source, source),
         ] {
-            let point = Point {
-                error: error.clone(),
-                ..chart.points[place].clone()
-            };
+            let point = Point { error: error.clone(), ..chart.points[place].clone() };
             table = table.row(point_row(Cell::text(what), &point));
         }
     }
@@ -181,19 +167,11 @@ fn marked_table(chart: &Chart) -> Table {
 
 /// Errors of the same points while nearby solutions have parted by less than over the horizon.
 fn growth_table(chart: &Chart) -> Table {
-    let mut columns = vec![
-        Column::text("What"),
-        Column::text("Method"),
-        Column::text("Model"),
-    ];
+    let mut columns = vec![Column::text("What"), Column::text("Method"), Column::text("Model")];
     let chosen = chart.points[chart.chosen].error.as_ref().ok();
     for (place, growth) in GROWTHS.into_iter().enumerate() {
-        let span = chosen.map_or_else(String::new, |error| {
-            format!(
-                " ({} ms)",
-                significant(1e3 * error.by_growth[place].span_s, 2)
-            )
-        });
+        let span = chosen
+            .map_or_else(String::new, |error| format!(" ({} ms)", significant(1e3 * error.by_growth[place].span_s, 2)));
         let name = format!("Growth {}{span}", significant(growth, 2));
         columns.push(Column::number(name, ""));
     }
@@ -206,11 +184,7 @@ fn growth_table(chart: &Chart) -> Table {
         };
         let means = error.by_growth.iter().map(|part| part.mean);
         let means = means.chain([error.mean]);
-        let mut cells = vec![
-            Cell::text(what),
-            Cell::text(point.method()),
-            Cell::text(point.model_name()),
-        ];
+        let mut cells = vec![Cell::text(what), Cell::text(point.method()), Cell::text(point.model_name())];
         cells.extend(means.map(|mean| Cell::number(mean, 2)));
         table.row(cells)
     })
@@ -301,21 +275,14 @@ fn statistics_section(chart: &Chart) -> Section {
     for of in &chart.statistics {
         section = match &of.figures {
             Ok(figures) => section.table(figures_table(chart, of, figures)),
-            Err(reason) => section.paragraph(format!(
-                "{}: no statistics: {reason}",
-                named(chart, of.point)
-            )),
+            Err(reason) => section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point))),
         };
     }
     section
 }
 
 fn named(chart: &Chart, place: usize) -> &'static str {
-    if place == chart.chosen {
-        "The program's choice"
-    } else {
-        "The source's method"
-    }
+    if place == chart.chosen { "The program's choice" } else { "The source's method" }
 }
 
 fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]) -> Table {
@@ -333,11 +300,7 @@ fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]
     for figure in figures {
         let errors = figure.standard_errors();
         let with_error = |estimate: &super::Estimate| {
-            let text = format!(
-                "{} ± {}",
-                significant(estimate.mean, 4),
-                significant(estimate.standard_error, 2)
-            );
+            let text = format!("{} ± {}", significant(estimate.mean, 4), significant(estimate.standard_error, 2));
             Cell::text(text).value(estimate.mean)
         };
         let judged = Cell::number(errors, 2);
@@ -347,11 +310,7 @@ fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]
             with_error(&figure.own),
             with_error(&figure.reference),
             with_error(&figure.difference),
-            if figure.differs(chart.settings.target) {
-                judged.judged(Verdict::Bad)
-            } else {
-                judged
-            },
+            if figure.differs(chart.settings.target) { judged.judged(Verdict::Bad) } else { judged },
         ]);
     }
     table

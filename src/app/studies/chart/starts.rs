@@ -37,11 +37,7 @@ impl Starts {
     ///
     /// # Errors
     /// [`ChartError::NoStarts`] if fewer than two have an equilibrium.
-    pub fn over_ball_pass(
-        scene: &Scene,
-        settings: &Settings,
-        length: f64,
-    ) -> Result<Self, ChartError> {
+    pub fn over_ball_pass(scene: &Scene, settings: &Settings, length: f64) -> Result<Self, ChartError> {
         let wanted = settings.ensemble.runs;
         let spread_s = ball_pass(scene, length);
         let found: Vec<_> = (0..wanted)
@@ -58,11 +54,7 @@ impl Starts {
         let mut first = None;
         for (time_s, number, found) in found {
             match found {
-                Ok(equilibrium) => starts.push(Start {
-                    number,
-                    time_s,
-                    equilibrium,
-                }),
+                Ok(equilibrium) => starts.push(Start { number, time_s, equilibrium }),
                 Err(error) => {
                     left_out.push(format!("start at {time_s} s: {error}"));
                     first.get_or_insert(error);
@@ -70,16 +62,8 @@ impl Starts {
             }
         }
         match first {
-            Some(source) if starts.len() < 2 => Err(ChartError::NoStarts {
-                found: starts.len(),
-                wanted,
-                source,
-            }),
-            _ => Ok(Self {
-                starts,
-                spread_s,
-                left_out,
-            }),
+            Some(source) if starts.len() < 2 => Err(ChartError::NoStarts { found: starts.len(), wanted, source }),
+            _ => Ok(Self { starts, spread_s, left_out }),
         }
     }
 }

@@ -57,11 +57,7 @@ pub struct ComparedFigure {
 impl ComparedFigure {
     /// Mean difference in its standard errors; zero where there is no difference at all.
     pub fn standard_errors(&self) -> f64 {
-        if self.difference.standard_error > 0.0 {
-            self.difference.mean / self.difference.standard_error
-        } else {
-            0.0
-        }
+        if self.difference.standard_error > 0.0 { self.difference.mean / self.difference.standard_error } else { 0.0 }
     }
 
     /// Whether the model's figure differs by more than chance (three standard errors) and by more than a relative
@@ -82,11 +78,7 @@ impl Estimate {
         let mean = values.iter().sum::<f64>() / count;
         let squares = values.iter().map(|value| (value - mean).powi(2));
         let deviation = (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
-        Self {
-            mean,
-            deviation,
-            standard_error: deviation / count.sqrt(),
-        }
+        Self { mean, deviation, standard_error: deviation / count.sqrt() }
     }
 }
 
@@ -95,20 +87,9 @@ impl Estimate {
 ///
 /// # Errors
 /// [`SignalError`] for a filter that does not fit the sampling.
-pub fn figures(
-    signal: &TimeSeries,
-    band_hz: [f64; 2],
-    high_pass_hz: Option<f64>,
-) -> Result<Vec<Figure>, SignalError> {
-    let figure = |name: &str, unit, value| Figure {
-        name: name.to_owned(),
-        unit,
-        value,
-    };
-    let settings = EnvelopeAnalysis {
-        high_pass_hz,
-        ..EnvelopeAnalysis::default()
-    };
+pub fn figures(signal: &TimeSeries, band_hz: [f64; 2], high_pass_hz: Option<f64>) -> Result<Vec<Figure>, SignalError> {
+    let figure = |name: &str, unit, value| Figure { name: name.to_owned(), unit, value };
+    let settings = EnvelopeAnalysis { high_pass_hz, ..EnvelopeAnalysis::default() };
     let envelope = settings.envelope(signal)?;
     let mut figures = vec![
         figure("root mean square", "m/s^2", signal.rms()),
@@ -121,11 +102,7 @@ pub fn figures(
     for band in third_octaves(signal, low, high)? {
         // a signal without anything there has no level
         let level = 20.0 * band.rms.max(f64::MIN_POSITIVE).log10();
-        figures.push(figure(
-            &format!("level at {} Hz", nominal(band.centre_hz)),
-            "dB",
-            level,
-        ));
+        figures.push(figure(&format!("level at {} Hz", nominal(band.centre_hz)), "dB", level));
     }
     Ok(figures)
 }
@@ -160,21 +137,13 @@ pub(super) fn ensemble(
         .map(|start| {
             let (system, mut state) = system.at(start);
             let ensemble = settings.ensemble;
-            perturb(
-                &mut state,
-                ensemble.perturbation,
-                ensemble.seed,
-                start.number,
-            );
+            perturb(&mut state, ensemble.perturbation, ensemble.seed, start.number);
             let span = settings.simulated(settings.statistics_s);
             let simulation = simulate(system, state, model, span)?;
             let signal = simulation.signal(0)?;
-            let signal =
-                crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
+            let signal = crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;
-            let signal = signal
-                .window(signal.start_s(), end)
-                .map_err(ComputeError::from)?;
+            let signal = signal.window(signal.start_s(), end).map_err(ComputeError::from)?;
             let figures = figures(&signal, analysis.band_hz, analysis.high_pass_hz);
             done();
             Ok(figures.map_err(ComputeError::from)?)
@@ -195,9 +164,7 @@ pub fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>]) -> Vec<ComparedFi
     let Some(first) = reference.first() else {
         return Vec::new();
     };
-    let column = |runs: &[Vec<Figure>], place: usize| -> Vec<f64> {
-        runs.iter().map(|run| run[place].value).collect()
-    };
+    let column = |runs: &[Vec<Figure>], place: usize| -> Vec<f64> { runs.iter().map(|run| run[place].value).collect() };
     first
         .iter()
         .enumerate()
@@ -236,11 +203,7 @@ mod tests {
     #[test]
     fn what_starts_have_in_common_does_not_count() {
         let runs = |values: &[f64]| -> Vec<Vec<Figure>> {
-            let figure = |value: &f64| Figure {
-                name: "kurtosis".to_owned(),
-                unit: "",
-                value: *value,
-            };
+            let figure = |value: &f64| Figure { name: "kurtosis".to_owned(), unit: "", value: *value };
             values.iter().map(|value| vec![figure(value)]).collect()
         };
         let found = compare(&runs(&[1.5, 10.5, 100.8]), &runs(&[1.0, 10.0, 100.0]));
@@ -250,10 +213,7 @@ mod tests {
         assert!(found[0].own.standard_error > 30.0);
         // 0.6 of a mean of 37: 1.6 %
         assert!(found[0].differs(0.015) && !found[0].differs(0.017));
-        let level = ComparedFigure {
-            unit: "dB",
-            ..found[0].clone()
-        };
+        let level = ComparedFigure { unit: "dB", ..found[0].clone() };
         // 0.6 dB: 7.15 %
         assert!(level.differs(0.071) && !level.differs(0.072));
         let chance = compare(&runs(&[2.0, 10.0]), &runs(&[1.0, 10.0]));
@@ -278,11 +238,7 @@ mod tests {
         let expected = 4.0 / (1.0 + 0.625_f64.powi(8));
         assert!((of("mean envelope") / expected - 1.0).abs() < 1e-3);
         assert!((of("level at 8000 Hz") - 20.0 * 8_f64.sqrt().log10()).abs() < 0.05);
-        assert!(
-            found
-                .iter()
-                .any(|figure| figure.name == "level at 31500 Hz")
-        );
+        assert!(found.iter().any(|figure| figure.name == "level at 31500 Hz"));
         assert!(found.iter().any(|figure| figure.name == "level at 1250 Hz"));
     }
 }

@@ -1,8 +1,8 @@
 //! What `chart.json` says.
 
 use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Point, PointError,
-    StabilitySummary, StartReference, parameter_of,
+    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Point, PointError, StabilitySummary, StartReference,
+    parameter_of,
 };
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
@@ -248,10 +248,9 @@ impl Chart {
                 left_out: &self.starts.left_out,
             },
             reference: ReferenceSummary {
-                methods: reference.models.map(|model| MethodParameter {
-                    method: model.method.name(),
-                    parameter: Parameter::of(&model),
-                }),
+                methods: reference
+                    .models
+                    .map(|model| MethodParameter { method: model.method.name(), parameter: Parameter::of(&model) }),
                 model: "all modes, balls with inertia",
                 modes: self.scene.stage.modes.count(),
                 disagreement: reference.disagreement,
@@ -276,10 +275,7 @@ impl Chart {
                 .collect(),
             chosen: self.chosen,
             source: self.source,
-            over_all_starts: OverAllStarts {
-                chosen: ErrorSummary::of(chosen),
-                source: ErrorSummary::of(source),
-            },
+            over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
             statistics: StatisticsSummary {
                 seconds: settings.statistics_s,
                 models: self.statistics.iter().map(|of| self.figures(of)).collect(),

@@ -35,10 +35,7 @@ impl<'a> Ready<'a> {
 impl<'a> Systems<'a> {
     /// None built yet.
     pub(super) fn new(scene: &'a Scene) -> Self {
-        Self {
-            scene,
-            built: Vec::new(),
-        }
+        Self { scene, built: Vec::new() }
     }
 
     /// The system of a model.
@@ -48,11 +45,7 @@ impl<'a> Systems<'a> {
     pub(super) fn of(&mut self, model: &RunModel) -> Result<&Ready<'a>, Failure> {
         let same = |other: &RunModel| {
             let method = (model.method, model.step);
-            RunModel {
-                method: method.0,
-                step: method.1,
-                ..*other
-            } == *model
+            RunModel { method: method.0, step: method.1, ..*other } == *model
         };
         let known = self.built.iter().position(|(other, _)| same(other));
         let place = match known {

@@ -55,11 +55,7 @@ impl FailureKind {
 impl Failure {
     /// A failure without a signal that could be compared.
     pub(super) fn new(kind: FailureKind, reason: String) -> Self {
-        Self {
-            kind,
-            reason,
-            error: None,
-        }
+        Self { kind, reason, error: None }
     }
 }
 
@@ -126,11 +122,7 @@ impl Trace {
             let (own, other) = (part(own, from, to)?, part(other, from, to)?);
             let size = other.rms();
             // a sensor that the reference does not move is compared with zero
-            squares += if size > 0.0 {
-                (relative_difference(&own, &other)? * size).powi(2)
-            } else {
-                own.rms().powi(2)
-            };
+            squares += if size > 0.0 { (relative_difference(&own, &other)? * size).powi(2) } else { own.rms().powi(2) };
         }
         Ok(squares.sqrt())
     }
@@ -177,9 +169,8 @@ mod tests {
     use super::*;
 
     fn trace(signals: &[&[f64]]) -> Trace {
-        let series = signals.iter().map(|values| {
-            TimeSeries::new(1.0, 0.5, "m/s^2", values.to_vec()).expect("a valid series")
-        });
+        let series =
+            signals.iter().map(|values| TimeSeries::new(1.0, 0.5, "m/s^2", values.to_vec()).expect("a valid series"));
         Trace::of(series.collect())
     }
 
@@ -193,9 +184,6 @@ mod tests {
         let still = trace(&[&[0.0, 0.0, 0.0], &[4.0, 4.0, 9.0]]);
         assert!((reference.difference(&still, 0.0, 1.0).unwrap() - 3.0).abs() < 1e-15);
         let nothing = trace(&[&[0.0; 3]]);
-        assert!(matches!(
-            reference.error(&nothing, 0.0, 1.0),
-            Err(SignalError::ZeroReference)
-        ));
+        assert!(matches!(reference.error(&nothing, 0.0, 1.0), Err(SignalError::ZeroReference)));
     }
 }

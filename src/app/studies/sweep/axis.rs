@@ -78,10 +78,7 @@ impl Axis {
                 None => values.push(item.to_owned()),
             }
         }
-        Ok(Self {
-            key: key.to_owned(),
-            values,
-        })
+        Ok(Self { key: key.to_owned(), values })
     }
 
     /// The key as a name for columns and arrays: `[0]` as `.0`, quotes left out.
@@ -116,9 +113,7 @@ fn items(text: &str) -> Result<Vec<&str>, AxisProblem> {
             (None, '"' | '\'') => quote = Some(letter),
             (None, '[' | '{') => depth += 1,
             (None, ']' | '}') => {
-                depth = depth.checked_sub(1).ok_or_else(|| AxisProblem::Open {
-                    found: text.to_owned(),
-                })?;
+                depth = depth.checked_sub(1).ok_or_else(|| AxisProblem::Open { found: text.to_owned() })?;
             }
             (None, ',') if depth == 0 => {
                 items.push(text[start..at].trim());
@@ -128,9 +123,7 @@ fn items(text: &str) -> Result<Vec<&str>, AxisProblem> {
         }
     }
     if depth > 0 || quote.is_some() {
-        return Err(AxisProblem::Open {
-            found: text.to_owned(),
-        });
+        return Err(AxisProblem::Open { found: text.to_owned() });
     }
     items.push(text[start..].trim());
     Ok(items)
@@ -150,10 +143,7 @@ struct Range {
 impl Range {
     /// `None` for what does not begin with two numbers with a colon between.
     fn parse(item: &str) -> Result<Option<Self>, AxisProblem> {
-        let wrong = |reason| AxisProblem::Range {
-            found: item.to_owned(),
-            reason,
-        };
+        let wrong = |reason| AxisProblem::Range { found: item.to_owned(), reason };
         let parts: Vec<&str> = item.split(':').map(str::trim).collect();
         let &[first, second, ref rest @ ..] = parts.as_slice() else {
             return Ok(None);
@@ -177,13 +167,7 @@ impl Range {
             return Err(wrong("equal ratios need ends above 0"));
         }
         let whole = first.parse::<i64>().is_ok() && second.parse::<i64>().is_ok();
-        Ok(Some(Self {
-            from,
-            to,
-            count,
-            ratios,
-            whole,
-        }))
+        Ok(Some(Self { from, to, count, ratios, whole }))
     }
 
     fn values(&self) -> Vec<String> {
@@ -198,17 +182,10 @@ impl Range {
             };
             // a difference of nearly equal numbers is 0 where it should be
             let scale = self.from.abs().max(self.to.abs());
-            if value.abs() < 1e-15 * scale {
-                0.0
-            } else {
-                rounded(value)
-            }
+            if value.abs() < 1e-15 * scale { 0.0 } else { rounded(value) }
         };
         let values: Vec<f64> = (0..self.count).map(at).collect();
-        let whole = self.whole
-            && values
-                .iter()
-                .all(|value| value.fract().abs() < f64::MIN_POSITIVE);
+        let whole = self.whole && values.iter().all(|value| value.fract().abs() < f64::MIN_POSITIVE);
         values.into_iter().map(|value| text(value, whole)).collect()
     }
 }
@@ -223,11 +200,7 @@ fn text(value: f64, whole: bool) -> String {
     if whole && value.abs() < 1e15 {
         return format!("{value:.0}");
     }
-    if value.abs() > 0.0 && !(1e-3..1e6).contains(&value.abs()) {
-        format!("{value:e}")
-    } else {
-        format!("{value:?}")
-    }
+    if value.abs() > 0.0 && !(1e-3..1e6).contains(&value.abs()) { format!("{value:e}") } else { format!("{value:?}") }
 }
 
 fn plain_name(key: &str) -> String {
@@ -250,15 +223,8 @@ mod tests {
     #[test]
     fn lists_keep_what_belongs_to_a_value() {
         assert_eq!(values("1, 2 ,3"), ["1", "2", "3"]);
-        assert_eq!(
-            values("[0,-1],[0,-2]"),
-            ["[0,-1]", "[0,-2]"],
-            "commas in brackets"
-        );
-        assert_eq!(
-            values("{ x = 1, y = 2 },none"),
-            ["{ x = 1, y = 2 }", "none"]
-        );
+        assert_eq!(values("[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"], "commas in brackets");
+        assert_eq!(values("{ x = 1, y = 2 },none"), ["{ x = 1, y = 2 }", "none"]);
         assert_eq!(values("\"a, b\",'c]'"), ["\"a, b\"", "'c]'"]);
         assert_eq!(values("newmark,exponential"), ["newmark", "exponential"]);
         let quoted = Axis::parse("materials.\"a=b\".young=1").unwrap();
@@ -297,13 +263,7 @@ mod tests {
             ("1:inf:3", "expected finite ends"),
             ("0:2:3:log", "equal ratios need ends above 0"),
         ] {
-            assert_eq!(
-                problem(&format!("a={range}")),
-                AxisProblem::Range {
-                    found: range.to_owned(),
-                    reason
-                }
-            );
+            assert_eq!(problem(&format!("a={range}")), AxisProblem::Range { found: range.to_owned(), reason });
         }
     }
 

@@ -112,10 +112,7 @@ pub enum SweepError {
 }
 
 fn sets(set: &[String]) -> String {
-    set.iter()
-        .map(|set| format!("--set {set}"))
-        .collect::<Vec<_>>()
-        .join(" ")
+    set.iter().map(|set| format!("--set {set}")).collect::<Vec<_>>().join(" ")
 }
 
 impl From<ComputeError> for SweepError {

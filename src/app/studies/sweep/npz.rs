@@ -55,17 +55,11 @@ mod tests {
         let mut read = NpzReader::open(&path).unwrap();
         assert_eq!(read.i64("shape").unwrap().values, [2, 2]);
         assert_eq!(read.i64("point").unwrap().values, [1, 2, 3, 4]);
-        assert_eq!(
-            read.f64("ring.nodes").unwrap().values,
-            [36.0, 36.0, 72.0, 72.0]
-        );
+        assert_eq!(read.f64("ring.nodes").unwrap().values, [36.0, 36.0, 72.0, 72.0]);
         let first = read.f64("frequency.1").unwrap().values;
         assert_eq!(first[..2], [8200.5, 8100.0]);
         assert!(first[2].is_nan() && first[3].is_nan());
-        assert_eq!(
-            read.texts("state").unwrap().values,
-            ["done", "bad answer", "failed", "not computed"]
-        );
+        assert_eq!(read.texts("state").unwrap().values, ["done", "bad answer", "failed", "not computed"]);
         let element = read.texts("ring.element").unwrap().values;
         assert_eq!(element[1], "raveendranath");
     }

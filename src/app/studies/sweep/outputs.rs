@@ -59,11 +59,9 @@ fn of_run(result: &Value) -> Vec<Output> {
         };
         let name = |what: &str| format!("{}.{count}.{what}", plain(sensor));
         outputs.push(number(name("speed_hz"), "Hz", None, &window["speed_hz"]));
-        for (what, unit, group) in [
-            ("rms", "m/s^2", "Root mean square"),
-            ("peak", "m/s^2", "Peak"),
-            ("kurtosis", "", "Kurtosis"),
-        ] {
+        for (what, unit, group) in
+            [("rms", "m/s^2", "Root mean square"), ("peak", "m/s^2", "Peak"), ("kurtosis", "", "Kurtosis")]
+        {
             outputs.push(number(name(what), unit, Some(group), &window[what]));
         }
         outputs.push(Output {
@@ -95,16 +93,10 @@ fn named(verdict: &Value) -> String {
     let Some(faults) = verdict["faults"].as_array() else {
         return String::new();
     };
-    let named = faults
-        .iter()
-        .filter(|fault| fault["conclusion"] == "named")
-        .filter_map(|fault| fault["fault"].as_str());
+    let named =
+        faults.iter().filter(|fault| fault["conclusion"] == "named").filter_map(|fault| fault["fault"].as_str());
     let names: Vec<&str> = named.collect();
-    if names.is_empty() {
-        "none".to_owned()
-    } else {
-        names.join(", ")
-    }
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 fn of_modes(result: &Value) -> Vec<Output> {
@@ -126,28 +118,14 @@ fn of_modes(result: &Value) -> Vec<Output> {
     outputs
 }
 
-fn number(
-    name: impl Into<String>,
-    unit: &'static str,
-    group: Option<&'static str>,
-    value: &Value,
-) -> Output {
-    Output {
-        name: name.into(),
-        unit,
-        group,
-        value: OutputValue::Number(value.as_f64().unwrap_or(f64::NAN)),
-    }
+fn number(name: impl Into<String>, unit: &'static str, group: Option<&'static str>, value: &Value) -> Output {
+    Output { name: name.into(), unit, group, value: OutputValue::Number(value.as_f64().unwrap_or(f64::NAN)) }
 }
 
 /// A sensor's name as part of an array's.
 fn plain(name: &str) -> String {
     let plain = |letter: char| {
-        if letter.is_alphanumeric() || "_-".contains(letter) {
-            letter
-        } else {
-            '_'
-        }
+        if letter.is_alphanumeric() || "_-".contains(letter) { letter } else { '_' }
     };
     name.chars().map(plain).collect()
 }
@@ -188,14 +166,9 @@ mod tests {
         assert_eq!(value("top.1.rms"), Some(OutputValue::Number(5.0)));
         assert_eq!(value("P_1.1.named"), text("ball, cage"));
         assert_eq!(value("P_1.2.named"), text("none"));
-        assert_eq!(
-            value("largest_static_force"),
-            Some(OutputValue::Number(3.0))
-        );
+        assert_eq!(value("largest_static_force"), Some(OutputValue::Number(3.0)));
         assert_eq!(value("shaft_y"), Some(OutputValue::Number(-2e-6)));
-        let Some(OutputValue::Number(error)) = value("estimated_error") else {
-            panic!("a number")
-        };
+        let Some(OutputValue::Number(error)) = value("estimated_error") else { panic!("a number") };
         assert!(error.is_nan());
     }
 
@@ -207,10 +180,7 @@ mod tests {
         });
         let found = found(SweptCommand::Modes, &result);
         assert_eq!(found[0], ("mass".to_owned(), OutputValue::Number(0.1)));
-        assert_eq!(
-            found[20],
-            ("frequency.20".to_owned(), OutputValue::Number(20.0))
-        );
+        assert_eq!(found[20], ("frequency.20".to_owned(), OutputValue::Number(20.0)));
         assert_eq!(found[21], ("loaded.1".to_owned(), OutputValue::Number(7.5)));
         assert_eq!(found.len(), 22);
     }

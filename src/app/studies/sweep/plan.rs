@@ -88,15 +88,10 @@ impl Plan {
             let mut set = case.source.set.iter();
             let set = set.find(|set| set.split_once('=').is_some_and(|(key, _)| axis.sets(key)));
             if let Some(set) = set {
-                return Err(SweepError::SetAndVaried {
-                    key: key(),
-                    set: set.clone(),
-                });
+                return Err(SweepError::SetAndVaried { key: key(), set: set.clone() });
             }
         }
-        let count = axes
-            .iter()
-            .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
+        let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
         match count {
             Some(count) if count <= MOST_POINTS => {}
             _ => return Err(SweepError::TooMany { most: MOST_POINTS }),
@@ -104,10 +99,7 @@ impl Plan {
         let path = &case.source.path;
         Ok(Self {
             command,
-            case: std::path::absolute(path).map_err(|source| SweepError::Io {
-                path: path.clone(),
-                source,
-            })?,
+            case: std::path::absolute(path).map_err(|source| SweepError::Io { path: path.clone(), source })?,
             identity: RunIdentity::of(case)?,
             set: case.source.set.clone(),
             axes,
@@ -129,16 +121,11 @@ impl Plan {
             *place = rest % axis.values.len();
             rest /= axis.values.len();
         }
-        let values: Vec<String> = (self.axes.iter().zip(places))
-            .map(|(axis, place)| axis.values[place].clone())
-            .collect();
+        let values: Vec<String> =
+            (self.axes.iter().zip(places)).map(|(axis, place)| axis.values[place].clone()).collect();
         let varied = self.axes.iter().zip(&values);
         let varied = varied.map(|(axis, value)| format!("{}={value}", axis.key));
-        SweepPoint {
-            number,
-            set: self.set.iter().cloned().chain(varied).collect(),
-            values,
-        }
+        SweepPoint { number, set: self.set.iter().cloned().chain(varied).collect(), values }
     }
 
     /// All points in the order of their numbers.
@@ -150,11 +137,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`crate::app::case::CaseError`] when the point's values make no valid case, or none for the command.
-    pub fn case_at(
-        &self,
-        point: &SweepPoint,
-        text: &str,
-    ) -> Result<Case, crate::app::case::CaseError> {
+    pub fn case_at(&self, point: &SweepPoint, text: &str) -> Result<Case, crate::app::case::CaseError> {
         let case = Case::from_source(crate::app::case::Source {
             path: self.case.clone(),
             text: text.to_owned(),
@@ -175,15 +158,9 @@ impl Plan {
         result: &serde_json::Value,
     ) -> Result<(), SweepError> {
         let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
-        let text = files::read(&self.case)
-            .ok()
-            .and_then(|bytes| String::from_utf8(bytes).ok());
+        let text = files::read(&self.case).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let text = text.filter(|text| self.identity.is_of_text(text));
-        let source = text.map(|text| Source {
-            path: self.case.clone(),
-            text,
-            set: point.set.clone(),
-        });
+        let source = text.map(|text| Source { path: self.case.clone(), text, set: point.set.clone() });
         let expected = source.and_then(|source| source.digest().ok());
         let same_values = match (expected, result["case_digest"].as_str()) {
             (Some(expected), Some(found)) => expected == found,
@@ -249,29 +226,13 @@ mod tests {
 
     #[test]
     fn points_are_the_product_and_the_last_axis_is_fastest() {
-        let plan = plan(&[
-            "ring.nodes=36,72",
-            "ring.shear=true,false",
-            "bearing.balls=7",
-        ])
-        .unwrap();
+        let plan = plan(&["ring.nodes=36,72", "ring.shear=true,false", "bearing.balls=7"]).unwrap();
         assert_eq!(plan.count(), 4);
         let points: Vec<_> = plan.points().collect();
         let values: Vec<String> = points.iter().map(|point| point.values.join(" ")).collect();
-        assert_eq!(
-            values,
-            ["36 true 7", "36 false 7", "72 true 7", "72 false 7"]
-        );
+        assert_eq!(values, ["36 true 7", "36 false 7", "72 true 7", "72 false 7"]);
         assert_eq!(points[2].number, 3);
-        assert_eq!(
-            points[2].set,
-            [
-                "modes.count=3",
-                "ring.nodes=72",
-                "ring.shear=true",
-                "bearing.balls=7"
-            ]
-        );
+        assert_eq!(points[2].set, ["modes.count=3", "ring.nodes=72", "ring.shear=true", "bearing.balls=7"]);
         assert!(plan.case.is_absolute());
         assert_eq!(plan.folder(Path::new("s"), 3), Path::new("s/3"));
     }
@@ -291,10 +252,7 @@ mod tests {
         // the case is set to three modes
         for axis in ["modes.count=3,4", "modes=1,2"] {
             let set = plan(&[axis]);
-            assert!(
-                matches!(set, Err(SweepError::SetAndVaried { .. })),
-                "{axis}"
-            );
+            assert!(matches!(set, Err(SweepError::SetAndVaried { .. })), "{axis}");
         }
         let within = plan(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
         assert!(matches!(within, Err(SweepError::Twice { .. })));
@@ -312,10 +270,7 @@ mod tests {
         other.command = SweptCommand::Run;
         assert_eq!(
             first.changes(&other),
-            [
-                "--command modes, now --command run",
-                "--vary ring.nodes=36,72, now --vary ring.nodes=36"
-            ]
+            ["--command modes, now --command run", "--vary ring.nodes=36,72, now --vary ring.nodes=36"]
         );
     }
 }

@@ -80,21 +80,12 @@ mod tests {
     #[test]
     fn states_follow_from_exit_code_and_result() {
         let state = |exit_code, has_result| {
-            let record = PointRecord {
-                exit_code,
-                message: String::new(),
-                wall_s: 1.0,
-            };
+            let record = PointRecord { exit_code, message: String::new(), wall_s: 1.0 };
             PointRecord::state(Some(&record), has_result)
         };
         assert_eq!(state(Some(0), true), PointState::Done);
         assert_eq!(state(Some(1), true), PointState::Bad);
-        for (code, result) in [
-            (Some(0), false),
-            (Some(1), false),
-            (Some(2), true),
-            (None, true),
-        ] {
+        for (code, result) in [(Some(0), false), (Some(1), false), (Some(2), true), (None, true)] {
             assert_eq!(state(code, result), PointState::Failed, "{code:?} {result}");
         }
         assert_eq!(PointRecord::state(None, true), PointState::Missing);

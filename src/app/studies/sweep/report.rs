@@ -2,9 +2,7 @@
 
 use super::result::{NamedColumn, Values};
 use super::{Axis, PointState, SweepResult};
-use crate::report::{
-    Abscissa, Axis as PlotAxis, Cell, Column, Curve, Fact, Plot, Report, Section, Table, Verdict,
-};
+use crate::report::{Abscissa, Axis as PlotAxis, Cell, Column, Curve, Fact, Plot, Report, Section, Table, Verdict};
 
 /// Most curves of a plot: as many as can be told apart.
 const MOST_CURVES: usize = 12;
@@ -18,15 +16,8 @@ pub fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report 
     let all = result.points.len();
     let missing = result.count(PointState::Missing);
     let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle(format!(
-            "plummer {} at {all} points",
-            result.plan.command.name()
-        ))
-        .headline(
-            "points done",
-            format!("{done} of {all}"),
-            Verdict::of(done == all),
-        )
+        .subtitle(format!("plummer {} at {all} points", result.plan.command.name()))
+        .headline("points done", format!("{done} of {all}"), Verdict::of(done == all))
         .section(varied(result));
     let plots = plots(result);
     if !plots.is_empty() {
@@ -73,14 +64,10 @@ fn not_done(result: &SweepResult) -> Section {
     let mut table = Table::new("Points that are not done", columns);
     for point in result.not_done() {
         let axes = result.plan.axes.iter().zip(&point.point.values);
-        let values: Vec<String> = axes
-            .map(|(axis, value)| format!("{}={value}", axis.key))
-            .collect();
+        let values: Vec<String> = axes.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
         let record = point.record.as_ref();
         let code = record.map_or_else(String::new, |record| {
-            record
-                .exit_code
-                .map_or_else(|| "ended by a signal".to_owned(), |code| code.to_string())
+            record.exit_code.map_or_else(|| "ended by a signal".to_owned(), |code| code.to_string())
         });
         table = table.row([
             Cell::text(point.point.number.to_string()).value(point.point.number as f64),
@@ -114,24 +101,16 @@ fn plots(result: &SweepResult) -> Vec<Plot> {
     let key = &result.plan.axes[place].key;
     // a range over decades shows nothing on a linear axis
     let [least, most] = [f64::min, f64::max].map(|pick| numbers.iter().copied().reduce(pick));
-    let ratios = least
-        .zip(most)
-        .is_some_and(|(least, most)| least > 0.0 && most >= 100.0 * least);
+    let ratios = least.zip(most).is_some_and(|(least, most)| least > 0.0 && most >= 100.0 * least);
     let x = || {
         let axis = PlotAxis::new(key.clone(), "");
         if ratios { axis.log() } else { axis }
     };
     let plot = |group: &&'static str| {
-        let of_group: Vec<&NamedColumn> = columns
-            .iter()
-            .filter(|column| column.group == Some(*group))
-            .collect();
+        let of_group: Vec<&NamedColumn> = columns.iter().filter(|column| column.group == Some(*group)).collect();
         let unit = of_group.first().map_or("", |column| column.unit);
         let mut plot = Plot::new(*group, x(), PlotAxis::new(*group, unit));
-        let curves: Vec<Curve> = of_group
-            .iter()
-            .flat_map(|column| curves(result, place, column))
-            .collect();
+        let curves: Vec<Curve> = of_group.iter().flat_map(|column| curves(result, place, column)).collect();
         let left_out = curves.len().saturating_sub(MOST_CURVES);
         for curve in curves.into_iter().take(MOST_CURVES) {
             plot = plot.curve(curve);
@@ -172,9 +151,7 @@ fn curves(result: &SweepResult, place: usize, column: &NamedColumn) -> Vec<Curve
         let (x, y) = points.into_iter().unzip();
         Curve::new(name, Abscissa::Points(x), y).labels(labels)
     };
-    let shown = families
-        .into_iter()
-        .filter(|(_, points)| points.iter().any(|(_, value)| value.is_finite()));
+    let shown = families.into_iter().filter(|(_, points)| points.iter().any(|(_, value)| value.is_finite()));
     shown.map(curve).collect()
 }
 
@@ -185,9 +162,7 @@ mod tests {
 
     #[test]
     fn messages_are_text_and_points_are_told() {
-        let html = sweep_report("Ring", &four(), "plummer sweep a.toml")
-            .to_html()
-            .unwrap();
+        let html = sweep_report("Ring", &four(), "plummer sweep a.toml").to_html().unwrap();
         assert!(html.contains("1 of 4"));
         assert!(html.contains("&lt;script&gt;alert(1)"));
         assert!(!html.contains("<script>alert(1)"));
@@ -198,11 +173,7 @@ mod tests {
     fn a_curve_a_figure_and_combination() {
         let plots = plots(&four());
         assert_eq!(plots.len(), 1);
-        let names: Vec<&str> = plots[0]
-            .curves
-            .iter()
-            .map(|curve| curve.name.as_str())
-            .collect();
+        let names: Vec<&str> = plots[0].curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!(
             names,
             [

@@ -7,9 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{
-    Output, OutputValue, Plan, PointRecord, PointState, SweepError, SweepPoint, outputs_of,
-};
+use super::{Output, OutputValue, Plan, PointRecord, PointState, SweepError, SweepPoint, outputs_of};
 use crate::report::{Cell, Column, Table};
 
 /// One point with what became of it.
@@ -74,10 +72,7 @@ impl PointWarning {
         match self.points.len() {
             1 => format!("point {}: {}", numbers.join(", "), self.text),
             all if all == of => format!("all points: {}", self.text),
-            all if all > LISTED => format!(
-                "{all} of {of} points, the first {}: {}",
-                numbers[0], self.text
-            ),
+            all if all > LISTED => format!("{all} of {of} points, the first {}: {}", numbers[0], self.text),
             _ => format!("points {}: {}", numbers.join(", "), self.text),
         }
     }
@@ -103,17 +98,9 @@ impl SweepResult {
                 Some(result) if state.has_result() => outputs_of(plan.command, result),
                 _ => Vec::new(),
             };
-            let told = result
-                .as_ref()
-                .and_then(|result| result["warnings"].as_array());
+            let told = result.as_ref().and_then(|result| result["warnings"].as_array());
             let told = told.into_iter().flatten().filter_map(Value::as_str);
-            Ok(PointResult {
-                warnings: told.map(str::to_owned).collect(),
-                point,
-                state,
-                record,
-                outputs,
-            })
+            Ok(PointResult { warnings: told.map(str::to_owned).collect(), point, state, record, outputs })
         });
         let points = points.collect::<Result<_, SweepError>>()?;
         Ok(Self { plan, points })
@@ -141,10 +128,7 @@ impl SweepResult {
                 let number = point.point.number;
                 match all.iter_mut().find(|warning| warning.text == *text) {
                     Some(warning) => warning.points.push(number),
-                    None => all.push(PointWarning {
-                        text: text.clone(),
-                        points: vec![number],
-                    }),
+                    None => all.push(PointWarning { text: text.clone(), points: vec![number] }),
                 }
             }
         }
@@ -153,18 +137,10 @@ impl SweepResult {
 
     /// All columns but the points' numbers: axes, state, wall time, the points' figures in the order in which they first occur.
     pub(super) fn columns(&self) -> Vec<NamedColumn> {
-        let column = |name: &str, unit, values| NamedColumn {
-            name: name.to_owned(),
-            unit,
-            group: None,
-            values,
-        };
+        let column = |name: &str, unit, values| NamedColumn { name: name.to_owned(), unit, group: None, values };
         let mut columns = Vec::new();
         for (place, axis) in self.plan.axes.iter().enumerate() {
-            let texts = self
-                .points
-                .iter()
-                .map(|point| point.point.values[place].clone());
+            let texts = self.points.iter().map(|point| point.point.values[place].clone());
             let values = if axis.numbers().is_some() {
                 Values::Numbers(texts.map(|text| text.parse().unwrap_or(f64::NAN)).collect())
             } else {
@@ -172,10 +148,7 @@ impl SweepResult {
             };
             columns.push(column(&axis.name(), "", values));
         }
-        let states = self
-            .points
-            .iter()
-            .map(|point| point.state.name().to_owned());
+        let states = self.points.iter().map(|point| point.state.name().to_owned());
         columns.push(column("state", "", Values::Texts(states.collect())));
         let wall = |point: &PointResult| point.record.as_ref().map_or(f64::NAN, |r| r.wall_s);
         let walls = self.points.iter().map(wall).collect();
@@ -236,9 +209,7 @@ impl SweepResult {
             let number = point.point.number;
             let mut cells = vec![Cell::text(number.to_string()).value(number as f64)];
             cells.extend(columns.iter().map(|column| match &column.values {
-                Values::Numbers(numbers) if numbers[row].is_finite() => {
-                    Cell::number(numbers[row], 5)
-                }
+                Values::Numbers(numbers) if numbers[row].is_finite() => Cell::number(numbers[row], 5),
                 Values::Numbers(_) => Cell::text("–"),
                 Values::Texts(texts) => Cell::text(texts[row].clone()),
             }));
@@ -267,28 +238,15 @@ pub(super) mod tests {
             if let Some(result) = result {
                 fs::write(point.join("modes.json"), result).unwrap();
             }
-            let record = PointRecord {
-                exit_code: Some(exit_code),
-                message: message.to_owned(),
-                wall_s: 0.25,
-            };
+            let record = PointRecord { exit_code: Some(exit_code), message: message.to_owned(), wall_s: 0.25 };
             let text = serde_json::to_vec(&record).unwrap();
             fs::write(PointRecord::file(&point), text).unwrap();
         };
-        write(
-            1,
-            0,
-            Some(
-                r#"{"mass_kg": 0.1, "frequencies_hz": [8200.5, 36000], "warnings": ["flat", "seat"]}"#,
-            ),
-            "",
-        );
+        write(1, 0, Some(r#"{"mass_kg": 0.1, "frequencies_hz": [8200.5, 36000], "warnings": ["flat", "seat"]}"#), "");
         write(
             2,
             1,
-            Some(
-                r#"{"mass_kg": null, "frequencies_hz": [8100, 35000, 41000], "warnings": ["flat"]}"#,
-            ),
+            Some(r#"{"mass_kg": null, "frequencies_hz": [8100, 35000, 41000], "warnings": ["flat"]}"#),
             "missed",
         );
         write(3, 2, None, "<script>alert(1)</script>");
@@ -301,14 +259,10 @@ pub(super) mod tests {
         let axes = vec![Axis::parse("ring.nodes=36,72").unwrap()];
         let plan = Plan::new(&case, SweptCommand::Modes, axes).unwrap();
         let point = plan.point(1);
-        let source = crate::app::case::Source {
-            set: point.set.clone(),
-            ..case.source.clone()
-        };
+        let source = crate::app::case::Source { set: point.set.clone(), ..case.source.clone() };
         let belongs = |set: &[String], digest: &str| {
             let result = serde_json::json!({ "set": set, "case_digest": digest });
-            plan.belongs(&point, Path::new("1/modes.json"), &result)
-                .map_err(|error| error.to_string())
+            plan.belongs(&point, Path::new("1/modes.json"), &result).map_err(|error| error.to_string())
         };
         let digest = source.digest().unwrap();
         belongs(&point.set, &digest).unwrap();

@@ -21,21 +21,10 @@ pub struct SlurmScripts {
 /// `program` and `folder` are absolute paths which all machines of the cluster see; `threads` the cores of a task.
 #[must_use]
 pub fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize) -> SlurmScripts {
-    let [program_word, folder_word] =
-        [program, folder].map(|path| shell_word(&path.to_string_lossy()));
-    let name = folder
-        .file_name()
-        .map_or_else(|| "sweep".into(), |name| name.to_string_lossy());
-    let name: String = name
-        .chars()
-        .map(|c| {
-            if c.is_ascii_alphanumeric() || "_-.".contains(c) {
-                c
-            } else {
-                '_'
-            }
-        })
-        .collect();
+    let [program_word, folder_word] = [program, folder].map(|path| shell_word(&path.to_string_lossy()));
+    let name = folder.file_name().map_or_else(|| "sweep".into(), |name| name.to_string_lossy());
+    let name: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() || "_-.".contains(c) { c } else { '_' }).collect();
     let array = format!(
         "#!/bin/sh\n\
          #SBATCH --job-name={name}\n\
@@ -63,11 +52,7 @@ pub fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize
          merge=$(sbatch --parsable --dependency=\"afterany:$array\" merge.sbatch)\n\
          echo \"array $array, merge $merge\"\n"
     );
-    SlurmScripts {
-        array,
-        merge,
-        submit,
-    }
+    SlurmScripts { array, merge, submit }
 }
 
 #[cfg(test)]
@@ -87,10 +72,6 @@ mod tests {
             assert!(script.contains(word), "{script}");
         }
         assert!(scripts.array.contains("#SBATCH --job-name=a___b_\n"));
-        assert!(
-            scripts
-                .array
-                .contains("sweep --task \"$SLURM_ARRAY_TASK_ID/12\"")
-        );
+        assert!(scripts.array.contains("sweep --task \"$SLURM_ARRAY_TASK_ID/12\""));
     }
 }

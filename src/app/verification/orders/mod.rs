@@ -78,12 +78,7 @@ impl Series {
 
 impl Family {
     fn checks(&self) -> Vec<Check> {
-        let kind = Kind {
-            unit: "",
-            source: self.source,
-            assumptions: self.assumptions,
-            reason: self.reason,
-        };
+        let kind = Kind { unit: "", source: self.source, assumptions: self.assumptions, reason: self.reason };
         let check = |series: &Series| {
             let name = format!("Order: {}", series.name);
             kind.check(&name, series.order(), series.theory, series.limit)

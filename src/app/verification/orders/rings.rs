@@ -26,12 +26,8 @@ pub(super) fn rings() -> Result<Family, VerificationError> {
         let pairs = squared.windows(2);
         Series {
             name: format!("thick ring with {waves} waves"),
-            sizes: (0..RINGS - 1)
-                .map(|halving| TAU / (ELEMENTS << halving) as f64)
-                .collect(),
-            errors: pairs
-                .map(|pair| frequency(&pair[0]) / frequency(&pair[1]) - 1.0)
-                .collect(),
+            sizes: (0..RINGS - 1).map(|halving| TAU / (ELEMENTS << halving) as f64).collect(),
+            errors: pairs.map(|pair| frequency(&pair[0]) / frequency(&pair[1]) - 1.0).collect(),
             theory: 2.0,
             limit: 0.05,
         }

@@ -26,30 +26,10 @@ const HALF_WAVES: usize = 9;
 type Row = (ContinuumKind, LinearFormulation, &'static [usize], f64);
 
 const ROWS: [Row; 4] = [
-    (
-        ContinuumKind::Hex8,
-        LinearFormulation::Plain,
-        &[1, 2, 4],
-        0.05,
-    ),
-    (
-        ContinuumKind::Hex8,
-        LinearFormulation::Incompatible,
-        &[1, 2, 4],
-        0.05,
-    ),
-    (
-        ContinuumKind::Hex20,
-        LinearFormulation::Plain,
-        &[1, 2, 3],
-        0.025,
-    ),
-    (
-        ContinuumKind::Tet10,
-        LinearFormulation::Plain,
-        &[1, 2, 3],
-        0.075,
-    ),
+    (ContinuumKind::Hex8, LinearFormulation::Plain, &[1, 2, 4], 0.05),
+    (ContinuumKind::Hex8, LinearFormulation::Incompatible, &[1, 2, 4], 0.05),
+    (ContinuumKind::Hex20, LinearFormulation::Plain, &[1, 2, 3], 0.025),
+    (ContinuumKind::Tet10, LinearFormulation::Plain, &[1, 2, 3], 0.075),
 ];
 
 pub(super) fn solids() -> Result<Family, VerificationError> {
@@ -77,19 +57,12 @@ fn of_element(
     let found = divisions.iter().map(|&n| frequencies(kind, linear, n));
     let found = found.collect::<Result<Vec<_>, _>>()?;
     let incompatible = kind == ContinuumKind::Hex8 && linear == LinearFormulation::Incompatible;
-    let name = if incompatible {
-        "Hex8 incompatible"
-    } else {
-        kind.name()
-    };
+    let name = if incompatible { "Hex8 incompatible" } else { kind.name() };
     let degree = if kind.edges().is_empty() { 1.0 } else { 2.0 };
     let series = |mode: usize| Series {
         name: format!("{name}, wave {}", mode + 1),
         sizes: divisions.iter().map(|&n| BOX[2] / n as f64).collect(),
-        errors: found
-            .iter()
-            .map(|found| found[mode] / exact[mode] - 1.0)
-            .collect(),
+        errors: found.iter().map(|found| found[mode] / exact[mode] - 1.0).collect(),
         theory: 2.0 * degree,
         limit,
     };
@@ -109,15 +82,8 @@ fn standing_waves() -> Result<Vec<f64>, VerificationError> {
     let shear = (mu / material.density).sqrt();
     let mut found = Vec::new();
     for index in 1..HALF_WAVES.pow(3) {
-        let count = [
-            index % HALF_WAVES,
-            index / HALF_WAVES % HALF_WAVES,
-            index / HALF_WAVES.pow(2),
-        ];
-        let k = (0..3)
-            .map(|i| (PI * count[i] as f64 / BOX[i]).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let count = [index % HALF_WAVES, index / HALF_WAVES % HALF_WAVES, index / HALF_WAVES.pow(2)];
+        let k = (0..3).map(|i| (PI * count[i] as f64 / BOX[i]).powi(2)).sum::<f64>().sqrt();
         // u_i = A_i sin(k_i x_i) cos cos: across k, without the directions whose sine vanishes
         let shear_waves = count.iter().filter(|&&n| n > 0).count() - 1;
         found.push(pressure * k / TAU);
@@ -133,18 +99,10 @@ fn frequencies(
     linear: LinearFormulation,
     divisions: usize,
 ) -> Result<Vec<f64>, VerificationError> {
-    let mesh = StructuredMesh::new(kind, CELLS.map(|n| n * divisions), |x| {
-        [0, 1, 2].map(|i| BOX[i] * x[i])
-    });
+    let mesh = StructuredMesh::new(kind, CELLS.map(|n| n * divisions), |x| [0, 1, 2].map(|i| BOX[i] * x[i]));
     let description = HousingDescription {
-        parts: vec![HousingPart {
-            group: BODY.to_owned(),
-            material: material()?.into(),
-        }],
-        formulation: Formulation {
-            integration: Integration::Full,
-            linear,
-        },
+        parts: vec![HousingPart { group: BODY.to_owned(), material: material()?.into() }],
+        formulation: Formulation { integration: Integration::Full, linear },
         ..HousingDescription::default()
     };
     let model = HousingModel::new(&mesh.mesh, description)?;

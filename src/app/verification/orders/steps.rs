@@ -28,8 +28,7 @@ pub(super) fn steps() -> Result<Family, VerificationError> {
     let mut series = Vec::new();
     for (method, theory) in METHODS {
         let errors = steps.iter().zip(&exact);
-        let errors =
-            errors.map(|(&step, exact)| Ok(difference(&signal(method, step, None)?, exact)));
+        let errors = errors.map(|(&step, exact)| Ok(difference(&signal(method, step, None)?, exact)));
         series.push(Series {
             name: method.to_owned(),
             errors: errors.collect::<Result<_, VerificationError>>()?,
@@ -55,15 +54,8 @@ fn signal(method: &str, step: f64, key: Option<&str>) -> Result<TimeSeries, Veri
         format!("transient.step={step:e}"),
         format!("transient.output_hz={OUTPUT_HZ}"),
     ];
-    let of_scene = [
-        "transient.modes=14",
-        "transient.end=2.5e-4",
-        "analysis.envelope=[]",
-    ];
-    let keys = of_scene
-        .into_iter()
-        .chain(keys.iter().map(String::as_str))
-        .chain(key);
+    let of_scene = ["transient.modes=14", "transient.end=2.5e-4", "analysis.envelope=[]"];
+    let keys = of_scene.into_iter().chain(keys.iter().map(String::as_str)).chain(key);
     let keys: Vec<&str> = keys.collect();
     let run = compute_run(&built_in("smooth.toml", SMOOTH, &keys)?, &Unwatched)?;
     Ok(run.simulation.signal(0)?)

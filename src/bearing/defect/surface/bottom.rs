@@ -55,11 +55,7 @@ impl Bottom {
             let point = ellipse.at(t).point;
             to_tube(outline, point.length(), point.along.atan2(point.outward)) > outline.rim
         };
-        let corner = if clear(0.0) {
-            bisect(0.0, Ellipse::WALL, clear)
-        } else {
-            0.0
-        };
+        let corner = if clear(0.0) { bisect(0.0, Ellipse::WALL, clear) } else { 0.0 };
         let mut floor = Self {
             ellipse,
             circles,
@@ -79,11 +75,7 @@ impl Bottom {
         if touchable(0.0) {
             let limit = bisect(0.0, corner, touchable);
             let end = ellipse.at(limit);
-            floor.reach = Some(Reach {
-                limit,
-                end_point: end.point,
-                end_tangent: end.tangent(),
-            });
+            floor.reach = Some(Reach { limit, end_point: end.point, end_tangent: end.tangent() });
         }
         floor
     }
@@ -128,9 +120,7 @@ impl Bottom {
         let delta = circles.roller - foot.point.minus(centre).dot(inward);
         let left = self.across_left(t);
         let fading = 1.0 - FLOOR_FADE;
-        let weight = self
-            .fade
-            .weight(foot.concavity(circles.side) + self.shortfall)
+        let weight = self.fade.weight(foot.concavity(circles.side) + self.shortfall)
             * smoothstep(left / (fading * self.across))
             * smoothstep((t.cos() / self.corner.cos() - 1.0) / fading);
         let k = stiffness.of_pair([self.base - self.ellipse.curvature(t), left]);

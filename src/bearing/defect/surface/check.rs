@@ -19,17 +19,10 @@ pub(super) fn width(shape: &DentShape, ball_radius: f64) -> Result<f64, DefectEr
     positive("width", width)?;
     // grooves are wider than the ball
     if width >= 2.0 * ball_radius {
-        return Err(DefectError::Value {
-            key: "width",
-            value: width,
-            rule: "must be less than the ball's diameter",
-        });
+        return Err(DefectError::Value { key: "width", value: width, rule: "must be less than the ball's diameter" });
     }
     if shape.depth > DEPTH_LIMIT * width {
-        return Err(DefectError::TooDeepForWidth {
-            depth: shape.depth,
-            width,
-        });
+        return Err(DefectError::TooDeepForWidth { depth: shape.depth, width });
     }
     Ok(width)
 }
@@ -42,11 +35,7 @@ pub(super) fn sizes(outline: &Outline) -> Result<(), DefectError> {
     let length = 2.0 * outline.half_length;
     let limit = FRAC_PI_2 * outline.circles.carrier;
     if length > limit {
-        return Err(DefectError::TooLong {
-            length,
-            opened: length,
-            limit,
-        });
+        return Err(DefectError::TooLong { length, opened: length, limit });
     }
     depression::rim_rules(&outline.circles, outline.rim)
 }

@@ -87,12 +87,7 @@ impl SurfaceDent {
             bottom,
             outline,
         };
-        Ok(Self {
-            shape,
-            race,
-            middle: reduced(shape.angle),
-            surface,
-        })
+        Ok(Self { shape, race, middle: reduced(shape.angle), surface })
     }
 
     /// What was asked for.
@@ -128,11 +123,7 @@ impl RaceProfile for SurfaceDent {
         }
         let depth = side * (self.surface.bottom.polar_radius(offset) - carrier);
         let clear = |depth: f64| to_tube(outline, carrier + side * depth, offset) > outline.rim;
-        if clear(depth) {
-            carrier + side * depth
-        } else {
-            carrier + side * bisect(0.0, depth, clear)
-        }
+        if clear(depth) { carrier + side * depth } else { carrier + side * bisect(0.0, depth, clear) }
     }
 
     fn ball_drop(&self) -> f64 {
@@ -165,9 +156,7 @@ impl RaceProfile for SurfaceDent {
 /// the far vertex and the steepest contact anywhere.
 fn contact_angle(outline: &Outline) -> f64 {
     let steepest = |v: f64| bisect(0.0, 1.0, |sine| edge::ratio(outline, v, sine) < 1.0);
-    let sine = (0..=LOOKS)
-        .map(|i| steepest(f64::from(i) / f64::from(LOOKS)))
-        .fold(0.0, f64::max);
+    let sine = (0..=LOOKS).map(|i| steepest(f64::from(i) / f64::from(LOOKS))).fold(0.0, f64::max);
     let angle = outline.angle();
     (rim::farthest_centre(&outline.circles, outline.rim, sine) - angle).max(angle)
 }

@@ -57,11 +57,7 @@ impl Edge {
         let d = (least * least + 2.0 * f).max(0.0).sqrt();
         let reach = o.circles.roller + o.rim;
         // the first form has no cancellation, the second is for a ball sunk to the tube's middle
-        let delta = if least > 0.0 {
-            over.sunk - 2.0 * f / (d + least)
-        } else {
-            reach - d
-        };
+        let delta = if least > 0.0 { over.sunk - 2.0 * f / (d + least) } else { reach - d };
         let outward = {
             let across = [q * k * v / cos_psi, radius * p * width];
             let square = across[0] * across[0] + across[1] * across[1];
@@ -71,23 +67,13 @@ impl Edge {
         let (normal, sine) = if d > 0.0 {
             let e = over.excess - side * over.distance * one_less;
             (
-                [
-                    (radius * (1.0 - one_less) - over.distance) / d,
-                    radius * sin / d,
-                ],
+                [(radius * (1.0 - one_less) - over.distance) / d, radius * sin / d],
                 (over.distance * sin * outward[0] + sin_psi * e * outward[1]) / d,
             )
         } else {
             ([side, 0.0], 0.0)
         };
-        Self {
-            delta,
-            normal,
-            height: o.half_width * width,
-            sine,
-            outward,
-            ratio: ratio(o, v, sine),
-        }
+        Self { delta, normal, height: o.half_width * width, sine, outward, ratio: ratio(o, v, sine) }
     }
 
     /// 1 on the tube, falling to 0 where it meets the floor.
@@ -118,21 +104,12 @@ impl Edge {
 /// y; infinite where the tube would reach beyond the other side of the outline.
 #[inline]
 pub(super) fn ratio(outline: &Outline, v: f64, sine: f64) -> f64 {
-    let (a, b, c, r) = (
-        outline.half_length,
-        outline.depth,
-        outline.half_width,
-        outline.rim,
-    );
+    let (a, b, c, r) = (outline.half_length, outline.depth, outline.half_width, outline.rim);
     let s = sine.clamp(0.0, 1.0);
     let (v2, w2) = (v * v, (1.0 - v) * (1.0 + v));
     let h2 = c * c * v2 + a * a * w2;
     let curl = (c * c * c * c * v2 + a * a * a * a * w2) / (a * a * c * c * h2);
     let opening = 2.0 * h2.sqrt() / (a * c) - r * s * curl;
     let rest = 1.0 + (1.0 - s * s).sqrt();
-    if opening > 0.0 {
-        s * s * s * r / (rest * rest * b * b * opening)
-    } else {
-        f64::INFINITY
-    }
+    if opening > 0.0 { s * s * s * r / (rest * rest * b * b * opening) } else { f64::INFINITY }
 }

@@ -37,10 +37,7 @@ pub(super) struct Places {
 
 impl Places {
     fn none() -> Self {
-        Self {
-            items: [0.0; MOST_PLACES],
-            count: 0,
-        }
+        Self { items: [0.0; MOST_PLACES], count: 0 }
     }
 
     fn push(&mut self, place: f64) {
@@ -69,10 +66,7 @@ pub(super) struct Minimum {
 /// Minima of F within −1..1, ends excluded, for a ball at a place, in ascending order; `ends` are F and its derivatives
 /// at −1 and 1.
 #[inline]
-pub(super) fn inner_minima(
-    over: &Over<'_>,
-    ends: [[f64; 4]; 2],
-) -> impl Iterator<Item = Minimum> + Clone {
+pub(super) fn inner_minima(over: &Over<'_>, ends: [[f64; 4]; 2]) -> impl Iterator<Item = Minimum> + Clone {
     let places = inner_places(over, ends);
     let mut minima = [None; MOST_MINIMA];
     for (minimum, &v) in minima.iter_mut().zip(places.as_slice()) {
@@ -191,8 +185,6 @@ fn zero(ends: [f64; 2], values: [f64; 2], function: impl Fn(f64) -> [f64; 2]) ->
 pub(super) fn to_tube(outline: &Outline, distance: f64, offset: f64) -> f64 {
     let over = Over::new(outline, distance, offset);
     let ends = [-1.0, 1.0].map(|v| over.squares(v));
-    let least = inner_minima(&over, ends)
-        .map(|minimum| minimum.square)
-        .fold(ends[0][0].min(ends[1][0]), f64::min);
+    let least = inner_minima(&over, ends).map(|minimum| minimum.square).fold(ends[0][0].min(ends[1][0]), f64::min);
     (over.least() * over.least() + 2.0 * least).max(0.0).sqrt()
 }

@@ -58,12 +58,7 @@ impl Outline {
     /// Change of F over v that the race's own rolling curvature makes, `K (a/R)²` for a ball that touches the race, m².
     #[inline]
     pub(crate) fn scale(&self) -> f64 {
-        let Circles {
-            carrier,
-            side,
-            roller,
-            ..
-        } = self.circles;
+        let Circles { carrier, side, roller, .. } = self.circles;
         (carrier - side * roller) * self.level() * self.angle() * self.angle()
     }
 }
@@ -92,12 +87,7 @@ pub(super) struct Over<'o> {
 impl<'o> Over<'o> {
     #[inline]
     pub(super) fn new(outline: &'o Outline, distance: f64, offset: f64) -> Self {
-        let Circles {
-            carrier,
-            side,
-            roller,
-            ..
-        } = outline.circles;
+        let Circles { carrier, side, roller, .. } = outline.circles;
         let sunk = side * (distance - carrier) + roller;
         Self {
             outline,
@@ -129,12 +119,7 @@ impl<'o> Over<'o> {
         let c = (1.0 - rest).sqrt();
         let per_c = 1.0 / c;
         let rise = k2 * (1.0 - k2) * (per_c * per_c * per_c);
-        let w = [
-            rest / (1.0 + c),
-            -k2 * v * per_c,
-            -rise,
-            3.0 * k2 * v * rise * (per_c * per_c),
-        ];
+        let w = [rest / (1.0 + c), -k2 * v * per_c, -rise, 3.0 * k2 * v * rise * (per_c * per_c)];
         let e = [
             self.outline.tube() * self.excess - turn * one_less,
             -turn * p * sin,

@@ -25,10 +25,8 @@ impl Surface {
         let inner = inner_minima(&over, ends);
         let angle = outline.angle();
         let beside = [offset < -angle, offset >= angle];
-        let vertex = [
-            weight::vertex(outline, ends[0][1], ends[0][2]),
-            weight::vertex(outline, -ends[1][1], ends[1][2]),
-        ];
+        let vertex =
+            [weight::vertex(outline, ends[0][1], ends[0][2]), weight::vertex(outline, -ends[1][1], ends[1][2])];
         let mut sum = 0.0;
         for (beside, vertex) in beside.into_iter().zip(vertex) {
             sum += if beside { 1.0 } else { vertex };
@@ -36,11 +34,7 @@ impl Surface {
         for minimum in inner.clone() {
             sum += weight::pair(outline, minimum.bend);
         }
-        let gain = if sum > 0.0 && sum < 1.0 {
-            1.0 / sum
-        } else {
-            1.0
-        };
+        let gain = if sum > 0.0 && sum < 1.0 { 1.0 / sum } else { 1.0 };
         if beside[0] {
             found.push(plain);
         } else if vertex[0] > 0.0 {

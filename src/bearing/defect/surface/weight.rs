@@ -42,11 +42,7 @@ pub(super) fn pair(outline: &Outline, bend: f64) -> f64 {
 pub(super) fn vertex(outline: &Outline, inward_slope: f64, bend: f64) -> f64 {
     let slope = inward_slope / ((1.0 - FLOOR_FADE) * outline.scale());
     let (held, bent) = (smoothstep(0.5 * (1.0 + slope)), pair(outline, bend));
-    if slope >= 0.0 {
-        held + (1.0 - held) * bent
-    } else {
-        held * (1.0 - bent)
-    }
+    if slope >= 0.0 { held + (1.0 - held) * bent } else { held * (1.0 - bent) }
 }
 
 #[cfg(test)]
@@ -62,11 +58,7 @@ mod tests {
         // sqrt(1e-6 / 65.4), as under 10 N
         let apart = 0.1237e-3;
         assert_relative_eq!(patches(&outline, 0.0), 1.0);
-        assert_relative_eq!(
-            patches(&outline, apart / 2f64.sqrt()),
-            1.5,
-            max_relative = 1e-3
-        );
+        assert_relative_eq!(patches(&outline, apart / 2f64.sqrt()), 1.5, max_relative = 1e-3);
         assert_relative_eq!(patches(&outline, 1.001 * apart), 2.0);
         assert!(patches(&outline, 0.99 * apart) < 2.0);
     }
@@ -79,8 +71,7 @@ mod tests {
         let scale = outline.scale();
         for i in -10..=10 {
             let bend = 0.05 * f64::from(i) * scale;
-            let [before, after] =
-                [1e-12, -1e-12].map(|slope| vertex(&outline, slope * scale, bend));
+            let [before, after] = [1e-12, -1e-12].map(|slope| vertex(&outline, slope * scale, bend));
             assert_relative_eq!(before, after + pair(&outline, bend), epsilon = 1e-10);
             assert_relative_eq!(vertex(&outline, scale, bend), 1.0);
             assert_relative_eq!(vertex(&outline, -scale, bend), 0.0);

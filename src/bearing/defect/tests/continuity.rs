@@ -52,8 +52,7 @@ fn remaining_jump(place: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> [
 fn force_and_stiffness_are_continuous_in_position() {
     for (name, subject) in every_subject() {
         let wide = 1.2 * subject.contact_half_angle();
-        let level =
-            [-1e-6, 0.5e-6, 2e-6, 5e-6, 15e-6, 25e-6].map(|sunk| ([sunk, -wide], [sunk, wide]));
+        let level = [-1e-6, 0.5e-6, 2e-6, 5e-6, 15e-6, 25e-6].map(|sunk| ([sunk, -wide], [sunk, wide]));
         let slanted = [
             ([30e-6, -wide], [0.0, wide]),
             ([2e-6, 0.9 * wide], [40e-6, -0.3 * wide]),
@@ -64,13 +63,10 @@ fn force_and_stiffness_are_continuous_in_position() {
                 let mix = |i: usize| from[i] + x * (to[i] - from[i]);
                 response(subject, mix(0), mix(1))
             };
-            let values: Vec<_> = (0..=STEPS)
-                .map(|i| place(i as f64 / STEPS as f64))
-                .collect();
+            let values: Vec<_> = (0..=STEPS).map(|i| place(i as f64 / STEPS as f64)).collect();
             for entry in [0, 1, 2] {
                 let change = |i: usize| values[i + 1][entry] - values[i][entry];
-                let roughness =
-                    |i: usize| (change(i) - 0.5 * (change(i - 1) + change(i + 1))).abs();
+                let roughness = |i: usize| (change(i) - 0.5 * (change(i - 1) + change(i + 1))).abs();
                 let mut worst: Vec<usize> = (1..STEPS - 1).collect();
                 worst.sort_by(|&a, &b| roughness(b).total_cmp(&roughness(a)));
                 for &i in &worst[..FOLLOWED] {
@@ -127,12 +123,7 @@ fn borders_of(name: &str, subject: &Subject, numbers: &mut Numbers) -> u32 {
     let mut borders = 0;
     let wide = 1.1 * subject.contact_half_angle();
     for _ in 0..24 {
-        let end = |numbers: &mut Numbers| {
-            [
-                -2e-6 + 30e-6 * numbers.next(),
-                wide * (2.0 * numbers.next() - 1.0),
-            ]
-        };
+        let end = |numbers: &mut Numbers| [-2e-6 + 30e-6 * numbers.next(), wide * (2.0 * numbers.next() - 1.0)];
         let (from, to) = (end(numbers), end(numbers));
         let mix = |x: f64, i: usize| from[i] + x * (to[i] - from[i]);
         let features = |x: f64| {
@@ -157,10 +148,7 @@ fn borders_of(name: &str, subject: &Subject, numbers: &mut Numbers) -> u32 {
             }
             let [left, right] = [low, high].map(|x| response(subject, mix(x, 0), mix(x, 1)));
             for (a, b) in left.iter().zip(right) {
-                assert!(
-                    (a - b).abs() < 1e-6,
-                    "{name}: {left:?} {right:?} at {low} of {from:?} to {to:?}"
-                );
+                assert!((a - b).abs() < 1e-6, "{name}: {left:?} {right:?} at {low} of {from:?} to {to:?}");
             }
             borders += 1;
             before = after;
@@ -194,27 +182,21 @@ fn the_race_begins_where_the_arc_ends() {
     for (name, subject) in every_subject() {
         let (circles, edge) = (subject.circles, subject.half_angle());
         let outward = subject.contacts(3e-6, 1.5 * subject.contact_half_angle());
-        let [plain] = outward.as_slice() else {
-            panic!("{name}: one contact beside the arc")
-        };
+        let [plain] = outward.as_slice() else { panic!("{name}: one contact beside the arc") };
         assert_eq!(plain.feature, Feature::Plain);
         assert!((plain.delta - 3e-6).abs() < 2e-18, "{name}");
         assert!((plain.stiffness - circles.stiffness).abs() <= 0.0);
         for side in [-1.0, 1.0] {
             let deepest = |offset: f64| {
                 let found = subject.contacts(3e-6, side * offset);
-                let deeper =
-                    |a: DefectContact, b: DefectContact| if b.delta > a.delta { b } else { a };
+                let deeper = |a: DefectContact, b: DefectContact| if b.delta > a.delta { b } else { a };
                 found.pressing().copied().reduce(deeper).unwrap()
             };
             let (outside, inside) = (deepest(edge * (1.0 + 1e-9)), deepest(edge * (1.0 - 1e-9)));
             assert_eq!(outside.feature, Feature::Plain, "{name}");
             assert_ne!(inside.feature, Feature::Plain, "{name}");
             assert!((outside.delta - inside.delta).abs() < 1e-15, "{name}");
-            assert!(
-                (outside.stiffness / inside.stiffness - 1.0).abs() < 1e-6,
-                "{name}"
-            );
+            assert!((outside.stiffness / inside.stiffness - 1.0).abs() < 1e-6, "{name}");
             assert!((outside.normal_radial - inside.normal_radial).abs() < 1e-12);
             assert!(inside.normal_tangential.abs() < 1e-6, "{name}");
         }
@@ -227,11 +209,7 @@ fn mirror_image() {
     let mut numbers = Numbers(8);
     let samples = scratched(60);
     let length = samples[60].0;
-    let turned: Vec<_> = samples
-        .iter()
-        .rev()
-        .map(|&(s, d)| (length - s, d))
-        .collect();
+    let turned: Vec<_> = samples.iter().rev().map(|&(s, d)| (length - s, d)).collect();
     for (name, subject) in every_subject() {
         let image = match &subject.kind {
             Kind::Race(pit) if *name == "scratched pit" => {
@@ -242,24 +220,12 @@ fn mirror_image() {
         for _ in 0..300 {
             let offset = 1.1 * subject.contact_half_angle() * numbers.next();
             let sunk = 25e-6 * numbers.next();
-            let (right, left) = (
-                response(subject, sunk, offset),
-                response(&image, sunk, -offset),
-            );
+            let (right, left) = (response(subject, sunk, offset), response(&image, sunk, -offset));
             // a contact at the edge of fading may be counted on one side alone by rounding
             let scale = 1e-8 * (1.0 + right[0].abs() + right[2].abs());
-            assert!(
-                (right[0] - left[0]).abs() < scale,
-                "{name} {right:?} {left:?}"
-            );
-            assert!(
-                (right[1] + left[1]).abs() < scale,
-                "{name} {right:?} {left:?}"
-            );
-            assert!(
-                (right[2] - left[2]).abs() < scale,
-                "{name} {right:?} {left:?}"
-            );
+            assert!((right[0] - left[0]).abs() < scale, "{name} {right:?} {left:?}");
+            assert!((right[1] + left[1]).abs() < scale, "{name} {right:?} {left:?}");
+            assert!((right[2] - left[2]).abs() < scale, "{name} {right:?} {left:?}");
         }
     }
 }
@@ -267,9 +233,7 @@ fn mirror_image() {
 /// Finite input gives finite contacts, and a NaN is passed on.
 #[test]
 fn no_nan_for_finite_positions() {
-    let lengths = [
-        0.0, 1e-300, -1e-3, 1e-3, 2.754e-3, 4.7565e-3, 4.8065e-3, 1e6, -1e150, 1e300,
-    ];
+    let lengths = [0.0, 1e-300, -1e-3, 1e-3, 2.754e-3, 4.7565e-3, 4.8065e-3, 1e6, -1e150, 1e300];
     // a rim that rounding takes away
     let nothing = [Race::Outer, Race::Inner].map(|race| {
         let dent = solved(race, dent_shape(1e-3, 1e-300, 5e-5));
@@ -281,17 +245,11 @@ fn no_nan_for_finite_positions() {
             for distance in lengths {
                 for c in subject.contacts_at(distance, offset).pressing() {
                     let numbers = [c.delta, c.normal_radial, c.normal_tangential, c.stiffness];
-                    assert!(
-                        numbers.iter().all(|value| !value.is_nan()),
-                        "{name} at {distance}, {offset}: {c:?}"
-                    );
+                    assert!(numbers.iter().all(|value| !value.is_nan()), "{name} at {distance}, {offset}: {c:?}");
                 }
             }
             let lost = subject.contacts_at(f64::NAN, offset);
-            assert!(
-                lost.pressing().any(|c| c.delta.is_nan()),
-                "{name}: NaN is lost"
-            );
+            assert!(lost.pressing().any(|c| c.delta.is_nan()), "{name}: NaN is lost");
         }
     }
 }

@@ -14,18 +14,12 @@ fn gradient_of_overlap_is_the_normal() {
             let offset = 1.1 * subject.contact_half_angle() * (2.0 * numbers.next() - 1.0);
             let distance = subject.distance(sunk);
             let h = 1e-9;
-            let at = |out: f64, ahead: f64| {
-                subject.contacts_at(distance + out * h, offset + ahead * h / distance)
-            };
+            let at = |out: f64, ahead: f64| subject.contacts_at(distance + out * h, offset + ahead * h / distance);
             let found = at(0.0, 0.0);
             let around = [at(1.0, 0.0), at(-1.0, 0.0), at(0.0, 1.0), at(0.0, -1.0)];
             let same = |other: &DefectContacts| {
                 other.as_slice().len() == found.as_slice().len()
-                    && other
-                        .as_slice()
-                        .iter()
-                        .zip(found.as_slice())
-                        .all(|(a, b)| a.feature == b.feature)
+                    && other.as_slice().iter().zip(found.as_slice()).all(|(a, b)| a.feature == b.feature)
             };
             for c in found.pressing() {
                 let norm = c.normal_radial.hypot(c.normal_tangential);
@@ -35,24 +29,13 @@ fn gradient_of_overlap_is_the_normal() {
             if !around.iter().all(same) {
                 continue;
             }
-            for (i, c) in found
-                .as_slice()
-                .iter()
-                .enumerate()
-                .filter(|(_, c)| c.delta > 0.0)
-            {
+            for (i, c) in found.as_slice().iter().enumerate().filter(|(_, c)| c.delta > 0.0) {
                 let [out, back, ahead, behind] = around.map(|other| other.as_slice()[i].delta);
                 // rounding of 1e-18 m over 2e-9 m, and the step times a curvature of 1e5/m on the sharpest rim
                 let slack = 2e-6 + 1e-4 * c.normal_tangential.abs();
-                assert!(
-                    ((out - back) / (2.0 * h) - c.normal_radial).abs() < slack,
-                    "{name} {c:?}"
-                );
+                assert!(((out - back) / (2.0 * h) - c.normal_radial).abs() < slack, "{name} {c:?}");
                 let slope = (ahead - behind) / (2.0 * h);
-                assert!(
-                    (slope - c.normal_tangential).abs() < slack,
-                    "{name} {c:?} {slope}"
-                );
+                assert!((slope - c.normal_tangential).abs() < slack, "{name} {c:?} {slope}");
                 compared += 1;
             }
         }
@@ -97,10 +80,7 @@ fn work_is_the_change_of_energy_less_that_of_stiffness() {
         let scale = 0.4 * subject.circles.stiffness * (1e-5_f64).powf(2.5);
         let error = (work - (change - by_stiffness)).abs() / scale;
         // trapezoids of 20000 steps
-        assert!(
-            error < 1e-3,
-            "{name}: {work} J against {change} - {by_stiffness}"
-        );
+        assert!(error < 1e-3, "{name}: {work} J against {change} - {by_stiffness}");
     }
 }
 

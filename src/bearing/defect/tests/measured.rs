@@ -42,10 +42,7 @@ fn the_rise_is_that_of_the_highest_lip() {
             .fold(0.0, f64::max);
         assert!(highest > 1.3e-6);
         let rise = measured.rise();
-        assert!(
-            highest <= rise && rise < 1.02 * highest,
-            "{rise:e} {highest:e}"
-        );
+        assert!(highest <= rise && rise < 1.02 * highest, "{rise:e} {highest:e}");
         let sunk: Vec<(f64, f64)> = samples.iter().map(|&(s, depth)| (s, depth.abs())).collect();
         // what a spline overshoots
         assert!(profile(race, &sunk).rise() < 0.5e-6);
@@ -58,11 +55,7 @@ fn the_rise_is_that_of_the_highest_lip() {
 fn samples_of_a_dent_give_its_contacts() {
     for race in RACES {
         let dent = solved(race, source_shape(race));
-        let radius = if race == Race::Outer {
-            4.7565e-3
-        } else {
-            2.754e-3
-        };
+        let radius = if race == Race::Outer { 4.7565e-3 } else { 2.754e-3 };
         let into = if race == Race::Outer { 1.0 } else { -1.0 };
         // unevenly, fine at the rims; beyond them the depth is zero
         let reach = 1.05 * dent.half_angle() * radius;
@@ -70,41 +63,23 @@ fn samples_of_a_dent_give_its_contacts() {
         let samples: Vec<(f64, f64)> = (0..=count)
             .map(|i| {
                 let s = -reach * (PI * f64::from(i) / f64::from(count)).cos();
-                (
-                    s,
-                    into * (dent.profile_radius(MIDDLE + s / radius) - radius),
-                )
+                (s, into * (dent.profile_radius(MIDDLE + s / radius) - radius))
             })
             .collect();
-        let (told, given) = (
-            subject(race, &samples),
-            Subject::race(RaceDefect::Dent(dent.clone())),
-        );
+        let (told, given) = (subject(race, &samples), Subject::race(RaceDefect::Dent(dent.clone())));
         for i in -5..=5 {
             let offset = 0.1 * f64::from(i) * dent.half_angle();
             let floor = |subject: &Subject| {
                 let found = subject.contacts(16e-6, offset);
                 let flattest = |a: DefectContact, b: DefectContact| {
-                    if b.normal_tangential.abs() < a.normal_tangential.abs() {
-                        b
-                    } else {
-                        a
-                    }
+                    if b.normal_tangential.abs() < a.normal_tangential.abs() { b } else { a }
                 };
                 found.pressing().copied().reduce(flattest).unwrap()
             };
             let (a, b) = (floor(&told), floor(&given));
             assert_eq!((a.feature, b.feature), (Feature::Measured, Feature::Floor));
-            assert!(
-                (a.delta - b.delta).abs() < 1e-11,
-                "{race} {i}: {} {}",
-                a.delta,
-                b.delta
-            );
-            assert!(
-                (a.normal_tangential - b.normal_tangential).abs() < 1e-5,
-                "{race} {i}"
-            );
+            assert!((a.delta - b.delta).abs() < 1e-11, "{race} {i}: {} {}", a.delta, b.delta);
+            assert!((a.normal_tangential - b.normal_tangential).abs() < 1e-5, "{race} {i}");
             assert_relative_eq!(a.stiffness, b.stiffness, max_relative = 5e-3);
         }
         assert_relative_eq!(told_drop(&told), 15e-6, max_relative = 1e-4);
@@ -134,20 +109,14 @@ fn a_ball_bridges_what_it_cannot_follow() {
                 let found = subject.contacts(sunk, offset);
                 found.pressing().map(|c| c.delta).fold(0.0, f64::max)
             };
-            assert!(
-                deepest(drop + 1e-9) > 0.0,
-                "{race}: free at {offset} below the drop"
-            );
+            assert!(deepest(drop + 1e-9) > 0.0, "{race}: free at {offset} below the drop");
             // crests at the race's level are at most 50 um away: 1.6 um of sagitta under a ball, and 1 um of slack
             assert!(deepest(drop + 2.5e-6) > 0.5e-6);
         }
         // half way between two crests, 0.1 mm apart
         let between = 0.05e-3 / subject.circles.carrier;
         let found = subject.contacts(drop + 1e-7, between);
-        let sides: Vec<f64> = found
-            .pressing()
-            .map(|c| c.normal_tangential.signum())
-            .collect();
+        let sides: Vec<f64> = found.pressing().map(|c| c.normal_tangential.signum()).collect();
         assert_eq!(sides, [-1.0, 1.0], "{race}");
     }
 }
@@ -180,17 +149,10 @@ fn a_lip_is_met_from_beside() {
     });
     for race in RACES {
         let subject = subject(race, &samples);
-        assert!(
-            subject.contact_half_angle() > 1.1 * subject.half_angle(),
-            "{race}"
-        );
+        assert!(subject.contact_half_angle() > 1.1 * subject.half_angle(), "{race}");
         let beside = 1.05 * subject.half_angle();
         let features = |sunk: f64, offset: f64| -> Vec<Feature> {
-            subject
-                .contacts(sunk, offset)
-                .pressing()
-                .map(|c| c.feature)
-                .collect()
+            subject.contacts(sunk, offset).pressing().map(|c| c.feature).collect()
         };
         // not pressed into the race yet, and pressed into it
         assert_eq!(features(-0.1e-6, beside), [Feature::Measured], "{race}");
@@ -207,10 +169,7 @@ fn of_many_contacts_the_strongest_are_kept() {
     let found = subject.contacts(20e-6, 0.0);
     let all: Vec<&DefectContact> = found.pressing().collect();
     assert_eq!(all.len(), MOST_CONTACTS);
-    assert!(
-        all.windows(2)
-            .all(|pair| pair[0].normal_tangential < pair[1].normal_tangential)
-    );
+    assert!(all.windows(2).all(|pair| pair[0].normal_tangential < pair[1].normal_tangential));
     // the nearest crests are deepest: 5 um apart, within 50 um of the middle all are kept that are nearest
     assert!(all.iter().all(|c| c.normal_tangential.abs() < 0.055));
 }
@@ -230,14 +189,8 @@ fn steep_profiles_name_their_samples() {
         "{message}"
     );
     samples[30].1 = f64::NAN;
-    assert_eq!(
-        refused(0.0, &samples).to_string(),
-        "defect profile, sample 31: depth NaN m must be finite"
-    );
-    assert_eq!(
-        refused(f64::INFINITY, &samples).to_string(),
-        "defect angle_deg = inf must be finite"
-    );
+    assert_eq!(refused(0.0, &samples).to_string(), "defect profile, sample 31: depth NaN m must be finite");
+    assert_eq!(refused(f64::INFINITY, &samples).to_string(), "defect angle_deg = inf must be finite");
     // differences that vanish against the square of a spacing are refused, not divided by
     let tiny = [(0.0, 0.0), (1e-200, 1e-210), (1e-3, 1e-6), (2e-3, 0.0)];
     assert!(matches!(refused(0.0, &tiny), DefectError::Steep { .. }));

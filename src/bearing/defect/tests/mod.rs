@@ -39,18 +39,12 @@ struct Subject {
 impl Subject {
     fn race(defect: RaceDefect) -> Self {
         let (bearing, stiffness) = (source_bearing(), source_stiffness());
-        Self {
-            circles: Circles::race(&bearing, defect.race(), stiffness),
-            kind: Kind::Race(Box::new(defect)),
-        }
+        Self { circles: Circles::race(&bearing, defect.race(), stiffness), kind: Kind::Race(Box::new(defect)) }
     }
 
     fn ball(flat: BallFlat, race: Race) -> Self {
         let (bearing, stiffness) = (source_bearing(), source_stiffness());
-        Self {
-            circles: Circles::ball(&bearing, race, stiffness),
-            kind: Kind::Ball(Box::new(flat), race),
-        }
+        Self { circles: Circles::ball(&bearing, race, stiffness), kind: Kind::Ball(Box::new(flat), race) }
     }
 
     fn half_angle(&self) -> f64 {
@@ -77,12 +71,7 @@ impl Subject {
 
     /// Distance of the two centres when the undamaged pair overlaps by `sunk`.
     fn distance(&self, sunk: f64) -> f64 {
-        let Circles {
-            carrier,
-            side,
-            roller,
-            ..
-        } = self.circles;
+        let Circles { carrier, side, roller, .. } = self.circles;
         (side * carrier - roller + sunk) / (side * roller.signum())
     }
 
@@ -90,10 +79,7 @@ impl Subject {
     /// would be touched.
     fn contacts_at(&self, distance: f64, offset: f64) -> DefectContacts {
         match &self.kind {
-            Kind::Race(defect) => defect.profile().contacts(PolarPosition {
-                radius: distance,
-                angle: MIDDLE + offset,
-            }),
+            Kind::Race(defect) => defect.profile().contacts(PolarPosition { radius: distance, angle: MIDDLE + offset }),
             Kind::Ball(flat, race) => {
                 let spin_angle = match race {
                     Race::Inner => PI - offset,
@@ -129,14 +115,7 @@ impl Subject {
 }
 
 fn dent_shape(length: f64, depth: f64, rim_radius: f64) -> DentShape {
-    DentShape {
-        angle: MIDDLE,
-        length,
-        width: None,
-        depth,
-        rim_radius,
-        curvature: CurvatureReading::Total,
-    }
+    DentShape { angle: MIDDLE, length, width: None, depth, rim_radius, curvature: CurvatureReading::Total }
 }
 
 /// The source's Figure 8.
@@ -149,12 +128,7 @@ fn source_shape(race: Race) -> DentShape {
 }
 
 fn source_flat() -> FlatShape {
-    FlatShape {
-        radius: 2e-3,
-        depth: 10e-6,
-        rim_radius: DEFAULT_RIM_RADIUS,
-        curvature: CurvatureReading::Total,
-    }
+    FlatShape { radius: 2e-3, depth: 10e-6, rim_radius: DEFAULT_RIM_RADIUS, curvature: CurvatureReading::Total }
 }
 
 fn solved(race: Race, shape: DentShape) -> Dent {
@@ -210,11 +184,7 @@ static SUBJECTS: LazyLock<Vec<(&'static str, Subject)>> = LazyLock::new(|| {
             all.push((name, Subject::race(RaceDefect::Dent(solved(race, shape)))));
         }
     }
-    let plane = FlatShape {
-        radius: 0.1,
-        depth: 4e-6,
-        ..source_flat()
-    };
+    let plane = FlatShape { radius: 0.1, depth: 4e-6, ..source_flat() };
     for race in [Race::Outer, Race::Inner] {
         all.push(("source's flat", Subject::ball(flat(source_flat()), race)));
         all.push(("plane flat", Subject::ball(flat(plane), race)));
@@ -222,14 +192,8 @@ static SUBJECTS: LazyLock<Vec<(&'static str, Subject)>> = LazyLock::new(|| {
     for race in [Race::Outer, Race::Inner] {
         for (name, samples) in [
             ("scratched pit", scratched(60)),
-            (
-                "smooth pit",
-                sampled(1.2e-3, 24, |x| 15e-6 * (PI * x).sin().powi(2)),
-            ),
-            (
-                "narrow pit",
-                sampled(0.16e-3, 16, |x| 15e-6 * (PI * x).sin().powi(2)),
-            ),
+            ("smooth pit", sampled(1.2e-3, 24, |x| 15e-6 * (PI * x).sin().powi(2))),
+            ("narrow pit", sampled(0.16e-3, 16, |x| 15e-6 * (PI * x).sin().powi(2))),
         ] {
             let subject = Subject::race(RaceDefect::Measured(profile(race, &samples)));
             all.push((name, subject));
@@ -256,10 +220,7 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
@@ -295,9 +256,6 @@ fn race_defects_answer_for_what_they_hold() {
             continue;
         };
         assert!((defect.angle() - MIDDLE).abs() < 1e-15, "{name}");
-        assert!(
-            defect.contains(MIDDLE) && !defect.contains(MIDDLE + 1.0),
-            "{name}"
-        );
+        assert!(defect.contains(MIDDLE) && !defect.contains(MIDDLE + 1.0), "{name}");
     }
 }

@@ -27,12 +27,7 @@ impl<'a> Dense<'a> {
     fn new(subject: &'a Subject) -> Self {
         let wide = 0.3 * subject.half_angle() + 1.2 * subject.contact_half_angle();
         let step = 2.0 * wide / f64::from(SAMPLES);
-        let mut dense = Self {
-            subject,
-            circles: subject.circles,
-            places: vec![-wide],
-            points: Vec::new(),
-        };
+        let mut dense = Self { subject, circles: subject.circles, places: vec![-wide], points: Vec::new() };
         for i in 0..SAMPLES {
             let low = step * f64::from(i) - wide;
             dense.sample([low, low + step], HALVINGS);
@@ -72,16 +67,12 @@ impl<'a> Dense<'a> {
 
     /// Whether the profile comes to be as concave as the roller within a sample of a contact.
     fn folds_near(&self, contact: &DefectContact, offset: f64) -> bool {
-        let Circles {
-            carrier, roller, ..
-        } = self.circles;
-        let across =
-            roller.signum() * contact.normal_tangential * (roller - contact.delta) / carrier;
+        let Circles { carrier, roller, .. } = self.circles;
+        let across = roller.signum() * contact.normal_tangential * (roller - contact.delta) / carrier;
         let place = offset + across;
         let step = self.places[1] - self.places[0];
         let near = (-4..=4).map(|i| place + 0.25 * step * f64::from(i));
-        near.into_iter()
-            .any(|phi| self.concavity(phi) > 0.98 / roller)
+        near.into_iter().any(|phi| self.concavity(phi) > 0.98 / roller)
     }
 
     /// All pressing contacts in order of angle, and whether one is too near an edge to call.
@@ -110,13 +101,7 @@ impl<'a> Dense<'a> {
                         Kind::Ball(_, Race::Inner) => normal.scaled(-1.0),
                         _ => normal,
                     };
-                    found.push((
-                        delta,
-                        [
-                            normal.dot(radius_vector),
-                            normal.dot(radius_vector.tangent()),
-                        ],
-                    ));
+                    found.push((delta, [normal.dot(radius_vector), normal.dot(radius_vector.tangent())]));
                 }
             }
         }
@@ -189,28 +174,13 @@ impl Tally {
     }
 
     fn check(&self, name: &str, fewest_several: u32) {
-        let Self {
-            positions,
-            several,
-            skipped,
-            worst,
-        } = self;
+        let Self { positions, several, skipped, worst } = self;
         // Overlaps come to rounding: 1e-18 m on a length of 1e-3 m, and the profile joins to 1e-17. Golden section
         // finds the place of a minimum to the root of that, 1e-11 m on a radius of curvature of 1e-5 m or more.
-        assert!(
-            worst[0] < 1e-15,
-            "{name}: overlaps differ by {} m",
-            worst[0]
-        );
+        assert!(worst[0] < 1e-15, "{name}: overlaps differ by {} m", worst[0]);
         assert!(worst[1] < 1e-5, "{name}: normals differ by {}", worst[1]);
-        assert!(
-            *skipped <= positions / 100,
-            "{name}: {skipped} of {positions} too near an edge to call"
-        );
-        assert!(
-            *several >= fewest_several,
-            "{name}: only {several} of {positions} with several contacts"
-        );
+        assert!(*skipped <= positions / 100, "{name}: {skipped} of {positions} too near an edge to call");
+        assert!(*several >= fewest_several, "{name}: only {several} of {positions} with several contacts");
     }
 }
 

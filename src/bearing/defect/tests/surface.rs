@@ -19,10 +19,7 @@ pub fn source_surface(race: Race) -> DentShape {
 }
 
 fn wide(shape: DentShape, width: f64) -> DentShape {
-    DentShape {
-        width: Some(width),
-        ..shape
-    }
+    DentShape { width: Some(width), ..shape }
 }
 
 pub fn surface_dent(race: Race, shape: DentShape) -> SurfaceDent {
@@ -68,30 +65,12 @@ static SUBJECTS: LazyLock<Vec<(&'static str, Subject)>> = LazyLock::new(|| {
     for race in RACES {
         for (name, shape) in [
             ("source's dent in space", source_surface(race)),
-            (
-                "groove in space",
-                wide(dent_shape(2e-3, 10e-6, 50e-6), 0.1e-3),
-            ),
-            (
-                "shallow dent in space",
-                wide(dent_shape(0.75e-3, 3e-6, 50e-6), 0.9e-3),
-            ),
-            (
-                "even dent in space",
-                wide(dent_shape(0.75e-3, 3e-6, 20e-6), 0.62e-3),
-            ),
-            (
-                "short dent in space",
-                conforming(race, 0.12e-3, 1.8, 8e-6, 20e-6),
-            ),
-            (
-                "conforming dent in space",
-                conforming(race, 0.16e-3, 1.0, 15e-6, 20e-6),
-            ),
-            (
-                "widest dent in space",
-                wide(dent_shape(0.5e-3, 40e-6, 50e-6), 1.8e-3),
-            ),
+            ("groove in space", wide(dent_shape(2e-3, 10e-6, 50e-6), 0.1e-3)),
+            ("shallow dent in space", wide(dent_shape(0.75e-3, 3e-6, 50e-6), 0.9e-3)),
+            ("even dent in space", wide(dent_shape(0.75e-3, 3e-6, 20e-6), 0.62e-3)),
+            ("short dent in space", conforming(race, 0.12e-3, 1.8, 8e-6, 20e-6)),
+            ("conforming dent in space", conforming(race, 0.16e-3, 1.0, 15e-6, 20e-6)),
+            ("widest dent in space", wide(dent_shape(0.5e-3, 40e-6, 50e-6), 1.8e-3)),
         ] {
             let dent = surface_dent(race, shape);
             all.push((name, Subject::race(RaceDefect::SurfaceDent(dent))));
@@ -103,10 +82,7 @@ static SUBJECTS: LazyLock<Vec<(&'static str, Subject)>> = LazyLock::new(|| {
 /// Place of a ball that overlaps the undamaged race by `sunk`.
 pub fn at(dent: &SurfaceDent, sunk: f64, offset: f64) -> PolarPosition {
     let subject = Subject::race(RaceDefect::SurfaceDent(dent.clone()));
-    PolarPosition {
-        radius: subject.distance(sunk),
-        angle: MIDDLE + offset,
-    }
+    PolarPosition { radius: subject.distance(sunk), angle: MIDDLE + offset }
 }
 
 /// A ball at the middle of a dent that it bridges rests on a sphere of the rim's radius on either side: in the plane
@@ -124,11 +100,7 @@ fn drops_of_the_source_dents() {
         let height = ((ball + r) * (ball + r) - beside * beside).sqrt();
         let drop = down - height - (r_g - ball);
         // rounding of lengths of 5 mm
-        assert!(
-            (dent.ball_drop() - drop).abs() < 1e-17,
-            "{} {drop}",
-            dent.ball_drop()
-        );
+        assert!((dent.ball_drop() - drop).abs() < 1e-17, "{} {drop}", dent.ball_drop());
         // the next order: c²/4 (1/ρ_b² + 1/(ρ_b r_g) + 1/r_g²) and the drop itself, 3 %
         assert_relative_eq!(dent.ball_drop(), second_order, max_relative = 0.035);
         assert_relative_eq!(solved(race, shape).ball_drop(), 15e-6, max_relative = 1e-12);
@@ -140,21 +112,16 @@ fn drops_of_the_source_dents() {
 #[test]
 fn drop_is_where_the_deepest_contact_just_touches_in_space() {
     for (name, subject) in subjects() {
-        let Kind::Race(defect) = &subject.kind else {
-            panic!("{name}")
-        };
+        let Kind::Race(defect) = &subject.kind else { panic!("{name}") };
         let drop = defect.ball_drop();
-        let deepest = |sunk: f64| {
-            let found = subject.contacts(sunk, 0.0);
-            let first = found.as_slice().iter();
-            first.fold((f64::NEG_INFINITY, Feature::Plain), |best, c| {
-                if c.delta > best.0 {
-                    (c.delta, c.feature)
-                } else {
-                    best
-                }
-            })
-        };
+        let deepest =
+            |sunk: f64| {
+                let found = subject.contacts(sunk, 0.0);
+                let first = found.as_slice().iter();
+                first.fold((f64::NEG_INFINITY, Feature::Plain), |best, c| {
+                    if c.delta > best.0 { (c.delta, c.feature) } else { best }
+                })
+            };
         let (delta, feature) = deepest(drop);
         assert!(delta.abs() < 1e-15, "{name}: {delta}");
         assert!(deepest(drop - 1e-9).0 < 0.0 && deepest(drop + 1e-9).0 > 0.0);
@@ -171,10 +138,7 @@ fn drop_is_where_the_deepest_contact_just_touches_in_space() {
 
 fn steel_stiffness(curvatures: [f64; 2]) -> f64 {
     let modulus = hertz::effective_modulus([206e9; 2], [0.3; 2]).unwrap();
-    let bodies = PrincipalCurvatures {
-        plane_1: curvatures[0],
-        plane_2: curvatures[1],
-    };
+    let bodies = PrincipalCurvatures { plane_1: curvatures[0], plane_2: curvatures[1] };
     let flat = PrincipalCurvatures::flat();
     hertz::stiffness(bodies, flat, modulus).unwrap().stiffness
 }
@@ -193,9 +157,7 @@ fn side_edges_are_two_contacts_of_their_own_curvatures() {
         let shape = wide(dent_shape(2e-3, 100e-6, 30e-6), width);
         let dent = surface_dent(race, shape);
         let found = dent.contacts(at(&dent, dent.ball_drop() + 12e-6, 0.0));
-        let [pair] = found.as_slice() else {
-            panic!("one pair at the middle: {found:?}")
-        };
+        let [pair] = found.as_slice() else { panic!("one pair at the middle: {found:?}") };
         assert_eq!(pair.feature, Feature::SideEdges);
         assert!(pair.normal_radial.abs() < 1.0 && pair.normal_tangential.abs() < 1e-12);
         let both = 2.0 * steel_stiffness([1e3 + 1.0 / 30e-6, along]);
@@ -225,9 +187,7 @@ fn a_vertex_is_the_rim_in_the_plane() {
             for side in [-1.0, 1.0] {
                 let place = at(&dent, 20e-6, side * offset);
                 let feature = [Feature::RimBefore, Feature::RimAfter][usize::from(side > 0.0)];
-                let of = |found: DefectContacts| {
-                    found.pressing().find(|c| c.feature == feature).copied()
-                };
+                let of = |found: DefectContacts| found.pressing().find(|c| c.feature == feature).copied();
                 let Some(vertex) = of(dent.contacts(place)) else {
                     continue;
                 };
@@ -291,11 +251,7 @@ fn a_scratch_is_the_healthy_race() {
 fn profile_in_the_plane() {
     for race in RACES {
         let dent = surface_dent(race, source_surface(race));
-        let Outline {
-            circles,
-            half_length,
-            ..
-        } = dent.surface.outline;
+        let Outline { circles, half_length, .. } = dent.surface.outline;
         let depth = |x: f64| {
             let radius = dent.profile_radius(MIDDLE + x * dent.half_angle());
             circles.side * (radius - circles.carrier)
@@ -311,11 +267,7 @@ fn profile_in_the_plane() {
     // a rim wider than the dent fills it
     let groove = surface_dent(Race::Outer, wide(dent_shape(1e-3, 10e-6, 60e-6), 0.05e-3));
     let filled = groove.profile_radius(MIDDLE) - 4.7565e-3;
-    assert_relative_eq!(
-        filled,
-        60e-6 - (60e-6_f64.powi(2) - 25e-6_f64.powi(2)).sqrt(),
-        max_relative = 0.07
-    );
+    assert_relative_eq!(filled, 60e-6 - (60e-6_f64.powi(2) - 25e-6_f64.powi(2)).sqrt(), max_relative = 0.07);
 }
 
 #[test]
@@ -328,35 +280,17 @@ fn every_rule_fires_and_says_what_to_change_in_space() {
             given(None),
             "defect profile = \"surface\" needs width, the dent's extent across the race: give it, or use profile = \"in-plane\"",
         ),
-        (
-            given(Some(0.0)),
-            "defect width = 0 must be positive and finite",
-        ),
-        (
-            given(Some(f64::NAN)),
-            "defect width = NaN must be positive and finite",
-        ),
-        (
-            given(Some(2e-3)),
-            "defect width = 0.002 must be less than the ball's diameter",
-        ),
+        (given(Some(0.0)), "defect width = 0 must be positive and finite"),
+        (given(Some(f64::NAN)), "defect width = NaN must be positive and finite"),
+        (given(Some(2e-3)), "defect width = 0.002 must be less than the ball's diameter"),
         (
             given(Some(40e-6)),
             "defect depth 0.000015 m is more than a quarter of its width 0.00004 m: take a shallower or a wider dent, or \
              profile = \"in-plane\"",
         ),
+        (DentShape { length: 0.0, ..source }, "defect length = 0 must be positive and finite"),
         (
-            DentShape {
-                length: 0.0,
-                ..source
-            },
-            "defect length = 0 must be positive and finite",
-        ),
-        (
-            DentShape {
-                rim_radius: 2e-9,
-                ..source
-            },
+            DentShape { rim_radius: 2e-9, ..source },
             "defect rim_radius = 0.000000002 must be at least a millionth of the radius of the race or ball that it rounds",
         ),
     ] {
@@ -365,17 +299,11 @@ fn every_rule_fires_and_says_what_to_change_in_space() {
             assert_eq!(error.to_string(), message);
         }
     }
-    let long = DentShape {
-        length: 8e-3,
-        ..source
-    };
+    let long = DentShape { length: 8e-3, ..source };
     let error = SurfaceDent::new(&bearing, Race::Outer, long, stiffness).unwrap_err();
     assert!(matches!(error, DefectError::TooLong { .. }), "{error}");
     // the ellipse as tight as the ball, shallow enough for the ball to reach the bottom across
-    let tight = DentShape {
-        curvature: CurvatureReading::Paper,
-        ..wide(dent_shape(0.2e-3, 11e-6, 5e-6), 1.9e-3)
-    };
+    let tight = DentShape { curvature: CurvatureReading::Paper, ..wide(dent_shape(0.2e-3, 11e-6, 5e-6), 1.9e-3) };
     let error = SurfaceDent::new(&bearing, Race::Inner, tight, stiffness).unwrap_err();
     assert!(matches!(error, DefectError::Hertz(_)), "{error}");
 }

@@ -63,17 +63,11 @@ struct Found {
 
 impl<'a> Sampled<'a> {
     fn new(outline: &'a Outline, half_angle: f64) -> Self {
-        let mut all = Self {
-            outline,
-            half_angle,
-            samples: Vec::new(),
-        };
+        let mut all = Self { outline, half_angle, samples: Vec::new() };
         for part in [Part::Race, Part::Tube, Part::Floor] {
             let row = |i: usize| {
                 let u = i as f64 / ALONG as f64;
-                (0..=ACROSS)
-                    .map(|j| all.point(part, u, j as f64 / ACROSS as f64))
-                    .collect()
+                (0..=ACROSS).map(|j| all.point(part, u, j as f64 / ACROSS as f64)).collect()
             };
             let rows = (0..=ALONG).map(row).collect();
             all.samples.push((part, rows));
@@ -90,11 +84,7 @@ impl<'a> Sampled<'a> {
             Part::Race => {
                 let phi = 1.5 * self.half_angle * (2.0 * u - 1.0);
                 let psi = 0.9 * v;
-                spoke(
-                    r - side * o.groove * (1.0 - psi.cos()),
-                    phi,
-                    o.groove * psi.sin(),
-                )
+                spoke(r - side * o.groove * (1.0 - psi.cos()), phi, o.groove * psi.sin())
             }
             Part::Tube => {
                 let tau = 1.02 * std::f64::consts::PI * u - 0.01 * std::f64::consts::PI;
@@ -104,19 +94,14 @@ impl<'a> Sampled<'a> {
                 let along = minus(self.centre(tau + h).0, self.centre(tau - h).0);
                 // out of the dent: along the race at its end, to higher z at its side
                 let outward = unit(cross(along, down)).map(|part| side * part);
-                [0, 1, 2]
-                    .map(|i| centre[i] - o.rim * (tilt.cos() * down[i] + tilt.sin() * outward[i]))
+                [0, 1, 2].map(|i| centre[i] - o.rim * (tilt.cos() * down[i] + tilt.sin() * outward[i]))
             }
             Part::Floor => {
                 let (x, y) = (2.0 * u - 1.0, v);
                 let z = o.half_width * y * (1.0 - x * x).max(0.0).sqrt();
                 let rest = (1.0 - x * x - (z / o.half_width).powi(2)).max(0.0);
                 let sag = o.groove - (o.groove * o.groove - z * z).sqrt();
-                spoke(
-                    r + side * (o.depth * rest.sqrt() - sag),
-                    o.half_length * x / r,
-                    z,
-                )
+                spoke(r + side * (o.depth * rest.sqrt() - sag), o.half_length * x / r, z)
             }
         }
     }
@@ -127,18 +112,10 @@ impl<'a> Sampled<'a> {
         let (r, side) = (o.circles.carrier, o.circles.side);
         let phi = o.half_length * tau.cos() / r;
         let psi = (o.half_width * tau.sin() / o.groove).asin();
-        let normal = [
-            side * psi.cos() * phi.cos(),
-            side * psi.cos() * phi.sin(),
-            psi.sin(),
-        ];
+        let normal = [side * psi.cos() * phi.cos(), side * psi.cos() * phi.sin(), psi.sin()];
         let radius = r - side * o.groove;
         let q = o.groove + o.rim;
-        let centre = [
-            radius * phi.cos() + q * normal[0],
-            radius * phi.sin() + q * normal[1],
-            q * normal[2],
-        ];
+        let centre = [radius * phi.cos() + q * normal[0], radius * phi.sin() + q * normal[1], q * normal[2]];
         (centre, normal)
     }
 
@@ -146,14 +123,10 @@ impl<'a> Sampled<'a> {
     fn place(&self, point: Point) -> (f64, f64) {
         let o = self.outline;
         let phi = point[1].atan2(point[0]);
-        let inside =
-            (o.circles.carrier * phi / o.half_length).powi(2) + (point[2] / o.half_width).powi(2);
+        let inside = (o.circles.carrier * phi / o.half_length).powi(2) + (point[2] / o.half_width).powi(2);
         let sag = o.groove - (o.groove * o.groove - point[2] * point[2]).sqrt();
         let below = o.circles.side * (point[0].hypot(point[1]) - o.circles.carrier) + sag;
-        (
-            inside,
-            below / (o.depth * (1.0 - inside).max(1e-300).sqrt()),
-        )
+        (inside, below / (o.depth * (1.0 - inside).max(1e-300).sqrt()))
     }
 
     fn to_centre_curve(&self, point: Point) -> f64 {
@@ -162,17 +135,13 @@ impl<'a> Sampled<'a> {
             dot(gap, gap).sqrt()
         };
         let step = std::f64::consts::PI / 100.0;
-        let best =
-            (0..=100).min_by(|&a, &b| of(step * f64::from(a)).total_cmp(&of(step * f64::from(b))));
+        let best = (0..=100).min_by(|&a, &b| of(step * f64::from(a)).total_cmp(&of(step * f64::from(b))));
         let middle = step * f64::from(best.unwrap());
         of(golden([middle - step, middle + step], of))
     }
 
     fn contacts(&self, distance: f64, offset: f64) -> Vec<Found> {
-        let (out, ahead) = (
-            [offset.cos(), offset.sin(), 0.0],
-            [-offset.sin(), offset.cos(), 0.0],
-        );
+        let (out, ahead) = ([offset.cos(), offset.sin(), 0.0], [-offset.sin(), offset.cos(), 0.0]);
         let ball = out.map(|part| distance * part);
         let to = |point: Point| {
             let gap = minus(point, ball);
@@ -188,9 +157,7 @@ impl<'a> Sampled<'a> {
                     let first = (0..ACROSS).find(|&j| values[j] <= values[j + 1]);
                     let j = match part {
                         Part::Floor => first.unwrap_or(ACROSS),
-                        _ => (0..=ACROSS)
-                            .min_by(|&a, &b| values[a].total_cmp(&values[b]))
-                            .unwrap(),
+                        _ => (0..=ACROSS).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap(),
                     };
                     // by a parabola through the neighbours: samples lie unevenly about the least
                     let mut value = values[j];
@@ -219,24 +186,13 @@ impl<'a> Sampled<'a> {
         to: &impl Fn(Point) -> f64,
         [ball, out, ahead]: [Point; 3],
     ) -> Option<Found> {
-        let near = |i: usize, count: usize, more: f64| {
-            [
-                (i as f64 - more) / count as f64,
-                (i as f64 + more) / count as f64,
-            ]
-        };
+        let near =
+            |i: usize, count: usize, more: f64| [(i as f64 - more) / count as f64, (i as f64 + more) / count as f64];
         let across = |u: f64| {
             // the plane z = 0 and the race's side of the tube are ends
             let [low, high] = near(j, ACROSS, if part == Part::Floor { 1.0 } else { 4.0 });
-            let v = golden(
-                [low.max(0.0), high.min(1.0)],
-                |v| to(self.point(part, u, v)),
-            );
-            let ends = if low <= 0.0 && to(self.point(part, u, 0.0)) <= to(self.point(part, u, v)) {
-                0.0
-            } else {
-                v
-            };
+            let v = golden([low.max(0.0), high.min(1.0)], |v| to(self.point(part, u, v)));
+            let ends = if low <= 0.0 && to(self.point(part, u, 0.0)) <= to(self.point(part, u, v)) { 0.0 } else { v };
             (ends, to(self.point(part, u, ends)))
         };
         let ends = near(i, ALONG, 1.0);
@@ -274,11 +230,7 @@ impl<'a> Sampled<'a> {
         let delta = self.outline.circles.roller - to(point);
         (delta > 0.0 && on).then(|| {
             let normal = unit(minus(point, ball));
-            Found {
-                delta,
-                normal: [dot(normal, out), dot(normal, ahead)],
-                doubtful,
-            }
+            Found { delta, normal: [dot(normal, out), dot(normal, ahead)], doubtful }
         })
     }
 }
@@ -329,12 +281,8 @@ struct Tally {
 
 impl Tally {
     fn compare(&mut self, name: &str, subject: &Subject, positions: u32, numbers: &mut Numbers) {
-        let Kind::Race(defect) = &subject.kind else {
-            panic!("{name}")
-        };
-        let RaceDefect::SurfaceDent(dent) = &**defect else {
-            panic!("{name}")
-        };
+        let Kind::Race(defect) = &subject.kind else { panic!("{name}") };
+        let RaceDefect::SurfaceDent(dent) = &**defect else { panic!("{name}") };
         let sampled = Sampled::new(&dent.surface.outline, dent.contact_half_angle());
         for _ in 0..positions {
             let sunk = 25e-6 * numbers.next();
@@ -368,12 +316,7 @@ impl Tally {
     }
 
     fn check(&self, name: &str) {
-        let Self {
-            positions,
-            skipped,
-            worst,
-            ..
-        } = self;
+        let Self { positions, skipped, worst, .. } = self;
         // overlaps come to rounding, 1e-18 m; golden section finds the place of a minimum to the root of that, 1e-11 m on a
         // radius of curvature of 1e-5 m or more
         assert!(worst[0] < 1e-15 && worst[1] < 1e-5, "{name}: {self:?}");
@@ -389,13 +332,9 @@ fn same_contacts_as_a_dense_search_in_space() {
         let mut tally = Tally::default();
         tally.compare(name, subject, 300, &mut numbers);
         tally.check(name);
-        let convex = !["short", "conforming", "widest"]
-            .iter()
-            .any(|word| name.starts_with(word));
+        let convex = !["short", "conforming", "widest"].iter().any(|word| name.starts_with(word));
         assert!(!convex || tally.shared == 0, "{name}: {tally:?}");
-        let held_twice = ["even", "shallow", "short"]
-            .iter()
-            .any(|word| name.starts_with(word));
+        let held_twice = ["even", "shallow", "short"].iter().any(|word| name.starts_with(word));
         assert!(!held_twice || tally.several > 10, "{name}: {tally:?}");
     }
 }
@@ -408,10 +347,7 @@ fn random_dents_agree_with_the_search_in_space() {
         let length = numbers.between(0.1e-3, 2e-3);
         let depth = numbers.between(1e-6, 0.02 * length);
         let width = numbers.between(4.0 * depth, 1.9e-3);
-        let shape = DentShape {
-            width: Some(width),
-            ..dent_shape(length, depth, numbers.between(10e-6, 0.2 * length))
-        };
+        let shape = DentShape { width: Some(width), ..dent_shape(length, depth, numbers.between(10e-6, 0.2 * length)) };
         let dent = surface_dent(RACES[i % 2], shape);
         let subject = Subject::race(RaceDefect::SurfaceDent(dent));
         tally.compare("random", &subject, 30, &mut numbers);

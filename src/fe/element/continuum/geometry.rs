@@ -50,11 +50,7 @@ impl<const N: usize> Placed<N> {
             return Err(not_finite(kind.name(), coords));
         }
         if size > LARGEST_SIZE {
-            return Err(ElementError::TooLarge {
-                kind: kind.name(),
-                size,
-                largest: LARGEST_SIZE,
-            });
+            return Err(ElementError::TooLarge { kind: kind.name(), size, largest: LARGEST_SIZE });
         }
         // coordinates are rounded where they are, not where the element is
         let allowed = STRAIGHT * size + 2.0 * f64::EPSILON * distance;
@@ -66,11 +62,7 @@ impl<const N: usize> Placed<N> {
                 straight &= (middle[i] - expected).abs() <= allowed;
             }
         }
-        Ok(Self {
-            coords: relative,
-            size,
-            straight,
-        })
+        Ok(Self { coords: relative, size, straight })
     }
 
     /// The determinants found are all well above zero.
@@ -83,8 +75,7 @@ impl<const N: usize> Placed<N> {
     pub(super) fn smallest_at_nodes<const D: usize>(&self, kind: ContinuumKind) -> f64 {
         let table = &tables(kind).nodes;
         let rows = table.derivatives::<N>().chunks_exact(D);
-        rows.map(|rows| Jacobian::new::<N, D>(&self.coords, rows).determinant())
-            .fold(f64::INFINITY, f64::min)
+        rows.map(|rows| Jacobian::new::<N, D>(&self.coords, rows).determinant()).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -92,11 +83,7 @@ impl<const N: usize> Placed<N> {
 pub(super) fn not_finite(kind: &'static str, coords: &[[f64; 3]]) -> ElementError {
     let bad = |node: &[f64; 3]| !node.iter().all(|value| value.is_finite());
     let node = coords.iter().position(bad).unwrap_or_default();
-    ElementError::NotFinite {
-        kind,
-        node,
-        position: coords.get(node).copied().unwrap_or_default(),
-    }
+    ElementError::NotFinite { kind, node, position: coords.get(node).copied().unwrap_or_default() }
 }
 
 /// `x^dimension` for 2 and 3.
@@ -111,10 +98,7 @@ pub(super) struct Jacobian([[f64; 3]; 3]);
 impl Jacobian {
     /// From the shape derivatives at a point, a row for each of the D natural directions.
     #[inline(always)]
-    pub(super) fn new<const N: usize, const D: usize>(
-        coords: &[[f64; 3]; N],
-        rows: &[[f64; N]],
-    ) -> Self {
+    pub(super) fn new<const N: usize, const D: usize>(coords: &[[f64; 3]; N], rows: &[[f64; N]]) -> Self {
         let mut j = [[0.0; 3], [0.0; 3], [0.0, 0.0, 1.0]];
         for (row, j) in rows[..D].iter().zip(&mut j) {
             let mut sum = [0.0; 3];
@@ -152,11 +136,7 @@ impl Jacobian {
 
 #[inline(always)]
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `x = sum N_a x_a`, m.
@@ -184,12 +164,7 @@ pub(super) fn extremes<const N: usize, const D: usize>(
     coords: &[[f64; 3]; N],
     table: &Table,
 ) -> Extremes {
-    let mut found = Extremes {
-        low: f64::INFINITY,
-        low_at: [0.0; 3],
-        high: f64::NEG_INFINITY,
-        high_at: [0.0; 3],
-    };
+    let mut found = Extremes { low: f64::INFINITY, low_at: [0.0; 3], high: f64::NEG_INFINITY, high_at: [0.0; 3] };
     for table in [&tables(kind).nodes, table] {
         let rows = table.derivatives::<N>().chunks_exact(D);
         for (rows, point) in rows.zip(&table.points) {

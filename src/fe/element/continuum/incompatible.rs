@@ -36,21 +36,14 @@ pub(super) fn stiffness<const N: usize, const M: usize, const D: usize>(
         .integrate::<N, D>(&placed.coords, &tables.stiffness, Some(centre))
         .min(placed.smallest_at_nodes::<D>(kind));
     if !placed.accepts(kind, smallest.min(at_centre)) {
-        let table = if placed.accepts(kind, smallest) {
-            &tables.centre
-        } else {
-            &tables.stiffness
-        };
+        let table = if placed.accepts(kind, smallest) { &tables.centre } else { &tables.stiffness };
         return Err(diagnose::<N, D>(kind, coords, &placed, table));
     }
     let mut buffer = [0.0; ENTRIES];
     let (all, kept) = (M * D, N * D);
     let full = &mut buffer[..all * all];
     couplings.contract::<D>(properties.elasticity(), properties.thickness(), full);
-    condense(full, all, kept).map_err(|pivot| ElementError::Condensation {
-        kind: kind.name(),
-        pivot,
-    })?;
+    condense(full, all, kept).map_err(|pivot| ElementError::Condensation { kind: kind.name(), pivot })?;
     for (column, from) in full.chunks_exact(all).take(kept).enumerate() {
         out[column * kept..][..kept].copy_from_slice(&from[..kept]);
     }

@@ -100,12 +100,7 @@ impl<const M: usize> Couplings<M> {
     }
 
     /// `t K` into a matrix of M D rows, column by column, both triangles.
-    pub(super) fn contract<const D: usize>(
-        &self,
-        elasticity: &Elasticity,
-        thickness: f64,
-        out: &mut [f64],
-    ) {
+    pub(super) fn contract<const D: usize>(&self, elasticity: &Elasticity, thickness: f64, out: &mut [f64]) {
         match elasticity {
             Elasticity::Isotropic { lambda, mu } => {
                 let (lambda, mu) = (lambda * thickness, mu * thickness);
@@ -118,11 +113,7 @@ impl<const M: usize> Couplings<M> {
     }
 
     #[inline(always)]
-    fn fill<const D: usize>(
-        &self,
-        out: &mut [f64],
-        block: impl Fn([[f64; D]; D]) -> [[f64; D]; D],
-    ) {
+    fn fill<const D: usize>(&self, out: &mut [f64], block: impl Fn([[f64; D]; D]) -> [[f64; D]; D]) {
         let rows = M * D;
         for b in 0..M {
             let columns = &mut out[b * D * rows..][..D * rows];

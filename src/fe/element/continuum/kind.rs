@@ -41,44 +41,12 @@ type Edge = [usize; 2];
 const TRIANGLE_EDGES: [Edge; 3] = [[0, 1], [1, 2], [2, 0]];
 const QUADRILATERAL_EDGES: [Edge; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 const TETRAHEDRON_EDGES: [Edge; 6] = [[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]];
-const HEXAHEDRON_EDGES: [Edge; 12] = [
-    [0, 1],
-    [0, 3],
-    [0, 4],
-    [1, 2],
-    [1, 5],
-    [2, 3],
-    [2, 6],
-    [3, 7],
-    [4, 5],
-    [4, 7],
-    [5, 6],
-    [6, 7],
-];
-const WEDGE_EDGES: [Edge; 9] = [
-    [0, 1],
-    [0, 2],
-    [0, 3],
-    [1, 2],
-    [1, 4],
-    [2, 5],
-    [3, 4],
-    [3, 5],
-    [4, 5],
-];
+const HEXAHEDRON_EDGES: [Edge; 12] =
+    [[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]];
+const WEDGE_EDGES: [Edge; 9] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]];
 
-const TETRAHEDRON_CORNERS: [[f64; 3]; 4] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-];
-const QUADRILATERAL_CORNERS: [[f64; 3]; 4] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-];
+const TETRAHEDRON_CORNERS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const QUADRILATERAL_CORNERS: [[f64; 3]; 4] = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
 const HEXAHEDRON_CORNERS: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
@@ -89,28 +57,15 @@ const HEXAHEDRON_CORNERS: [[f64; 3]; 8] = [
     [1.0, 1.0, 1.0],
     [-1.0, 1.0, 1.0],
 ];
-const WEDGE_CORNERS: [[f64; 3]; 6] = [
-    [0.0, 0.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-];
+const WEDGE_CORNERS: [[f64; 3]; 6] =
+    [[0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
 
 /// Corners (the first of `corners` up to `CORNERS`), then the middle of each edge.
-const fn nodes<const CORNERS: usize, const N: usize>(
-    corners: &[[f64; 3]],
-    edges: &[Edge],
-) -> [[f64; 3]; N] {
+const fn nodes<const CORNERS: usize, const N: usize>(corners: &[[f64; 3]], edges: &[Edge]) -> [[f64; 3]; N] {
     let mut nodes = [[0.0; 3]; N];
     let mut i = 0;
     while i < N {
-        let [a, b] = if i < CORNERS {
-            [i, i]
-        } else {
-            edges[i - CORNERS]
-        };
+        let [a, b] = if i < CORNERS { [i, i] } else { edges[i - CORNERS] };
         let mut d = 0;
         while d < 3 {
             nodes[i][d] = 0.5 * (corners[a][d] + corners[b][d]);

@@ -54,10 +54,7 @@ pub fn nodal_mass(
 ///
 /// # Errors
 /// As [`measure`].
-pub(crate) fn measure_matrix(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]],
-) -> Result<DMatrix<f64>, ElementError> {
+pub(crate) fn measure_matrix(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
     for_kind!(kind, mass(kind, coords, 1.0, out.as_mut_slice()))?;
     Ok(out)
@@ -89,11 +86,7 @@ fn mass<const N: usize, const D: usize>(
         }
         return Ok(());
     }
-    let table = if placed.straight {
-        &tables.straight_mass
-    } else {
-        &tables.mass
-    };
+    let table = if placed.straight { &tables.straight_mass } else { &tables.mass };
     integrate::<N, D>(kind, coords, &placed, density, table, out)
 }
 
@@ -137,10 +130,7 @@ pub(super) fn integrate<const N: usize, const D: usize>(
     Ok(())
 }
 
-fn size<const N: usize, const D: usize>(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]],
-) -> Result<f64, ElementError> {
+fn size<const N: usize, const D: usize>(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
     let placed = Placed::<N>::new(kind, coords)?;
     let table = &tables(kind).mass;
     let natural: f64 = table.points.iter().map(|point| point.weight).sum();
@@ -155,11 +145,7 @@ fn size<const N: usize, const D: usize>(
         smallest = smallest.min(determinant);
         sum += point.weight * determinant;
     }
-    if placed.accepts(kind, smallest) {
-        Ok(sum)
-    } else {
-        Err(diagnose::<N, D>(kind, coords, &placed, table))
-    }
+    if placed.accepts(kind, smallest) { Ok(sum) } else { Err(diagnose::<N, D>(kind, coords, &placed, table)) }
 }
 
 /// The determinant of a straight triangle or tetrahedron, the same everywhere.
@@ -171,9 +157,5 @@ fn constant_determinant<const N: usize, const D: usize>(
     let nodes = &tables(kind).nodes;
     let first = &nodes.derivatives::<N>()[..D];
     let determinant = Jacobian::new::<N, D>(&placed.coords, first).determinant();
-    if placed.accepts(kind, determinant) {
-        Ok(determinant)
-    } else {
-        Err(diagnose::<N, D>(kind, coords, placed, nodes))
-    }
+    if placed.accepts(kind, determinant) { Ok(determinant) } else { Err(diagnose::<N, D>(kind, coords, placed, nodes)) }
 }

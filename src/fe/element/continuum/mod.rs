@@ -44,7 +44,5 @@ pub use quality::{ShapeQuality, quality};
 pub use rules::{Formulation, Integration, LinearFormulation};
 pub use shape::{ShapeDerivatives, ShapeValues, shape_derivatives, shape_values};
 pub use stiffness::{stiffness, stiffness_into};
-pub use surface::{
-    MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues, surface_weights,
-};
+pub use surface::{MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues, surface_weights};
 pub(crate) use surface::{surface_matrix, surface_shape};

@@ -27,10 +27,7 @@ pub struct ContinuumProperties {
 
 /// The elasticity as the stiffness loop wants it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "one a part, read by every element: a box would only add a jump"
-)]
+#[expect(clippy::large_enum_variant, reason = "one a part, read by every element: a box would only add a jump")]
 pub(super) enum Elasticity {
     /// `sigma_ij = lambda eps_kk delta_ij + 2 mu eps_ij`, Pa; in plane stress with the lambda of plane stress.
     Isotropic { lambda: f64, mu: f64 },
@@ -52,18 +49,12 @@ impl ContinuumProperties {
     /// Properties of a solid part.
     pub fn solid(material: &ElasticMaterial) -> Self {
         let elasticity = match material {
-            ElasticMaterial::Isotropic(material) => Elasticity::Isotropic {
-                lambda: material.lame_lambda(),
-                mu: material.shear_modulus(),
-            },
+            ElasticMaterial::Isotropic(material) => {
+                Elasticity::Isotropic { lambda: material.lame_lambda(), mu: material.shear_modulus() }
+            }
             ElasticMaterial::Orthotropic(_) => general(&material.stiffness_matrix()),
         };
-        Self {
-            dimension: 3,
-            density: material.density(),
-            thickness: 1.0,
-            elasticity,
-        }
+        Self { dimension: 3, density: material.density(), thickness: 1.0, elasticity }
     }
 
     /// Properties of a plane part in the xy plane with a thickness in metres, > 0.
@@ -93,12 +84,7 @@ impl ContinuumProperties {
                 general(&in_the_plane(material.stiffness_matrix(), assumption))
             }
         };
-        Ok(Self {
-            dimension: 2,
-            density: material.density(),
-            thickness,
-            elasticity,
-        })
+        Ok(Self { dimension: 2, density: material.density(), thickness, elasticity })
     }
 
     /// Density rho, kg/m^3.
@@ -136,10 +122,7 @@ fn isotropic_plane(material: &Material, assumption: PlaneAssumption) -> Elastici
         PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
         PlaneAssumption::Strain => material.lame_lambda(),
     };
-    Elasticity::Isotropic {
-        lambda,
-        mu: material.shear_modulus(),
-    }
+    Elasticity::Isotropic { lambda, mu: material.shear_modulus() }
 }
 
 /// The 6 x 6 stiffness with the strain zz condensed (stress) or as it is (strain); only the rows xx, yy, xy

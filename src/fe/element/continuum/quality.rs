@@ -36,14 +36,6 @@ fn sample<const N: usize, const D: usize>(
     let placed = Placed::<N>::new(kind, coords)?;
     let found = extremes::<N, D>(kind, &placed.coords, &tables(kind).stiffness);
     let largest = found.high.abs().max(found.low.abs());
-    let scaled_jacobian = if largest > 0.0 {
-        found.low / largest
-    } else {
-        0.0
-    };
-    Ok(ShapeQuality {
-        smallest_determinant: found.low,
-        scaled_jacobian,
-        position: found.low_position(kind, coords),
-    })
+    let scaled_jacobian = if largest > 0.0 { found.low / largest } else { 0.0 };
+    Ok(ShapeQuality { smallest_determinant: found.low, scaled_jacobian, position: found.low_position(kind, coords) })
 }

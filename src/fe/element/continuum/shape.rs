@@ -59,11 +59,7 @@ fn on_simplex(kind: ContinuumKind, natural: [f64; 3]) -> (ShapeValues, ShapeDeri
     let mut derivatives = [[0.0; 3]; MAX_NODES];
     let quadratic = !kind.edges().is_empty();
     for i in 0..kind.corners() {
-        let (value, slope) = if quadratic {
-            (l[i] * (2.0 * l[i] - 1.0), 4.0 * l[i] - 1.0)
-        } else {
-            (l[i], 1.0)
-        };
+        let (value, slope) = if quadratic { (l[i] * (2.0 * l[i] - 1.0), 4.0 * l[i] - 1.0) } else { (l[i], 1.0) };
         values[i] = value;
         derivatives[i] = gradient(i, dimension).map(|g| slope * g);
     }

@@ -70,11 +70,7 @@ fn compatible<const N: usize, const D: usize>(
     let placed = Placed::<N>::new(kind, coords)?;
     let tables = tables(kind);
     let four = kind == ContinuumKind::Tet10 && integration == Integration::FourPoint;
-    let table = if placed.straight || four {
-        &tables.straight_stiffness
-    } else {
-        &tables.stiffness
-    };
+    let table = if placed.straight || four { &tables.straight_stiffness } else { &tables.stiffness };
     integrate::<N, D>(kind, coords, &placed, properties, table, out)
 }
 
@@ -100,33 +96,19 @@ pub(super) fn integrate<const N: usize, const D: usize>(
 }
 
 /// Plane properties for plane elements, solid ones for solids.
-pub(super) fn check_properties(
-    kind: ContinuumKind,
-    properties: &ContinuumProperties,
-) -> Result<(), ElementError> {
+pub(super) fn check_properties(kind: ContinuumKind, properties: &ContinuumProperties) -> Result<(), ElementError> {
     if properties.dimension() == kind.dimension() {
         Ok(())
     } else {
-        Err(ElementError::Dimension {
-            kind: kind.name(),
-            dimension: kind.dimension(),
-        })
+        Err(ElementError::Dimension { kind: kind.name(), dimension: kind.dimension() })
     }
 }
 
 /// The buffer holds a square matrix of `order` rows.
-pub(super) fn check_length(
-    kind: ContinuumKind,
-    order: usize,
-    out: &[f64],
-) -> Result<(), ElementError> {
+pub(super) fn check_length(kind: ContinuumKind, order: usize, out: &[f64]) -> Result<(), ElementError> {
     if out.len() == order * order {
         Ok(())
     } else {
-        Err(ElementError::BufferLength {
-            kind: kind.name(),
-            order,
-            found: out.len(),
-        })
+        Err(ElementError::BufferLength { kind: kind.name(), order, found: out.len() })
     }
 }

@@ -40,14 +40,7 @@ pub enum SurfaceKind {
 
 impl SurfaceKind {
     /// Every kind of edge and face.
-    pub const ALL: [Self; 6] = [
-        Self::Line2,
-        Self::Line3,
-        Self::Tri3,
-        Self::Tri6,
-        Self::Quad4,
-        Self::Quad8,
-    ];
+    pub const ALL: [Self; 6] = [Self::Line2, Self::Line3, Self::Tri3, Self::Tri6, Self::Quad4, Self::Quad8];
 
     /// Name as in reports and errors.
     pub fn name(self) -> &'static str {
@@ -103,19 +96,13 @@ impl SurfaceKind {
 
 /// Shape functions and their derivatives with respect to the two natural coordinates, dimensionless. Edges read
 /// the first coordinate alone.
-pub(crate) fn surface_shape(
-    kind: SurfaceKind,
-    [xi, eta]: [f64; 2],
-) -> (SurfaceValues, SurfaceDerivatives) {
+pub(crate) fn surface_shape(kind: SurfaceKind, [xi, eta]: [f64; 2]) -> (SurfaceValues, SurfaceDerivatives) {
     let mut values = [0.0; MAX_SURFACE_NODES];
     let mut derivatives = [[0.0; 2]; MAX_SURFACE_NODES];
     if let Some(plane) = kind.plane() {
         let natural = [xi, eta, 0.0];
         values.copy_from_slice(&shape_values(plane, natural)[..MAX_SURFACE_NODES]);
-        for (to, from) in derivatives
-            .iter_mut()
-            .zip(shape_derivatives(plane, natural))
-        {
+        for (to, from) in derivatives.iter_mut().zip(shape_derivatives(plane, natural)) {
             *to = [from[0], from[1]];
         }
     } else if kind == SurfaceKind::Line2 {
@@ -140,11 +127,7 @@ pub(crate) fn surface_shape(
 /// without size.
 pub fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
     if coords.len() != kind.nodes() {
-        return Err(ElementError::NodeCount {
-            kind: kind.name(),
-            expected: kind.nodes(),
-            found: coords.len(),
-        });
+        return Err(ElementError::NodeCount { kind: kind.name(), expected: kind.nodes(), found: coords.len() });
     }
     if !coords.as_flattened().iter().all(|value| value.is_finite()) {
         return Err(not_finite(kind.name(), coords));
@@ -165,19 +148,11 @@ pub fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64
         along(0) + along(1) + along(2)
     };
     let extent = coords.iter().map(squared).fold(0.0, f64::max);
-    let smallest = if kind.dimension() == 2 {
-        SMALLEST_AREA * extent
-    } else {
-        0.0
-    };
+    let smallest = if kind.dimension() == 2 { SMALLEST_AREA * extent } else { 0.0 };
     if total > smallest && total.is_finite() {
         Ok(weights)
     } else {
-        Err(ElementError::NoSize {
-            kind: kind.name(),
-            dimension: kind.dimension(),
-            position: origin,
-        })
+        Err(ElementError::NoSize { kind: kind.name(), dimension: kind.dimension(), position: origin })
     }
 }
 
@@ -200,10 +175,7 @@ fn tangents(coords: &[[f64; 3]], derivatives: &SurfaceDerivatives) -> [[f64; 3];
 ///
 /// # Errors
 /// As [`surface_weights`].
-pub(crate) fn surface_matrix(
-    kind: SurfaceKind,
-    coords: &[[f64; 3]],
-) -> Result<DMatrix<f64>, ElementError> {
+pub(crate) fn surface_matrix(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     surface_weights(kind, coords)?;
     let mut matrix = DMatrix::zeros(kind.nodes(), kind.nodes());
     for point in kind.rule().points() {
@@ -225,10 +197,6 @@ fn stretch(kind: SurfaceKind, [t, s]: [[f64; 3]; 2]) -> f64 {
     if kind.dimension() == 1 {
         length(t)
     } else {
-        length([
-            t[1] * s[2] - t[2] * s[1],
-            t[2] * s[0] - t[0] * s[2],
-            t[0] * s[1] - t[1] * s[0],
-        ])
+        length([t[1] * s[2] - t[2] * s[1], t[2] * s[0] - t[0] * s[2], t[0] * s[1] - t[1] * s[0]])
     }
 }

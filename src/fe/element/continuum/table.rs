@@ -25,11 +25,7 @@ impl Table {
                 derivatives.extend(at_point[..kind.nodes()].iter().map(|d| d[direction]));
             }
         }
-        Self {
-            points: points.to_vec(),
-            values,
-            derivatives,
-        }
+        Self { points: points.to_vec(), values, derivatives }
     }
 
     /// `N_a`, an array a point; N must be the number of nodes.
@@ -59,8 +55,7 @@ pub(super) struct Tables {
     pub(super) natural_mass: Vec<f64>,
 }
 
-static TABLES: [OnceLock<Tables>; ContinuumKind::ALL.len()] =
-    [const { OnceLock::new() }; ContinuumKind::ALL.len()];
+static TABLES: [OnceLock<Tables>; ContinuumKind::ALL.len()] = [const { OnceLock::new() }; ContinuumKind::ALL.len()];
 
 /// The tables of a kind, made at the first call.
 pub(super) fn tables(kind: ContinuumKind) -> &'static Tables {
@@ -69,17 +64,13 @@ pub(super) fn tables(kind: ContinuumKind) -> &'static Tables {
 
 impl Tables {
     fn new(kind: ContinuumKind) -> Self {
-        let unweighted = |&natural: &[f64; 3]| QuadraturePoint {
-            natural,
-            weight: 0.0,
-        };
+        let unweighted = |&natural: &[f64; 3]| QuadraturePoint { natural, weight: 0.0 };
         let nodes: Vec<_> = kind.natural_nodes().iter().map(unweighted).collect();
         let mut natural_mass = vec![0.0; kind.nodes() * kind.nodes()];
         for point in kind.mass_rule().points() {
             let values = shape_values(kind, point.natural);
-            let products = values[..kind.nodes()]
-                .iter()
-                .flat_map(|b| values[..kind.nodes()].iter().map(move |a| a * b));
+            let products =
+                values[..kind.nodes()].iter().flat_map(|b| values[..kind.nodes()].iter().map(move |a| a * b));
             for (entry, product) in natural_mass.iter_mut().zip(products) {
                 *entry += point.weight * product;
             }

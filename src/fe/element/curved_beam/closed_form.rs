@@ -74,12 +74,7 @@ pub struct PinchedRing {
 ///
 /// # Errors
 /// [`NotPositive`] names the property.
-pub fn thin_frequency_hz(
-    order: u32,
-    radius: f64,
-    bending: f64,
-    mass_per_length: f64,
-) -> Result<f64, NotPositive> {
+pub fn thin_frequency_hz(order: u32, radius: f64, bending: f64, mass_per_length: f64) -> Result<f64, NotPositive> {
     positive("radius", radius)?;
     positive("bending stiffness", bending)?;
     positive("mass per length", mass_per_length)?;
@@ -135,12 +130,7 @@ pub fn thin_out_of_plane_frequency_hz(
 /// # Errors
 /// [`NotPositive`] names the property of `section` that is not positive.
 pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, NotPositive> {
-    let RingSection {
-        radius,
-        bending,
-        axial,
-        shear,
-    } = *section;
+    let RingSection { radius, bending, axial, shear } = *section;
     positive("radius", radius)?;
     positive("bending stiffness", bending)?;
     positive("axial stiffness", axial)?;
@@ -155,11 +145,7 @@ pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, NotPosi
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), NotPositive> {
-    if value > 0.0 {
-        Ok(())
-    } else {
-        Err(NotPositive { name, value })
-    }
+    if value > 0.0 { Ok(()) } else { Err(NotPositive { name, value }) }
 }
 
 #[cfg(test)]

@@ -63,20 +63,14 @@ fn quarter(section: &RingSection, start: [f64; 6]) -> [f64; 6] {
 /// Unknown at φ = 0: w and M; two conditions at φ = π/2: u = 0 and θ = 0.
 #[test]
 fn thick_ring_agrees_with_integration_of_its_differential_equations() {
-    let section = RingSection {
-        radius: 0.1,
-        bending: 30.0,
-        axial: 4e4,
-        shear: 9e3,
-    };
+    let section = RingSection { radius: 0.1, bending: 30.0, axial: 4e4, shear: 9e3 };
     let force = 7.0;
     let base = quarter(&section, [0.0, 0.0, 0.0, -0.5 * force, 0.0, 0.0]);
     let by_w = quarter(&section, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     let by_moment = quarter(&section, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     let moment = -base[2] / by_moment[2]; // θ does not depend on w
     let w_start = -(base[0] + moment * by_moment[0]) / by_w[0];
-    let end: [f64; 6] =
-        std::array::from_fn(|i| base[i] + w_start * by_w[i] + moment * by_moment[i]);
+    let end: [f64; 6] = std::array::from_fn(|i| base[i] + w_start * by_w[i] + moment * by_moment[i]);
     assert_relative_eq!(end[4], -0.5 * force, max_relative = 1e-9);
     let ring = pinched(&section, force).unwrap();
     assert_relative_eq!(ring.shortening, -2.0 * end[1], max_relative = 1e-8);
@@ -85,68 +79,28 @@ fn thick_ring_agrees_with_integration_of_its_differential_equations() {
 
 #[test]
 fn rigid_section_forces_leave_the_thin_ring() {
-    let section = RingSection {
-        radius: 2.0,
-        bending: 5.0,
-        axial: f64::INFINITY,
-        shear: f64::INFINITY,
-    };
+    let section = RingSection { radius: 2.0, bending: 5.0, axial: f64::INFINITY, shear: f64::INFINITY };
     let ring = pinched(&section, 1.0).unwrap();
-    assert_relative_eq!(
-        ring.shortening,
-        THIN_SHORTENING * 8.0 / 5.0,
-        max_relative = 1e-15
-    );
-    assert_relative_eq!(
-        ring.widening,
-        THIN_WIDENING * 8.0 / 5.0,
-        max_relative = 1e-15
-    );
+    assert_relative_eq!(ring.shortening, THIN_SHORTENING * 8.0 / 5.0, max_relative = 1e-15);
+    assert_relative_eq!(ring.widening, THIN_WIDENING * 8.0 / 5.0, max_relative = 1e-15);
 }
 
 #[test]
 fn properties_that_are_not_positive_are_named() {
-    let good = RingSection {
-        radius: 1.0,
-        bending: 1.0,
-        axial: 1.0,
-        shear: 1.0,
-    };
+    let good = RingSection { radius: 1.0, bending: 1.0, axial: 1.0, shear: 1.0 };
     for (section, message) in [
-        (
-            RingSection {
-                radius: -1.0,
-                ..good
-            },
-            "radius = -1 must be positive",
-        ),
-        (
-            RingSection {
-                bending: 0.0,
-                ..good
-            },
-            "bending stiffness = 0 must be positive",
-        ),
-        (
-            RingSection {
-                axial: f64::NAN,
-                ..good
-            },
-            "axial stiffness = NaN must be positive",
-        ),
-        (
-            RingSection { shear: 0.0, ..good },
-            "shear stiffness = 0 must be positive",
-        ),
+        (RingSection { radius: -1.0, ..good }, "radius = -1 must be positive"),
+        (RingSection { bending: 0.0, ..good }, "bending stiffness = 0 must be positive"),
+        (RingSection { axial: f64::NAN, ..good }, "axial stiffness = NaN must be positive"),
+        (RingSection { shear: 0.0, ..good }, "shear stiffness = 0 must be positive"),
     ] {
         assert_eq!(pinched(&section, 1.0).unwrap_err().to_string(), message);
     }
     let error = thin_frequency_hz(2, 1.0, 1.0, 0.0).unwrap_err();
     assert_eq!(error.to_string(), "mass per length = 0 must be positive");
-    for (torsion, mass, message) in [
-        (0.0, 1.0, "torsion stiffness = 0 must be positive"),
-        (1.0, -1.0, "mass per length = -1 must be positive"),
-    ] {
+    for (torsion, mass, message) in
+        [(0.0, 1.0, "torsion stiffness = 0 must be positive"), (1.0, -1.0, "mass per length = -1 must be positive")]
+    {
         let error = thin_out_of_plane_frequency_hz(2, 1.0, 1.0, torsion, mass).unwrap_err();
         assert_eq!(error.to_string(), message);
     }

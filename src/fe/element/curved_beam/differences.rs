@@ -18,13 +18,7 @@ impl Differences {
     /// Sixteen terms reach round-off for |phi| <= pi / 2.
     pub(super) fn at(phi: f64) -> Self {
         let square = phi * phi;
-        let mut sums = Self {
-            sine: 0.0,
-            cosine: 0.0,
-            third: 0.0,
-            fourth: 0.0,
-            fifth: 0.0,
-        };
+        let mut sums = Self { sine: 0.0, cosine: 0.0, third: 0.0, fourth: 0.0, fifth: 0.0 };
         let mut power = phi; // phi^(2k-1) / (2k-1)! with the sign (-1)^(k-1)
         for k in 1..=16 {
             let order = f64::from(k);

@@ -55,20 +55,13 @@ impl ForceStates for ExactArc {
         [
             Vector3::new(cos, sin, 0.0),
             Vector3::new(sin, -cos, 0.0),
-            Vector3::new(
-                self.radius * Differences::at(phi).cosine,
-                -self.radius * sin,
-                1.0,
-            ),
+            Vector3::new(self.radius * Differences::at(phi).cosine, -self.radius * sin, 1.0),
         ]
     }
 
     fn deformation(&self, phi: f64) -> Matrix3<f64> {
         let (sin, cos) = phi.sin_cos();
-        let (b, b2) = (
-            self.bending * self.radius,
-            self.bending * self.radius * self.radius,
-        );
+        let (b, b2) = (self.bending * self.radius, self.bending * self.radius * self.radius);
         let mean = 0.5 * (self.axial + self.shear);
         let d = Differences::at(phi);
         Matrix3::new(

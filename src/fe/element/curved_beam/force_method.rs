@@ -58,12 +58,7 @@ impl<A: ForceStates> SolvedArc<A> {
             }
             rigid += arc.rigid_from_displacement(end) * rest * 0.5;
         }
-        Self {
-            arc,
-            forces,
-            rigid,
-            stiffness: (stiffness + stiffness.transpose()) * 0.5,
-        }
+        Self { arc, forces, rigid, stiffness: (stiffness + stiffness.transpose()) * 0.5 }
     }
 
     /// Stiffness matrix [6 x 6].

@@ -51,12 +51,7 @@ impl CurvedBeam {
                 (Field::Polynomial(Box::new(polynomial)), stiffness)
             }
         };
-        let mut element = Self {
-            half_angle,
-            field,
-            stiffness,
-            mass: Matrix6::zeros(),
-        };
+        let mut element = Self { half_angle, field, stiffness, mass: Matrix6::zeros() };
         element.mass = element.integrate_mass(section);
         element
     }

@@ -71,11 +71,7 @@ impl OutOfPlaneArc {
             bending: radius / out.bending,
             torsion: radius / out.torsion,
         };
-        let mut element = Self {
-            half_angle,
-            solved: SolvedArc::new(arc, half_angle),
-            mass: Matrix6::zeros(),
-        };
+        let mut element = Self { half_angle, solved: SolvedArc::new(arc, half_angle), mass: Matrix6::zeros() };
         element.mass = element.integrate_mass(section);
         element
     }
@@ -176,17 +172,7 @@ impl ForceStates for Arc {
         let inside = self.radius * Differences::at(phi).cosine;
         // z = v - R sin (alpha cos - beta sin) - R (1 - cos) (alpha sin + beta cos)
         //   = v - R sin alpha + R (1 - cos) beta
-        Matrix3::new(
-            1.0,
-            -self.radius * sin,
-            inside,
-            0.0,
-            cos,
-            -sin,
-            0.0,
-            sin,
-            cos,
-        )
+        Matrix3::new(1.0, -self.radius * sin, inside, 0.0, cos, -sin, 0.0, sin, cos)
     }
 }
 

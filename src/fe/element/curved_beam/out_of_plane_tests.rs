@@ -22,11 +22,7 @@ fn section(thickness: f64) -> BeamSection {
 /// (v, alpha, beta) at phi of rigid motions about the ring's centre: along z, about x, about y.
 fn rigid(motion: usize, phi: f64) -> Vector3<f64> {
     let (sin, cos) = phi.sin_cos();
-    [
-        Vector3::new(1.0, 0.0, 0.0),
-        Vector3::new(2.0 * sin, cos, -sin),
-        Vector3::new(-2.0 * cos, sin, cos),
-    ][motion]
+    [Vector3::new(1.0, 0.0, 0.0), Vector3::new(2.0 * sin, cos, -sin), Vector3::new(-2.0 * cos, sin, cos)][motion]
 }
 
 fn at_nodes(half: f64, field: impl Fn(f64) -> Vector3<f64>) -> Vector6<f64> {
@@ -85,16 +81,11 @@ fn the_fields_of_the_states_have_their_strains() {
     let (half, step) = (0.4, 1e-5);
     let element = OutOfPlaneArc::new(&section, half);
     let out = &section.out_of_plane;
-    let moduli = Matrix3::from_diagonal(&Vector3::new(
-        1.0 / out.shear_compliance,
-        out.bending,
-        out.torsion,
-    ));
+    let moduli = Matrix3::from_diagonal(&Vector3::new(1.0 / out.shear_compliance, out.bending, out.torsion));
     let radius = section.radius;
     let integrated = over_arc(half, |phi| {
         let n = element.interpolation(phi);
-        let slope =
-            (element.interpolation(phi + step) - element.interpolation(phi - step)) / (2.0 * step);
+        let slope = (element.interpolation(phi + step) - element.interpolation(phi - step)) / (2.0 * step);
         let mut strains = Matrix3x6::zeros();
         strains.set_row(0, &(slope.row(0) / radius - n.row(1)));
         strains.set_row(1, &((slope.row(1) - n.row(2)) / radius));

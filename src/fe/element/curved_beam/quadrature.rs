@@ -19,13 +19,9 @@ pub(super) fn over_arc<T>(half: f64, f: impl Fn(f64) -> T) -> T
 where
     T: Add<Output = T> + Mul<f64, Output = T>,
 {
-    let pair = |(abscissa, weight): (f64, f64)| {
-        (f(abscissa * half) + f(-abscissa * half)) * (weight * half)
-    };
+    let pair = |(abscissa, weight): (f64, f64)| (f(abscissa * half) + f(-abscissa * half)) * (weight * half);
     let [first, rest @ ..] = GAUSS_12;
-    rest.into_iter()
-        .map(pair)
-        .fold(pair(first), |sum, term| sum + term)
+    rest.into_iter().map(pair).fold(pair(first), |sum, term| sum + term)
 }
 
 #[cfg(test)]
@@ -37,10 +33,7 @@ mod tests {
         for power in (0..=22).step_by(2) {
             let exact = 2.0 * 0.7_f64.powi(power + 1) / f64::from(power + 1);
             let found = over_arc(0.7, |x| x.powi(power));
-            assert!(
-                (found / exact - 1.0).abs() < 1e-13,
-                "{power}: {found} {exact}"
-            );
+            assert!((found / exact - 1.0).abs() < 1e-13, "{power}: {found} {exact}");
         }
     }
 }

@@ -49,16 +49,10 @@ impl CoupledPolynomial {
             let u = combine(&[(1.0, source), (-1.0, integral), (-beta, theta)]);
             [u, w, theta]
         });
-        let mut element = Self {
-            half,
-            functions,
-            coefficients: Matrix6::identity(),
-        };
+        let mut element = Self { half, functions, coefficients: Matrix6::identity() };
         let mut ends = Matrix6::zeros();
-        ends.fixed_view_mut::<3, 6>(0, 0)
-            .copy_from(&element.generalised(-half));
-        ends.fixed_view_mut::<3, 6>(3, 0)
-            .copy_from(&element.generalised(half));
+        ends.fixed_view_mut::<3, 6>(0, 0).copy_from(&element.generalised(-half));
+        ends.fixed_view_mut::<3, 6>(3, 0).copy_from(&element.generalised(half));
         // six independent functions on two distinct points: regular for half > 0
         element.coefficients = ends.try_inverse().unwrap_or_else(Matrix6::zeros);
         element
@@ -70,11 +64,7 @@ impl CoupledPolynomial {
 
     pub(super) fn stiffness(&self, section: &BeamSection) -> Matrix6<f64> {
         let r = section.radius;
-        let shear = if section.shear_compliance > 0.0 {
-            1.0 / section.shear_compliance
-        } else {
-            0.0
-        };
+        let shear = if section.shear_compliance > 0.0 { 1.0 / section.shear_compliance } else { 0.0 };
         let moduli = Matrix3::from_diagonal(&Vector3::new(section.axial, shear, section.bending));
         over_arc(self.half, |phi| {
             let strains = self.strains(phi, r) * self.coefficients;
@@ -105,11 +95,7 @@ impl CoupledPolynomial {
 fn rotation(load: &Polynomial, k: f64, lambda: f64) -> Polynomial {
     let second = derivative(&derivative(load));
     let fourth = derivative(&derivative(&second));
-    combine(&[
-        (1.0 / k, *load),
-        (lambda / k.powi(2), second),
-        (lambda.powi(2) / k.powi(3), fourth),
-    ])
+    combine(&[(1.0 / k, *load), (lambda / k.powi(2), second), (lambda.powi(2) / k.powi(3), fourth)])
 }
 
 fn combine(terms: &[(f64, Polynomial)]) -> Polynomial {
@@ -117,10 +103,7 @@ fn combine(terms: &[(f64, Polynomial)]) -> Polynomial {
 }
 
 fn derivative(p: &Polynomial) -> Polynomial {
-    std::array::from_fn(|power| {
-        p.get(power + 1)
-            .map_or(0.0, |coefficient| (power + 1) as f64 * coefficient)
-    })
+    std::array::from_fn(|power| p.get(power + 1).map_or(0.0, |coefficient| (power + 1) as f64 * coefficient))
 }
 
 fn integral(p: &Polynomial) -> Polynomial {
@@ -131,7 +114,5 @@ fn integral(p: &Polynomial) -> Polynomial {
 }
 
 fn value(p: &Polynomial, phi: f64) -> f64 {
-    p.iter()
-        .rev()
-        .fold(0.0, |sum, coefficient| sum * phi + coefficient)
+    p.iter().rev().fold(0.0, |sum, coefficient| sum * phi + coefficient)
 }

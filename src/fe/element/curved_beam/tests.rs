@@ -21,11 +21,7 @@ fn section(thickness: f64) -> BeamSection {
 /// (u, w, theta) of the three rigid motions at phi, radius 1.
 fn rigid(motion: usize, phi: f64) -> Vector3<f64> {
     let (sin, cos) = phi.sin_cos();
-    [
-        Vector3::new(-sin, cos, 0.0),
-        Vector3::new(cos, sin, 0.0),
-        Vector3::new(1.0, 0.0, 1.0),
-    ][motion]
+    [Vector3::new(-sin, cos, 0.0), Vector3::new(cos, sin, 0.0), Vector3::new(1.0, 0.0, 1.0)][motion]
 }
 
 fn at_nodes(half: f64, field: impl Fn(f64) -> Vector3<f64>) -> Vector6<f64> {
@@ -64,10 +60,7 @@ fn the_exact_arc_interpolates_rigid_motions_and_its_nodes() {
 
 #[test]
 fn both_interpolations_take_their_nodal_values() {
-    for kind in [
-        RingInterpolation::ExactArc,
-        RingInterpolation::Raveendranath,
-    ] {
+    for kind in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
         let half = 0.05;
         let element = CurvedBeam::new(&section(0.05), half, kind);
         for (phi, first) in [(-half, 0), (half, 3)] {
@@ -87,10 +80,7 @@ fn shear_and_extension_follow_from_the_interpolation() {
     // stiffness = integral B^T D B of the interpolation's own strains, by differences
     let section = section(0.3);
     let half = 0.2;
-    for kind in [
-        RingInterpolation::ExactArc,
-        RingInterpolation::Raveendranath,
-    ] {
+    for kind in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
         let element = CurvedBeam::new(&section, half, kind);
         let step = 1e-5;
         let moduli = nalgebra::Matrix3::from_diagonal(&Vector3::new(
@@ -100,8 +90,7 @@ fn shear_and_extension_follow_from_the_interpolation() {
         ));
         let integrated = quadrature::over_arc(half, |phi| {
             let n = element.interpolation(phi);
-            let slope = (element.interpolation(phi + step) - element.interpolation(phi - step))
-                / (2.0 * step);
+            let slope = (element.interpolation(phi + step) - element.interpolation(phi - step)) / (2.0 * step);
             let mut strains = nalgebra::Matrix3x6::zeros();
             strains.set_row(0, &(slope.row(0) + n.row(1)));
             strains.set_row(1, &(slope.row(1) - n.row(0) + n.row(2)));

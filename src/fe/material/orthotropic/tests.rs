@@ -53,14 +53,7 @@ fn permuted_axes_permute_the_stiffness() -> Result<(), MaterialError> {
 #[test]
 fn isotropic_constants_ignore_the_axes() -> Result<(), MaterialError> {
     let steel = Material::new(208e9, 0.3, 7800.0)?;
-    let same = OrthotropicMaterial::new(
-        [208e9; 3],
-        [0.3; 3],
-        [80e9; 3],
-        7800.0,
-        [1.0, 2.0, -0.5],
-        [0.3, 1.0, 4.0],
-    )?;
+    let same = OrthotropicMaterial::new([208e9; 3], [0.3; 3], [80e9; 3], 7800.0, [1.0, 2.0, -0.5], [0.3, 1.0, 4.0])?;
     let expected = ElasticMaterial::from(steel).stiffness_matrix();
     let found = ElasticMaterial::from(same).stiffness_matrix();
     for i in 0..6 {
@@ -100,47 +93,20 @@ fn every_rule_fires_with_its_message() {
             Err(error) => error.to_string(),
         }
     };
-    assert_eq!(
-        message(&|g| g[0][1] = 0.0),
-        "E_y (Pa) must be positive and finite, found 0"
-    );
-    assert_eq!(
-        message(&|g| g[0][2] = f64::INFINITY),
-        "E_z (Pa) must be positive and finite, found inf"
-    );
-    assert_eq!(
-        message(&|g| g[2][1] = f64::NAN),
-        "G_yz (Pa) must be positive and finite, found NaN"
-    );
-    assert_eq!(
-        message(&|g| g[1][0] = 4.0),
-        "nu_xy must be smaller than sqrt(E_x / E_y) in magnitude, found 4"
-    );
-    assert_eq!(
-        message(&|g| g[1][1] = -1.1),
-        "nu_yz must be smaller than sqrt(E_y / E_z) in magnitude, found -1.1"
-    );
-    assert_eq!(
-        message(&|g| g[1][2] = f64::NAN),
-        "nu_xz must be smaller than sqrt(E_x / E_z) in magnitude, found NaN"
-    );
+    assert_eq!(message(&|g| g[0][1] = 0.0), "E_y (Pa) must be positive and finite, found 0");
+    assert_eq!(message(&|g| g[0][2] = f64::INFINITY), "E_z (Pa) must be positive and finite, found inf");
+    assert_eq!(message(&|g| g[2][1] = f64::NAN), "G_yz (Pa) must be positive and finite, found NaN");
+    assert_eq!(message(&|g| g[1][0] = 4.0), "nu_xy must be smaller than sqrt(E_x / E_y) in magnitude, found 4");
+    assert_eq!(message(&|g| g[1][1] = -1.1), "nu_yz must be smaller than sqrt(E_y / E_z) in magnitude, found -1.1");
+    assert_eq!(message(&|g| g[1][2] = f64::NAN), "nu_xz must be smaller than sqrt(E_x / E_z) in magnitude, found NaN");
     assert_eq!(
         message(&|g| (g[0], g[1]) = ([1e9; 3], [0.5; 3])),
         "the three Poisson's ratios do not go together: 1 - nu_xy^2 E_y/E_x - nu_yz^2 E_z/E_y - \
          nu_xz^2 E_z/E_x - 2 nu_xy nu_yz nu_xz E_z/E_x must be positive, found 0"
     );
-    assert_eq!(
-        message(&|g| g[3][0] = -1.0),
-        "density (kg/m^3) must be positive and finite, found -1"
-    );
-    assert_eq!(
-        message(&|g| g[4] = [0.0; 3]),
-        "the material axis x needs a direction, found (0, 0, 0)"
-    );
-    assert_eq!(
-        message(&|g| g[5] = [0.0, f64::NAN, 1.0]),
-        "the material axis y needs a direction, found (0, NaN, 1)"
-    );
+    assert_eq!(message(&|g| g[3][0] = -1.0), "density (kg/m^3) must be positive and finite, found -1");
+    assert_eq!(message(&|g| g[4] = [0.0; 3]), "the material axis x needs a direction, found (0, 0, 0)");
+    assert_eq!(message(&|g| g[5] = [0.0, f64::NAN, 1.0]), "the material axis y needs a direction, found (0, NaN, 1)");
     assert_eq!(
         message(&|g| g[5] = [-2.0, 0.0, 1e-5]),
         "the material axes x (1, 0, 0) and y (-2, 0, 0.00001) are parallel: two different directions are needed"

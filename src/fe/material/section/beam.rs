@@ -112,41 +112,27 @@ impl BeamSection {
             Bond::Slip(RadiusRule::CommonCentroid) | Bond::Composite => layer.radius - radius,
         };
         let bending = match bond {
-            Bond::Slip(_) => {
-                sum(&|layer| layer.material.young * layer.inertia / ratio(layer).powi(3))
-            }
-            Bond::Composite => sum(&|layer| {
-                layer.material.young * (layer.inertia + layer.area * arm(layer).powi(2))
-            }),
+            Bond::Slip(_) => sum(&|layer| layer.material.young * layer.inertia / ratio(layer).powi(3)),
+            Bond::Composite => sum(&|layer| layer.material.young * (layer.inertia + layer.area * arm(layer).powi(2))),
         };
         let along = |layer: &RingLayer| match bond {
             Bond::Slip(_) => 1.0 / ratio(layer),
             Bond::Composite => 1.0,
         };
-        let shear = sum(&|layer| {
-            layer.shear_coefficient * layer.material.shear_modulus() * layer.area * along(layer)
-        });
+        let shear = sum(&|layer| layer.shear_coefficient * layer.material.shear_modulus() * layer.area * along(layer));
         let line_mass = |layer: &RingLayer| layer.material.density * layer.area * ratio(layer);
         let rotary = match bond {
-            Bond::Slip(RadiusRule::Own) => {
-                sum(&|layer| layer.material.density * layer.inertia / ratio(layer))
-            }
+            Bond::Slip(RadiusRule::Own) => sum(&|layer| layer.material.density * layer.inertia / ratio(layer)),
             Bond::Slip(RadiusRule::CommonCentroid) | Bond::Composite => sum(&|layer| {
                 let own = layer.material.density * layer.inertia * ratio(layer);
                 own + line_mass(layer) * arm(layer).powi(2)
             }),
         };
         let out_of_plane = OutOfPlaneSection {
-            bending: sum(&|layer| {
-                layer.material.young * layer.out_of_plane_inertia() * along(layer)
-            }),
-            torsion: sum(&|layer| {
-                layer.material.shear_modulus() * layer.torsion_constant() * along(layer)
-            }),
+            bending: sum(&|layer| layer.material.young * layer.out_of_plane_inertia() * along(layer)),
+            torsion: sum(&|layer| layer.material.shear_modulus() * layer.torsion_constant() * along(layer)),
             shear_compliance: 1.0 / shear,
-            radial_rotary: sum(&|layer| {
-                layer.material.density * layer.out_of_plane_inertia() * ratio(layer)
-            }),
+            radial_rotary: sum(&|layer| layer.material.density * layer.out_of_plane_inertia() * ratio(layer)),
             polar_rotary: sum(&|layer| {
                 let polar = layer.inertia + layer.out_of_plane_inertia();
                 let own = layer.material.density * polar * ratio(layer);
@@ -169,10 +155,7 @@ impl BeamSection {
     pub fn without_shear(self) -> Self {
         Self {
             shear_compliance: 0.0,
-            out_of_plane: OutOfPlaneSection {
-                shear_compliance: 0.0,
-                ..self.out_of_plane
-            },
+            out_of_plane: OutOfPlaneSection { shear_compliance: 0.0, ..self.out_of_plane },
             ..self
         }
     }
@@ -184,11 +167,7 @@ impl BeamSection {
         Self {
             rotary: 0.0,
             mass_moment: 0.0,
-            out_of_plane: OutOfPlaneSection {
-                radial_rotary: 0.0,
-                polar_rotary: 0.0,
-                ..self.out_of_plane
-            },
+            out_of_plane: OutOfPlaneSection { radial_rotary: 0.0, polar_rotary: 0.0, ..self.out_of_plane },
             ..self
         }
     }

@@ -61,8 +61,7 @@ impl RingLayer {
 
     /// Torsion constant J, m^4: as given, or that of the same rectangle by its series.
     pub fn torsion_constant(&self) -> f64 {
-        self.torsion
-            .unwrap_or_else(|| rectangle_torsion(self.rectangle()))
+        self.torsion.unwrap_or_else(|| rectangle_torsion(self.rectangle()))
     }
 
     /// Sides (radial h, axial b), m, of the rectangle with this area and second moment: `h = sqrt(12 I / A)`, `b = A / h`.
@@ -102,21 +101,11 @@ pub(super) fn check(index: usize, layer: &RingLayer) -> Result<(), SectionError>
         ("radius", layer.radius),
         ("shear_coefficient", layer.shear_coefficient),
     ];
-    let given = [
-        ("axial_inertia", layer.axial_inertia),
-        ("torsion", layer.torsion),
-    ];
-    let given = given
-        .into_iter()
-        .filter_map(|(quantity, value)| Some((quantity, value?)));
+    let given = [("axial_inertia", layer.axial_inertia), ("torsion", layer.torsion)];
+    let given = given.into_iter().filter_map(|(quantity, value)| Some((quantity, value?)));
     for (quantity, value) in positive.into_iter().chain(given) {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(SectionError::OutOfRange {
-                index,
-                quantity,
-                value,
-                rule: "positive and finite",
-            });
+            return Err(SectionError::OutOfRange { index, quantity, value, rule: "positive and finite" });
         }
     }
     if layer.shear_coefficient > 1.0 {
@@ -137,14 +126,7 @@ mod tests {
     #[test]
     fn the_torsion_of_rectangles_is_the_published_one() {
         // Timoshenko and Goodier, section 109, table of k1: four digits
-        for (ratio, factor) in [
-            (1.0, 0.1406),
-            (1.2, 0.166),
-            (1.5, 0.196),
-            (2.0, 0.229),
-            (3.0, 0.263),
-            (10.0, 0.312),
-        ] {
+        for (ratio, factor) in [(1.0, 0.1406), (1.2, 0.166), (1.5, 0.196), (2.0, 0.229), (3.0, 0.263), (10.0, 0.312)] {
             let found = rectangle_torsion([ratio, 1.0]) / ratio;
             assert!((found - factor).abs() < 6e-4, "{ratio}: {found}");
             // sides change places: the same section
@@ -152,10 +134,8 @@ mod tests {
         }
         // the square to seven digits; a plain sum of a thousand terms for another ratio
         assert!((rectangle_torsion([2.0, 2.0]) / 16.0 - 0.140_577_0).abs() < 5e-8);
-        let plain: f64 = (0..1000)
-            .map(|k| f64::from(2 * k + 1))
-            .map(|n| (n * FRAC_PI_2 * 1.3).tanh() / n.powi(5))
-            .sum();
+        let plain: f64 =
+            (0..1000).map(|k| f64::from(2 * k + 1)).map(|n| (n * FRAC_PI_2 * 1.3).tanh() / n.powi(5)).sum();
         let expected = 1.3 / 3.0 * (1.0 - 192.0 / PI.powi(5) / 1.3 * plain);
         assert!((rectangle_torsion([1.3, 1.0]) / expected - 1.0).abs() < 1e-12);
         // thin strip: 1/3, less 0.63 b / a
@@ -179,11 +159,7 @@ mod tests {
         assert!((layer.out_of_plane_inertia() / exact - 1.0).abs() < 1e-12);
         let exact = rectangle_torsion([radial, axial]);
         assert!((layer.torsion_constant() / exact - 1.0).abs() < 1e-12);
-        let given = RingLayer {
-            axial_inertia: Some(1e-12),
-            torsion: Some(2e-12),
-            ..layer
-        };
+        let given = RingLayer { axial_inertia: Some(1e-12), torsion: Some(2e-12), ..layer };
         assert!((given.out_of_plane_inertia() - 1e-12).abs() < 1e-27);
         assert!((given.torsion_constant() - 2e-12).abs() < 1e-27);
     }

@@ -13,10 +13,7 @@ fn steel_in_aluminium() -> [RingLayer; 2] {
         radius,
         shear_coefficient: 5.0 / 6.0,
     };
-    [
-        layer(210e9, 7850.0, 5.37e-6, 8.88e-13, 5.314e-3),
-        layer(72e9, 2700.0, 12e-6, 9e-12, 7.5e-3),
-    ]
+    [layer(210e9, 7850.0, 5.37e-6, 8.88e-13, 5.314e-3), layer(72e9, 2700.0, 12e-6, 9e-12, 7.5e-3)]
 }
 
 /// Inextensional frequency of a thin ring, n = 2, Hz.
@@ -63,14 +60,8 @@ fn a_section_out_of_range_is_named() {
     let mut layers = steel_in_aluminium();
     layers[1].area = -1.0;
     let error = BeamSection::combine(&layers, Bond::Composite).expect_err("negative area");
-    assert_eq!(
-        error.to_string(),
-        "ring section 1: area must be positive and finite, found -1"
-    );
-    assert_eq!(
-        BeamSection::combine(&[], Bond::Composite),
-        Err(SectionError::Empty)
-    );
+    assert_eq!(error.to_string(), "ring section 1: area must be positive and finite, found -1");
+    assert_eq!(BeamSection::combine(&[], Bond::Composite), Err(SectionError::Empty));
 }
 
 #[test]
@@ -90,10 +81,7 @@ fn halves_of_one_ring_bonded_are_the_whole_out_of_its_plane() {
         let section = BeamSection::combine(layers, Bond::Composite).expect("valid");
         section.out_of_plane
     };
-    let halves = combine(&[
-        part(height / 2.0, 7.5e-3 - height / 4.0),
-        part(height / 2.0, 7.5e-3 + height / 4.0),
-    ]);
+    let halves = combine(&[part(height / 2.0, 7.5e-3 - height / 4.0), part(height / 2.0, 7.5e-3 + height / 4.0)]);
     let whole = combine(&[part(height, 7.5e-3)]);
     for (found, exact) in [
         (halves.bending, whole.bending),
@@ -115,10 +103,7 @@ fn rings_that_slip_are_summed_on_the_rule_of_their_radii() {
         let section = BeamSection::combine(&layers, Bond::Slip(rule)).expect("valid");
         section.out_of_plane
     };
-    let (own, common) = (
-        combine(RadiusRule::Own),
-        combine(RadiusRule::CommonCentroid),
-    );
+    let (own, common) = (combine(RadiusRule::Own), combine(RadiusRule::CommonCentroid));
     let ratio = layers[1].radius / layers[0].radius;
     let inertia = layers.map(|layer| layer.material.young * layer.out_of_plane_inertia());
     let twist = layers.map(|layer| layer.material.shear_modulus() * layer.torsion_constant());

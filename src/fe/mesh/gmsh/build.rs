@@ -21,14 +21,7 @@ pub(super) struct Content {
 /// The mesh with its groups by dimension and tag: those that elements belong to and those that only
 /// have a name.
 pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
-    let Content {
-        format,
-        nodes,
-        blocks,
-        mut memberships,
-        mut names,
-        mut allowance,
-    } = content;
+    let Content { format, nodes, blocks, mut memberships, mut names, mut allowance } = content;
     drop(nodes.index);
     memberships.sort_unstable_by_key(|own| (own.key(), own.block));
     names.sort_unstable_by_key(|name| (name.dimension, name.tag));
@@ -59,14 +52,7 @@ pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
         });
     }
     groups.shrink_to_fit();
-    Ok(Mesh {
-        nodes: nodes.coordinates,
-        node_tags: nodes.tags,
-        blocks,
-        groups,
-        format,
-        source: path.to_path_buf(),
-    })
+    Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format, source: path.to_path_buf() })
 }
 
 fn elements(
@@ -91,10 +77,7 @@ struct Marks {
 
 impl Marks {
     fn new(nodes: usize) -> Self {
-        Self {
-            round: vec![0; nodes],
-            now: 0,
-        }
+        Self { round: vec![0; nodes], now: 0 }
     }
 
     /// The nodes of these elements, sorted, each once.
@@ -115,11 +98,7 @@ impl Marks {
         let mut found = Vec::with_capacity(count);
         if count > self.round.len() / 16 {
             let marked = self.round.iter().enumerate();
-            found.extend(
-                marked
-                    .filter(|(_, round)| **round == self.now)
-                    .map(|(node, _)| node),
-            );
+            found.extend(marked.filter(|(_, round)| **round == self.now).map(|(node, _)| node));
         } else {
             visit(elements, blocks, |node| {
                 if self.round[node] == self.now {

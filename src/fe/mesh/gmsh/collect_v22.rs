@@ -14,8 +14,7 @@ pub(super) fn blocks(
 ) -> Result<(Vec<ElementBlock>, Vec<Membership>), MshError> {
     let mut pieces = pieces(std::mem::take(&mut listed.runs));
     pieces.sort_unstable_by_key(Piece::order);
-    let together =
-        |a: &Piece, b: &Piece| (a.label.kind, a.label.entity) == (b.label.kind, b.label.entity);
+    let together = |a: &Piece, b: &Piece| (a.label.kind, a.label.entity) == (b.label.kind, b.label.entity);
     let (mut count, mut membership_count) = (0, 0);
     for pieces in pieces.chunk_by(together) {
         let named = groups(pieces).into_iter().filter(|&tag| tag > 0).count();
@@ -56,12 +55,7 @@ fn pieces(runs: Vec<Run>) -> Vec<Piece> {
     let (mut first, mut first_node) = (0, 0);
     let place = |Run { label, count }| {
         let count = count as usize;
-        let piece = Piece {
-            label,
-            first,
-            first_node,
-            count,
-        };
+        let piece = Piece { label, first, first_node, count };
         first += count;
         first_node += count * label.kind.nodes();
         piece
@@ -78,26 +72,16 @@ fn block(listed: &Listed, pieces: &[Piece], kept: Option<&[u32]>) -> ElementBloc
         kind,
         tags: Vec::with_capacity(count),
         connectivity: Vec::with_capacity(count * kind.nodes()),
-        entity: Entity {
-            dimension: kind.dimension(),
-            tag: entity,
-        },
+        entity: Entity { dimension: kind.dimension(), tag: entity },
     };
     let (mut position, mut kept) = (0, kept.map(|kept| kept.iter().copied().peekable()));
     for piece in pieces {
         let tags = &listed.tags[piece.first..piece.first + piece.count];
-        for (tag, nodes) in tags
-            .iter()
-            .zip(piece.nodes(listed).chunks_exact(kind.nodes()))
-        {
-            let keep = kept
-                .as_mut()
-                .is_none_or(|kept| kept.next_if_eq(&position).is_some());
+        for (tag, nodes) in tags.iter().zip(piece.nodes(listed).chunks_exact(kind.nodes())) {
+            let keep = kept.as_mut().is_none_or(|kept| kept.next_if_eq(&position).is_some());
             if keep {
                 block.tags.push(*tag);
-                block
-                    .connectivity
-                    .extend(nodes.iter().map(|&node| node as usize));
+                block.connectivity.extend(nodes.iter().map(|&node| node as usize));
             }
             position += 1;
         }

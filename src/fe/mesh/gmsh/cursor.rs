@@ -25,13 +25,7 @@ pub(super) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self {
-            bytes,
-            position: 0,
-            mark: 0,
-            encoding: Encoding::Ascii,
-            section: String::new(),
-        }
+        Self { bytes, position: 0, mark: 0, encoding: Encoding::Ascii, section: String::new() }
     }
 
     pub(super) fn rest(&self) -> &'a [u8] {
@@ -131,19 +125,11 @@ impl<'a> Cursor<'a> {
     }
 
     pub(super) fn truncated(&self, expected: impl Into<String>) -> MshError {
-        MshError::Truncated {
-            section: self.section.clone(),
-            expected: expected.into(),
-        }
+        MshError::Truncated { section: self.section.clone(), expected: expected.into() }
     }
 
     pub(super) fn feature(&self, feature: &'static str, advice: &'static str) -> MshError {
-        MshError::Feature {
-            section: self.section.clone(),
-            place: self.place(),
-            feature,
-            advice,
-        }
+        MshError::Feature { section: self.section.clone(), place: self.place(), feature, advice }
     }
 }
 
@@ -152,11 +138,7 @@ pub(super) fn quoted(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     // a character takes four bytes at most
     let start = &bytes[..bytes.len().min(4 * LONGEST)];
-    let shown: String = String::from_utf8_lossy(start)
-        .chars()
-        .filter(|c| !c.is_control())
-        .take(LONGEST)
-        .collect();
+    let shown: String = String::from_utf8_lossy(start).chars().filter(|c| !c.is_control()).take(LONGEST).collect();
     if bytes.is_empty() {
         "nothing".to_owned()
     } else if shown.is_empty() {

@@ -10,10 +10,7 @@ use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
 
 /// Elements of MSH 4.1.
-pub(super) fn read_v41(
-    cursor: &mut Cursor<'_>,
-    nodes: &NodeIndex,
-) -> Result<Vec<ElementBlock>, MshError> {
+pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec<ElementBlock>, MshError> {
     let block_count = cursor.count("the number of blocks", Item::new(3, 3, 0))?;
     let announced = cursor.count("the number of elements", Item::new(2, 0, 0))?;
     tag_range(
@@ -26,10 +23,7 @@ pub(super) fn read_v41(
     let mut listed = 0;
     for _ in 0..block_count {
         let dimension = dimension(cursor)?;
-        let entity = Entity {
-            dimension,
-            tag: cursor.int("the tag of an entity")?,
-        };
+        let entity = Entity { dimension, tag: cursor.int("the tag of an entity")? };
         let kind = kind(cursor, entity)?;
         if kind.dimension() != dimension {
             let expected = format!("elements of dimension {dimension} like their entity");
@@ -51,12 +45,7 @@ pub(super) fn read_v41(
                 let node = cursor.size("the tag of a node of an element")?;
                 let index = node_index(cursor, nodes, tag, node)?;
                 let end = block.connectivity.len();
-                check_not_repeated(
-                    cursor,
-                    &block.connectivity[end - read..],
-                    index,
-                    [tag, node],
-                )?;
+                check_not_repeated(cursor, &block.connectivity[end - read..], index, [tag, node])?;
                 block.connectivity.push(index);
             }
         }
@@ -88,19 +77,10 @@ pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Res
 
 /// Index of a node of an element.
 #[inline]
-pub(super) fn node_index(
-    cursor: &Cursor<'_>,
-    nodes: &NodeIndex,
-    element: u64,
-    node: u64,
-) -> Result<usize, MshError> {
+pub(super) fn node_index(cursor: &Cursor<'_>, nodes: &NodeIndex, element: u64, node: u64) -> Result<usize, MshError> {
     match nodes.get(node) {
         Some(index) => Ok(index),
-        None => Err(MshError::DanglingNode {
-            place: cursor.place(),
-            element,
-            node,
-        }),
+        None => Err(MshError::DanglingNode { place: cursor.place(), element, node }),
     }
 }
 
@@ -114,11 +94,7 @@ pub(super) fn check_not_repeated<T: PartialEq>(
 ) -> Result<(), MshError> {
     if earlier.contains(&index) {
         let place = cursor.place();
-        return Err(MshError::RepeatedNode {
-            place,
-            element,
-            node,
-        });
+        return Err(MshError::RepeatedNode { place, element, node });
     }
     Ok(())
 }
@@ -126,19 +102,10 @@ pub(super) fn check_not_repeated<T: PartialEq>(
 /// The element type at the cursor.
 fn kind(cursor: &mut Cursor<'_>, entity: Entity) -> Result<ElementKind, MshError> {
     let gmsh_type = cursor.int("an element type")?;
-    ElementKind::from_gmsh_type(gmsh_type)
-        .ok_or_else(|| unknown_kind(cursor, gmsh_type, Some(entity)))
+    ElementKind::from_gmsh_type(gmsh_type).ok_or_else(|| unknown_kind(cursor, gmsh_type, Some(entity)))
 }
 
 /// An element type that the program has no element for; MSH 2.2 gives the type before the entity.
-pub(super) fn unknown_kind(
-    cursor: &Cursor<'_>,
-    gmsh_type: i32,
-    entity: Option<Entity>,
-) -> MshError {
-    MshError::UnsupportedElement {
-        place: cursor.place(),
-        gmsh_type,
-        entity,
-    }
+pub(super) fn unknown_kind(cursor: &Cursor<'_>, gmsh_type: i32, entity: Option<Entity>) -> MshError {
+    MshError::UnsupportedElement { place: cursor.place(), gmsh_type, entity }
 }

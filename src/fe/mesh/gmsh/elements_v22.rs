@@ -78,17 +78,11 @@ pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed,
     let smallest = if cursor.is_binary() { 2 } else { 4 };
     let count = cursor.text_count("the number of elements", Item::new(0, smallest, 0))?;
     if u32::try_from(count).is_err() {
-        return Err(cursor.feature(
-            "a mesh of more than 4294967295 elements",
-            "mesh more coarsely",
-        ));
+        return Err(cursor.feature("a mesh of more than 4294967295 elements", "mesh more coarsely"));
     }
     let mut reader = Reader {
         seen: TagSet::for_count(count),
-        listed: Listed {
-            tags: Vec::with_capacity(count),
-            ..Listed::default()
-        },
+        listed: Listed { tags: Vec::with_capacity(count), ..Listed::default() },
         cursor,
         nodes,
     };
@@ -121,13 +115,10 @@ impl Reader<'_, '_> {
             let found = self.cursor.int(what)?;
             let left = count - self.listed.tags.len();
             let following = usize::try_from(found).ok();
-            let following = following
-                .filter(|&following| (1..=left).contains(&following))
-                .ok_or_else(|| {
-                    let expected = format!("{what}, 1 to {left}");
-                    self.cursor
-                        .malformed(expected, found.to_string().as_bytes())
-                })?;
+            let following = following.filter(|&following| (1..=left).contains(&following)).ok_or_else(|| {
+                let expected = format!("{what}, 1 to {left}");
+                self.cursor.malformed(expected, found.to_string().as_bytes())
+            })?;
             let tag_count = self.tag_count()?;
             for _ in 0..following {
                 let tag = self.tag()?;
@@ -141,8 +132,7 @@ impl Reader<'_, '_> {
         let found = self.cursor.int("an element tag")?;
         let tag = u64::try_from(found).map_err(|_| {
             let expected = "an element tag, greater than 0";
-            self.cursor
-                .malformed(expected, found.to_string().as_bytes())
+            self.cursor.malformed(expected, found.to_string().as_bytes())
         })?;
         check_tag(self.cursor, &mut self.seen, tag)?;
         Ok(tag)
@@ -150,26 +140,19 @@ impl Reader<'_, '_> {
 
     fn kind(&mut self) -> Result<ElementKind, MshError> {
         let gmsh_type = self.cursor.int("an element type")?;
-        ElementKind::from_gmsh_type(gmsh_type)
-            .ok_or_else(|| unknown_kind(self.cursor, gmsh_type, None))
+        ElementKind::from_gmsh_type(gmsh_type).ok_or_else(|| unknown_kind(self.cursor, gmsh_type, None))
     }
 
     fn tag_count(&mut self) -> Result<usize, MshError> {
         let what = "the number of tags of an element";
         let found = self.cursor.int(what)?;
-        let count = u64::try_from(found)
-            .map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+        let count = u64::try_from(found).map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
         let number_bytes = if self.cursor.is_binary() { 4 } else { 2 };
         self.cursor.check_count(what, count, number_bytes)
     }
 
     /// Tags (group, entity, then partitions, which are of no use here) and nodes.
-    fn rest_of_element(
-        &mut self,
-        tag: u64,
-        kind: ElementKind,
-        tag_count: usize,
-    ) -> Result<(), MshError> {
+    fn rest_of_element(&mut self, tag: u64, kind: ElementKind, tag_count: usize) -> Result<(), MshError> {
         let mut tags = [0; 2];
         for position in 0..tag_count {
             let found = self.cursor.int("a tag of an element")?;
@@ -178,18 +161,13 @@ impl Reader<'_, '_> {
             }
         }
         let [physical, entity] = tags;
-        self.listed.add_label(Label {
-            kind,
-            entity,
-            physical: physical.saturating_abs(),
-        });
+        self.listed.add_label(Label { kind, entity, physical: physical.saturating_abs() });
         self.listed.tags.push(tag);
         let connectivity = &mut self.listed.connectivity;
         for read in 0..kind.nodes() {
             let what = "the tag of a node of an element";
             let found = self.cursor.int(what)?;
-            let node = u64::try_from(found)
-                .map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+            let node = u64::try_from(found).map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
             // a node has an index below u32::MAX
             let index = node_index(self.cursor, self.nodes, tag, node)? as u32;
             let earlier = &connectivity[connectivity.len() - read..];

@@ -21,9 +21,7 @@ impl Physical {
     pub(super) fn of(&self, entity: Entity) -> impl Iterator<Item = i32> + '_ {
         let start = self.entities.partition_point(|(other, ..)| *other < entity);
         let own = self.entities[start..].iter();
-        own.take_while(move |(other, ..)| *other == entity)
-            .flat_map(|&(_, first, end)| &self.tags[first..end])
-            .copied()
+        own.take_while(move |(other, ..)| *other == entity).flat_map(|&(_, first, end)| &self.tags[first..end]).copied()
     }
 
     fn add(&mut self, dimension: usize, tag: i32, physical: &[i32]) {
@@ -39,9 +37,7 @@ impl Physical {
 
     /// Reads entities of one dimension with mshio.
     fn parse(&mut self, file: &[u8]) -> Result<(), MshError> {
-        let parsed = mshio::parse_msh_bytes(file).map_err(|error| MshError::Reader {
-            what: reader_message(&error),
-        })?;
+        let parsed = mshio::parse_msh_bytes(file).map_err(|error| MshError::Reader { what: reader_message(&error) })?;
         if let Some(entities) = &parsed.data.entities {
             for point in &entities.points {
                 self.add(0, point.tag, &point.physical_tags);
@@ -64,12 +60,8 @@ impl Physical {
 const PORTION: usize = 64;
 
 pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Physical, MshError> {
-    const COUNTS: [&str; 4] = [
-        "the number of points",
-        "the number of curves",
-        "the number of surfaces",
-        "the number of volumes",
-    ];
+    const COUNTS: [&str; 4] =
+        ["the number of points", "the number of curves", "the number of surfaces", "the number of volumes"];
     let mut counts = [0; 4];
     for (dimension, (count, what)) in counts.iter_mut().zip(COUNTS).enumerate() {
         *count = cursor.count(what, smallest(dimension))?;
@@ -100,19 +92,13 @@ fn alone(encoding: Encoding, dimension: usize, count: usize, content: &[u8]) -> 
         Encoding::Ascii => {
             let mut numbers = format!("{points} {curves} {surfaces} {volumes}").into_bytes();
             // not every blank is one to mshio
-            for word in content
-                .split(u8::is_ascii_whitespace)
-                .filter(|word| !word.is_empty())
-            {
+            for word in content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
                 numbers.push(b' ');
                 numbers.extend_from_slice(word);
             }
             (b"$MeshFormat\n4.1 0 8".to_vec(), numbers)
         }
-        Encoding::Binary {
-            big_endian,
-            size_bytes,
-        } => {
+        Encoding::Binary { big_endian, size_bytes } => {
             let order = |mut bytes: Vec<u8>| {
                 if big_endian {
                     bytes.reverse();
@@ -134,10 +120,8 @@ fn alone(encoding: Encoding, dimension: usize, count: usize, content: &[u8]) -> 
 
 /// The library's own words, outermost first, without its dump of the file.
 fn reader_message(error: &mshio::MshParserError<&[u8]>) -> String {
-    let steps: Vec<String> = error
-        .filter_msh_errors()
-        .map(|(_, kind)| kind.to_string().trim_end_matches('.').to_owned())
-        .collect();
+    let steps: Vec<String> =
+        error.filter_msh_errors().map(|(_, kind)| kind.to_string().trim_end_matches('.').to_owned()).collect();
     match steps.is_empty() {
         true => "the section $Entities cannot be parsed".to_owned(),
         false => steps.into_iter().rev().collect::<Vec<_>>().join(": "),

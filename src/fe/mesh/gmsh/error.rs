@@ -35,9 +35,7 @@ pub enum MshError {
         found: String,
     },
     /// An MSH version that is not read.
-    #[error(
-        "MSH version {found}: expected 4.1 or 2.2; convert it with: gmsh IN.msh -save -format msh41 -o OUT.msh"
-    )]
+    #[error("MSH version {found}: expected 4.1 or 2.2; convert it with: gmsh IN.msh -save -format msh41 -o OUT.msh")]
     Version {
         /// The version found.
         found: String,
@@ -108,9 +106,7 @@ pub enum MshError {
         advice: &'static str,
     },
     /// A mesh without elements.
-    #[error(
-        "the mesh has no elements: expected at least one (is a Physical group defined, is the geometry meshed?)"
-    )]
+    #[error("the mesh has no elements: expected at least one (is a Physical group defined, is the geometry meshed?)")]
     NoElements,
     /// A coordinate that is infinite or not a number.
     #[error("$Nodes, {place}: node {tag} has the coordinate {found}: expected a finite number")]
@@ -139,9 +135,7 @@ pub enum MshError {
         tag: u64,
     },
     /// An element on a node that is not there.
-    #[error(
-        "$Elements, {place}: element {element} refers to node {node}: expected a tag listed in $Nodes"
-    )]
+    #[error("$Elements, {place}: element {element} refers to node {node}: expected a tag listed in $Nodes")]
     DanglingNode {
         /// Where.
         place: Place,
@@ -151,9 +145,7 @@ pub enum MshError {
         node: u64,
     },
     /// An element with the same node twice.
-    #[error(
-        "$Elements, {place}: element {element} has the node {node} twice: expected different nodes"
-    )]
+    #[error("$Elements, {place}: element {element} has the node {node} twice: expected different nodes")]
     RepeatedNode {
         /// Where.
         place: Place,
@@ -195,9 +187,7 @@ pub enum MshError {
 }
 
 fn on_entity(entity: Option<Entity>) -> String {
-    entity.map_or(String::new(), |Entity { dimension, tag }| {
-        format!(" on entity {tag} of dimension {dimension}")
-    })
+    entity.map_or(String::new(), |Entity { dimension, tag }| format!(" on entity {tag} of dimension {dimension}"))
 }
 
 fn known_kinds() -> String {

@@ -12,24 +12,16 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
             b"$MeshFormat" => break,
             b"$Comments" => cursor.skip_section("Comments")?,
             b"$NOD" | b"$PARA" => {
-                return Err(MshError::Version {
-                    found: "1.0".to_owned(),
-                });
+                return Err(MshError::Version { found: "1.0".to_owned() });
             }
             line => {
-                return Err(MshError::NotMsh {
-                    found: quoted(line),
-                });
+                return Err(MshError::NotMsh { found: quoted(line) });
             }
         }
     }
     cursor.section = "MeshFormat".to_owned();
     let version = version(cursor)?;
-    let binary = flag(
-        cursor,
-        "the file type, 0 (ASCII) or 1 (binary)",
-        [b"0", b"1"],
-    )?;
+    let binary = flag(cursor, "the file type, 0 (ASCII) or 1 (binary)", [b"0", b"1"])?;
     let size_bytes = match version {
         MshVersion::V41 => {
             if flag(cursor, "the size of size_t, 4 or 8", [b"4", b"8"])? {
@@ -46,10 +38,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
     };
     cursor.take_line();
     if binary {
-        cursor.encoding = Encoding::Binary {
-            big_endian: big_endian(cursor)?,
-            size_bytes,
-        };
+        cursor.encoding = Encoding::Binary { big_endian: big_endian(cursor)?, size_bytes };
     }
     cursor.close_section()?;
     Ok(MshFormat { version, binary })
@@ -60,9 +49,9 @@ fn version(cursor: &mut Cursor<'_>) -> Result<MshVersion, MshError> {
         b"" => Err(cursor.truncated("the version")),
         b"4.1" => Ok(MshVersion::V41),
         b"2.2" => Ok(MshVersion::V22),
-        other if other.iter().all(|b| b.is_ascii_digit() || *b == b'.') => Err(MshError::Version {
-            found: String::from_utf8_lossy(&other[..other.len().min(20)]).into_owned(),
-        }),
+        other if other.iter().all(|b| b.is_ascii_digit() || *b == b'.') => {
+            Err(MshError::Version { found: String::from_utf8_lossy(&other[..other.len().min(20)]).into_owned() })
+        }
         other => Err(cursor.malformed("the version", other)),
     }
 }
@@ -89,7 +78,5 @@ fn flag(cursor: &mut Cursor<'_>, what: &str, words: [&[u8]; 2]) -> Result<bool, 
         return Err(cursor.truncated(what));
     }
     let found = words.iter().position(|&known| known == word);
-    found
-        .map(|index| index == 1)
-        .ok_or_else(|| cursor.malformed(what, word))
+    found.map(|index| index == 1).ok_or_else(|| cursor.malformed(what, word))
 }

@@ -31,19 +31,13 @@ impl Membership {
         }
     }
 
-    pub(super) fn elements<'a>(
-        &'a self,
-        blocks: &'a [ElementBlock],
-    ) -> impl Iterator<Item = ElementId> + 'a {
+    pub(super) fn elements<'a>(&'a self, blocks: &'a [ElementBlock]) -> impl Iterator<Item = ElementId> + 'a {
         let (all, some): (_, &[u32]) = match &self.members {
             Members::All => (0..blocks[self.block].len(), &[]),
             Members::Some(list) => (0..0, list),
         };
         let indices = all.chain(some.iter().map(|&index| index as usize));
-        indices.map(|index| ElementId {
-            block: self.block,
-            index,
-        })
+        indices.map(|index| ElementId { block: self.block, index })
     }
 }
 
@@ -65,10 +59,7 @@ impl Allowance {
     const MEMBERSHIP: usize = 8;
 
     pub(super) fn new(file_bytes: usize) -> Self {
-        Self {
-            file_bytes,
-            listed: 0,
-        }
+        Self { file_bytes, listed: 0 }
     }
 
     /// Asks for room for so many more memberships.
@@ -81,10 +72,7 @@ impl Allowance {
         self.listed += items as u64;
         let bytes = self.listed.saturating_mul(size_of::<ElementId>() as u64);
         if bytes > Self::FIXED + Self::FACTOR * self.file_bytes as u64 {
-            return Err(MshError::TooManyMembers {
-                needed: bytes,
-                file_bytes: self.file_bytes,
-            });
+            return Err(MshError::TooManyMembers { needed: bytes, file_bytes: self.file_bytes });
         }
         Ok(())
     }

@@ -46,10 +46,7 @@ impl Mesh {
     /// [`MeshError::Read`] if the file cannot be read, [`MeshError::Gmsh`] with section, place, what was
     /// found and what was expected if its content cannot be used.
     pub fn read_gmsh(path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
-        let bytes = crate::files::read(path).map_err(|cause| MeshError::Read {
-            path: path.to_path_buf(),
-            cause,
-        })?;
+        let bytes = crate::files::read(path).map_err(|cause| MeshError::Read { path: path.to_path_buf(), cause })?;
         Self::from_gmsh_bytes(bytes, path, unit)
     }
 
@@ -57,11 +54,7 @@ impl Mesh {
     ///
     /// # Errors
     /// [`MeshError::Gmsh`], as from [`Self::read_gmsh`].
-    pub fn from_gmsh_bytes(
-        bytes: impl AsRef<[u8]>,
-        path: &Path,
-        unit: LengthUnit,
-    ) -> Result<Self, MeshError> {
+    pub fn from_gmsh_bytes(bytes: impl AsRef<[u8]>, path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
         let found = sections::read(bytes.as_ref(), unit.to_metres());
         // blocks and groups can have this room
         drop(bytes);
@@ -69,16 +62,10 @@ impl Mesh {
     }
 }
 
-fn mesh(
-    found: Result<(MshFormat, sections::Found), MshError>,
-    path: &Path,
-) -> Result<Mesh, MeshError> {
+fn mesh(found: Result<(MshFormat, sections::Found), MshError>, path: &Path) -> Result<Mesh, MeshError> {
     let mut mesh = found
         .and_then(|(format, found)| build::mesh(found.complete(format)?, path))
-        .map_err(|fault| MeshError::Gmsh {
-            path: path.to_path_buf(),
-            fault,
-        })?;
+        .map_err(|fault| MeshError::Gmsh { path: path.to_path_buf(), fault })?;
     mesh.turn_clockwise();
     Ok(mesh)
 }

@@ -22,9 +22,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
         return Err(cursor.truncated(COUNT));
     }
     let declared = std::str::from_utf8(line).ok();
-    let declared = declared
-        .and_then(|text| text.trim().parse().ok())
-        .ok_or_else(|| cursor.malformed(COUNT, line))?;
+    let declared = declared.and_then(|text| text.trim().parse().ok()).ok_or_else(|| cursor.malformed(COUNT, line))?;
     const SHORTEST_LINE: &str = "0 1 \"\"\n";
     let count = cursor.check_count(COUNT, declared, SHORTEST_LINE.len())?;
     let mut names = Vec::with_capacity(count);
@@ -37,10 +35,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
         }
         let name = parse(line).ok_or_else(|| cursor.malformed(LINE, line))?;
         if !seen.insert((name.dimension, name.tag)) {
-            let expected = format!(
-                "one name for group {} of dimension {}",
-                name.tag, name.dimension
-            );
+            let expected = format!("one name for group {} of dimension {}", name.tag, name.dimension);
             return Err(cursor.malformed(expected, line));
         }
         names.push(name);
@@ -56,11 +51,7 @@ fn parse(line: &[u8]) -> Option<Name> {
     let dimension = numbers.next()?.parse().ok().filter(|&d: &u8| d <= 3)?;
     let tag = numbers.next()?.parse().ok().filter(|&tag: &i32| tag > 0)?;
     match numbers.next() {
-        None => Some(Name {
-            dimension,
-            tag,
-            name: name.to_owned(),
-        }),
+        None => Some(Name { dimension, tag, name: name.to_owned() }),
         Some(_) => None,
     }
 }

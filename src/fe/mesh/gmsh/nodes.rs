@@ -30,9 +30,9 @@ impl NodeTable {
         }
         not_too_large(cursor, "a node tag", tag)?;
         let index = u32::try_from(self.tags.len()).ok();
-        let index = index.filter(|&index| index < u32::MAX).ok_or_else(|| {
-            cursor.feature("a mesh of more than 4294967295 nodes", "mesh more coarsely")
-        })?;
+        let index = index
+            .filter(|&index| index < u32::MAX)
+            .ok_or_else(|| cursor.feature("a mesh of more than 4294967295 nodes", "mesh more coarsely"))?;
         if !self.index.insert(tag, index) {
             let place = cursor.place();
             return Err(MshError::DuplicateNode { place, tag });
@@ -81,12 +81,7 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
         not_parametric(cursor)?;
         let count = cursor.count("the number of nodes of a block", Item::new(1, 0, 3))?;
         if count > announced - nodes.tags.len() {
-            return Err(not_as_announced(
-                cursor,
-                "nodes",
-                announced,
-                nodes.tags.len() + count,
-            ));
+            return Err(not_as_announced(cursor, "nodes", announced, nodes.tags.len() + count));
         }
         for _ in 0..count {
             let tag = cursor.size("a node tag")?;
@@ -97,12 +92,7 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
         }
     }
     if nodes.tags.len() != announced {
-        return Err(not_as_announced(
-            cursor,
-            "nodes",
-            announced,
-            nodes.tags.len(),
-        ));
+        return Err(not_as_announced(cursor, "nodes", announced, nodes.tags.len()));
     }
     nodes.complete()
 }
@@ -113,9 +103,8 @@ pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
     let mut nodes = NodeTable::for_count(count);
     for _ in 0..count {
         let found = cursor.int("a node tag")?;
-        let tag = u64::try_from(found).map_err(|_| {
-            cursor.malformed("a node tag, greater than 0", found.to_string().as_bytes())
-        })?;
+        let tag = u64::try_from(found)
+            .map_err(|_| cursor.malformed("a node tag, greater than 0", found.to_string().as_bytes()))?;
         nodes.add_tag(cursor, tag)?;
         nodes.add_coordinates(cursor, metres)?;
     }
@@ -127,10 +116,7 @@ pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
 pub(super) fn not_too_large(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(), MshError> {
     match i64::try_from(tag) {
         Ok(_) => Ok(()),
-        Err(_) => Err(cursor.malformed(
-            format!("{what}, at most {}", i64::MAX),
-            tag.to_string().as_bytes(),
-        )),
+        Err(_) => Err(cursor.malformed(format!("{what}, at most {}", i64::MAX), tag.to_string().as_bytes())),
     }
 }
 
@@ -145,10 +131,7 @@ fn not_parametric(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
 
 /// Nodes with their parameters on curves and surfaces: of no use here.
 pub(super) fn parametric(cursor: &Cursor<'_>) -> MshError {
-    cursor.feature(
-        "parametric coordinates",
-        "set Mesh.SaveParametric = 0 in gmsh and save again",
-    )
+    cursor.feature("parametric coordinates", "set Mesh.SaveParametric = 0 in gmsh and save again")
 }
 
 /// The smallest and the largest tag at the start of a section: read for their order alone.
@@ -159,9 +142,7 @@ pub(super) fn tag_range(
 ) -> Result<(), MshError> {
     let smallest = cursor.size(what[0])?;
     match cursor.size(what[1])? {
-        largest if largest < smallest => {
-            Err(cursor.malformed(expected, largest.to_string().as_bytes()))
-        }
+        largest if largest < smallest => Err(cursor.malformed(expected, largest.to_string().as_bytes())),
         _ => Ok(()),
     }
 }
@@ -177,12 +158,7 @@ pub(super) fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, MshError> {
 }
 
 /// Blocks list more or fewer items than the section announces.
-pub(super) fn not_as_announced(
-    cursor: &Cursor<'_>,
-    what: &str,
-    announced: usize,
-    listed: usize,
-) -> MshError {
+pub(super) fn not_as_announced(cursor: &Cursor<'_>, what: &str, announced: usize, listed: usize) -> MshError {
     let expected = format!("{announced} {what} as announced at the start of the section");
     cursor.malformed(expected, listed.to_string().as_bytes())
 }

@@ -17,20 +17,14 @@ pub(super) struct Item {
 
 impl Item {
     pub(super) const fn new(sizes: usize, ints: usize, floats: usize) -> Self {
-        Self {
-            sizes,
-            ints,
-            floats,
-        }
+        Self { sizes, ints, floats }
     }
 
     /// Bytes of one item: a number in ASCII takes a digit and a blank.
     fn bytes(self, encoding: Encoding) -> usize {
         match encoding {
             Encoding::Ascii => 2 * (self.sizes + self.ints + self.floats),
-            Encoding::Binary { size_bytes, .. } => {
-                size_bytes * self.sizes + 4 * self.ints + 8 * self.floats
-            }
+            Encoding::Binary { size_bytes, .. } => size_bytes * self.sizes + 4 * self.ints + 8 * self.floats,
         }
     }
 }
@@ -51,13 +45,10 @@ impl Cursor<'_> {
     pub(super) fn size(&mut self, what: &'static str) -> Result<u64, MshError> {
         let found = match self.encoding {
             Encoding::Ascii => self.digits(),
-            Encoding::Binary {
-                big_endian,
-                size_bytes: 4,
-            } => self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian)),
-            Encoding::Binary { big_endian, .. } => {
-                self.chunk::<8>().map(|bytes| unsigned(bytes, big_endian))
+            Encoding::Binary { big_endian, size_bytes: 4 } => {
+                self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian))
             }
+            Encoding::Binary { big_endian, .. } => self.chunk::<8>().map(|bytes| unsigned(bytes, big_endian)),
         };
         match found {
             Some(value) => Ok(value),
@@ -70,9 +61,9 @@ impl Cursor<'_> {
     pub(super) fn int(&mut self, what: &'static str) -> Result<i32, MshError> {
         let found = match self.encoding {
             Encoding::Ascii => self.signed_digits(),
-            Encoding::Binary { big_endian, .. } => self
-                .chunk::<4>()
-                .map(|bytes| unsigned(bytes, big_endian) as u32 as i32),
+            Encoding::Binary { big_endian, .. } => {
+                self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian) as u32 as i32)
+            }
         };
         match found {
             Some(value) => Ok(value),
@@ -85,9 +76,9 @@ impl Cursor<'_> {
     pub(super) fn float(&mut self, what: &'static str) -> Result<f64, MshError> {
         let found = match self.encoding {
             Encoding::Ascii => self.fraction(),
-            Encoding::Binary { big_endian, .. } => self
-                .chunk::<8>()
-                .map(|bytes| f64::from_bits(unsigned(bytes, big_endian))),
+            Encoding::Binary { big_endian, .. } => {
+                self.chunk::<8>().map(|bytes| f64::from_bits(unsigned(bytes, big_endian)))
+            }
         };
         match found {
             Some(value) => Ok(value),
@@ -103,25 +94,17 @@ impl Cursor<'_> {
     }
 
     /// The same for a count that was read by other means, of items of so many bytes.
-    pub(super) fn check_count(
-        &self,
-        what: &'static str,
-        declared: u64,
-        item_bytes: usize,
-    ) -> Result<usize, MshError> {
+    pub(super) fn check_count(&self, what: &'static str, declared: u64, item_bytes: usize) -> Result<usize, MshError> {
         let remaining = self.rest().len();
         // one more: nothing need follow the last number
         let most = remaining / item_bytes.max(1) + 1;
-        usize::try_from(declared)
-            .ok()
-            .filter(|&count| count <= most)
-            .ok_or_else(|| MshError::Count {
-                section: self.section.clone(),
-                place: self.place(),
-                what: what.to_owned(),
-                declared,
-                remaining,
-            })
+        usize::try_from(declared).ok().filter(|&count| count <= most).ok_or_else(|| MshError::Count {
+            section: self.section.clone(),
+            place: self.place(),
+            what: what.to_owned(),
+            declared,
+            remaining,
+        })
     }
 
     /// A count that is text in binary files too, on a line of its own (MSH 2.2).
@@ -131,9 +114,7 @@ impl Cursor<'_> {
             return Err(self.truncated(what));
         }
         let declared = std::str::from_utf8(word).ok();
-        let declared = declared
-            .and_then(|text| text.parse().ok())
-            .ok_or_else(|| self.malformed(what, word))?;
+        let declared = declared.and_then(|text| text.parse().ok()).ok_or_else(|| self.malformed(what, word))?;
         let count = self.check_count(what, declared, item.bytes(self.encoding))?;
         match self.is_binary().then(|| self.take_line()) {
             None | Some(b"") => Ok(count),

@@ -12,18 +12,12 @@ pub(super) type Merged = (Option<Vec<u32>>, Vec<(i32, Members)>);
 /// Merges the elements of one kind on one entity that occur in several groups, given sorted.
 pub(super) fn merge(listed: &Listed, pieces: &[Piece], physical: &[i32]) -> Merged {
     let nodes_of = |tag: i32| {
-        let own = pieces
-            .iter()
-            .filter(move |piece| piece.label.physical == tag);
+        let own = pieces.iter().filter(move |piece| piece.label.physical == tag);
         own.flat_map(|piece| piece.nodes(listed))
     };
     let first = pieces[0].label.physical;
     // what gmsh writes: the same list for every group
-    if physical.len() <= SEVERAL
-        && physical
-            .iter()
-            .all(|&tag| nodes_of(tag).eq(nodes_of(first)))
-    {
+    if physical.len() <= SEVERAL && physical.iter().all(|&tag| nodes_of(tag).eq(nodes_of(first))) {
         let members = physical.iter().map(|&tag| (tag, Members::All)).collect();
         return (Some(positions(pieces, first)), members);
     }
@@ -51,15 +45,13 @@ fn positions(pieces: &[Piece], physical: i32) -> Vec<u32> {
 /// of them, they stay several, and the n-th of one group is the n-th of another.
 fn one_by_one(listed: &Listed, pieces: &[Piece]) -> Merged {
     let node_count = pieces[0].label.kind.nodes();
-    let mut sets: Vec<u32> =
-        Vec::with_capacity(node_count * pieces.iter().map(|piece| piece.count).sum::<usize>());
+    let mut sets: Vec<u32> = Vec::with_capacity(node_count * pieces.iter().map(|piece| piece.count).sum::<usize>());
     let mut physical = Vec::with_capacity(sets.capacity() / node_count);
     for piece in pieces {
         sets.extend_from_slice(piece.nodes(listed));
         physical.extend(std::iter::repeat_n(piece.label.physical, piece.count));
     }
-    sets.chunks_exact_mut(node_count)
-        .for_each(<[u32]>::sort_unstable);
+    sets.chunks_exact_mut(node_count).for_each(<[u32]>::sort_unstable);
     let set = |element: u32| &sets[element as usize * node_count..][..node_count];
     let mut order: Vec<u32> = (0..physical.len() as u32).collect();
     order.sort_unstable_by(|&a, &b| {
@@ -84,9 +76,7 @@ fn one_by_one(listed: &Listed, pieces: &[Piece]) -> Merged {
             }
         }
     }
-    let kept: Vec<u32> = (0..physical.len() as u32)
-        .filter(|&element| same_as[element as usize] == element)
-        .collect();
+    let kept: Vec<u32> = (0..physical.len() as u32).filter(|&element| same_as[element as usize] == element).collect();
     drop(sets);
     let index = |first: u32| kept.partition_point(|&kept| kept < first) as u32;
     let pairs = physical.iter().zip(same_as);

@@ -29,10 +29,7 @@ enum Elements {
 pub(super) fn read(bytes: &[u8], metres: f64) -> Result<(MshFormat, Found), MshError> {
     let mut cursor = Cursor::new(bytes);
     let format = header::read(&mut cursor)?;
-    let mut found = Found {
-        file_bytes: bytes.len(),
-        ..Found::default()
-    };
+    let mut found = Found { file_bytes: bytes.len(), ..Found::default() };
     loop {
         cursor.skip_blanks();
         let line = cursor.take_line();
@@ -53,12 +50,7 @@ pub(super) fn read(bytes: &[u8], metres: f64) -> Result<(MshFormat, Found), MshE
 
 impl Found {
     /// Reads a section up to its end; false if it is of no use.
-    fn section(
-        &mut self,
-        cursor: &mut Cursor<'_>,
-        version: MshVersion,
-        metres: f64,
-    ) -> Result<bool, MshError> {
+    fn section(&mut self, cursor: &mut Cursor<'_>, version: MshVersion, metres: f64) -> Result<bool, MshError> {
         use MshVersion::{V22, V41};
         match (cursor.section.as_str(), version) {
             ("PhysicalNames", _) => once(&mut self.names, cursor, names::read)?,
@@ -66,10 +58,10 @@ impl Found {
             ("Nodes", V41) => once(&mut self.nodes, cursor, |c| nodes::read_v41(c, metres))?,
             ("Nodes", V22) => once(&mut self.nodes, cursor, |c| nodes::read_v22(c, metres))?,
             ("Elements", _) => {
-                let known = self.nodes.as_ref().ok_or(MshError::MissingSection {
-                    section: "Nodes",
-                    hint: " before $Elements",
-                })?;
+                let known = self
+                    .nodes
+                    .as_ref()
+                    .ok_or(MshError::MissingSection { section: "Nodes", hint: " before $Elements" })?;
                 once(&mut self.elements, cursor, |c| match version {
                     V41 => elements::read_v41(c, &known.index).map(Elements::V41),
                     V22 => elements_v22::read(c, &known.index).map(Elements::V22),
@@ -101,14 +93,7 @@ impl Found {
             }
             Elements::V22(listed) => collect_v22::blocks(listed, &mut allowance)?,
         };
-        Ok(Content {
-            format,
-            nodes,
-            blocks,
-            memberships,
-            names: self.names.unwrap_or_default(),
-            allowance,
-        })
+        Ok(Content { format, nodes, blocks, memberships, names: self.names.unwrap_or_default(), allowance })
     }
 }
 
@@ -119,10 +104,7 @@ fn once<T>(
     read: impl FnOnce(&mut Cursor<'_>) -> Result<T, MshError>,
 ) -> Result<(), MshError> {
     if slot.is_some() {
-        return Err(MshError::RepeatedSection {
-            section: cursor.section.clone(),
-            place: cursor.place(),
-        });
+        return Err(MshError::RepeatedSection { section: cursor.section.clone(), place: cursor.place() });
     }
     *slot = Some(read(cursor)?);
     Ok(())
@@ -130,9 +112,7 @@ fn once<T>(
 
 fn section_name(cursor: &Cursor<'_>, line: &[u8]) -> Result<String, MshError> {
     const LONGEST: usize = 100;
-    let name = line
-        .strip_prefix(b"$")
-        .filter(|name| (1..=LONGEST).contains(&name.len()));
+    let name = line.strip_prefix(b"$").filter(|name| (1..=LONGEST).contains(&name.len()));
     let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
     name.ok_or_else(|| {
         let expected = format!("a section ($...) after $End{}", cursor.section);

@@ -16,10 +16,7 @@ pub(super) enum NodeIndex {
 impl NodeIndex {
     /// For this many nodes.
     pub(super) fn for_count(count: usize) -> Self {
-        Self::Dense {
-            table: vec![0; count + 1],
-            longest: count.saturating_mul(4).saturating_add(1024),
-        }
+        Self::Dense { table: vec![0; count + 1], longest: count.saturating_mul(4).saturating_add(1024) }
     }
 
     /// Gives a tag its index, below `u32::MAX`; false if it has one already.
@@ -78,10 +75,7 @@ pub(super) enum TagSet {
 impl TagSet {
     /// For this many tags.
     pub(super) fn for_count(count: usize) -> Self {
-        Self::Dense {
-            bits: vec![0; count / 64 + 1],
-            longest: count / 4 + 128,
-        }
+        Self::Dense { bits: vec![0; count / 64 + 1], longest: count / 4 + 128 }
     }
 
     /// Adds a tag; false if it is there already.
@@ -114,11 +108,7 @@ impl TagSet {
 fn listed(bits: &[u64], count: usize) -> HashSet<u64> {
     let mut set = HashSet::with_capacity(count);
     for (at, &word) in (0_u64..).zip(bits) {
-        set.extend(
-            (0..64)
-                .filter(|bit| word >> bit & 1 == 1)
-                .map(|bit| 64 * at + bit),
-        );
+        set.extend((0..64).filter(|bit| word >> bit & 1 == 1).map(|bit| 64 * at + bit));
     }
     set
 }
@@ -130,12 +120,7 @@ mod tests {
     /// Tags that stay inside the table, that make it longer, and that leave it.
     #[test]
     fn dense_and_sparse_tags_are_found_again() {
-        let lists: [&[u64]; 4] = [
-            &[1, 2, 3],
-            &[3, 1, 900],
-            &[1, 2, 1_000_000_000_000, 3, u64::MAX],
-            &[u64::MAX, 0, 7],
-        ];
+        let lists: [&[u64]; 4] = [&[1, 2, 3], &[3, 1, 900], &[1, 2, 1_000_000_000_000, 3, u64::MAX], &[u64::MAX, 0, 7]];
         for tags in lists {
             let mut index = NodeIndex::for_count(tags.len());
             let mut set = TagSet::for_count(tags.len());

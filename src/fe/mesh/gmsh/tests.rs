@@ -71,38 +71,18 @@ fn read(bytes: &[u8]) -> Result<Mesh, String> {
 fn small_mesh_is_read_whole() -> Result<(), String> {
     let mesh = read(SMALL.as_bytes())?;
     assert_eq!(mesh.node_tags, [1, 6, 3, 2, 5, 4]);
-    let mm: Vec<[i64; 3]> = mesh
-        .nodes
-        .iter()
-        .map(|node| node.map(|x| (x * 1e3).round() as i64))
-        .collect();
-    let expected = [
-        [0, 0, 0],
-        [0, 1, 0],
-        [2, 0, 0],
-        [1, 0, 0],
-        [1, 1, 0],
-        [2, 1, 0],
-    ];
+    let mm: Vec<[i64; 3]> = mesh.nodes.iter().map(|node| node.map(|x| (x * 1e3).round() as i64)).collect();
+    let expected = [[0, 0, 0], [0, 1, 0], [2, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0]];
     assert_eq!(mm, expected);
     assert!((mesh.nodes[2][0] - 2e-3).abs() < 1e-18);
     let kinds: Vec<ElementKind> = mesh.blocks.iter().map(|block| block.kind).collect();
-    assert_eq!(
-        kinds,
-        [ElementKind::Point, ElementKind::Line2, ElementKind::Quad4]
-    );
+    assert_eq!(kinds, [ElementKind::Point, ElementKind::Line2, ElementKind::Quad4]);
     let quads = &mesh.blocks[2];
     assert_eq!(quads.tags, [3, 4]);
     assert_eq!(quads.connectivity, [0, 3, 4, 1, 3, 2, 5, 4]);
     assert_eq!(quads.element(1), Some([3, 2, 5, 4].as_slice()));
     assert_eq!(quads.element(2), None);
-    assert_eq!(
-        quads.entity,
-        Entity {
-            dimension: 2,
-            tag: 1
-        }
-    );
+    assert_eq!(quads.entity, Entity { dimension: 2, tag: 1 });
     assert_eq!(mesh.source, Path::new("small.msh"));
     Ok(())
 }
@@ -164,27 +144,9 @@ fn inventory_counts() -> Result<(), String> {
     assert_eq!(counts, [1, 1, 2]);
     let extent = inventory.bounding_box.extent();
     let expected = [3e-3, 1e-3, 4e-3];
-    assert!(
-        extent
-            .iter()
-            .zip(expected)
-            .all(|(a, b)| (a - b).abs() < 1e-15)
-    );
-    let names: Vec<&str> = inventory
-        .groups
-        .iter()
-        .map(|group| group.name.as_str())
-        .collect();
-    assert_eq!(
-        names,
-        [
-            "corner point",
-            "the \"left\" edge",
-            "5",
-            "nothing there",
-            "plate"
-        ]
-    );
+    assert!(extent.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15));
+    let names: Vec<&str> = inventory.groups.iter().map(|group| group.name.as_str()).collect();
+    assert_eq!(names, ["corner point", "the \"left\" edge", "5", "nothing there", "plate"]);
     let sizes: Vec<usize> = inventory.groups.iter().map(|group| group.nodes).collect();
     assert_eq!(sizes, [1, 2, 2, 0, 6]);
     Ok(())
@@ -199,15 +161,8 @@ fn other_sections_are_passed_over() -> Result<(), String> {
     let with_others = format!("{comment}{SMALL}{periodic}{unknown}");
     assert_eq!(read(with_others.as_bytes())?, plain);
     let name = SMALL.replace("\"plate\"", "\"a $EndPhysicalNames b\"");
-    let names: Vec<String> = read(name.as_bytes())?
-        .groups
-        .into_iter()
-        .map(|g| g.name)
-        .collect();
-    assert_eq!(
-        names.last().map(String::as_str),
-        Some("a $EndPhysicalNames b")
-    );
+    let names: Vec<String> = read(name.as_bytes())?.groups.into_iter().map(|g| g.name).collect();
+    assert_eq!(names.last().map(String::as_str), Some("a $EndPhysicalNames b"));
     assert_eq!(read(SMALL.replace('\n', "\r\n").as_bytes())?, plain);
     Ok(())
 }

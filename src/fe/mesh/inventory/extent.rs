@@ -16,10 +16,7 @@ impl BoundingBox {
     /// Extent of the points; the origin if there are none.
     pub(crate) fn of(mut points: impl Iterator<Item = [f64; 3]>) -> Self {
         let first = points.next().unwrap_or_default();
-        let mut found = Self {
-            min: first,
-            max: first,
-        };
+        let mut found = Self { min: first, max: first };
         points.for_each(|point| found.add(point));
         found
     }

@@ -45,12 +45,7 @@ pub(super) fn summaries(mesh: &Mesh) -> Vec<GroupSummary> {
             tag: group.tag,
             nodes: group.nodes.len(),
             elements: group.elements.len(),
-            kinds: counted(
-                group
-                    .elements
-                    .iter()
-                    .map(|id| (mesh.blocks[id.block].kind, 1)),
-            ),
+            kinds: counted(group.elements.iter().map(|id| (mesh.blocks[id.block].kind, 1))),
         })
         .collect()
 }

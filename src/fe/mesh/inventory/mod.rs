@@ -88,9 +88,7 @@ impl Mesh {
 
 /// Elements by kind, in the order of [`ElementKind`], kinds that occur only.
 fn counted(blocks: impl Iterator<Item = (ElementKind, usize)>) -> Vec<KindCount> {
-    let mut counts: Vec<KindCount> = ElementKind::all()
-        .map(|kind| KindCount { kind, count: 0 })
-        .collect();
+    let mut counts: Vec<KindCount> = ElementKind::all().map(|kind| KindCount { kind, count: 0 }).collect();
     for (kind, count) in blocks {
         // the table of kinds is in the order of the enum
         counts[kind as usize].count += count;

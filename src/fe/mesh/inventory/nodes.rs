@@ -35,10 +35,7 @@ pub(super) fn unused(mesh: &Mesh) -> UnusedNodes {
         used[node] = true;
     }
     let unused = || used.iter().zip(&mesh.node_tags).filter(|(used, _)| !**used);
-    UnusedNodes {
-        count: unused().count(),
-        first_tags: unused().map(|(_, &tag)| tag).take(EXAMPLES).collect(),
-    }
+    UnusedNodes { count: unused().count(), first_tags: unused().map(|(_, &tag)| tag).take(EXAMPLES).collect() }
 }
 
 /// Tolerance over the diagonal of the bounding box. gmsh writes 16 digits and places coincident
@@ -61,11 +58,7 @@ pub(super) fn duplicates(mesh: &Mesh, extent: &BoundingBox) -> DuplicateNodes {
             }
         }
     }
-    DuplicateNodes {
-        tolerance,
-        count,
-        first_pairs,
-    }
+    DuplicateNodes { tolerance, count, first_pairs }
 }
 
 /// Nodes by the cube that they are in.
@@ -79,16 +72,9 @@ struct Cubes<'a> {
 
 impl<'a> Cubes<'a> {
     fn new(mesh: &'a Mesh, extent: &BoundingBox, side: f64) -> Self {
-        let mut cubes = Self {
-            mesh,
-            origin: extent.min,
-            side,
-            sorted: Vec::new(),
-        };
+        let mut cubes = Self { mesh, origin: extent.min, side, sorted: Vec::new() };
         let nodes = (0..).zip(&mesh.nodes);
-        cubes.sorted = nodes
-            .map(|(node, &point)| (cubes.position(point).map(|x| x as u32), node))
-            .collect();
+        cubes.sorted = nodes.map(|(node, &point)| (cubes.position(point).map(|x| x as u32), node)).collect();
         cubes.sorted.sort_unstable();
         cubes
     }
@@ -98,11 +84,7 @@ impl<'a> Cubes<'a> {
         [0, 1, 2].map(|axis| {
             let from_origin = point[axis] - self.origin[axis];
             // all nodes in one point: a cube without side
-            if self.side > 0.0 {
-                from_origin / self.side
-            } else {
-                0.0
-            }
+            if self.side > 0.0 { from_origin / self.side } else { 0.0 }
         })
     }
 
@@ -112,19 +94,10 @@ impl<'a> Cubes<'a> {
         let position = self.position(point);
         let own = position.map(|x| x as u32);
         // the cubes beyond the nearer wall in each direction
-        let beside = [0, 1, 2].map(|axis| {
-            if position[axis].fract() < 0.5 {
-                own[axis].saturating_sub(1)
-            } else {
-                own[axis] + 1
-            }
-        });
+        let beside = [0, 1, 2]
+            .map(|axis| if position[axis].fract() < 0.5 { own[axis].saturating_sub(1) } else { own[axis] + 1 });
         let corner = |choice: usize, axis: usize| {
-            if choice >> axis & 1 == 0 {
-                own[axis]
-            } else {
-                beside[axis]
-            }
+            if choice >> axis & 1 == 0 { own[axis] } else { beside[axis] }
         };
         (0..8)
             .map(|choice| [0, 1, 2].map(|axis| corner(choice, axis)))
@@ -132,17 +105,10 @@ impl<'a> Cubes<'a> {
             .min()
     }
 
-    fn first_in(
-        &self,
-        cube: [u32; 3],
-        node: usize,
-        point: [f64; 3],
-        tolerance: f64,
-    ) -> Option<usize> {
+    fn first_in(&self, cube: [u32; 3], node: usize, point: [f64; 3], tolerance: f64) -> Option<usize> {
         let start = self.sorted.partition_point(|(other, _)| *other < cube);
-        let earlier = self.sorted[start..]
-            .iter()
-            .take_while(|(other, earlier)| *other == cube && (*earlier as usize) < node);
+        let earlier =
+            self.sorted[start..].iter().take_while(|(other, earlier)| *other == cube && (*earlier as usize) < node);
         let mut earlier = earlier.map(|(_, earlier)| *earlier as usize);
         earlier.find(|&earlier| {
             let other = self.mesh.nodes[earlier];

@@ -47,11 +47,7 @@ impl Sets {
 
 /// Parts made of the elements of a dimension, largest first.
 pub(super) fn parts(mesh: &Mesh, dimension: usize) -> Vec<Part> {
-    let own = || {
-        mesh.blocks
-            .iter()
-            .filter(|block| block.kind.dimension() == dimension)
-    };
+    let own = || mesh.blocks.iter().filter(|block| block.kind.dimension() == dimension);
     let mut sets = Sets::new(mesh.nodes.len());
     let mut used = vec![false; mesh.nodes.len()];
     for element in own().flat_map(|block| block.elements()) {

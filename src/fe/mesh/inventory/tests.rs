@@ -26,10 +26,8 @@ fn inventory() -> Result<Inventory, MeshError> {
 #[test]
 fn parts_that_hang_in_the_air_are_found() -> Result<(), MeshError> {
     let parts = inventory()?.parts;
-    let counts: Vec<(usize, usize, u64)> = parts
-        .iter()
-        .map(|part| (part.elements, part.nodes, part.node_tag))
-        .collect();
+    let counts: Vec<(usize, usize, u64)> =
+        parts.iter().map(|part| (part.elements, part.nodes, part.node_tag)).collect();
     assert_eq!(counts, [(2, 4, 9), (1, 4, 1), (1, 4, 5)]);
     assert!((parts[0].bounding_box.min[0] - 5.0).abs() < 1e-15);
     assert!((parts[0].bounding_box.diagonal() - 2.0_f64.sqrt()).abs() < 1e-15);
@@ -43,18 +41,14 @@ fn nodes_in_one_place_are_found() -> Result<(), MeshError> {
     assert_eq!(inventory.duplicates.count, 2);
     assert_eq!(inventory.duplicates.first_pairs, [[2, 5], [3, 8]]);
     assert!((inventory.duplicates.tolerance / 1.559e-6 - 1.0).abs() < 1e-3);
-    assert_eq!(
-        (inventory.unused.count, inventory.unused.first_tags),
-        (1, vec![13])
-    );
+    assert_eq!((inventory.unused.count, inventory.unused.first_tags), (1, vec![13]));
     Ok(())
 }
 
 /// Against the distance of every pair, with nodes at random offsets up to three tolerances from a lattice.
 #[test]
 fn duplicates_are_those_of_every_pair() -> Result<(), MeshError> {
-    let mut mesh =
-        Mesh::from_gmsh_bytes(PARTS.as_bytes(), Path::new("parts.msh"), LengthUnit::Metre)?;
+    let mut mesh = Mesh::from_gmsh_bytes(PARTS.as_bytes(), Path::new("parts.msh"), LengthUnit::Metre)?;
     mesh.nodes = vec![[0.0; 3], [1.0; 3]];
     let tolerance = 1e-7 * 3.0_f64.sqrt();
     let mut state = 1_u32;
@@ -64,19 +58,14 @@ fn duplicates_are_those_of_every_pair() -> Result<(), MeshError> {
     };
     for point in 0..600 {
         let lattice = 0.1 + 0.1 * f64::from(point % 5);
-        mesh.nodes
-            .push([0, 1, 2].map(|_| lattice + 3.0 * tolerance * random()));
+        mesh.nodes.push([0, 1, 2].map(|_| lattice + 3.0 * tolerance * random()));
     }
     mesh.node_tags = (1..=mesh.nodes.len() as u64).collect();
     let near = |a: [f64; 3], b: [f64; 3]| {
         let [x, y, z] = [0, 1, 2].map(|axis| a[axis] - b[axis]);
         x.hypot(y).hypot(z) <= tolerance
     };
-    let has_earlier = |&node: &usize| {
-        mesh.nodes[..node]
-            .iter()
-            .any(|&other| near(other, mesh.nodes[node]))
-    };
+    let has_earlier = |&node: &usize| mesh.nodes[..node].iter().any(|&other| near(other, mesh.nodes[node]));
     let expected = (0..mesh.nodes.len()).filter(has_earlier).count();
     assert!(expected > 100);
     assert_eq!(mesh.inventory().duplicates.count, expected);
@@ -88,10 +77,7 @@ fn groups_that_share_elements_and_elements_without_group() -> Result<(), MeshErr
     let inventory = inventory()?;
     assert_eq!(inventory.overlaps.len(), 1);
     let overlap = &inventory.overlaps[0];
-    assert_eq!(
-        (overlap.dimension, overlap.tags, overlap.elements),
-        (2, [1, 2], 1)
-    );
+    assert_eq!((overlap.dimension, overlap.tags, overlap.elements), (2, [1, 2], 1));
     assert_eq!(overlap.names, ["squares", "2"]);
     assert_eq!((inventory.dimension, inventory.ungrouped_elements), (2, 2));
     assert_eq!(inventory.groups[0].kinds.len(), 1);

@@ -10,13 +10,8 @@ pub(super) fn assignment(worth: &[Vec<f64>]) -> Vec<Option<usize>> {
     let rows = worth.len();
     let columns = worth.iter().map(Vec::len).max().unwrap_or(0);
     let size = rows.max(columns);
-    let value = |row: usize, column: usize| -> f64 {
-        worth
-            .get(row)
-            .and_then(|row| row.get(column))
-            .copied()
-            .unwrap_or(0.0)
-    };
+    let value =
+        |row: usize, column: usize| -> f64 { worth.get(row).and_then(|row| row.get(column)).copied().unwrap_or(0.0) };
     // least cost over a square filled up with zeros; row 0 and column 0 stand for "none yet"
     let (mut row_price, mut column_price) = (vec![0.0; size + 1], vec![0.0; size + 1]);
     let mut row_of = vec![0_usize; size + 1];
@@ -32,8 +27,7 @@ pub(super) fn assignment(worth: &[Vec<f64>]) -> Vec<Option<usize>> {
             let current = row_of[column];
             let (mut step, mut next) = (f64::INFINITY, 0);
             for other in (1..=size).filter(|&other| !visited[other]) {
-                let slack =
-                    -value(current - 1, other - 1) - row_price[current] - column_price[other];
+                let slack = -value(current - 1, other - 1) - row_price[current] - column_price[other];
                 if slack < reach[other] {
                     (reach[other], from[other]) = (slack, column);
                 }
@@ -113,11 +107,7 @@ mod tests {
         for _ in 0..200 {
             let worth: Vec<Vec<f64>> = (0..5).map(|_| (0..6).map(|_| random()).collect()).collect();
             let found = assignment(&worth);
-            let sum: f64 = found
-                .iter()
-                .zip(&worth)
-                .filter_map(|(column, row)| column.map(|column| row[column]))
-                .sum();
+            let sum: f64 = found.iter().zip(&worth).filter_map(|(column, row)| column.map(|column| row[column])).sum();
             assert!((sum - best(&worth, &mut vec![false; 6])).abs() < 1e-12);
         }
     }

@@ -29,17 +29,13 @@ pub(super) fn clusters(frequencies_hz: &[f64], gap: f64) -> Vec<Vec<usize>> {
 /// Joins those of `clusters` that lie in one and the same cluster of the other set: a doublet that imperfections have split
 /// there and not here. `home` gives the cluster of the other set in which a cluster lies, and `sizes` the number
 /// of modes of those.
-pub(super) fn joined(
-    clusters: Vec<Vec<usize>>,
-    home: &[Option<usize>],
-    sizes: &[usize],
-) -> Vec<Vec<usize>> {
+pub(super) fn joined(clusters: Vec<Vec<usize>>, home: &[Option<usize>], sizes: &[usize]) -> Vec<Vec<usize>> {
     let mut found: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
     for (cluster, &home) in clusters.into_iter().zip(home) {
         let room = home.and_then(|home| sizes.get(home)).copied().unwrap_or(0);
-        let mate = found.iter_mut().find(|(other, modes)| {
-            home.is_some() && *other == home && modes.len() + cluster.len() <= room
-        });
+        let mate = found
+            .iter_mut()
+            .find(|(other, modes)| home.is_some() && *other == home && modes.len() + cluster.len() <= room);
         match mate {
             Some((_, modes)) => modes.extend(cluster),
             None => found.push((home, cluster)),

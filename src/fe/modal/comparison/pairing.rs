@@ -24,11 +24,7 @@ impl Default for ComparisonOptions {
     /// A thousandth of the size, a thousandth of the frequency, MAC 0.5: orthogonal shapes of one set have at most
     /// one partner above one half.
     fn default() -> Self {
-        Self {
-            point_tolerance: 1e-3,
-            cluster_gap: 1e-3,
-            least_mac: 0.5,
-        }
+        Self { point_tolerance: 1e-3, cluster_gap: 1e-3, least_mac: 0.5 }
     }
 }
 
@@ -71,11 +67,7 @@ impl ModalComparison {
     /// # Errors
     /// [`ModalError::Shape`], [`ModalError::NotFinite`] for lists that do not fit or values that are no numbers,
     /// [`ModalError::Option`], [`ModalError::TooFewPoints`] for fewer than three common points.
-    pub fn new(
-        first: &ModeSet,
-        second: &ModeSet,
-        options: ComparisonOptions,
-    ) -> Result<Self, ModalError> {
+    pub fn new(first: &ModeSet, second: &ModeSet, options: ComparisonOptions) -> Result<Self, ModalError> {
         first.check()?;
         second.check()?;
         options.check()?;
@@ -83,22 +75,16 @@ impl ModalComparison {
         let points = matched_points(first, second, tolerance)?;
         let here = Side::new(first, &points, 0);
         let there = Side::new(second, &points, 1);
-        let mac = DenseMatrix::from_fn(here.modes(), there.modes(), |a, b| {
-            mac(here.column(a), there.column(b))
-        });
+        let mac = DenseMatrix::from_fn(here.modes(), there.modes(), |a, b| mac(here.column(a), there.column(b)));
         let [own, other] = common_clusters(&here, &there, options);
         let [own_bases, other_bases] = [(&here, &own), (&there, &other)].map(|(side, clusters)| {
             let of = |cluster: &Vec<usize>| basis(&side.shapes, cluster);
             clusters.iter().map(of).collect::<Vec<_>>()
         });
-        let cosines: Vec<Vec<Vec<f64>>> = own_bases
-            .iter()
-            .map(|a| other_bases.iter().map(|b| squared_cosines(a, b)).collect())
-            .collect();
-        let worth: Vec<Vec<f64>> = cosines
-            .iter()
-            .map(|row| row.iter().map(|c| worth(c, options.least_mac)).collect())
-            .collect();
+        let cosines: Vec<Vec<Vec<f64>>> =
+            own_bases.iter().map(|a| other_bases.iter().map(|b| squared_cosines(a, b)).collect()).collect();
+        let worth: Vec<Vec<f64>> =
+            cosines.iter().map(|row| row.iter().map(|c| worth(c, options.least_mac)).collect()).collect();
         let partner = assignment(&worth);
         let mut pairs = Vec::new();
         let mut taken = vec![false; other.len()];
@@ -134,11 +120,7 @@ impl ComparisonOptions {
     fn check(&self) -> Result<(), ModalError> {
         let within = |name, found: f64| match (0.0..=1.0).contains(&found) {
             true => Ok(()),
-            false => Err(ModalError::Option {
-                name,
-                expected: "0 to 1",
-                found,
-            }),
+            false => Err(ModalError::Option { name, expected: "0 to 1", found }),
         };
         within("point_tolerance", self.point_tolerance)?;
         within("cluster_gap", self.cluster_gap)?;
@@ -158,10 +140,7 @@ impl<'s> Side<'s> {
         let shapes = DenseMatrix::from_fn(rows, set.shapes.ncols(), |row, mode| {
             set.shapes[(3 * points.pairs[row / 3][side] + row % 3, mode)]
         });
-        Self {
-            frequencies_hz: &set.frequencies_hz,
-            shapes,
-        }
+        Self { frequencies_hz: &set.frequencies_hz, shapes }
     }
 
     fn modes(&self) -> usize {
@@ -187,31 +166,20 @@ fn common_clusters(here: &Side, there: &Side, options: ComparisonOptions) -> [Ve
 }
 
 /// Joins clusters of `side` that lie in one cluster of the other: by at least `least` in every direction.
-fn join_like(
-    side: &Side,
-    clusters: Vec<Vec<usize>>,
-    to: &Side,
-    among: &[Vec<usize>],
-    least: f64,
-) -> Vec<Vec<usize>> {
-    let several: Vec<Option<DMatrix<f64>>> = among
-        .iter()
-        .map(|cluster| (cluster.len() > 1).then(|| basis(&to.shapes, cluster)))
-        .collect();
+fn join_like(side: &Side, clusters: Vec<Vec<usize>>, to: &Side, among: &[Vec<usize>], least: f64) -> Vec<Vec<usize>> {
+    let several: Vec<Option<DMatrix<f64>>> =
+        among.iter().map(|cluster| (cluster.len() > 1).then(|| basis(&to.shapes, cluster))).collect();
     let home = |cluster: &Vec<usize>| {
         let own = basis(&side.shapes, cluster);
         let inside = several.iter().map(|larger| {
-            let larger = larger
-                .as_ref()
-                .filter(|larger| larger.ncols() > own.ncols())?;
+            let larger = larger.as_ref().filter(|larger| larger.ncols() > own.ncols())?;
             squared_cosines(&own, larger).last().copied()
         });
         let best = inside.enumerate().max_by(|a, b| {
             let [a, b] = [a, b].map(|x| x.1.unwrap_or(-1.0));
             a.total_cmp(&b)
         });
-        best.filter(|best| best.1.is_some_and(|mac| mac >= least))
-            .map(|best| best.0)
+        best.filter(|best| best.1.is_some_and(|mac| mac >= least)).map(|best| best.0)
     };
     let homes: Vec<Option<usize>> = clusters.iter().map(home).collect();
     let sizes: Vec<usize> = among.iter().map(Vec::len).collect();

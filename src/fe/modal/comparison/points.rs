@@ -52,22 +52,14 @@ impl ModeSet {
     pub(super) fn check(&self) -> Result<(), ModalError> {
         let count = self.frequencies_hz.len();
         check_count("columns of the mode shapes", count, self.shapes.ncols())?;
-        check_count(
-            "rows of the mode shapes",
-            3 * self.points.len(),
-            self.shapes.nrows(),
-        )?;
+        check_count("rows of the mode shapes", 3 * self.points.len(), self.shapes.nrows())?;
         if let Some(tags) = &self.node_tags {
             check_count("node tags", self.points.len(), tags.len())?;
         }
         check_finite("coordinate", self.points.as_flattened())?;
         check_finite("frequency", &self.frequencies_hz)?;
         if let Some(&found) = self.frequencies_hz.iter().find(|f| **f < 0.0) {
-            return Err(ModalError::Option {
-                name: "frequency",
-                expected: "zero or more",
-                found,
-            });
+            return Err(ModalError::Option { name: "frequency", expected: "zero or more", found });
         }
         (0..count).try_for_each(|mode| check_finite("displacement", self.shapes.col(mode).iter()))
     }
@@ -76,9 +68,8 @@ impl ModeSet {
     pub fn diagonal(&self) -> f64 {
         let side = |axis: usize| {
             let along = self.points.iter().map(|point| point[axis]);
-            let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
+            let (low, high) =
+                along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
             if low <= high { high - low } else { 0.0 }
         };
         side(0).hypot(side(1)).hypot(side(2))
@@ -90,16 +81,9 @@ impl ModeSet {
 ///
 /// # Errors
 /// [`ModalError::TooFewPoints`].
-pub(super) fn matched_points(
-    first: &ModeSet,
-    second: &ModeSet,
-    tolerance: f64,
-) -> Result<PointMatch, ModalError> {
+pub(super) fn matched_points(first: &ModeSet, second: &ModeSet, tolerance: f64) -> Result<PointMatch, ModalError> {
     let by_tag = tagged_pairs(first, second).filter(|pairs| {
-        pairs.len() >= LEAST_POINTS
-            && pairs
-                .iter()
-                .all(|&pair| distance(first, second, pair) <= tolerance)
+        pairs.len() >= LEAST_POINTS && pairs.iter().all(|&pair| distance(first, second, pair) <= tolerance)
     });
     let (by, pairs) = match by_tag {
         Some(pairs) => (MatchedBy::Tag, pairs),
@@ -142,10 +126,7 @@ fn tagged_pairs(first: &ModeSet, second: &ModeSet) -> Option<Vec<[usize; 2]>> {
     let (own_places, other_places) = (places(own), places(other));
     let pairs = own.iter().enumerate().filter_map(|(place, tag)| {
         let once = own_places.get(tag) == Some(&place);
-        other_places
-            .get(tag)
-            .filter(|_| once)
-            .map(|&there| [place, there])
+        other_places.get(tag).filter(|_| once).map(|&there| [place, there])
     });
     Some(pairs.collect())
 }
@@ -175,19 +156,11 @@ fn nearest(points: &[[f64; 3]], among: &[[f64; 3]], tolerance: f64) -> Vec<Optio
         let mut best: Option<(f64, usize)> = None;
         for place in 0..27_i64 {
             let [x, y, z] = [place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1];
-            let neighbour = [
-                i.saturating_add(x),
-                j.saturating_add(y),
-                k.saturating_add(z),
-            ];
+            let neighbour = [i.saturating_add(x), j.saturating_add(y), k.saturating_add(z)];
             for &index in grid.get(&neighbour).into_iter().flatten() {
                 let other = among[index];
-                let apart = (point[0] - other[0])
-                    .hypot(point[1] - other[1])
-                    .hypot(point[2] - other[2]);
-                let nearer = best.is_none_or(|(least, first)| {
-                    apart < least || (apart <= least && index < first)
-                });
+                let apart = (point[0] - other[0]).hypot(point[1] - other[1]).hypot(point[2] - other[2]);
+                let nearer = best.is_none_or(|(least, first)| apart < least || (apart <= least && index < first));
                 if apart <= tolerance && nearer {
                     best = Some((apart, index));
                 }

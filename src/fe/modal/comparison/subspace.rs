@@ -26,9 +26,7 @@ pub(super) fn mac(a: &[f64], b: &[f64]) -> f64 {
 
 /// An orthonormal basis of the span of some columns [rows x rank].
 pub(super) fn basis(shapes: &DenseMatrix, columns: &[usize]) -> DMatrix<f64> {
-    let mut a = DMatrix::from_fn(shapes.nrows(), columns.len(), |row, k| {
-        shapes[(row, columns[k])]
-    });
+    let mut a = DMatrix::from_fn(shapes.nrows(), columns.len(), |row, k| shapes[(row, columns[k])]);
     for mut column in a.column_iter_mut() {
         let largest = column.amax();
         if largest > 0.0 {

@@ -77,25 +77,15 @@ pub(super) fn law_past_many(h: &[f64], f: &[f64]) -> Option<Law> {
 pub(super) fn with_order(h: &[f64], f: &[f64], order: f64) -> (Law, f64) {
     let finest = h.iter().copied().fold(f64::INFINITY, f64::min);
     let base = f.first().copied().unwrap_or(0.0);
-    let terms = || {
-        h.iter()
-            .zip(f)
-            .map(|(h, f)| (finest / h, (order * (h / finest).ln()).exp(), f - base))
-    };
+    let terms = || h.iter().zip(f).map(|(h, f)| (finest / h, (order * (h / finest).ln()).exp(), f - base));
     let total: f64 = terms().map(|(weight, ..)| weight).sum();
     let mean_x = terms().map(|(weight, x, _)| weight * x).sum::<f64>() / total;
     let mean_y = terms().map(|(weight, _, y)| weight * y).sum::<f64>() / total;
-    let xx: f64 = terms()
-        .map(|(weight, x, _)| weight * (x - mean_x).powi(2))
-        .sum();
-    let xy: f64 = terms()
-        .map(|(w, x, y)| w * (x - mean_x) * (y - mean_y))
-        .sum();
+    let xx: f64 = terms().map(|(weight, x, _)| weight * (x - mean_x).powi(2)).sum();
+    let xy: f64 = terms().map(|(w, x, y)| w * (x - mean_x) * (y - mean_y)).sum();
     let slope = xy / xx;
     let at_zero = mean_y - slope * mean_x;
-    let squares: f64 = terms()
-        .map(|(w, x, y)| w * (y - at_zero - slope * x).powi(2))
-        .sum();
+    let squares: f64 = terms().map(|(w, x, y)| w * (y - at_zero - slope * x).powi(2)).sum();
     let freedom = f.len().saturating_sub(3).max(1) as f64;
     let law = Law {
         order,

@@ -88,10 +88,7 @@ impl Behaviour {
 impl Convergence {
     /// Where the limit is expected: the finest value and the uncertainty to either side.
     pub fn interval(&self) -> [f64; 2] {
-        [
-            self.finest - self.uncertainty,
-            self.finest + self.uncertainty,
-        ]
+        [self.finest - self.uncertainty, self.finest + self.uncertainty]
     }
 }
 
@@ -120,12 +117,7 @@ pub fn richardson(levels: &MeshLevels, values: &[f64]) -> Result<Convergence, Mo
     check_finite("value on mesh", values)?;
     let h: Vec<f64> = order.iter().map(|&mesh| levels.sizes[mesh]).collect();
     let f: Vec<f64> = order.iter().map(|&mesh| values[mesh]).collect();
-    Ok(Sequence {
-        h: &h,
-        f: &f,
-        formal: levels.formal_order,
-    }
-    .convergence())
+    Ok(Sequence { h: &h, f: &f, formal: levels.formal_order }.convergence())
 }
 
 /// [`richardson`] for modes: `frequencies_hz` by mesh and mode, `modes` with the index of one and the same mode on every
@@ -138,11 +130,7 @@ pub fn mode_convergence(
     frequencies_hz: &[Vec<f64>],
     modes: &[Vec<usize>],
 ) -> Result<Vec<Convergence>, ModalError> {
-    check_count(
-        "lists of frequencies",
-        levels.sizes.len(),
-        frequencies_hz.len(),
-    )?;
+    check_count("lists of frequencies", levels.sizes.len(), frequencies_hz.len())?;
     let of_mode = |own: &Vec<usize>| {
         check_count("meshes of a mode", frequencies_hz.len(), own.len())?;
         let values = own.iter().zip(frequencies_hz).map(|(&mode, list)| {
@@ -170,20 +158,12 @@ impl MeshLevels {
     fn finest_first(&self) -> Result<Vec<usize>, ModalError> {
         let positive = |name, found: f64| match found > 0.0 && found.is_finite() {
             true => Ok(()),
-            false => Err(ModalError::Option {
-                name,
-                expected: "a positive number",
-                found,
-            }),
+            false => Err(ModalError::Option { name, expected: "a positive number", found }),
         };
         positive("formal order", self.formal_order)?;
-        self.sizes
-            .iter()
-            .try_for_each(|&size| positive("mesh size", size))?;
+        self.sizes.iter().try_for_each(|&size| positive("mesh size", size))?;
         if self.sizes.len() < 2 {
-            return Err(ModalError::TooFewMeshes {
-                found: self.sizes.len(),
-            });
+            return Err(ModalError::TooFewMeshes { found: self.sizes.len() });
         }
         let mut order: Vec<usize> = (0..self.sizes.len()).collect();
         order.sort_by(|&a, &b| self.sizes[a].total_cmp(&self.sizes[b]));
@@ -206,12 +186,7 @@ struct Sequence<'a> {
 
 impl Sequence<'_> {
     fn convergence(&self) -> Convergence {
-        let (low, high) = self
-            .f
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &f| {
-                (l.min(f), h.max(f))
-            });
+        let (low, high) = self.f.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &f| (l.min(f), h.max(f)));
         let size = low.abs().max(high.abs());
         if high - low <= ROUND_OFF * size {
             return Convergence {
@@ -233,14 +208,12 @@ impl Sequence<'_> {
             return self.without_limit(Behaviour::Oscillating, high - low);
         }
         let law = match (self.h, self.f) {
-            (&[h1, h2, h3], &[f1, f2, f3]) => {
-                order_of_three([h1, h2, h3], [f1, f2, f3]).map(|order| Law {
-                    order,
-                    limit: limit_of_two([h1, h2], [f1, f2], order),
-                    deviation: 0.0,
-                    finest: 0.0,
-                })
-            }
+            (&[h1, h2, h3], &[f1, f2, f3]) => order_of_three([h1, h2, h3], [f1, f2, f3]).map(|order| Law {
+                order,
+                limit: limit_of_two([h1, h2], [f1, f2], order),
+                deviation: 0.0,
+                finest: 0.0,
+            }),
             (h, f) => law_past_many(h, f),
         };
         match law {
@@ -282,13 +255,6 @@ impl Sequence<'_> {
     }
 
     fn without_limit(&self, behaviour: Behaviour, uncertainty: f64) -> Convergence {
-        Convergence {
-            finest: self.f[0],
-            estimate: None,
-            order: None,
-            uncertainty,
-            safety_factor: None,
-            behaviour,
-        }
+        Convergence { finest: self.f[0], estimate: None, order: None, uncertainty, safety_factor: None, behaviour }
     }
 }

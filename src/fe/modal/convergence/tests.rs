@@ -6,10 +6,7 @@ use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};
 use std::f64::consts::{PI, TAU};
 
 fn levels(sizes: &[f64], formal_order: f64) -> MeshLevels {
-    MeshLevels {
-        sizes: sizes.to_vec(),
-        formal_order,
-    }
+    MeshLevels { sizes: sizes.to_vec(), formal_order }
 }
 
 fn law(sizes: &[f64], limit: f64, order: f64) -> Vec<f64> {
@@ -71,11 +68,7 @@ fn many_meshes_are_fitted() {
         *value += 1e-4 * sign;
     }
     let found = richardson(&levels(&sizes, 2.0), &scattered).expect("fits");
-    assert!(
-        found.uncertainty > exact.uncertainty + 5e-5,
-        "{}",
-        found.uncertainty
-    );
+    assert!(found.uncertainty > exact.uncertainty + 5e-5, "{}", found.uncertainty);
     let [low, high] = found.interval();
     assert!(low < 440.0 && 440.0 < high);
 }
@@ -91,18 +84,11 @@ fn what_does_not_converge_is_not_extrapolated() {
     ];
     for (values, behaviour, range) in cases {
         let found = richardson(&three, &values).expect("fits");
-        assert_eq!(
-            (found.behaviour, found.estimate),
-            (behaviour, None),
-            "{values:?}"
-        );
+        assert_eq!((found.behaviour, found.estimate), (behaviour, None), "{values:?}");
         assert!((found.uncertainty - range).abs() < 1e-12);
     }
     let settled = richardson(&three, &[440.0, 440.0 + 1e-11, 440.0]).expect("fits");
-    assert_eq!(
-        (settled.behaviour, settled.estimate),
-        (Behaviour::Settled, Some(440.0))
-    );
+    assert_eq!((settled.behaviour, settled.estimate), (Behaviour::Settled, Some(440.0)));
     let five = levels(&[0.1, 0.2, 0.3, 0.4, 0.5], 2.0);
     let found = richardson(&five, &[440.0, 441.0, 440.5, 441.5, 440.0]).expect("fits");
     assert_eq!(found.behaviour, Behaviour::Oscillating);
@@ -112,34 +98,13 @@ fn what_does_not_converge_is_not_extrapolated() {
 
 #[test]
 fn sequences_that_make_no_sense_are_refused() {
-    let refusal = |sizes: &[f64], values: &[f64]| {
-        richardson(&levels(sizes, 2.0), values).expect_err("refused")
-    };
-    assert!(matches!(
-        refusal(&[0.1], &[1.0]),
-        ModalError::TooFewMeshes { found: 1 }
-    ));
-    assert!(matches!(
-        refusal(&[0.1, 0.1005], &[1.0, 2.0]),
-        ModalError::SameSize { .. }
-    ));
-    assert!(matches!(
-        refusal(&[0.1, 0.2], &[1.0]),
-        ModalError::Shape { .. }
-    ));
-    assert!(matches!(
-        refusal(&[0.1, -0.2], &[1.0, 2.0]),
-        ModalError::Option { .. }
-    ));
-    assert!(matches!(
-        refusal(&[0.1, 0.2], &[1.0, f64::NAN]),
-        ModalError::NotFinite { .. }
-    ));
-    let found = mode_convergence(
-        &levels(&[0.1, 0.2], 2.0),
-        &[vec![1.0], vec![2.0]],
-        &[vec![0, 1]],
-    );
+    let refusal = |sizes: &[f64], values: &[f64]| richardson(&levels(sizes, 2.0), values).expect_err("refused");
+    assert!(matches!(refusal(&[0.1], &[1.0]), ModalError::TooFewMeshes { found: 1 }));
+    assert!(matches!(refusal(&[0.1, 0.1005], &[1.0, 2.0]), ModalError::SameSize { .. }));
+    assert!(matches!(refusal(&[0.1, 0.2], &[1.0]), ModalError::Shape { .. }));
+    assert!(matches!(refusal(&[0.1, -0.2], &[1.0, 2.0]), ModalError::Option { .. }));
+    assert!(matches!(refusal(&[0.1, 0.2], &[1.0, f64::NAN]), ModalError::NotFinite { .. }));
+    let found = mode_convergence(&levels(&[0.1, 0.2], 2.0), &[vec![1.0], vec![2.0]], &[vec![0, 1]]);
     assert!(matches!(found, Err(ModalError::Shape { found: 1, .. })));
     assert_eq!(relative_mesh_size(8, 3), Some(0.5));
     assert_eq!(relative_mesh_size(0, 3), None);
@@ -153,10 +118,7 @@ fn frequencies(
     fixed: &[usize],
 ) -> Vec<f64> {
     let order = per_node * (elements + 1);
-    let (mut k, mut m) = (
-        DenseMatrix::zeros(order, order),
-        DenseMatrix::zeros(order, order),
-    );
+    let (mut k, mut m) = (DenseMatrix::zeros(order, order), DenseMatrix::zeros(order, order));
     for element in 0..elements {
         for i in 0..2 * per_node {
             for j in 0..2 * per_node {
@@ -168,15 +130,9 @@ fn frequencies(
         }
     }
     let free: Vec<usize> = (0..order).filter(|dof| !fixed.contains(dof)).collect();
-    let part = |a: &DenseMatrix| {
-        DenseMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])])
-    };
+    let part = |a: &DenseMatrix| DenseMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])]);
     let spectrum = symmetric_generalised_eigen(&part(&k), &part(&m)).expect("definite");
-    spectrum
-        .values
-        .iter()
-        .map(|value| value.sqrt() / TAU)
-        .collect()
+    spectrum.values.iter().map(|value| value.sqrt() / TAU).collect()
 }
 
 /// A rod of unit length and wave speed, one end fixed: `f = (2 n - 1) / 4`. Linear elements, consistent mass: order 2.
@@ -193,18 +149,9 @@ fn rod(elements: usize) -> Vec<f64> {
 fn beam(elements: usize) -> Vec<f64> {
     let h = 1.0 / elements as f64;
     let scale = |i: usize| if i % 2 == 1 { h } else { 1.0 };
-    let k = [
-        [12.0, 6.0, -12.0, 6.0],
-        [6.0, 4.0, -6.0, 2.0],
-        [-12.0, -6.0, 12.0, -6.0],
-        [6.0, 2.0, -6.0, 4.0],
-    ];
-    let m = [
-        [156.0, 22.0, 54.0, -13.0],
-        [22.0, 4.0, 13.0, -3.0],
-        [54.0, 13.0, 156.0, -22.0],
-        [-13.0, -3.0, -22.0, 4.0],
-    ];
+    let k = [[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]];
+    let m =
+        [[156.0, 22.0, 54.0, -13.0], [22.0, 4.0, 13.0, -3.0], [54.0, 13.0, 156.0, -22.0], [-13.0, -3.0, -22.0, 4.0]];
     let of = |i: usize, j: usize| {
         let scale = scale(i) * scale(j);
         [scale * k[i][j] / h.powi(3), scale * m[i][j] * h / 420.0]
@@ -216,25 +163,13 @@ fn beam(elements: usize) -> Vec<f64> {
 #[test]
 fn known_frequencies_lie_in_the_interval() {
     type Structure = (fn(usize) -> Vec<f64>, f64, fn(f64) -> f64);
-    let structures: [Structure; 2] = [
-        (rod, 2.0, |n| (2.0 * n - 1.0) / 4.0),
-        (beam, 4.0, |n| PI * n * n / 2.0),
-    ];
+    let structures: [Structure; 2] = [(rod, 2.0, |n| (2.0 * n - 1.0) / 4.0), (beam, 4.0, |n| PI * n * n / 2.0)];
     for (structure, formal, exact) in structures {
-        for meshes in [
-            vec![8, 16],
-            vec![8, 12, 16],
-            vec![8, 16, 32],
-            vec![6, 8, 12, 16, 24],
-        ] {
+        for meshes in [vec![8, 16], vec![8, 12, 16], vec![8, 16, 32], vec![6, 8, 12, 16, 24]] {
             let lists: Vec<Vec<f64>> = meshes.iter().map(|&n| structure(n)).collect();
-            let sizes: Vec<f64> = meshes
-                .iter()
-                .filter_map(|&n| relative_mesh_size(n, 1))
-                .collect();
+            let sizes: Vec<f64> = meshes.iter().filter_map(|&n| relative_mesh_size(n, 1)).collect();
             let modes: Vec<Vec<usize>> = (0..4).map(|mode| vec![mode; meshes.len()]).collect();
-            let found =
-                mode_convergence(&levels(&sizes, formal), &lists, &modes).expect("sequences");
+            let found = mode_convergence(&levels(&sizes, formal), &lists, &modes).expect("sequences");
             for (mode, found) in found.iter().enumerate() {
                 let exact = exact(mode as f64 + 1.0);
                 let [low, high] = found.interval();

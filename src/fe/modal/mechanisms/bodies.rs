@@ -40,14 +40,7 @@ impl BodyMap {
         let count = of_element.iter().max().map_or(0, |last| *last as usize + 1);
         let mut first = vec![NO_BODY; model.coordinates.len()];
         let mut shared: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        let mut extents = vec![
-            Extent {
-                elements: 0,
-                centre: [0.0; 3],
-                radius: 0.0,
-            };
-            count
-        ];
+        let mut extents = vec![Extent { elements: 0, centre: [0.0; 3], radius: 0.0 }; count];
         for (element, &body) in model.elements.iter().zip(&of_element) {
             let nodes = model.elements.nodes(element);
             let extent = &mut extents[body as usize];
@@ -72,18 +65,10 @@ impl BodyMap {
         for (element, &body) in model.elements.iter().zip(&of_element) {
             let extent = &mut extents[body as usize];
             for &node in model.elements.nodes(element) {
-                extent.radius = extent
-                    .radius
-                    .max(apart(extent.centre, model.coordinates[node]));
+                extent.radius = extent.radius.max(apart(extent.centre, model.coordinates[node]));
             }
         }
-        Self {
-            of_element,
-            extents,
-            first,
-            shared,
-            ring: None,
-        }
+        Self { of_element, extents, first, shared, ring: None }
     }
 
     /// Adds the ring in the bore as the last body.

@@ -100,12 +100,7 @@ impl Mechanisms {
     ///
     /// # Errors
     /// As [`Mechanisms::find`].
-    pub fn find_with_ring(
-        mesh: &Mesh,
-        model: &HousingModel,
-        tie: &RingTie,
-        ring: &Ring,
-    ) -> Result<Self, ModalError> {
+    pub fn find_with_ring(mesh: &Mesh, model: &HousingModel, tie: &RingTie, ring: &Ring) -> Result<Self, ModalError> {
         Self::of_bodies(mesh, model, &Bore::Ring(tie, ring))
     }
 
@@ -142,12 +137,7 @@ impl Mechanisms {
                 centroid: [0.0; 3],
                 piece: 0,
             }],
-            pieces: vec![Piece {
-                bodies: vec![0],
-                elements: ring.nodes(),
-                rigid,
-                internal: 0,
-            }],
+            pieces: vec![Piece { bodies: vec![0], elements: ring.nodes(), rigid, internal: 0 }],
             joints: Vec::new(),
             of_whole,
             of_loose_pieces: 0,
@@ -161,10 +151,7 @@ impl Mechanisms {
             map.add_ring(model, ring);
         }
         if map.extents.len() > MOST_BODIES {
-            return Err(ModalError::TooManyBodies {
-                found: map.extents.len(),
-                limit: MOST_BODIES,
-            });
+            return Err(ModalError::TooManyBodies { found: map.extents.len(), limit: MOST_BODIES });
         }
         let mut constraints = AllConstraints::new(model, &map);
         match *bore {
@@ -189,10 +176,7 @@ impl Mechanisms {
         let has_ring = |piece: &Piece| map.ring.is_some_and(|ring| piece.bodies.contains(&ring));
         pieces.sort_by_key(|piece| std::cmp::Reverse((has_ring(piece), piece.elements)));
         for (number, piece) in pieces.iter().enumerate() {
-            piece
-                .bodies
-                .iter()
-                .for_each(|&body| bodies[body].piece = number);
+            piece.bodies.iter().for_each(|&body| bodies[body].piece = number);
         }
         let internal = |body: usize| pieces[bodies[body].piece].internal > 0;
         let joints = constraints
@@ -202,20 +186,9 @@ impl Mechanisms {
             .filter_map(|(between, own)| joint(between, own, model, full))
             .collect();
         let nothing_held = pieces.iter().all(|piece| piece.rigid == full);
-        let of_whole = if nothing_held && !pieces.is_empty() {
-            full
-        } else {
-            0
-        };
-        let free: usize = pieces
-            .iter()
-            .map(|p| p.rigid)
-            .filter(|&rigid| rigid == full)
-            .sum();
-        let total: usize = pieces
-            .iter()
-            .map(|piece| piece.rigid + piece.internal)
-            .sum();
+        let of_whole = if nothing_held && !pieces.is_empty() { full } else { 0 };
+        let free: usize = pieces.iter().map(|p| p.rigid).filter(|&rigid| rigid == full).sum();
+        let total: usize = pieces.iter().map(|piece| piece.rigid + piece.internal).sum();
         Ok(Self {
             dimension: model.dimension,
             bodies,
@@ -237,23 +210,14 @@ impl Mechanisms {
 ///
 /// # Errors
 /// As [`Mechanisms::find`].
-pub(crate) fn pieces_at(
-    mesh: &Mesh,
-    model: &HousingModel,
-    nodes: &[usize],
-) -> Result<Vec<Vec<String>>, ModalError> {
+pub(crate) fn pieces_at(mesh: &Mesh, model: &HousingModel, nodes: &[usize]) -> Result<Vec<Vec<String>>, ModalError> {
     let found = Mechanisms::find(mesh, model)?;
     let map = BodyMap::new(model);
     let at_nodes: BTreeSet<usize> = nodes.iter().filter_map(|&node| map.of_node(node)).collect();
-    let pieces: BTreeSet<usize> = at_nodes
-        .iter()
-        .map(|&body| found.bodies[body].piece)
-        .collect();
+    let pieces: BTreeSet<usize> = at_nodes.iter().map(|&body| found.bodies[body].piece).collect();
     let parts_of = |piece: &usize| {
         let members = found.pieces[*piece].bodies.iter();
-        let parts: BTreeSet<&String> = members
-            .flat_map(|&body| &found.bodies[body].parts)
-            .collect();
+        let parts: BTreeSet<&String> = members.flat_map(|&body| &found.bodies[body].parts).collect();
         parts.into_iter().cloned().collect()
     };
     Ok(pieces.iter().map(parts_of).collect())
@@ -268,10 +232,7 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
         groups[body as usize].extend(membership.of(number).iter().copied());
     }
     let names = |list: &[String], chosen: &BTreeSet<usize>| -> Vec<String> {
-        chosen
-            .iter()
-            .filter_map(|&place| list.get(place).cloned())
-            .collect()
+        chosen.iter().filter_map(|&place| list.get(place).cloned()).collect()
     };
     let bodies = map.extents.iter().zip(parts.iter().zip(&groups));
     Ok(bodies
@@ -331,11 +292,7 @@ impl<'p> Assembled<'p> {
                 rows.push(wide);
             }
         }
-        Self {
-            members,
-            full,
-            rows,
-        }
+        Self { members, full, rows }
     }
 
     /// The constraints on the motions of all bodies as one.
@@ -344,27 +301,15 @@ impl<'p> Assembled<'p> {
         let Some(first) = self.members.first().map(extent) else {
             return Vec::new();
         };
-        let reach = |body: &usize| {
-            super::bodies::apart(first.centre, extent(body).centre) + extent(body).radius
-        };
-        let size = self
-            .members
-            .iter()
-            .map(reach)
-            .fold(f64::MIN_POSITIVE, f64::max);
+        let reach = |body: &usize| super::bodies::apart(first.centre, extent(body).centre) + extent(body).radius;
+        let size = self.members.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
         let as_one = |row: &Vec<f64>, motion: usize| -> f64 {
             let parts = row.chunks_exact(self.full).zip(self.members);
             let moved = parts.map(|(part, body)| {
                 let own = extent(body);
                 let arm = [0, 1, 2].map(|axis| (own.centre[axis] - first.centre[axis]) / size);
-                let along: f64 = (0..d)
-                    .map(|i| part[i] * rigid_component(d, arm, i, motion))
-                    .sum();
-                let turn = if motion < d {
-                    0.0
-                } else {
-                    part[motion] * own.radius / size
-                };
+                let along: f64 = (0..d).map(|i| part[i] * rigid_component(d, arm, i, motion)).sum();
+                let turn = if motion < d { 0.0 } else { part[motion] * own.radius / size };
                 along + turn
             });
             moved.sum()
@@ -383,10 +328,7 @@ fn joint(between: &Between, own: &Constraints, model: &HousingModel, full: usize
         let link = model.links.get(link)?;
         Some(format!("{} - {}", link.between[0], link.between[1]))
     };
-    let tags = own
-        .shared_nodes
-        .iter()
-        .filter_map(|&node| model.node_tags.get(node).copied());
+    let tags = own.shared_nodes.iter().filter_map(|&node| model.node_tags.get(node).copied());
     (motions > 0).then(|| Joint {
         bodies: between.bodies.clone(),
         nodes: tags.collect(),

@@ -3,9 +3,7 @@
 use super::super::samples::{block_round_a_ring, description, ring_for_block, ringed, support};
 use super::super::{ModalBasis, ModeRange};
 use super::*;
-use crate::fe::model::{
-    Constraint, Fit, HousingDescription, Ring, RingSupport, SpringShare, SpringStiffness,
-};
+use crate::fe::model::{Constraint, Fit, HousingDescription, Ring, RingSupport, SpringShare, SpringStiffness};
 use crate::numerics::linalg::{EigenProblem, TripletBuilder};
 use std::f64::consts::TAU;
 
@@ -14,13 +12,7 @@ fn counts(found: &Mechanisms) -> [usize; 3] {
 }
 
 fn held(mut ring: Ring, spring: [f64; 3]) -> Ring {
-    let support = RingSupport {
-        from: 0.0,
-        to: TAU,
-        spring,
-        share: SpringShare::Total,
-        offset: 2e-3,
-    };
+    let support = RingSupport { from: 0.0, to: TAU, spring, share: SpringShare::Total, offset: 2e-3 };
     ring.add_support(&support).expect("nodes all round");
     ring
 }
@@ -68,13 +60,7 @@ fn ring_and_housing_move_as_one() {
 #[test]
 fn the_part_without_the_ring_is_the_loose_one() {
     for (dimension, full, count) in [(2, 3, "9"), (3, 6, "27")] {
-        let found = find(
-            dimension,
-            true,
-            Fit::Bonded,
-            ring_for_block(dimension),
-            false,
-        );
+        let found = find(dimension, true, Fit::Bonded, ring_for_block(dimension), false);
         assert_eq!(counts(&found), [full, full, 0]);
         let sentences = found.sentences();
         assert_eq!(sentences.len(), 1, "{sentences:?}");
@@ -82,13 +68,7 @@ fn the_part_without_the_ring_is_the_loose_one() {
         assert!(sentences[0].starts_with(&start), "{sentences:?}");
         let end = format!("is not connected: {full} extra rigid modes");
         assert!(sentences[0].ends_with(&end), "{sentences:?}");
-        let found = find(
-            dimension,
-            true,
-            Fit::Bonded,
-            ring_for_block(dimension),
-            true,
-        );
+        let found = find(dimension, true, Fit::Bonded, ring_for_block(dimension), true);
         assert_eq!(counts(&found), [0, full, 0]);
     }
 }
@@ -97,16 +77,9 @@ fn the_part_without_the_ring_is_the_loose_one() {
 #[test]
 fn a_sliding_ring_keeps_its_motions() {
     for (dimension, free, motions) in [(2, 1, "1 mechanism"), (3, 2, "2 mechanisms")] {
-        let found = find(
-            dimension,
-            false,
-            Fit::Sliding,
-            ring_for_block(dimension),
-            true,
-        );
+        let found = find(dimension, false, Fit::Sliding, ring_for_block(dimension), true);
         assert_eq!(counts(&found), [0, 0, free]);
-        let expected =
-            format!("\"body\" and the ring are joined by a tie and can still move: {motions}");
+        let expected = format!("\"body\" and the ring are joined by a tie and can still move: {motions}");
         assert_eq!(found.sentences(), [expected]);
         let sprung = held(ring_for_block(dimension), [1e-3, 2e-3, 3e-3]);
         let found = find(dimension, false, Fit::Sliding, sprung, true);

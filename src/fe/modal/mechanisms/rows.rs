@@ -48,11 +48,7 @@ pub(super) struct AllConstraints<'m> {
 
 impl<'m> AllConstraints<'m> {
     pub(super) fn new(model: &'m HousingModel, bodies: &'m BodyMap) -> Self {
-        let mut all = Self {
-            model,
-            bodies,
-            between: BTreeMap::new(),
-        };
+        let mut all = Self { model, bodies, between: BTreeMap::new() };
         all.shared_nodes();
         all.fixed_nodes();
         all.tied_nodes();
@@ -63,11 +59,7 @@ impl<'m> AllConstraints<'m> {
     /// Adds `factor` times a displacement component of a node, as a node of `body`.
     fn displacement(&self, row: &mut Row, body: usize, node: usize, component: usize, factor: f64) {
         let extent = self.bodies.extents[body];
-        let size = if extent.radius > 0.0 {
-            extent.radius
-        } else {
-            1.0
-        };
+        let size = if extent.radius > 0.0 { extent.radius } else { 1.0 };
         let at = self.model.coordinates[node];
         let arm = [0, 1, 2].map(|axis| (at[axis] - extent.centre[axis]) / size);
         let d = self.model.dimension;
@@ -111,14 +103,7 @@ impl<'m> AllConstraints<'m> {
     }
 
     /// Adds `factor` times a displacement in the axes that `rotation` turns to the mesh's, as one of `body`.
-    fn driven(
-        &self,
-        row: &mut Row,
-        body: usize,
-        dof: usize,
-        rotation: Option<&SparseMatrix>,
-        factor: f64,
-    ) {
+    fn driven(&self, row: &mut Row, body: usize, dof: usize, rotation: Option<&SparseMatrix>, factor: f64) {
         let d = self.model.dimension;
         let (node, component) = (dof / d, dof % d);
         for i in 0..d {
@@ -133,10 +118,7 @@ impl<'m> AllConstraints<'m> {
 
     fn add(&mut self, row: &Row, ground: bool) -> Option<&mut Constraints> {
         let motions = rigid_count(self.model.dimension);
-        let key = Between {
-            bodies: row.keys().copied().collect(),
-            ground,
-        };
+        let key = Between { bodies: row.keys().copied().collect(), ground };
         // what only joins a body to itself, a link within it, says nothing
         if key.bodies.is_empty() || (key.bodies.len() == 1 && !ground) {
             return None;
@@ -251,18 +233,13 @@ impl Constraints {
         };
         let stacked = DMatrix::from_fn(self.rows.len(), columns, |i, j| self.rows[i][j]);
         let r = stacked.qr().r();
-        self.rows = r
-            .row_iter()
-            .map(|row| row.iter().copied().collect())
-            .collect();
+        self.rows = r.row_iter().map(|row| row.iter().copied().collect()).collect();
     }
 
     /// The rows over the root of their number, so that a large joint does not drown a small one.
     pub(super) fn scaled_rows(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         let scale = (self.count.max(1) as f64).sqrt().recip();
-        self.rows
-            .iter()
-            .map(move |row| row.iter().map(|x| x * scale).collect())
+        self.rows.iter().map(move |row| row.iter().map(|x| x * scale).collect())
     }
 }
 
@@ -273,11 +250,7 @@ pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> 
     let of_spring = ring.springs().iter().map(|spring| {
         let mut row = [0.0; 6];
         for (motion, entry) in row.iter_mut().enumerate().take(motions.ncols()) {
-            let turn = if motion < translations {
-                1.0
-            } else {
-                ring.section().radius
-            };
+            let turn = if motion < translations { 1.0 } else { ring.section().radius };
             *entry = spring.stretch(motions.col_as_slice(motion)) / turn;
         }
         row

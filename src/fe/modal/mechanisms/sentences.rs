@@ -16,10 +16,7 @@ impl Mechanisms {
             let what = self.piece_name(piece);
             if piece.rigid == full {
                 if !std::mem::take(&mut main) {
-                    found.push(format!(
-                        "{what} is not connected: {}",
-                        counted(piece.rigid, "extra rigid mode")
-                    ));
+                    found.push(format!("{what} is not connected: {}", counted(piece.rigid, "extra rigid mode")));
                 }
             } else if piece.rigid > 0 {
                 found.push(format!(
@@ -54,32 +51,16 @@ impl Mechanisms {
             })
             .collect();
         if !each {
-            found.push(format!(
-                "these joints together leave {}",
-                counted(internal, "mechanism")
-            ));
+            found.push(format!("these joints together leave {}", counted(internal, "mechanism")));
         }
         found
     }
 
     fn joined(&self, joint: &Joint) -> String {
-        let names: Vec<String> = joint
-            .bodies
-            .iter()
-            .map(|&body| self.short_name(body))
-            .collect();
+        let names: Vec<String> = joint.bodies.iter().map(|&body| self.short_name(body)).collect();
         let names = names.join(" and ");
-        let tags: Vec<String> = joint
-            .nodes
-            .iter()
-            .take(MOST_TAGS)
-            .map(ToString::to_string)
-            .collect();
-        let more = if joint.nodes.len() > MOST_TAGS {
-            ", ..."
-        } else {
-            ""
-        };
+        let tags: Vec<String> = joint.nodes.iter().take(MOST_TAGS).map(ToString::to_string).collect();
+        let more = if joint.nodes.len() > MOST_TAGS { ", ..." } else { "" };
         let tags = format!("{}{more}", tags.join(", "));
         let only_nodes = joint.links.is_empty() && !joint.tied;
         match joint.nodes.len() {
@@ -90,19 +71,11 @@ impl Mechanisms {
                 if !joint.nodes.is_empty() {
                     by.push(format!("nodes {tags}"));
                 }
-                by.extend(
-                    joint
-                        .links
-                        .iter()
-                        .map(|link| format!("springs of the link \"{link}\"")),
-                );
+                by.extend(joint.links.iter().map(|link| format!("springs of the link \"{link}\"")));
                 if joint.tied {
                     by.push("a tie".to_owned());
                 }
-                format!(
-                    "{names} are joined by {} and can still move",
-                    by.join(" and ")
-                )
+                format!("{names} are joined by {} and can still move", by.join(" and "))
             }
         }
     }
@@ -119,20 +92,13 @@ impl Mechanisms {
         if body.is_ring {
             return format!("the ring{others}");
         }
-        let word = if body.parts.len() > 1 {
-            "parts"
-        } else {
-            "part"
-        };
+        let word = if body.parts.len() > 1 { "parts" } else { "part" };
         let elements = match piece.elements {
             1 => "1 element".to_owned(),
             count => format!("{} elements", grouped(count)),
         };
         let place = self.place(body);
-        format!(
-            "{word} {}{others} ({elements}, near {place})",
-            quoted(&body.parts)
-        )
+        format!("{word} {}{others} ({elements}, near {place})", quoted(&body.parts))
     }
 
     /// A body's parts, and its place if another body has the same ones.
@@ -144,11 +110,7 @@ impl Mechanisms {
             return "the ring".to_owned();
         }
         let name = quoted(&own.parts);
-        let alike = self
-            .bodies
-            .iter()
-            .filter(|other| other.parts == own.parts)
-            .count();
+        let alike = self.bodies.iter().filter(|other| other.parts == own.parts).count();
         match alike {
             0 | 1 => name,
             _ => format!("{name} near {}", self.place(own)),
@@ -157,9 +119,7 @@ impl Mechanisms {
 
     fn place(&self, body: &Body) -> String {
         let axes = ["x", "y", "z"].into_iter().zip(body.centroid);
-        let places = axes
-            .take(self.dimension)
-            .map(|(axis, value)| format!("{axis} = {value:.4}"));
+        let places = axes.take(self.dimension).map(|(axis, value)| format!("{axis} = {value:.4}"));
         format!("{} m", places.collect::<Vec<_>>().join(", "))
     }
 }

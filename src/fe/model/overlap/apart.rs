@@ -91,13 +91,7 @@ impl Bodies<'_> {
         let is_plane = self.solids.first()?.kind.dimension() == 2;
         let mut found: Option<Apart> = None;
         let mut heights: BTreeMap<usize, f64> = BTreeMap::new();
-        for &Tied {
-            node,
-            face,
-            foot,
-            size,
-        } in tied
-        {
+        for &Tied { node, face, foot, size } in tied {
             let corners = match face.len() {
                 3 if is_plane => 2,
                 6 => 3,
@@ -108,10 +102,7 @@ impl Bodies<'_> {
             let facet = at_corners.get(&sorted(corners));
             let gap = Vector3::from(self.points[node]) - Vector3::from(foot);
             let distance = gap.norm();
-            let of_face = corners
-                .iter()
-                .map(|&corner| reach[corner])
-                .fold(0.0, f64::max);
+            let of_face = corners.iter().map(|&corner| reach[corner]).fold(0.0, f64::max);
             let limit = self.tolerance + reach[node] + of_face;
             let height = facet.map_or(distance, |facet| facet.normal.dot(&gap));
             heights.insert(node, height);
@@ -140,17 +131,10 @@ impl Bodies<'_> {
         }
         let mut apart = found?;
         for facet in &facets {
-            let own: Option<Vec<f64>> = facet
-                .corners
-                .iter()
-                .map(|node| heights.get(node).copied())
-                .collect();
+            let own: Option<Vec<f64>> = facet.corners.iter().map(|node| heights.get(node).copied()).collect();
             let Some(own) = own else { continue };
             let weight = density[self.solids[facet.solid].part] * facet.size / own.len() as f64;
-            for height in own
-                .into_iter()
-                .filter(|height| height.abs() > self.tolerance)
-            {
+            for height in own.into_iter().filter(|height| height.abs() > self.tolerance) {
                 apart.masses[usize::from(height < 0.0)] += weight * height.abs();
             }
         }

@@ -40,15 +40,11 @@ impl<'m> Bodies<'m> {
     pub fn of_mesh(mesh: &'m Mesh) -> Self {
         let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max();
         let groups = mesh.groups.iter();
-        let groups: Vec<_> = groups
-            .filter(|group| Some(group.dimension) == dimension)
-            .collect();
+        let groups: Vec<_> = groups.filter(|group| Some(group.dimension) == dimension).collect();
         let mut parts: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
         parts.push("no group".to_owned());
         let blocks = mesh.blocks.iter();
-        let mut part: Vec<Vec<usize>> = blocks
-            .map(|block| vec![groups.len(); block.len()])
-            .collect();
+        let mut part: Vec<Vec<usize>> = blocks.map(|block| vec![groups.len(); block.len()]).collect();
         for (number, group) in groups.iter().enumerate().rev() {
             for id in &group.elements {
                 part[id.block][id.index] = number;
@@ -59,12 +55,7 @@ impl<'m> Bodies<'m> {
         let own = own.filter(|(block, _)| Some(block.kind.dimension()) == dimension);
         let solids = own.flat_map(|(block, parts)| {
             let each = block.elements().zip(&block.tags).zip(parts);
-            each.map(|((nodes, &tag), &part)| Solid {
-                tag,
-                kind: block.kind,
-                nodes,
-                part,
-            })
+            each.map(|((nodes, &tag), &part)| Solid { tag, kind: block.kind, nodes, part })
         });
         Self::new(&mesh.nodes, solids.collect(), parts)
     }
@@ -91,12 +82,7 @@ impl<'m> Bodies<'m> {
             true => 0.0,
             false => SAME_PLACE * extent.diagonal(),
         };
-        Self {
-            points,
-            solids,
-            parts,
-            tolerance,
-        }
+        Self { points, solids, parts, tolerance }
     }
 
     /// Whether places inside have a meaning: solids, or plane elements in one plane z = const.
@@ -107,11 +93,7 @@ impl<'m> Bodies<'m> {
         };
         let z = self.points[first.nodes[0]][2];
         let in_plane = |node: &usize| (self.points[*node][2] - z).abs() <= self.tolerance;
-        first.kind.dimension() == 3
-            || self
-                .solids
-                .iter()
-                .all(|solid| solid.nodes.iter().all(in_plane))
+        first.kind.dimension() == 3 || self.solids.iter().all(|solid| solid.nodes.iter().all(in_plane))
     }
 
     pub(super) fn coordinates(&self, solid: &Solid) -> Vec<[f64; 3]> {

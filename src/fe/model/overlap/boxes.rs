@@ -15,10 +15,7 @@ impl Bounds {
     pub(super) fn of(points: impl Iterator<Item = [f64; 3]>, reach: f64) -> Self {
         let mut found = Self::empty();
         points.for_each(|point| found.add(point, point));
-        Self {
-            low: found.low.map(|x| x - reach),
-            high: found.high.map(|x| x + reach),
-        }
+        Self { low: found.low.map(|x| x - reach), high: found.high.map(|x| x + reach) }
     }
 
     /// Length of the diagonal, m.
@@ -28,10 +25,7 @@ impl Bounds {
     }
 
     fn empty() -> Self {
-        Self {
-            low: [f64::INFINITY; 3],
-            high: [f64::NEG_INFINITY; 3],
-        }
+        Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] }
     }
 
     fn add(&mut self, low: [f64; 3], high: [f64; 3]) {
@@ -42,9 +36,7 @@ impl Bounds {
     }
 
     fn holds(&self, point: [f64; 3], reach: f64) -> bool {
-        (0..3).all(|axis| {
-            self.low[axis] - reach <= point[axis] && point[axis] <= self.high[axis] + reach
-        })
+        (0..3).all(|axis| self.low[axis] - reach <= point[axis] && point[axis] <= self.high[axis] + reach)
     }
 
     fn middle(&self, axis: usize) -> f64 {
@@ -78,11 +70,7 @@ impl BoxTree {
         if !boxes.is_empty() {
             split(&boxes, &mut order, 0, &mut nodes);
         }
-        Self {
-            boxes: order.iter().map(|&index| boxes[index as usize]).collect(),
-            order,
-            nodes,
-        }
+        Self { boxes: order.iter().map(|&index| boxes[index as usize]).collect(), order, nodes }
     }
 
     /// Indices of the boxes, neighbours in space near each other: searches in this order find the tree in the cache.
@@ -103,8 +91,7 @@ impl BoxTree {
                 None => {
                     let range = node.range.start as usize..node.range.end as usize;
                     let own = self.boxes[range.clone()].iter().zip(&self.order[range]);
-                    own.filter(|(bounds, _)| bounds.holds(point, reach))
-                        .for_each(|(_, &index)| visit(index as usize));
+                    own.filter(|(bounds, _)| bounds.holds(point, reach)).for_each(|(_, &index)| visit(index as usize));
                 }
             }
         }
@@ -119,19 +106,12 @@ fn split(boxes: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>)
         bounds.add(own.low, own.high);
     }
     let number = nodes.len();
-    nodes.push(Node {
-        bounds,
-        range: first..first + order.len() as u32,
-        right: None,
-    });
+    nodes.push(Node { bounds, range: first..first + order.len() as u32, right: None });
     if order.len() <= LEAF {
         return;
     }
     let side = |axis: usize| bounds.high[axis] - bounds.low[axis];
-    let axis = (1..3).fold(
-        0,
-        |long, axis| if side(axis) > side(long) { axis } else { long },
-    );
+    let axis = (1..3).fold(0, |long, axis| if side(axis) > side(long) { axis } else { long });
     let half = order.len() / 2;
     order.select_nth_unstable_by(half, |&a, &b| {
         let middle = |index: u32| boxes[index as usize].middle(axis);

@@ -55,9 +55,7 @@ impl Bodies<'_> {
     ) -> (Vec<Touching>, Vec<Crossing>) {
         let mut touching = self.touching(&linked);
         let crossings = self.crossings(linked, overlaps, &touching);
-        let crosses = |touching: &Touching| {
-            { crossings.iter() }.any(|crossing| crossing.parts == touching.parts)
-        };
+        let crosses = |touching: &Touching| { crossings.iter() }.any(|crossing| crossing.parts == touching.parts);
         touching.retain(|touching| !crosses(touching));
         (touching, crossings)
     }
@@ -91,20 +89,16 @@ impl Bodies<'_> {
             let middle = [0, 1, 2].map(|axis| 0.5 * (own.low[axis] + own.high[axis]));
             let sides = [0, 1, 2].map(|axis| own.high[axis] - own.low[axis]);
             let mut found = Vec::new();
-            tree.visit(
-                middle,
-                0.5 * sides.into_iter().fold(0.0, f64::max),
-                |other| {
-                    let of_other = &self.solids[other];
-                    let common = || solid.nodes.iter().any(|node| of_other.nodes.contains(node));
-                    if body[other] == body[index] || common() || held(solid) && held(of_other) {
-                        return;
-                    }
-                    if let Some(depth) = self.depth(solid, of_other) {
-                        found.push(([index.min(other), index.max(other)], depth));
-                    }
-                },
-            );
+            tree.visit(middle, 0.5 * sides.into_iter().fold(0.0, f64::max), |other| {
+                let of_other = &self.solids[other];
+                let common = || solid.nodes.iter().any(|node| of_other.nodes.contains(node));
+                if body[other] == body[index] || common() || held(solid) && held(of_other) {
+                    return;
+                }
+                if let Some(depth) = self.depth(solid, of_other) {
+                    found.push(([index.min(other), index.max(other)], depth));
+                }
+            });
             found
         });
         let mut pairs: Vec<([usize; 2], f64)> = pairs.collect();
@@ -120,31 +114,21 @@ impl Bodies<'_> {
                 (sum.1, sum.2) = (pair, depth);
             }
         }
-        let found = by_parts
-            .into_iter()
-            .map(|(parts, (pairs, deepest, depth))| {
-                let [a, b] = deepest.map(|index| self.bounds(&self.solids[index]));
-                Crossing {
-                    parts: self.names(parts),
-                    pairs,
-                    depth,
-                    tags: deepest.map(|index| self.solids[index].tag),
-                    place: [0, 1, 2].map(|axis| {
-                        0.5 * (a.low[axis].max(b.low[axis]) + a.high[axis].min(b.high[axis]))
-                    }),
-                }
-            });
+        let found = by_parts.into_iter().map(|(parts, (pairs, deepest, depth))| {
+            let [a, b] = deepest.map(|index| self.bounds(&self.solids[index]));
+            Crossing {
+                parts: self.names(parts),
+                pairs,
+                depth,
+                tags: deepest.map(|index| self.solids[index].tag),
+                place: [0, 1, 2].map(|axis| 0.5 * (a.low[axis].max(b.low[axis]) + a.high[axis].min(b.high[axis]))),
+            }
+        });
         let known = overlaps.iter().map(|overlap| &overlap.parts);
         let known: Vec<_> = known
-            .chain(
-                { touching.iter() }
-                    .filter(|touching| !touching.sunk)
-                    .map(|touching| &touching.parts),
-            )
+            .chain({ touching.iter() }.filter(|touching| !touching.sunk).map(|touching| &touching.parts))
             .collect();
-        found
-            .filter(|crossing| !known.contains(&&crossing.parts))
-            .collect()
+        found.filter(|crossing| !known.contains(&&crossing.parts)).collect()
     }
 
     fn bounds(&self, solid: &Solid) -> Bounds {
@@ -191,19 +175,13 @@ impl Bodies<'_> {
             let Some(unit) = vector.try_normalize(0.0) else {
                 return;
             };
-            if list
-                .iter()
-                .all(|known| known.cross(&unit).norm() > PARALLEL)
-            {
+            if list.iter().all(|known| known.cross(&unit).norm() > PARALLEL) {
                 list.push(unit);
             }
         };
         for face in solid.kind.faces() {
             let corners = &face.nodes[..face.kind.corners()];
-            let places: Vec<_> = corners
-                .iter()
-                .map(|&local| Vector3::from(self.points[solid.nodes[local]]))
-                .collect();
+            let places: Vec<_> = corners.iter().map(|&local| Vector3::from(self.points[solid.nodes[local]])).collect();
             add(&mut normals, normal(&places));
             for (from, to) in places.iter().zip(places.iter().cycle().skip(1)) {
                 add(&mut edges, to - from);

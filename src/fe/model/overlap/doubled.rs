@@ -54,9 +54,8 @@ impl Bodies<'_> {
     /// Hex20 on the same corners fill the same space.
     pub fn doubled(&self) -> Option<Doubled> {
         let solids = self.solids.par_iter().enumerate();
-        let mut keys: Vec<(Corners, u32)> = solids
-            .map(|(index, solid)| (sorted_corners(solid), index as u32))
-            .collect();
+        let mut keys: Vec<(Corners, u32)> =
+            solids.map(|(index, solid)| (sorted_corners(solid), index as u32)).collect();
         keys.par_sort_unstable();
         let mut elements = 0;
         let mut first: Option<[u32; 2]> = None;

@@ -65,9 +65,7 @@ impl Bodies<'_> {
         for same in faces.chunk_by(|a, b| a.0 == b.0) {
             match same {
                 [(_, solid, number)] => once.push((*solid as usize, *number)),
-                _ => same
-                    .iter()
-                    .for_each(|face| bodies.join(same[0].1 as usize, face.1 as usize)),
+                _ => same.iter().for_each(|face| bodies.join(same[0].1 as usize, face.1 as usize)),
             }
         }
         once.sort_unstable();
@@ -82,10 +80,7 @@ impl Bodies<'_> {
         let face = own.kind.faces().get(usize::from(number))?;
         let local = &face.nodes[..face.kind.corners()];
         let corners: Vec<usize> = local.iter().map(|&local| own.nodes[local]).collect();
-        let places: Vec<_> = corners
-            .iter()
-            .map(|&node| Vector3::from(self.points[node]))
-            .collect();
+        let places: Vec<_> = corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
         let middle = Vector3::from(self.mean(&corners));
         let normal = normal(&places);
         let length = normal.norm();
@@ -96,11 +91,7 @@ impl Bodies<'_> {
             solid,
             centre: middle,
             normal: outwards / length,
-            size: if corners.len() == 2 {
-                length
-            } else {
-                0.5 * length
-            },
+            size: if corners.len() == 2 { length } else { 0.5 * length },
             corners,
             body,
             reach: (on_curve - middle).dot(&normal).abs() / length,
@@ -111,15 +102,11 @@ impl Bodies<'_> {
     pub(super) fn height(&self, facet: &Facet, point: &Vector3<f64>) -> Option<f64> {
         let along = facet.normal.dot(&(point - facet.centre));
         let foot = point - facet.normal * along;
-        let places: Vec<_> = facet
-            .corners
-            .iter()
-            .map(|&node| Vector3::from(self.points[node]))
-            .collect();
+        let places: Vec<_> = facet.corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
         let on_it = match places.as_slice() {
-            [a, b] => [(b - a, a), (a - b, b)]
-                .iter()
-                .all(|(to, from)| to.dot(&(foot - *from)) >= -self.tolerance * to.norm()),
+            [a, b] => {
+                [(b - a, a), (a - b, b)].iter().all(|(to, from)| to.dot(&(foot - *from)) >= -self.tolerance * to.norm())
+            }
             corners => (0..corners.len()).all(|side| {
                 let from = corners[side];
                 let across = (corners[(side + 1) % corners.len()] - from).cross(&facet.normal);

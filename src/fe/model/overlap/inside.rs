@@ -92,13 +92,11 @@ impl Bodies<'_> {
         for [index, other] in within {
             let solid = &self.solids[index];
             let (part, of_other) = (solid.part, self.solids[other].part);
-            let sum = sums
-                .entry([part.min(of_other), part.max(of_other)])
-                .or_insert_with(|| Sum {
-                    elements: 0,
-                    sizes: [0.0; 2],
-                    first: [index, other],
-                });
+            let sum = sums.entry([part.min(of_other), part.max(of_other)]).or_insert_with(|| Sum {
+                elements: 0,
+                sizes: [0.0; 2],
+                first: [index, other],
+            });
             sum.elements += 1;
             sum.sizes[usize::from(part > of_other)] += self.size(solid).unwrap_or(0.0);
         }
@@ -122,8 +120,7 @@ impl Bodies<'_> {
         let mut found: Option<usize> = None;
         tree.visit((*point).into(), 0.0, |other| {
             let earlier = found.is_none_or(|found| other < found);
-            if other != index && earlier && holds(self, &self.solids[other], &centres[other], point)
-            {
+            if other != index && earlier && holds(self, &self.solids[other], &centres[other], point) {
                 found = Some(other);
             }
         });

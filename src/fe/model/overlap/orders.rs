@@ -60,14 +60,10 @@ impl Bodies<'_> {
         }
         let solids = self.solids.par_iter().enumerate();
         let mut all: Vec<([u32; 3], u32)> = solids
-            .flat_map_iter(|(index, solid)| {
-                edges(solid.kind, solid.nodes).map(move |edge| (edge, index as u32))
-            })
+            .flat_map_iter(|(index, solid)| edges(solid.kind, solid.nodes).map(move |edge| (edge, index as u32)))
             .collect();
         all.par_sort_unstable();
-        let apart = all
-            .chunk_by(|a, b| a.0[..2] == b.0[..2])
-            .filter(|same| same[0].0[2] != same[same.len() - 1].0[2]);
+        let apart = all.chunk_by(|a, b| a.0[..2] == b.0[..2]).filter(|same| same[0].0[2] != same[same.len() - 1].0[2]);
         let same = apart.clone().next()?;
         let pair = [same[0].1, same[same.len() - 1].1];
         let mut pair = pair.map(|index| &self.solids[index as usize]);
@@ -82,11 +78,7 @@ impl Bodies<'_> {
 
     /// The edges of a group of curves or faces that lack the middle node of the elements there; the first tag is that of the
     /// group's element, and both parts are that of the other.
-    pub(in crate::fe::model) fn without_middle_nodes(
-        &self,
-        mesh: &Mesh,
-        group: &PhysicalGroup,
-    ) -> Option<MixedOrders> {
+    pub(in crate::fe::model) fn without_middle_nodes(&self, mesh: &Mesh, group: &PhysicalGroup) -> Option<MixedOrders> {
         if !self.has_middle_nodes() {
             return None;
         }
@@ -94,9 +86,7 @@ impl Bodies<'_> {
         for id in &group.elements {
             let block = &mesh.blocks[id.block];
             for [a, b, middle] in edges(block.kind, block.element(id.index).unwrap_or_default()) {
-                let entry = of_group
-                    .entry([a, b])
-                    .or_insert((middle, block.tags[id.index]));
+                let entry = of_group.entry([a, b]).or_insert((middle, block.tags[id.index]));
                 if middle == NO_NODE {
                     *entry = (middle, block.tags[id.index]);
                 }

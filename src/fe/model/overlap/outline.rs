@@ -30,9 +30,7 @@ fn natural_centre(kind: ContinuumKind) -> [f64; 3] {
 
 fn blended(bodies: &Bodies, nodes: &[usize], values: &[f64]) -> Vector3<f64> {
     let terms = nodes.iter().zip(values);
-    terms.fold(Vector3::zeros(), |sum, (&node, &value)| {
-        sum + Vector3::from(bodies.points[node]) * value
-    })
+    terms.fold(Vector3::zeros(), |sum, (&node, &value)| sum + Vector3::from(bodies.points[node]) * value)
 }
 
 /// Normal of a face by its corners, as long as twice its area; of an edge in the plane, as long as the edge. Its sign is
@@ -50,12 +48,7 @@ pub(super) fn normal(corners: &[Vector3<f64>]) -> Vector3<f64> {
 ///
 /// Each plane has the normal of the face's corners. It passes through their mean and, of a curved face, through the
 /// face's own middle too: between chord and curve a point counts as outside.
-pub(super) fn holds(
-    bodies: &Bodies,
-    solid: &Solid,
-    own: &Vector3<f64>,
-    point: &Vector3<f64>,
-) -> bool {
+pub(super) fn holds(bodies: &Bodies, solid: &Solid, own: &Vector3<f64>, point: &Vector3<f64>) -> bool {
     let behind = |normal: &Vector3<f64>, anchor: &Vector3<f64>| {
         let [depth, limit] = [point, own].map(|place| normal.dot(&(place - anchor)));
         depth * limit > DEPTH * limit * limit
@@ -81,9 +74,7 @@ fn plane(bodies: &Bodies, solid: &Solid, face: &Face) -> (Vector3<f64>, Vector3<
         *place = Vector3::from(bodies.points[solid.nodes[local]]);
     }
     let places = &places[..count];
-    let sum = places
-        .iter()
-        .fold(Vector3::zeros(), |sum, place| sum + place);
+    let sum = places.iter().fold(Vector3::zeros(), |sum, place| sum + place);
     (normal(places), sum / count as f64)
 }
 

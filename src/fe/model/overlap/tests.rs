@@ -2,9 +2,7 @@
 
 use super::boxes::{Bounds, BoxTree};
 use super::{Bodies, Doubled};
-use crate::fe::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
-};
+use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use std::f64::consts::{PI, TAU};
 
 fn empty() -> Mesh {
@@ -13,22 +11,13 @@ fn empty() -> Mesh {
         node_tags: Vec::new(),
         blocks: Vec::new(),
         groups: Vec::new(),
-        format: MshFormat {
-            version: MshVersion::V41,
-            binary: false,
-        },
+        format: MshFormat { version: MshVersion::V41, binary: false },
         source: "bodies.msh".into(),
     }
 }
 
 /// Adds nodes, and elements on them (indices from the first of these nodes) as a group.
-fn add(
-    mesh: &mut Mesh,
-    group: &str,
-    kind: ElementKind,
-    nodes: &[[f64; 3]],
-    elements: &[Vec<usize>],
-) {
+fn add(mesh: &mut Mesh, group: &str, kind: ElementKind, nodes: &[[f64; 3]], elements: &[Vec<usize>]) {
     let first = mesh.nodes.len();
     mesh.nodes.extend_from_slice(nodes);
     mesh.node_tags = (1..=mesh.nodes.len() as u64).collect();
@@ -38,11 +27,7 @@ fn add(
     mesh.blocks.push(ElementBlock {
         kind,
         tags: (count as u64 + 1..).take(elements.len()).collect(),
-        connectivity: elements
-            .iter()
-            .flatten()
-            .map(|local| first + local)
-            .collect(),
+        connectivity: elements.iter().flatten().map(|local| first + local).collect(),
         entity: Entity { dimension, tag },
     });
     mesh.groups.push(PhysicalGroup {
@@ -50,9 +35,7 @@ fn add(
         dimension,
         tag,
         nodes: (first..mesh.nodes.len()).collect(),
-        elements: (0..elements.len())
-            .map(|index| ElementId { block, index })
-            .collect(),
+        elements: (0..elements.len()).map(|index| ElementId { block, index }).collect(),
     });
 }
 
@@ -64,10 +47,7 @@ fn polar(radius: f64, angle: f64, z: f64) -> [f64; 3] {
 fn tube(mesh: &mut Mesh, group: &str, [inner, outer]: [f64; 2], around: usize) {
     let at = |k: usize| TAU * k as f64 / around as f64;
     let nodes: Vec<[f64; 3]> = (0..around)
-        .flat_map(|k| {
-            [(inner, 0.0), (outer, 0.0), (inner, 0.3), (outer, 0.3)]
-                .map(|(r, z)| polar(r, at(k), z))
-        })
+        .flat_map(|k| [(inner, 0.0), (outer, 0.0), (inner, 0.3), (outer, 0.3)].map(|(r, z)| polar(r, at(k), z)))
         .collect();
     let elements: Vec<Vec<usize>> = (0..around)
         .map(|k| {
@@ -123,17 +103,9 @@ fn curved_faces_of_other_meshes_touch() {
     assert_eq!((found.faces, found.node_pairs), (20 + 33, 2));
     // the larger of both: 33 chords of the circle, 0.3 m high
     let area = 33.0 * 2.0 * (PI / 33.0).sin() * 0.3;
-    assert!(
-        (found.size / area - 1.0).abs() < 1e-12,
-        "{} {area}",
-        found.size
-    );
+    assert!((found.size / area - 1.0).abs() < 1e-12, "{} {area}", found.size);
     // the apothem of the coarser polygon is 0.0123 m short of the circle
-    assert!(
-        found.gap > 0.004 && found.gap < 1.0 - (PI / 20.0).cos(),
-        "{}",
-        found.gap
-    );
+    assert!(found.gap > 0.004 && found.gap < 1.0 - (PI / 20.0).cos(), "{}", found.gap);
     let [x, y, _] = found.place;
     assert!((x.hypot(y) - (PI / 20.0).cos()).abs() < 1e-12);
 }
@@ -172,43 +144,19 @@ fn rings_in_one_another_overlap() {
     // centres of the outer ring's elements at 1.1 m lie in the inner one, those of the inner one at 0.96 m not in the outer one
     assert_eq!(overlaps[0].elements, 30);
     let area = PI * (1.2_f64.powi(2) - 1.0);
-    assert!(
-        (overlaps[0].size / area - 1.0).abs() < 1e-3,
-        "{}",
-        overlaps[0].size
-    );
+    assert!((overlaps[0].size / area - 1.0).abs() < 1e-3, "{}", overlaps[0].size);
 }
 
 /// A cube as one Hex8 and again as one Hex20 on the same corners, which begins at another one.
 #[test]
 fn kinds_and_order_do_not_hide_a_double() {
     let mut mesh = empty();
-    add(
-        &mut mesh,
-        "linear",
-        ElementKind::Hex8,
-        &CUBE,
-        &[(0..8).collect()],
-    );
+    add(&mut mesh, "linear", ElementKind::Hex8, &CUBE, &[(0..8).collect()]);
     let mut second: Vec<usize> = [1, 2, 3, 0, 5, 6, 7, 4].to_vec();
-    let pairs = [
-        [0, 1],
-        [0, 3],
-        [0, 4],
-        [1, 2],
-        [1, 5],
-        [2, 3],
-        [2, 6],
-        [3, 7],
-        [4, 5],
-        [4, 7],
-        [5, 6],
-        [6, 7],
-    ];
+    let pairs = [[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]];
     for pair in pairs {
         let [a, b] = pair.map(|corner| mesh.nodes[second[corner]]);
-        mesh.nodes
-            .push([0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])));
+        mesh.nodes.push([0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])));
         second.push(mesh.nodes.len() - 1);
     }
     let first = mesh.nodes.len();
@@ -218,12 +166,8 @@ fn kinds_and_order_do_not_hide_a_double() {
     mesh.blocks[1].tags = vec![2];
     mesh.groups[1].elements = vec![ElementId { block: 1, index: 0 }];
     let bodies = Bodies::of_mesh(&mesh);
-    let expected = Doubled {
-        elements: 1,
-        tags: [1, 2],
-        parts: ["linear".to_owned(), "quadratic".to_owned()],
-        place: [0.5; 3],
-    };
+    let expected =
+        Doubled { elements: 1, tags: [1, 2], parts: ["linear".to_owned(), "quadratic".to_owned()], place: [0.5; 3] };
     assert_eq!(bodies.doubled(), Some(expected));
     assert_eq!(bodies.overlaps(), []);
 }
@@ -232,31 +176,10 @@ fn kinds_and_order_do_not_hide_a_double() {
 #[test]
 fn other_elements_on_the_same_nodes_overlap() {
     let mut mesh = empty();
-    add(
-        &mut mesh,
-        "whole",
-        ElementKind::Hex8,
-        &CUBE,
-        &[(0..8).collect()],
-    );
-    let tets = [
-        [0, 1, 3, 4],
-        [1, 2, 3, 6],
-        [1, 6, 4, 5],
-        [3, 4, 6, 7],
-        [1, 3, 4, 6],
-    ];
-    add(
-        &mut mesh,
-        "pieces",
-        ElementKind::Tet4,
-        &CUBE,
-        &tets.map(|tet: [usize; 4]| tet.to_vec()),
-    );
-    mesh.blocks[1]
-        .connectivity
-        .iter_mut()
-        .for_each(|node| *node -= 8);
+    add(&mut mesh, "whole", ElementKind::Hex8, &CUBE, &[(0..8).collect()]);
+    let tets = [[0, 1, 3, 4], [1, 2, 3, 6], [1, 6, 4, 5], [3, 4, 6, 7], [1, 3, 4, 6]];
+    add(&mut mesh, "pieces", ElementKind::Tet4, &CUBE, &tets.map(|tet: [usize; 4]| tet.to_vec()));
+    mesh.blocks[1].connectivity.iter_mut().for_each(|node| *node -= 8);
     mesh.nodes.truncate(8);
     let bodies = Bodies::of_mesh(&mesh);
     assert_eq!(bodies.doubled(), None);
@@ -270,40 +193,24 @@ fn other_elements_on_the_same_nodes_overlap() {
 #[test]
 fn a_crack_in_one_body_touches_itself() {
     let mut mesh = empty();
-    let mut nodes: Vec<[f64; 3]> = (0..3)
-        .flat_map(|y| (0..3).map(move |x| [f64::from(x), f64::from(y), 0.0]))
-        .collect();
+    let mut nodes: Vec<[f64; 3]> =
+        (0..3).flat_map(|y| (0..3).map(move |x| [f64::from(x), f64::from(y), 0.0])).collect();
     nodes.push([2.0, 1.0, 0.0]);
     let cells = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 9, 8, 7]];
-    add(
-        &mut mesh,
-        "plate",
-        ElementKind::Quad4,
-        &nodes,
-        &cells.map(|cell: [usize; 4]| cell.to_vec()),
-    );
+    add(&mut mesh, "plate", ElementKind::Quad4, &nodes, &cells.map(|cell: [usize; 4]| cell.to_vec()));
     let touching = Bodies::of_mesh(&mesh).touching(|_| false);
     assert_eq!(touching.len(), 1);
     assert_eq!((touching[0].faces, touching[0].node_pairs), (2, 1));
     assert_eq!(touching[0].parts, ["plate", "plate"]);
     assert!((touching[0].size - 1.0).abs() < 1e-12);
-    assert_eq!(
-        Bodies::of_mesh(&mesh).touching(|node| [4, 5].contains(&node)),
-        []
-    );
+    assert_eq!(Bodies::of_mesh(&mesh).touching(|node| [4, 5].contains(&node)), []);
 }
 
 /// What is folded is the assembly's to name.
 #[test]
 fn an_inverted_element_is_no_overlap() {
     let mut mesh = empty();
-    let nodes = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.9, 0.5, 0.0],
-    ];
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.9, 0.5, 0.0]];
     let cells = [vec![0, 1, 2], vec![0, 4, 2]];
     add(&mut mesh, "plate", ElementKind::Tri3, &nodes, &cells);
     assert_eq!(Bodies::of_mesh(&mesh).overlaps().len(), 1);
@@ -320,10 +227,7 @@ fn surfaces_in_space_are_left_alone() {
     let cells = [vec![0, 1, 2, 3], vec![0, 1, 5, 4]];
     add(&mut mesh, "skin", ElementKind::Quad4, &nodes, &cells);
     let bodies = Bodies::of_mesh(&mesh);
-    assert_eq!(
-        (bodies.overlaps(), bodies.touching(|_| false)),
-        (Vec::new(), Vec::new())
-    );
+    assert_eq!((bodies.overlaps(), bodies.touching(|_| false)), (Vec::new(), Vec::new()));
 }
 
 /// Against every box, at random places.
@@ -349,13 +253,9 @@ fn the_tree_finds_the_boxes_of_a_point() {
         tree.visit(point, reach, |index| found.push(index));
         found.sort_unstable();
         let inside = |bounds: &Bounds| {
-            (0..3).all(|axis| {
-                (bounds.low[axis] - reach..=bounds.high[axis] + reach).contains(&point[axis])
-            })
+            (0..3).all(|axis| (bounds.low[axis] - reach..=bounds.high[axis] + reach).contains(&point[axis]))
         };
-        let expected: Vec<usize> = (0..boxes.len())
-            .filter(|&index| inside(&boxes[index]))
-            .collect();
+        let expected: Vec<usize> = (0..boxes.len()).filter(|&index| inside(&boxes[index])).collect();
         assert_eq!(found, expected);
         met += found.len();
     }

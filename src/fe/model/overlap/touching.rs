@@ -109,16 +109,14 @@ impl Bodies<'_> {
         let pairs = pairs.map(|(index, behind)| (&facets[index], &facets[behind.facet], behind));
         for (facet, other, behind) in pairs.filter(|(a, b, _)| !is_linked(a) && !is_linked(b)) {
             let [part, of_other] = [facet, other].map(|facet| self.solids[facet.solid].part);
-            let sum = sums
-                .entry([part.min(of_other), part.max(of_other)])
-                .or_insert_with(|| Sum {
-                    faces: 0,
-                    sizes: [0.0; 2],
-                    gap: 0.0,
-                    node_pairs: Vec::new(),
-                    place: facet.centre,
-                    sunk: false,
-                });
+            let sum = sums.entry([part.min(of_other), part.max(of_other)]).or_insert_with(|| Sum {
+                faces: 0,
+                sizes: [0.0; 2],
+                gap: 0.0,
+                node_pairs: Vec::new(),
+                place: facet.centre,
+                sunk: false,
+            });
             sum.faces += 1;
             sum.gap = sum.gap.max(behind.distance);
             sum.sunk |= behind.sunk;
@@ -138,10 +136,7 @@ impl Bodies<'_> {
                 gap: sum.gap,
                 node_pairs: sum.node_pairs.len(),
                 place: sum.place.into(),
-                dimension: self
-                    .solids
-                    .first()
-                    .map_or(3, |solid| solid.kind.dimension()),
+                dimension: self.solids.first().map_or(3, |solid| solid.kind.dimension()),
                 sunk: sum.sunk,
             }
         });
@@ -165,16 +160,11 @@ impl Bodies<'_> {
             let Some(height) = self.height(other, &facet.centre) else {
                 return;
             };
-            let nearer =
-                best.is_none_or(|best| (height.abs(), number) < (best.distance, best.facet));
+            let nearer = best.is_none_or(|best| (height.abs(), number) < (best.distance, best.facet));
             let touches = height.abs() <= limit;
             let sunk = || other.body != facet.body && height < 0.0 && self.is_within(facet, other);
             if nearer && (touches || sunk()) {
-                best = Some(Behind {
-                    facet: number,
-                    distance: height.abs(),
-                    sunk: !touches,
-                });
+                best = Some(Behind { facet: number, distance: height.abs(), sunk: !touches });
             }
         });
         best
@@ -192,10 +182,7 @@ impl Bodies<'_> {
             let apart = Vector3::from(self.points[a]) - Vector3::from(self.points[b]);
             a != b && apart.norm() <= self.tolerance
         };
-        let corners = facet
-            .corners
-            .iter()
-            .flat_map(|&a| other.corners.iter().map(move |&b| (a, b)));
+        let corners = facet.corners.iter().flat_map(|&a| other.corners.iter().map(move |&b| (a, b)));
         let pairs = corners.filter(|&(a, b)| near(a, b));
         pairs.map(|(a, b)| [a.min(b), a.max(b)]).collect()
     }

@@ -54,11 +54,7 @@ impl Ring {
             let exact = self.element.is_exact_for_rigid_motions();
             let moves = |d: &[f64]| {
                 let own = dofs.map(|dof| d[dof]);
-                let own = if exact {
-                    self.without_rigid_plane(index, own)
-                } else {
-                    own
-                };
+                let own = if exact { self.without_rigid_plane(index, own) } else { own };
                 turn * Vector6::from(own)
             };
             add_products(&mut beams, self.element.stiffness(), shapes, &moves);
@@ -73,9 +69,7 @@ impl Ring {
         }
         let mut springs = DenseMatrix::zeros(count, count);
         for spring in &self.springs {
-            let stretch: Vec<f64> = (0..count)
-                .map(|mode| spring.stretch(shapes.col_as_slice(mode)))
-                .collect();
+            let stretch: Vec<f64> = (0..count).map(|mode| spring.stretch(shapes.col_as_slice(mode))).collect();
             for a in 0..count {
                 for b in 0..count {
                     springs[(a, b)] += spring.stiffness * stretch[a] * stretch[b];
@@ -96,27 +90,13 @@ impl Ring {
     fn without_rigid_plane(&self, index: usize, d: [f64; 6]) -> [f64; 6] {
         let [dx, dy] = self.chord(index);
         let turn = d[2];
-        [
-            0.0,
-            0.0,
-            0.0,
-            d[3] - d[0] + turn * dy,
-            d[4] - d[1] - turn * dx,
-            d[5] - turn,
-        ]
+        [0.0, 0.0, 0.0, d[3] - d[0] + turn * dy, d[4] - d[1] - turn * dx, d[5] - turn]
     }
 
     /// (u_z, theta_x, theta_y) of both nodes less the rigid motion of the first.
     fn without_rigid_space(&self, index: usize, d: [f64; 6]) -> [f64; 6] {
         let [dx, dy] = self.chord(index);
-        [
-            0.0,
-            0.0,
-            0.0,
-            d[3] - d[0] - d[1] * dy + d[2] * dx,
-            d[4] - d[1],
-            d[5] - d[2],
-        ]
+        [0.0, 0.0, 0.0, d[3] - d[0] - d[1] * dy + d[2] * dx, d[4] - d[1], d[5] - d[2]]
     }
 }
 
@@ -126,9 +106,7 @@ fn add_products(
     shapes: &DenseMatrix,
     moves: &dyn Fn(&[f64]) -> Vector6<f64>,
 ) {
-    let all: Vec<Vector6<f64>> = (0..shapes.ncols())
-        .map(|mode| moves(shapes.col_as_slice(mode)))
-        .collect();
+    let all: Vec<Vector6<f64>> = (0..shapes.ncols()).map(|mode| moves(shapes.col_as_slice(mode))).collect();
     for (b, own) in all.iter().enumerate() {
         let force = stiffness * own;
         for (a, other) in all.iter().enumerate() {
@@ -160,13 +138,8 @@ mod tests {
             false => Ring::new(20, section, interpolation),
         };
         let mut ring = ring.expect("twenty nodes");
-        let support = RingSupport {
-            from: 0.3,
-            to: 4.0,
-            spring: [3e6, 2e6, 1e6],
-            share: SpringShare::Total,
-            offset: 1e-3,
-        };
+        let support =
+            RingSupport { from: 0.3, to: 4.0, spring: [3e6, 2e6, 1e6], share: SpringShare::Total, offset: 1e-3 };
         ring.add_support(&support).expect("nodes there");
         ring
     }
@@ -174,10 +147,7 @@ mod tests {
     /// Beams and springs together are the matrix.
     #[test]
     fn products_add_up_to_the_stiffness() {
-        for interpolation in [
-            RingInterpolation::ExactArc,
-            RingInterpolation::Raveendranath,
-        ] {
+        for interpolation in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
             for in_space in [false, true] {
                 let ring = ring(interpolation, in_space);
                 let shapes = DenseMatrix::from_fn(ring.dof(), 3, |dof, mode| {
@@ -187,10 +157,7 @@ mod tests {
                 let expected = shapes.transpose() * ring.stiffness() * &shapes;
                 let difference = &strain.beams + &strain.springs - &expected;
                 // round-off of sums of 60 or 120 terms of either sign
-                assert!(
-                    difference.norm_max() < 1e-12 * expected.norm_max(),
-                    "{interpolation:?} {in_space}"
-                );
+                assert!(difference.norm_max() < 1e-12 * expected.norm_max(), "{interpolation:?} {in_space}");
                 assert!(strain.springs[(0, 0)] > 0.0);
             }
         }

@@ -71,11 +71,7 @@ impl Ring {
     ///
     /// # Errors
     /// [`RingError::TooFewNodes`].
-    pub fn new(
-        nodes: usize,
-        section: BeamSection,
-        interpolation: RingInterpolation,
-    ) -> Result<Self, RingError> {
+    pub fn new(nodes: usize, section: BeamSection, interpolation: RingInterpolation) -> Result<Self, RingError> {
         let element = CurvedBeam::new(&section, half_angle(nodes)?, interpolation);
         Ok(Self::assemble(nodes, section, element, None))
     }
@@ -85,23 +81,14 @@ impl Ring {
     ///
     /// # Errors
     /// [`RingError::TooFewNodes`].
-    pub fn in_space(
-        nodes: usize,
-        section: BeamSection,
-        interpolation: RingInterpolation,
-    ) -> Result<Self, RingError> {
+    pub fn in_space(nodes: usize, section: BeamSection, interpolation: RingInterpolation) -> Result<Self, RingError> {
         let half = half_angle(nodes)?;
         let element = CurvedBeam::new(&section, half, interpolation);
         let out_of_plane = OutOfPlaneArc::new(&section, half);
         Ok(Self::assemble(nodes, section, element, Some(out_of_plane)))
     }
 
-    fn assemble(
-        nodes: usize,
-        section: BeamSection,
-        element: CurvedBeam,
-        out_of_plane: Option<OutOfPlaneArc>,
-    ) -> Self {
+    fn assemble(nodes: usize, section: BeamSection, element: CurvedBeam, out_of_plane: Option<OutOfPlaneArc>) -> Self {
         let blocks = if out_of_plane.is_some() { 2 } else { 1 };
         let dof = blocks * NODE_DOF * nodes;
         let mut ring = Self {

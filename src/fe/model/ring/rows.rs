@@ -49,12 +49,7 @@ impl Ring {
         let (dofs, turn) = self.frame(index);
         let n = self.element.interpolation(phi) * turn;
         let row = |component: usize| std::array::from_fn(|column| n[(component, column)]);
-        RingRows {
-            dofs,
-            tangential: row(0),
-            radial: row(1),
-            rotation: row(2),
-        }
+        RingRows { dofs, tangential: row(0), radial: row(1), rotation: row(2) }
     }
 
     /// Interpolation of the radial displacement at `phi` from an element's middle (rad) in the polar
@@ -88,11 +83,7 @@ impl Ring {
 impl RingRows {
     /// Value of one component for the ring displacements `d`.
     pub fn apply(&self, row: &[f64; 6], d: &[f64]) -> f64 {
-        self.dofs
-            .iter()
-            .zip(row)
-            .map(|(&dof, factor)| factor * d[dof])
-            .sum()
+        self.dofs.iter().zip(row).map(|(&dof, factor)| factor * d[dof]).sum()
     }
 
     /// Tangential displacement of the section's point at `arm` outside the node radius:

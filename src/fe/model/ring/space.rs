@@ -96,11 +96,7 @@ impl Ring {
 impl RingSpaceRows {
     /// Value of one component for the ring displacements `d`.
     pub fn apply(&self, row: &[f64; 12], d: &[f64]) -> f64 {
-        self.dofs
-            .iter()
-            .zip(row)
-            .map(|(&dof, factor)| factor * d[dof])
-            .sum()
+        self.dofs.iter().zip(row).map(|(&dof, factor)| factor * d[dof]).sum()
     }
 
     /// Displacement along (e_r, e_t, e_z) of the section's point at `arm` outside the node radius and
@@ -108,9 +104,7 @@ impl RingSpaceRows {
     pub(crate) fn displacement_at(&self, arm: f64, height: f64) -> [[f64; 12]; 3] {
         [
             std::array::from_fn(|k| self.radial[k] + height * self.about_tangential[k]),
-            std::array::from_fn(|k| {
-                self.tangential[k] + arm * self.about_axial[k] - height * self.about_radial[k]
-            }),
+            std::array::from_fn(|k| self.tangential[k] + arm * self.about_axial[k] - height * self.about_radial[k]),
             std::array::from_fn(|k| self.axial[k] - arm * self.about_tangential[k]),
         ]
     }

@@ -15,10 +15,7 @@ fn layers() -> [RingLayer; 2] {
         radius,
         shear_coefficient: 5.0 / 6.0,
     };
-    [
-        layer(210e9, 7850.0, 5.37e-6, 8.88e-13, 5.314e-3),
-        layer(72e9, 2700.0, 12e-6, 9e-12, 7.5e-3),
-    ]
+    [layer(210e9, 7850.0, 5.37e-6, 8.88e-13, 5.314e-3), layer(72e9, 2700.0, 12e-6, 9e-12, 7.5e-3)]
 }
 
 fn section(rule: RadiusRule) -> BeamSection {
@@ -94,15 +91,8 @@ fn the_interpolation_goes_on_from_element_to_element() {
         let angle = ring.node_angle(node);
         let side = |offset: f64| {
             let rows = ring.space_rows_at(angle + offset).expect("in space");
-            [
-                rows.axial,
-                rows.about_radial,
-                rows.about_tangential,
-                rows.radial,
-                rows.tangential,
-                rows.about_axial,
-            ]
-            .map(|row| rows.apply(&row, &d))
+            [rows.axial, rows.about_radial, rows.about_tangential, rows.radial, rows.tangential, rows.about_axial]
+                .map(|row| rows.apply(&row, &d))
         };
         let [before, after] = [-1e-9, 1e-9].map(side);
         let (sin, cos) = angle.sin_cos();
@@ -165,20 +155,14 @@ fn a_tilted_ring_has_the_inertia_of_its_layers_where_they_are() {
 
 #[test]
 fn the_plane_ring_stands_first_and_unchanged() {
-    for kind in [
-        RingInterpolation::ExactArc,
-        RingInterpolation::Raveendranath,
-    ] {
+    for kind in [RingInterpolation::ExactArc, RingInterpolation::Raveendranath] {
         let section = section(RadiusRule::Own);
         let plane = Ring::new(12, section, kind).expect("enough nodes");
         let space = Ring::in_space(12, section, kind).expect("enough nodes");
         assert_eq!((plane.dof(), space.dof()), (36, 72));
         assert!(!plane.is_in_space() && space.is_in_space());
         assert!(plane.space_rows_at(0.3).is_none());
-        for (small, large) in [
-            (plane.stiffness(), space.stiffness()),
-            (plane.mass(), space.mass()),
-        ] {
+        for (small, large) in [(plane.stiffness(), space.stiffness()), (plane.mass(), space.mass())] {
             for i in 0..36 {
                 for j in 0..36 {
                     assert_eq!(small[(i, j)].to_bits(), large[(i, j)].to_bits());
@@ -189,10 +173,7 @@ fn the_plane_ring_stands_first_and_unchanged() {
         }
         assert_eq!(plane.rows_at(0.3), space.rows_at(0.3));
         let motion = ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]);
-        assert_eq!(
-            plane.rigid_motion_in_space(motion.0, motion.1),
-            plane.rigid_motion(1.0, 2.0, 6.0)
-        );
+        assert_eq!(plane.rigid_motion_in_space(motion.0, motion.1), plane.rigid_motion(1.0, 2.0, 6.0));
         // out of the plane it is the exact arc, whatever is asked for in it
         let exact = Ring::in_space(12, section, RingInterpolation::ExactArc).expect("nodes");
         for i in 36..72 {
@@ -235,14 +216,7 @@ fn a_support_along_the_axis_holds_its_attachment() {
     let mut held = free.clone();
     let spring = [0.0, 0.0, 1e5];
     let (from, to, share) = (0.0, TAU, SpringShare::PerNode);
-    held.add_support(&RingSupport {
-        from,
-        to,
-        spring,
-        share,
-        offset,
-    })
-    .expect("nodes stand there");
+    held.add_support(&RingSupport { from, to, spring, share, offset }).expect("nodes stand there");
     let motion = free.rigid_motion_in_space(translation, rotation);
     let mut energy = 0.0;
     for (j, right) in motion.iter().enumerate() {
@@ -259,8 +233,5 @@ fn a_support_along_the_axis_holds_its_attachment() {
         })
         .sum();
     // differences of matrix entries much larger than the springs
-    assert!(
-        (energy / expected - 1.0).abs() < 1e-6,
-        "{energy} {expected}"
-    );
+    assert!((energy / expected - 1.0).abs() < 1e-6, "{energy} {expected}");
 }

@@ -93,10 +93,7 @@ impl Ring {
         for (node, angle) in self.nodes_between(support.from, support.to)? {
             let (sin, cos) = angle.sin_cos();
             let first = NODE_DOF * node;
-            for (row, stiffness) in [
-                ([cos, sin, 0.0], support.radial),
-                ([-sin, cos, 0.0], support.tangential),
-            ] {
+            for (row, stiffness) in [([cos, sin, 0.0], support.radial), ([-sin, cos, 0.0], support.tangential)] {
                 self.add_spring(first, row, stiffness);
             }
         }
@@ -106,11 +103,7 @@ impl Ring {
     /// Attaches one spring to the ground that stretches by `row` times the three displacements from `first` on.
     fn add_spring(&mut self, first: usize, row: [f64; NODE_DOF], stiffness: f64) {
         if stiffness > 0.0 {
-            self.springs.push(RingSpring {
-                dofs: [first, first + 1, first + 2],
-                row,
-                stiffness,
-            });
+            self.springs.push(RingSpring { dofs: [first, first + 1, first + 2], row, stiffness });
         }
         for i in 0..NODE_DOF {
             for j in 0..NODE_DOF {
@@ -128,10 +121,8 @@ impl Ring {
             let past = (angle - from + round_off).rem_euclid(TAU) - round_off;
             past < span - round_off
         };
-        let angles: Vec<(usize, f64)> = (0..self.nodes)
-            .map(|node| (node, self.node_angle(node)))
-            .filter(|&(_, angle)| inside(angle))
-            .collect();
+        let angles: Vec<(usize, f64)> =
+            (0..self.nodes).map(|node| (node, self.node_angle(node))).filter(|&(_, angle)| inside(angle)).collect();
         if angles.is_empty() {
             return Err(RingError::EmptySupport {
                 from_deg: from.to_degrees(),

@@ -38,10 +38,7 @@ fn a_rigid_motion_is_interpolated_everywhere() {
 
 #[test]
 fn three_rigid_modes_and_how_far_the_paper_element_misses_them() {
-    for (kind, bound) in [
-        (RingInterpolation::ExactArc, 1e-5),
-        (RingInterpolation::Raveendranath, 2e-3),
-    ] {
+    for (kind, bound) in [(RingInterpolation::ExactArc, 1e-5), (RingInterpolation::Raveendranath, 2e-3)] {
         let ring = ring(72, kind);
         let modes = symmetric_generalised_eigen(ring.stiffness(), ring.mass()).expect("free");
         let ratio = (modes.values[2].abs() / modes.values[3]).sqrt();
@@ -57,13 +54,7 @@ fn three_rigid_modes_and_how_far_the_paper_element_misses_them() {
 fn the_lower_half_is_thirty_six_nodes_of_seventy_two() {
     let mut ring = ring(72, RingInterpolation::ExactArc);
     let before: f64 = (0..216).map(|i| ring.stiffness()[(i, i)]).sum();
-    let support = RingSupport {
-        from: PI,
-        to: TAU,
-        spring: [1e5, 1e5, 0.0],
-        share: SpringShare::PerNode,
-        offset: 0.0,
-    };
+    let support = RingSupport { from: PI, to: TAU, spring: [1e5, 1e5, 0.0], share: SpringShare::PerNode, offset: 0.0 };
     ring.add_support(&support).expect("nodes stand there");
     let after: f64 = (0..216).map(|i| ring.stiffness()[(i, i)]).sum();
     assert!(((after - before) / (36.0 * 2e5) - 1.0).abs() < 1e-6);
@@ -72,17 +63,7 @@ fn the_lower_half_is_thirty_six_nodes_of_seventy_two() {
 #[test]
 fn a_support_between_two_nodes_is_an_error() {
     let mut ring = ring(8, RingInterpolation::ExactArc);
-    let support = RingSupport {
-        from: 0.1,
-        to: 0.2,
-        spring: [1.0, 1.0, 0.0],
-        share: SpringShare::Total,
-        offset: 0.0,
-    };
+    let support = RingSupport { from: 0.1, to: 0.2, spring: [1.0, 1.0, 0.0], share: SpringShare::Total, offset: 0.0 };
     let error = ring.add_support(&support).expect_err("no node");
-    assert!(
-        error
-            .to_string()
-            .contains("the 8 nodes are 45 degrees apart")
-    );
+    assert!(error.to_string().contains("the 8 nodes are 45 degrees apart"));
 }

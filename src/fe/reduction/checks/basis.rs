@@ -3,9 +3,7 @@
 use super::matrices::largest;
 use super::{Check, CraigBampton};
 use crate::fe::assembly::SystemMatrices;
-use crate::numerics::linalg::{
-    DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense,
-};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense};
 use std::f64::consts::TAU;
 
 /// Equations solved through a factor in double precision: its contraction is below 1e-8 for a matrix worth solving
@@ -21,11 +19,7 @@ pub(super) const STATIC_INTERFACE: &str = "static interface";
 /// Interface motions with which static response is tried.
 const TRIALS: usize = 3;
 
-pub(super) fn checks(
-    condensed: &CraigBampton,
-    matrices: &SystemMatrices,
-    band_hz: f64,
-) -> Vec<Check> {
+pub(super) fn checks(condensed: &CraigBampton, matrices: &SystemMatrices, band_hz: f64) -> Vec<Check> {
     let substructure = &condensed.substructure;
     let q = condensed.basis.vectors();
     let values = condensed.basis.values();
@@ -113,14 +107,9 @@ fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
         // irrational steps: no motion is a pattern of the interface
         ((row + 1) as f64 * (1.0 + column as f64 * 0.414_213_562)).sin()
     });
-    let coordinates =
-        DenseMatrix::from_fn(condensed.superelement.order(), TRIALS, |row, column| {
-            if row < interface {
-                u[(row, column)]
-            } else {
-                0.0
-            }
-        });
+    let coordinates = DenseMatrix::from_fn(condensed.superelement.order(), TRIALS, |row, column| {
+        if row < interface { u[(row, column)] } else { 0.0 }
+    });
     let k: &SparseMatrix = &matrices.stiffness;
     let x = condensed.field(&coordinates, k.rows());
     let force = sparse_times_dense(k, &x);
@@ -137,8 +126,5 @@ fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
     let k_bb = submatrix(k, &partition.driven, &partition.driven);
     let alone = transpose_times_dense(&partition.tie, &sparse_times_dense(&k_bb, &driven));
     let scale = |a: &DenseMatrix| a.norm_l2().max(f64::MIN_POSITIVE);
-    [
-        residual.norm_l2() / scale(&pulled),
-        (&reaction - &expected).norm_l2() / scale(&alone),
-    ]
+    [residual.norm_l2() / scale(&pulled), (&reaction - &expected).norm_l2() / scale(&alone)]
 }

@@ -32,25 +32,13 @@ pub(super) fn checks(element: &Superelement) -> Result<Vec<Check>, ReductionErro
     let modal = b..n;
     let coupling = modal.clone().flat_map(|q| (0..b).map(move |row| (row, q)));
     let coupling = largest(coupling.map(|(row, q)| k[(row, q)] / root(k, row, q)));
-    let unit = modal
-        .clone()
-        .flat_map(|q| modal.clone().map(move |p| (p, q)));
+    let unit = modal.clone().flat_map(|q| modal.clone().map(move |p| (p, q)));
     let unit = largest(unit.map(|(p, q)| m[(p, q)] - f64::from(u8::from(p == q))));
     let diagonal = modal.clone().flat_map(|q| (b..q).map(move |p| (p, q)));
     let diagonal = largest(diagonal.map(|(p, q)| k[(p, q)] / root(k, p, q)));
     Ok(vec![
-        Check::at_most(
-            "stiffness symmetry",
-            "largest |k - k^T| / largest |k|",
-            asymmetry(k),
-            SYMMETRY,
-        ),
-        Check::at_most(
-            "mass symmetry",
-            "largest |m - m^T| / largest |m|",
-            asymmetry(m),
-            SYMMETRY,
-        ),
+        Check::at_most("stiffness symmetry", "largest |k - k^T| / largest |k|", asymmetry(k), SYMMETRY),
+        Check::at_most("mass symmetry", "largest |m - m^T| / largest |m|", asymmetry(m), SYMMETRY),
         Check::at_least(
             "stiffness semidefinite",
             "lowest eigenvalue of k scaled to a unit diagonal",
@@ -91,13 +79,7 @@ fn root(a: &DenseMatrix, row: usize, column: usize) -> f64 {
 
 /// Largest magnitude; not a number if one of them is none.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest: f64, value| {
-        if value.is_nan() {
-            value
-        } else {
-            largest.max(value.abs())
-        }
-    })
+    values.fold(0.0, |largest: f64, value| if value.is_nan() { value } else { largest.max(value.abs()) })
 }
 
 fn asymmetry(a: &DenseMatrix) -> f64 {
@@ -112,11 +94,7 @@ fn scaled(a: &DenseMatrix) -> DenseMatrix {
     let scale: Vec<f64> = (0..a.nrows())
         .map(|row| {
             let diagonal = a[(row, row)];
-            if diagonal > 0.0 {
-                diagonal.sqrt().recip()
-            } else {
-                1.0
-            }
+            if diagonal > 0.0 { diagonal.sqrt().recip() } else { 1.0 }
         })
         .collect();
     DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| {

@@ -41,32 +41,13 @@ pub struct Check {
 
 impl Check {
     /// A value that is good up to its limit.
-    pub(crate) fn at_most(
-        name: &'static str,
-        what: impl Into<String>,
-        value: f64,
-        limit: f64,
-    ) -> Self {
-        Self {
-            name,
-            what: what.into(),
-            value,
-            limit,
-            bound: Bound::AtMost,
-        }
+    pub(crate) fn at_most(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+        Self { name, what: what.into(), value, limit, bound: Bound::AtMost }
     }
 
     /// A value that is good from its limit on.
-    pub(crate) fn at_least(
-        name: &'static str,
-        what: impl Into<String>,
-        value: f64,
-        limit: f64,
-    ) -> Self {
-        Self {
-            bound: Bound::AtLeast,
-            ..Self::at_most(name, what, value, limit)
-        }
+    pub(crate) fn at_least(name: &'static str, what: impl Into<String>, value: f64, limit: f64) -> Self {
+        Self { bound: Bound::AtLeast, ..Self::at_most(name, what, value, limit) }
     }
 
     /// Whether it passes; a value that is no number does not.

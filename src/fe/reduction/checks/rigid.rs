@@ -3,9 +3,7 @@
 use super::matrices::largest;
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;
-use crate::numerics::linalg::{
-    DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen,
-};
+use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
 
 /// Energy of a motion that the matrices let pass, relative to the sum of the magnitudes of its terms: round-off of a sum
 /// of many terms.
@@ -60,20 +58,14 @@ impl RigidMotions {
         let housing = self.moving(condensed) * &free;
         let order = condensed.superelement.order();
         let whole = DenseMatrix::from_fn(order, interface.ncols(), |row, column| {
-            if row < interface.nrows() {
-                interface[(row, column)]
-            } else {
-                0.0
-            }
+            if row < interface.nrows() { interface[(row, column)] } else { 0.0 }
         });
         // round-off of k is that of the large terms that it was summed from, on the interface itself
         let scale = magnitude(&whole, &condensed.superelement.stiffness);
         let own = reduction.map(|reduced| reduced.nearest(&interface));
         let carried = own.as_ref().zip(reduction);
-        let field = condensed.field(
-            &carried.map_or_else(|| whole.clone(), |(own, reduced)| reduced.expanded(own)),
-            housing.nrows(),
-        );
+        let field = condensed
+            .field(&carried.map_or_else(|| whole.clone(), |(own, reduced)| reduced.expanded(own)), housing.nrows());
         let coordinates = own.unwrap_or(whole);
         let (k, m) = (&element.stiffness, &element.mass);
         let partition = condensed.substructure.partition();
@@ -106,8 +98,7 @@ impl RigidMotions {
                 "mass properties",
                 "largest difference of the rigid-body mass matrix from the mesh's, relative to both diagonals",
                 largest(pairs().map(|(row, column)| {
-                    (reduced[(row, column)] - full[(row, column)])
-                        / (full[(row, row)] * full[(column, column)]).sqrt()
+                    (reduced[(row, column)] - full[(row, column)]) / (full[(row, row)] * full[(column, column)]).sqrt()
                 })),
                 PROPERTIES,
             ),
@@ -128,20 +119,14 @@ impl RigidMotions {
     }
 
     /// Combinations of the motions that nothing holds [r x free].
-    fn free(
-        &self,
-        condensed: &CraigBampton,
-        matrices: &SystemMatrices,
-    ) -> Result<DenseMatrix, ReductionError> {
+    fn free(&self, condensed: &CraigBampton, matrices: &SystemMatrices) -> Result<DenseMatrix, ReductionError> {
         let moving = self.moving(condensed);
         let energy = moving.transpose() * sparse_times_dense(&matrices.stiffness, &moving);
         let count = energy.ncols();
         let scale: Vec<f64> = (0..count)
             .map(|motion| {
                 let column = moving.subcols(motion, 1).to_owned();
-                sparse_magnitude(&column, matrices)
-                    .max(f64::MIN_POSITIVE)
-                    .sqrt()
+                sparse_magnitude(&column, matrices).max(f64::MIN_POSITIVE).sqrt()
             })
             .collect();
         let scaled = DenseMatrix::from_fn(count, count, |row, column| {
@@ -149,9 +134,7 @@ impl RigidMotions {
         });
         let spectrum = symmetric_eigen(&scaled)?;
         let free = spectrum.values.partition_point(|&value| value <= FREE);
-        Ok(DenseMatrix::from_fn(count, free, |row, column| {
-            spectrum.vectors[(row, column)] / scale[row]
-        }))
+        Ok(DenseMatrix::from_fn(count, free, |row, column| spectrum.vectors[(row, column)] / scale[row]))
     }
 
     /// Effective mass of the interior vectors against the mass that they can have: `sum_j (q_j^T M_ii r)^2 <= r^T
@@ -169,22 +152,13 @@ impl RigidMotions {
         let factors = condensed.basis.vectors().transpose() * &moved;
         let shares: Vec<f64> = (0..motions.ncols())
             .map(|motion| {
-                let kept: f64 = (0..factors.nrows())
-                    .map(|q| factors[(q, motion)].powi(2))
-                    .sum();
-                let all: f64 = motions
-                    .col_as_slice(motion)
-                    .iter()
-                    .zip(moved.col_as_slice(motion))
-                    .map(|(x, y)| x * y)
-                    .sum();
+                let kept: f64 = (0..factors.nrows()).map(|q| factors[(q, motion)].powi(2)).sum();
+                let all: f64 =
+                    motions.col_as_slice(motion).iter().zip(moved.col_as_slice(motion)).map(|(x, y)| x * y).sum();
                 if all > 0.0 { kept / all } else { 0.0 }
             })
             .collect();
-        let listed: Vec<String> = shares
-            .iter()
-            .map(|share| format!("{:.1} %", 100.0 * share))
-            .collect();
+        let listed: Vec<String> = shares.iter().map(|share| format!("{:.1} %", 100.0 * share)).collect();
         Some(Check::at_most(
             "effective mass",
             format!(
@@ -210,11 +184,7 @@ fn zero_modes(condensed: &CraigBampton, element: &Superelement, expected: usize)
             Check::at_most(
                 "rigid modes",
                 format!("frequency of the {expected} rigid modes / first elastic frequency"),
-                if elastic > 0.0 {
-                    (rigid / elastic).sqrt()
-                } else {
-                    f64::INFINITY
-                },
+                if elastic > 0.0 { (rigid / elastic).sqrt() } else { f64::INFINITY },
                 RIGID,
             )
         }
@@ -224,11 +194,7 @@ fn zero_modes(condensed: &CraigBampton, element: &Superelement, expected: usize)
             Check::at_least(
                 "held",
                 "lowest frequency / first fixed-interface frequency; below the limit the housing is a mechanism",
-                if elastic > 0.0 {
-                    (elastic / fixed).sqrt()
-                } else {
-                    0.0
-                },
+                if elastic > 0.0 { (elastic / fixed).sqrt() } else { 0.0 },
                 HELD,
             )
         }

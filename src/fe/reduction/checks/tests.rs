@@ -4,8 +4,7 @@ use super::{Check, RigidMotions, check_craig_bampton, check_interface_reduction}
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::reduction::samples::{both_ends, every_third, grounded_rod, rod};
 use crate::fe::reduction::{
-    BasisChoice, BasisSize, CharacteristicModes, CraigBampton, InterfaceReduction, InterfaceSize,
-    craig_bampton,
+    BasisChoice, BasisSize, CharacteristicModes, CraigBampton, InterfaceReduction, InterfaceSize, craig_bampton,
 };
 use crate::numerics::linalg::DenseMatrix;
 
@@ -15,11 +14,7 @@ const NODES: usize = 30;
 const BAND_HZ: f64 = 0.1;
 
 fn condensed(matrices: &SystemMatrices, enhanced: bool) -> CraigBampton {
-    let choice = BasisChoice {
-        size: BasisSize::Count(14),
-        enhanced,
-        band_hz: BAND_HZ,
-    };
+    let choice = BasisChoice { size: BasisSize::Count(14), enhanced, band_hz: BAND_HZ };
     craig_bampton(matrices, &both_ends(NODES), choice, None).expect("connected")
 }
 
@@ -64,15 +59,9 @@ type Break = fn(&mut CraigBampton);
 
 /// What breaks, and the check that must name it; others may fire beside it.
 const BREAKS: [(&str, Break); 16] = [
-    ("stiffness symmetry", |c| {
-        c.superelement.stiffness[(0, 1)] *= 1.0 + 1e-9
-    }),
-    ("mass symmetry", |c| {
-        c.superelement.mass[(0, 3)] *= 1.0 + 1e-9
-    }),
-    ("stiffness semidefinite", |c| {
-        c.superelement.stiffness[(2, 2)] *= -1.0
-    }),
+    ("stiffness symmetry", |c| c.superelement.stiffness[(0, 1)] *= 1.0 + 1e-9),
+    ("mass symmetry", |c| c.superelement.mass[(0, 3)] *= 1.0 + 1e-9),
+    ("stiffness semidefinite", |c| c.superelement.stiffness[(2, 2)] *= -1.0),
     ("mass definite", |c| c.superelement.mass[(1, 1)] = 1e-20),
     ("k_bq = 0", |c| {
         c.superelement.stiffness[(0, 4)] += 1e-7;
@@ -83,29 +72,15 @@ const BREAKS: [(&str, Break); 16] = [
         c.superelement.stiffness[(4, 3)] += 1e-7;
     }),
     ("m_qq = 1", |c| c.superelement.mass[(5, 5)] += 1e-7),
-    ("vectors orthonormal", |c| {
-        scale(&mut c.basis.vectors, 2, 1.0 + 1e-7)
-    }),
+    ("vectors orthonormal", |c| scale(&mut c.basis.vectors, 2, 1.0 + 1e-7)),
     ("vectors diagonalise", |c| c.basis.values[1] *= 1.0 + 1e-7),
-    ("constraint modes orthogonal", |c| {
-        c.substructure.constraint_modes[(3, 0)] += 1e-6
-    }),
-    ("static interior", |c| {
-        c.substructure.constraint_modes[(3, 0)] += 1e-6
-    }),
-    ("static interface", |c| {
-        c.superelement.stiffness[(0, 0)] += 1e-6
-    }),
+    ("constraint modes orthogonal", |c| c.substructure.constraint_modes[(3, 0)] += 1e-6),
+    ("static interior", |c| c.substructure.constraint_modes[(3, 0)] += 1e-6),
+    ("static interface", |c| c.superelement.stiffness[(0, 0)] += 1e-6),
     ("rigid modes", |c| c.superelement.stiffness[(1, 1)] += 1e-6),
-    ("effective mass", |c| {
-        (0..14).for_each(|q| scale(&mut c.basis.vectors, q, 1.2))
-    }),
-    ("rigid motions carried", |c| {
-        c.substructure.constraint_modes[(9, 1)] += 1e-6
-    }),
-    ("mass properties", |c| {
-        c.superelement.mass[(0, 0)] *= 1.0 + 1e-6
-    }),
+    ("effective mass", |c| (0..14).for_each(|q| scale(&mut c.basis.vectors, q, 1.2))),
+    ("rigid motions carried", |c| c.substructure.constraint_modes[(9, 1)] += 1e-6),
+    ("mass properties", |c| c.superelement.mass[(0, 0)] *= 1.0 + 1e-6),
 ];
 
 fn scale(matrix: &mut DenseMatrix, column: usize, factor: f64) {
@@ -144,11 +119,7 @@ fn every_check_is_broken_here() {
     let checks = |matrices: &SystemMatrices| {
         let condensed = condensed(matrices, false);
         let checks = check_craig_bampton(&condensed, matrices, &translation(), BAND_HZ);
-        checks
-            .expect("finite")
-            .iter()
-            .map(|check| check.name)
-            .collect::<Vec<_>>()
+        checks.expect("finite").iter().map(|check| check.name).collect::<Vec<_>>()
     };
     let others = ["rigid energy", "band covered", "held"];
     for name in [checks(&rod(NODES)), checks(&grounded_rod(NODES, 1e-3))].concat() {
@@ -159,10 +130,7 @@ fn every_check_is_broken_here() {
 
 #[test]
 fn a_value_that_is_no_number_fails() {
-    for check in [
-        Check::at_most("a", "", f64::NAN, 1.0),
-        Check::at_least("a", "", f64::NAN, 1.0),
-    ] {
+    for check in [Check::at_most("a", "", f64::NAN, 1.0), Check::at_least("a", "", f64::NAN, 1.0)] {
         assert!(!check.ok());
     }
     assert!(Check::at_most("a", "", 1.0, 1.0).ok() && Check::at_least("a", "", 1.0, 1.0).ok());
@@ -170,20 +138,10 @@ fn a_value_that_is_no_number_fails() {
 
 /// Names of the checks of the rod on five modes of its ten interface nodes, and whether they pass, after something was
 /// done to it.
-fn on_modes(
-    matrices: &SystemMatrices,
-    change: impl FnOnce(&mut InterfaceReduction),
-) -> Vec<(&'static str, bool)> {
-    let choice = BasisChoice {
-        size: BasisSize::Count(14),
-        enhanced: false,
-        band_hz: BAND_HZ,
-    };
+fn on_modes(matrices: &SystemMatrices, change: impl FnOnce(&mut InterfaceReduction)) -> Vec<(&'static str, bool)> {
+    let choice = BasisChoice { size: BasisSize::Count(14), enhanced: false, band_hz: BAND_HZ };
     let condensed = craig_bampton(matrices, &every_third(NODES), choice, None).expect("connected");
-    let rigid = RigidMotions {
-        interface: DenseMatrix::from_fn(10, 1, |_, _| 1.0),
-        ..translation()
-    };
+    let rigid = RigidMotions { interface: DenseMatrix::from_fn(10, 1, |_, _| 1.0), ..translation() };
     let free = rigid.free_interface(&condensed, matrices).expect("finite");
     let modes = CharacteristicModes::of(&condensed.substructure, None, &free).expect("finite");
     let reduction = InterfaceReduction::new(&condensed, &modes, InterfaceSize::Count(5));
@@ -191,10 +149,7 @@ fn on_modes(
     change(&mut reduction);
     let checks = check_interface_reduction(&condensed, &reduction, matrices, &rigid, BAND_HZ);
     let checks = checks.expect("finite");
-    checks
-        .iter()
-        .map(|check| (check.name, check.ok()))
-        .collect()
+    checks.iter().map(|check| (check.name, check.ok())).collect()
 }
 
 #[test]
@@ -210,9 +165,7 @@ fn a_reduced_interface_keeps_all_checks_but_statics() {
         let expected = expected.iter().map(|check| check.name);
         assert_eq!(
             found.iter().map(names).collect::<Vec<_>>(),
-            expected
-                .filter(|name| *name != "static interface")
-                .collect::<Vec<_>>()
+            expected.filter(|name| *name != "static interface").collect::<Vec<_>>()
         );
     }
 }
@@ -221,13 +174,9 @@ fn a_reduced_interface_keeps_all_checks_but_statics() {
 fn checks_of_a_reduced_interface_fire() {
     type Break = fn(&mut InterfaceReduction);
     let breaks: [(&str, Break); 10] = [
-        ("stiffness symmetry", |r| {
-            r.superelement.stiffness[(1, 2)] += 1e-6
-        }),
+        ("stiffness symmetry", |r| r.superelement.stiffness[(1, 2)] += 1e-6),
         ("mass symmetry", |r| r.superelement.mass[(0, 6)] += 1e-6),
-        ("stiffness semidefinite", |r| {
-            r.superelement.stiffness[(2, 2)] *= -1.0
-        }),
+        ("stiffness semidefinite", |r| r.superelement.stiffness[(2, 2)] *= -1.0),
         ("mass definite", |r| r.superelement.mass[(1, 1)] = 1e-20),
         ("k_bq = 0", |r| {
             r.superelement.stiffness[(1, 7)] += 1e-6;
@@ -237,9 +186,7 @@ fn checks_of_a_reduced_interface_fire() {
         ("rigid modes", |r| r.superelement.stiffness[(0, 0)] += 1e-6),
         ("rigid motions carried", |r| r.transform[(4, 0)] += 1e-5),
         ("rigid energy", |r| r.superelement.stiffness[(0, 0)] += 1e-3),
-        ("mass properties", |r| {
-            r.superelement.mass[(0, 0)] *= 1.0 + 1e-6
-        }),
+        ("mass properties", |r| r.superelement.mass[(0, 0)] *= 1.0 + 1e-6),
     ];
     for (name, break_it) in breaks {
         let found = on_modes(&rod(NODES), break_it);

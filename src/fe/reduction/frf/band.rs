@@ -25,12 +25,7 @@ impl Window {
             _ => (f64::NAN, f64::NAN),
         };
         if !(first <= low && high <= last) {
-            return Err(FrfError::NotCovered {
-                low,
-                high,
-                first,
-                last,
-            });
+            return Err(FrfError::NotCovered { low, high, first, last });
         }
         let mut weights = Vec::new();
         for (place, pair) in frequencies_hz.windows(2).enumerate() {
@@ -42,10 +37,7 @@ impl Window {
                 weights.push((place + 1, (end - start) * middle));
             }
         }
-        Ok(Self {
-            weights,
-            width: high - low,
-        })
+        Ok(Self { weights, width: high - low })
     }
 
     /// Integral of values at the list's places over the band, Hz times their unit.
@@ -56,11 +48,7 @@ impl Window {
 }
 
 pub(super) fn check_band([low, high]: [f64; 2]) -> Result<[f64; 2], FrfError> {
-    if low >= 0.0 && low < high && high.is_finite() {
-        Ok([low, high])
-    } else {
-        Err(FrfError::Band { low, high })
-    }
+    if low >= 0.0 && low < high && high.is_finite() { Ok([low, high]) } else { Err(FrfError::Band { low, high }) }
 }
 
 /// A variant's response over frequency.
@@ -92,16 +80,8 @@ pub struct RankedVariant {
 ///
 /// # Errors
 /// [`FrfError::Shape`], [`FrfError::Band`], [`FrfError::Frequency`], [`FrfError::Order`], [`FrfError::NotCovered`].
-pub fn energy_mean(
-    frequencies_hz: &[f64],
-    magnitudes: &[f64],
-    band_hz: [f64; 2],
-) -> Result<f64, FrfError> {
-    same(
-        "number of magnitudes",
-        frequencies_hz.len(),
-        magnitudes.len(),
-    )?;
+pub fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [f64; 2]) -> Result<f64, FrfError> {
+    same("number of magnitudes", frequencies_hz.len(), magnitudes.len())?;
     let window = Window::new(frequencies_hz, band_hz)?;
     Ok(window.integral(|place| magnitudes[place] * magnitudes[place]) / window.width)
 }
@@ -117,11 +97,7 @@ pub fn rank_in_band(
     reference: f64,
 ) -> Result<Vec<RankedVariant>, FrfError> {
     if !(reference > 0.0 && reference.is_finite()) {
-        return Err(FrfError::Grid {
-            what: "the reference of a level",
-            rule: "positive and finite",
-            value: reference,
-        });
+        return Err(FrfError::Grid { what: "the reference of a level", rule: "positive and finite", value: reference });
     }
     let mut ranked = Vec::with_capacity(variants.len());
     for (index, variant) in variants.iter().enumerate() {
@@ -156,10 +132,7 @@ mod tests {
         let magnitudes: Vec<f64> = list.iter().map(|f: &f64| f.sqrt()).collect();
         for [low, high] in [[0.0, 10.0], [0.5, 3.5], [1.0, 2.0], [0.2, 9.0]] {
             let found = energy_mean(&list, &magnitudes, [low, high]).expect("covered");
-            assert!(
-                (found - 0.5 * (low + high)).abs() < 1e-14,
-                "{low} {high} {found}"
-            );
+            assert!((found - 0.5 * (low + high)).abs() < 1e-14, "{low} {high} {found}");
         }
     }
 
@@ -171,23 +144,13 @@ mod tests {
         // half of the band at 2e-2, half at nothing: 3 dB below loud, whatever the spacing
         let coarse = [0.0, 10.0, 55.0, 55.0 + 1e-9, 100.0];
         let half = [0.02, 0.02, 0.02, 0.0, 0.0];
-        let variant = |name, frequencies_hz, magnitudes| BandVariant {
-            name,
-            frequencies_hz,
-            magnitudes,
-        };
-        let variants = [
-            variant("loud", &fine[..], &loud[..]),
-            variant("half", &coarse, &half),
-            variant("quiet", &fine, &quiet),
-        ];
+        let variant = |name, frequencies_hz, magnitudes| BandVariant { name, frequencies_hz, magnitudes };
+        let variants =
+            [variant("loud", &fine[..], &loud[..]), variant("half", &coarse, &half), variant("quiet", &fine, &quiet)];
         let ranked = rank_in_band(&variants, [10.0, 100.0], 1e-3).expect("covered");
         let names: Vec<&str> = ranked.iter().map(|one| one.name.as_str()).collect();
         assert_eq!(names, ["quiet", "half", "loud"]);
-        let exact = [
-            20.0 * 2f64.log10(),
-            20.0 * 20f64.log10() - 10.0 * 2f64.log10(),
-        ];
+        let exact = [20.0 * 2f64.log10(), 20.0 * 20f64.log10() - 10.0 * 2f64.log10()];
         for (found, exact) in ranked.iter().zip(exact) {
             // the step is a billionth of a hertz wide
             assert!((found.mean_db - exact).abs() < 1e-9, "{found:?}");
@@ -199,8 +162,7 @@ mod tests {
     #[test]
     fn each_rule_fires() {
         let message = |list: &[f64], magnitudes: &[f64], band| {
-            energy_mean(list, magnitudes, band)
-                .map_or_else(|error| error.to_string(), |x| x.to_string())
+            energy_mean(list, magnitudes, band).map_or_else(|error| error.to_string(), |x| x.to_string())
         };
         let one = [1.0; 3];
         assert_eq!(
@@ -211,18 +173,9 @@ mod tests {
             message(&[1.0, 2.0, 3.0], &one, [2.0, 2.0]),
             "a band goes from a frequency of zero or more to a higher one, found 2 Hz to 2 Hz"
         );
-        assert_eq!(
-            message(&[1.0, 3.0, 2.0], &one, [1.0, 2.0]),
-            "frequencies must ascend, found 2 Hz after 3 Hz"
-        );
-        assert_eq!(
-            message(&[1.0, 2.0], &one, [1.0, 2.0]),
-            "number of magnitudes: expected 2, found 3"
-        );
+        assert_eq!(message(&[1.0, 3.0, 2.0], &one, [1.0, 2.0]), "frequencies must ascend, found 2 Hz after 3 Hz");
+        assert_eq!(message(&[1.0, 2.0], &one, [1.0, 2.0]), "number of magnitudes: expected 2, found 3");
         let error = rank_in_band(&[], [0.0, 1.0], 0.0).expect_err("reference");
-        assert_eq!(
-            error.to_string(),
-            "the reference of a level must be positive and finite, found 0"
-        );
+        assert_eq!(error.to_string(), "the reference of a level must be positive and finite, found 0");
     }
 }

@@ -72,11 +72,7 @@ impl ModalDamping {
 }
 
 fn check_ratio(ratio: f64) -> Result<(), FrfError> {
-    if (0.0..1.0).contains(&ratio) {
-        Ok(())
-    } else {
-        Err(FrfError::Ratio { ratio })
-    }
+    if (0.0..1.0).contains(&ratio) { Ok(()) } else { Err(FrfError::Ratio { ratio }) }
 }
 
 fn interpolated(points: &[(f64, f64)], hz: f64) -> Option<f64> {
@@ -109,10 +105,7 @@ mod tests {
     fn points_are_joined_by_straight_lines() {
         let points = ModalDamping::Points(vec![(100.0, 0.01), (200.0, 0.03), (400.0, 0.02)]);
         let found = ratios(&points, &[50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 900.0]);
-        for (found, exact) in found
-            .iter()
-            .zip([0.01, 0.01, 0.02, 0.03, 0.025, 0.02, 0.02])
-        {
+        for (found, exact) in found.iter().zip([0.01, 0.01, 0.02, 0.03, 0.025, 0.02, 0.02]) {
             assert!((found - exact).abs() < 1e-15, "{found} {exact}");
         }
     }
@@ -120,18 +113,12 @@ mod tests {
     #[test]
     fn rayleigh_has_its_two_ratios() {
         // 1 % at 2 and 40 kHz
-        let damping = ModalDamping::Rayleigh {
-            alpha: 239.359_440_273_508_06,
-            beta: 7.578_806_813_899_779e-8,
-        };
+        let damping = ModalDamping::Rayleigh { alpha: 239.359_440_273_508_06, beta: 7.578_806_813_899_779e-8 };
         for found in ratios(&damping, &[2e3, 40e3]) {
             assert!((found - 0.01).abs() < 1e-12, "{found}");
         }
         assert_eq!(damping.rates(&[0.0]), Ok(vec![239.359_440_273_508_06]));
-        assert_eq!(
-            ModalDamping::Uniform(0.1).rates(&[0.0, 5.0]),
-            Ok(vec![0.0, 1.0])
-        );
+        assert_eq!(ModalDamping::Uniform(0.1).rates(&[0.0, 5.0]), Ok(vec![0.0, 1.0]));
     }
 
     #[test]
@@ -144,28 +131,13 @@ mod tests {
         assert_eq!(message(ModalDamping::Uniform(1.0)), format!("{rule} 1"));
         let each = |ratios: &[f64]| ModalDamping::Each(ratios.to_vec());
         assert_eq!(message(each(&[0.5, -0.5])), format!("{rule} -0.5"));
-        assert_eq!(
-            message(each(&[0.5])),
-            "number of damping ratios: expected 2, found 1"
-        );
+        assert_eq!(message(each(&[0.5])), "number of damping ratios: expected 2, found 1");
         let points = |points: &[(f64, f64)]| ModalDamping::Points(points.to_vec());
         assert_eq!(message(points(&[(1.0, f64::NAN)])), format!("{rule} NaN"));
-        assert_eq!(
-            message(points(&[])),
-            "damping ratios over frequency need at least one point"
-        );
-        assert_eq!(
-            message(points(&[(2.0, 0.1), (2.0, 0.1)])),
-            "frequencies must ascend, found 2 Hz after 2 Hz"
-        );
-        assert_eq!(
-            message(points(&[(-2.0, 0.1)])),
-            "a frequency must be zero or more and finite, found -2 Hz"
-        );
-        let rayleigh = ModalDamping::Rayleigh {
-            alpha: 0.0,
-            beta: -1e-9,
-        };
+        assert_eq!(message(points(&[])), "damping ratios over frequency need at least one point");
+        assert_eq!(message(points(&[(2.0, 0.1), (2.0, 0.1)])), "frequencies must ascend, found 2 Hz after 2 Hz");
+        assert_eq!(message(points(&[(-2.0, 0.1)])), "a frequency must be zero or more and finite, found -2 Hz");
+        let rayleigh = ModalDamping::Rayleigh { alpha: 0.0, beta: -1e-9 };
         assert_eq!(
             message(rayleigh),
             "the damping coefficient beta must be zero or more and finite, found -0.000000001"

@@ -37,11 +37,7 @@ pub fn direct_response(
         .collect();
     let solved: Vec<(ComplexMatrix, f64)> = solved.into_iter().collect::<Result<_, _>>()?;
     let (receptance, uncertainty) = solved.into_iter().unzip();
-    Ok(FrequencyResponse {
-        frequencies_hz: frequencies_hz.to_vec(),
-        receptance,
-        uncertainty,
-    })
+    Ok(FrequencyResponse { frequencies_hz: frequencies_hz.to_vec(), receptance, uncertainty })
 }
 
 /// `Z(w)` at w in rad/s.

@@ -31,9 +31,7 @@ pub enum FrfError {
         next: f64,
     },
     /// A band without width, or out of range.
-    #[error(
-        "a band goes from a frequency of zero or more to a higher one, found {low} Hz to {high} Hz"
-    )]
+    #[error("a band goes from a frequency of zero or more to a higher one, found {low} Hz to {high} Hz")]
     Band {
         /// Its lower end, Hz.
         low: f64,
@@ -41,9 +39,7 @@ pub enum FrfError {
         high: f64,
     },
     /// A band of which a part was not computed.
-    #[error(
-        "the band {low} Hz to {high} Hz is not covered by the response, which goes from {first} Hz to {last} Hz"
-    )]
+    #[error("the band {low} Hz to {high} Hz is not covered by the response, which goes from {first} Hz to {last} Hz")]
     NotCovered {
         /// The band's lower end, Hz.
         low: f64,
@@ -114,17 +110,11 @@ pub enum FrfError {
 
 /// Frequencies that are zero or more, finite and ascending.
 pub(super) fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), FrfError> {
-    if let Some(&hz) = frequencies_hz
-        .iter()
-        .find(|hz| !(**hz >= 0.0 && hz.is_finite()))
-    {
+    if let Some(&hz) = frequencies_hz.iter().find(|hz| !(**hz >= 0.0 && hz.is_finite())) {
         return Err(FrfError::Frequency { hz });
     }
     match frequencies_hz.windows(2).find(|pair| pair[1] <= pair[0]) {
-        Some(pair) => Err(FrfError::Order {
-            hz: pair[0],
-            next: pair[1],
-        }),
+        Some(pair) => Err(FrfError::Order { hz: pair[0], next: pair[1] }),
         None => Ok(()),
     }
 }

@@ -33,18 +33,11 @@ const SAME: f64 = 1e-9;
 ///
 /// # Errors
 /// [`FrfError::Band`], [`FrfError::Grid`], [`FrfError::Frequency`] and [`FrfError::Coefficient`] of a resonance.
-pub fn frequency_list(
-    grid: &FrequencyGrid,
-    resonances: &[Resonance],
-) -> Result<Vec<f64>, FrfError> {
+pub fn frequency_list(grid: &FrequencyGrid, resonances: &[Resonance]) -> Result<Vec<f64>, FrfError> {
     let [low, high] = check_band(grid.band_hz)?;
-    for (what, value) in [
-        ("the number of intervals", grid.intervals),
-        (
-            "the number of points in a bandwidth",
-            grid.points_a_bandwidth,
-        ),
-    ] {
+    for (what, value) in
+        [("the number of intervals", grid.intervals), ("the number of points in a bandwidth", grid.points_a_bandwidth)]
+    {
         if value == 0 {
             let rule = "one or more";
             let value = 0.0;
@@ -59,9 +52,7 @@ pub fn frequency_list(
         });
     }
     let step = (high - low) / grid.intervals as f64;
-    let mut list: Vec<f64> = (0..grid.intervals)
-        .map(|place| low + place as f64 * step)
-        .collect();
+    let mut list: Vec<f64> = (0..grid.intervals).map(|place| low + place as f64 * step).collect();
     list.push(high);
     for resonance in resonances {
         list.extend(around(grid, resonance)?);
@@ -77,18 +68,12 @@ pub fn frequency_list(
 }
 
 fn around(grid: &FrequencyGrid, resonance: &Resonance) -> Result<Vec<f64>, FrfError> {
-    let Resonance {
-        frequency_hz: centre,
-        ratio,
-    } = *resonance;
+    let Resonance { frequency_hz: centre, ratio } = *resonance;
     if !(centre >= 0.0 && centre.is_finite()) {
         return Err(FrfError::Frequency { hz: centre });
     }
     if !(ratio >= 0.0 && ratio.is_finite()) {
-        return Err(FrfError::Coefficient {
-            name: "ratio",
-            value: ratio,
-        });
+        return Err(FrfError::Coefficient { name: "ratio", value: ratio });
     }
     let step = 2.0 * ratio * centre / grid.points_a_bandwidth as f64;
     if step <= SAME * centre {
@@ -96,9 +81,7 @@ fn around(grid: &FrequencyGrid, resonance: &Resonance) -> Result<Vec<f64>, FrfEr
     }
     // rounded up: the reach asked for is covered
     let steps = (grid.reach * grid.points_a_bandwidth as f64).ceil() as i64;
-    Ok((-steps..=steps)
-        .map(|place| centre + place as f64 * step)
-        .collect())
+    Ok((-steps..=steps).map(|place| centre + place as f64 * step).collect())
 }
 
 #[cfg(test)]
@@ -106,20 +89,12 @@ mod tests {
     use super::*;
 
     fn grid(band_hz: [f64; 2], intervals: usize) -> FrequencyGrid {
-        FrequencyGrid {
-            band_hz,
-            intervals,
-            points_a_bandwidth: 4,
-            reach: 3.0,
-        }
+        FrequencyGrid { band_hz, intervals, points_a_bandwidth: 4, reach: 3.0 }
     }
 
     #[test]
     fn a_resonance_is_resolved_and_the_grid_is_kept() {
-        let one = [Resonance {
-            frequency_hz: 333.0,
-            ratio: 0.01,
-        }];
+        let one = [Resonance { frequency_hz: 333.0, ratio: 0.01 }];
         let list = frequency_list(&grid([0.0, 1000.0], 10), &one).expect("in range");
         assert!(list.windows(2).all(|pair| pair[0] < pair[1]));
         let has = |hz: f64| list.iter().any(|own| (own - hz).abs() < 1e-9);
@@ -135,17 +110,8 @@ mod tests {
 
     #[test]
     fn points_outside_and_points_twice_are_left_out() {
-        let resonances = [
-            (995.0, 0.01),
-            (995.0, 0.01),
-            (500.0, 0.0),
-            (0.0, 0.02),
-            (5000.0, 0.001),
-        ]
-        .map(|(frequency_hz, ratio)| Resonance {
-            frequency_hz,
-            ratio,
-        });
+        let resonances = [(995.0, 0.01), (995.0, 0.01), (500.0, 0.0), (0.0, 0.02), (5000.0, 0.001)]
+            .map(|(frequency_hz, ratio)| Resonance { frequency_hz, ratio });
         let list = frequency_list(&grid([900.0, 1000.0], 1), &resonances).expect("in range");
         // 19.9 Hz a bandwidth, steps of 4.975: from 935.3 to 999.975
         assert_eq!(list.len(), 2 + 14);
@@ -157,45 +123,20 @@ mod tests {
     fn each_rule_fires() {
         let good = grid([0.0, 10.0], 5);
         let message = |grid: FrequencyGrid, frequency_hz: f64, ratio: f64| {
-            let one = [Resonance {
-                frequency_hz,
-                ratio,
-            }];
-            frequency_list(&grid, &one)
-                .map_or_else(|error| error.to_string(), |list| format!("{list:?}"))
+            let one = [Resonance { frequency_hz, ratio }];
+            frequency_list(&grid, &one).map_or_else(|error| error.to_string(), |list| format!("{list:?}"))
         };
-        let broken = FrequencyGrid {
-            intervals: 0,
-            ..good
-        };
-        assert_eq!(
-            message(broken, 1.0, 0.1),
-            "the number of intervals must be one or more, found 0"
-        );
-        let broken = FrequencyGrid {
-            points_a_bandwidth: 0,
-            ..good
-        };
-        assert_eq!(
-            message(broken, 1.0, 0.1),
-            "the number of points in a bandwidth must be one or more, found 0"
-        );
-        let broken = FrequencyGrid {
-            reach: f64::NAN,
-            ..good
-        };
-        assert_eq!(
-            message(broken, 1.0, 0.1),
-            "the reach in bandwidths must be zero or more and finite, found NaN"
-        );
+        let broken = FrequencyGrid { intervals: 0, ..good };
+        assert_eq!(message(broken, 1.0, 0.1), "the number of intervals must be one or more, found 0");
+        let broken = FrequencyGrid { points_a_bandwidth: 0, ..good };
+        assert_eq!(message(broken, 1.0, 0.1), "the number of points in a bandwidth must be one or more, found 0");
+        let broken = FrequencyGrid { reach: f64::NAN, ..good };
+        assert_eq!(message(broken, 1.0, 0.1), "the reach in bandwidths must be zero or more and finite, found NaN");
         assert_eq!(
             message(grid([3.0, 2.0], 5), 1.0, 0.1),
             "a band goes from a frequency of zero or more to a higher one, found 3 Hz to 2 Hz"
         );
-        assert_eq!(
-            message(good, -1.0, 0.1),
-            "a frequency must be zero or more and finite, found -1 Hz"
-        );
+        assert_eq!(message(good, -1.0, 0.1), "a frequency must be zero or more and finite, found -1 Hz");
         assert_eq!(
             message(good, 1.0, -0.1),
             "the damping coefficient ratio must be zero or more and finite, found -0.1"

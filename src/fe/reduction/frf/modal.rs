@@ -14,9 +14,7 @@
 use super::error::check_frequencies;
 use super::response::check_path;
 use super::{FrequencyResponse, FrfError, FrfPaths, ModalDamping, ReducedSystem};
-use crate::numerics::linalg::{
-    ComplexMatrix, DenseCholesky, DenseMatrix, acting_generalised_eigen,
-};
+use crate::numerics::linalg::{ComplexMatrix, DenseCholesky, DenseMatrix, acting_generalised_eigen};
 use faer::{Scale, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -59,11 +57,7 @@ impl ModalBasis {
     /// [`FrfError::Linalg`].
     pub fn new(system: &ReducedSystem) -> Result<Self, FrfError> {
         let spectrum = acting_generalised_eigen(system.stiffness(), system.mass())?;
-        let count = spectrum
-            .values
-            .iter()
-            .take_while(|value| value.is_finite())
-            .count();
+        let count = spectrum.values.iter().take_while(|value| value.is_finite()).count();
         let squared = spectrum.values[..count].to_vec();
         let omegas: Vec<f64> = squared.iter().map(|value| value.max(0.0).sqrt()).collect();
         Ok(Self {
@@ -90,16 +84,10 @@ impl ModalBasis {
     ///
     /// # Errors
     /// As [`ModalDamping::rates`].
-    pub fn viscous_matrix(
-        &self,
-        system: &ReducedSystem,
-        damping: &ModalDamping,
-    ) -> Result<DenseMatrix, FrfError> {
+    pub fn viscous_matrix(&self, system: &ReducedSystem, damping: &ModalDamping) -> Result<DenseMatrix, FrfError> {
         let rates = damping.rates(&self.omegas)?;
         let heavy = system.mass() * &self.shapes;
-        let scaled = DenseMatrix::from_fn(heavy.nrows(), heavy.ncols(), |row, mode| {
-            heavy[(row, mode)] * rates[mode]
-        });
+        let scaled = DenseMatrix::from_fn(heavy.nrows(), heavy.ncols(), |row, mode| heavy[(row, mode)] * rates[mode]);
         Ok(scaled * heavy.transpose())
     }
 }
@@ -142,9 +130,7 @@ impl ModalSuperposition {
         add(system.structural(), &mut losses);
         let seen = &paths.sensors * &basis.shapes;
         let driven = basis.shapes.transpose() * &paths.loads;
-        let mut residual = weighted(&seen, &driven, kept..available, |mode| {
-            1.0 / basis.squared[mode]
-        });
+        let mut residual = weighted(&seen, &driven, kept..available, |mode| 1.0 / basis.squared[mode]);
         if basis.has_massless {
             residual += massless_statics(system, basis, paths, &seen, &driven)?;
         }
@@ -203,9 +189,7 @@ impl ModalSuperposition {
             .collect();
         ComplexMatrix::from_fn(self.seen.nrows(), self.driven.ncols(), |sensor, load| {
             let parts = changes.iter().zip(first..);
-            parts
-                .map(|(change, mode)| *change * self.weight(sensor, load, mode))
-                .sum()
+            parts.map(|(change, mode)| *change * self.weight(sensor, load, mode)).sum()
         })
     }
 
@@ -222,17 +206,13 @@ impl ModalSuperposition {
             .map(|&hz| {
                 let amplitudes = self.amplitudes(hz)?;
                 Ok(ComplexMatrix::from_fn(sensors, loads, |sensor, load| {
-                    let carried: c64 = (0..self.modes())
-                        .map(|mode| amplitudes[mode] * self.weight(sensor, load, mode))
-                        .sum();
+                    let carried: c64 =
+                        (0..self.modes()).map(|mode| amplitudes[mode] * self.weight(sensor, load, mode)).sum();
                     carried + self.residual[(sensor, load)]
                 }))
             })
             .collect();
-        FrequencyResponse::new(
-            frequencies_hz.to_vec(),
-            receptance.into_iter().collect::<Result<_, _>>()?,
-        )
+        FrequencyResponse::new(frequencies_hz.to_vec(), receptance.into_iter().collect::<Result<_, _>>()?)
     }
 
     /// What each mode contributes to the receptance of one path at ascending frequencies (Hz) [modes + 1 x frequencies];
@@ -240,31 +220,19 @@ impl ModalSuperposition {
     ///
     /// # Errors
     /// [`FrfError::NoSuchPath`], and as [`ModalSuperposition::response`].
-    pub fn contributions(
-        &self,
-        sensor: usize,
-        load: usize,
-        frequencies_hz: &[f64],
-    ) -> Result<ComplexMatrix, FrfError> {
+    pub fn contributions(&self, sensor: usize, load: usize, frequencies_hz: &[f64]) -> Result<ComplexMatrix, FrfError> {
         check_path("sensor", sensor, self.seen.nrows())?;
         check_path("load", load, self.driven.ncols())?;
         check_frequencies(frequencies_hz)?;
         let modes = self.modes();
-        let columns: Vec<Vec<c64>> = frequencies_hz
-            .iter()
-            .map(|&hz| self.amplitudes(hz))
-            .collect::<Result<_, _>>()?;
-        Ok(ComplexMatrix::from_fn(
-            modes + 1,
-            columns.len(),
-            |mode, column| {
-                if mode < modes {
-                    columns[column][mode] * self.weight(sensor, load, mode)
-                } else {
-                    c64::new(self.residual[(sensor, load)], 0.0)
-                }
-            },
-        ))
+        let columns: Vec<Vec<c64>> = frequencies_hz.iter().map(|&hz| self.amplitudes(hz)).collect::<Result<_, _>>()?;
+        Ok(ComplexMatrix::from_fn(modes + 1, columns.len(), |mode, column| {
+            if mode < modes {
+                columns[column][mode] * self.weight(sensor, load, mode)
+            } else {
+                c64::new(self.residual[(sensor, load)], 0.0)
+            }
+        }))
     }
 
     fn weight(&self, sensor: usize, load: usize, mode: usize) -> f64 {
@@ -280,11 +248,7 @@ impl ModalSuperposition {
             // an undamped mode is known to round-off of its own frequency; a rigid one of that of the first elastic ones
             let certain = f64::EPSILON / LARGEST_UNCERTAINTY * self.squared[mode].abs();
             let rigid = omega == 0.0 && self.squared[mode] <= RIGID * self.elastic();
-            if stiffness.norm() <= certain || rigid {
-                Err(FrfError::Unbounded { hz })
-            } else {
-                Ok(1.0 / stiffness)
-            }
+            if stiffness.norm() <= certain || rigid { Err(FrfError::Unbounded { hz }) } else { Ok(1.0 / stiffness) }
         };
         (0..self.modes()).map(of).collect()
     }
@@ -309,10 +273,7 @@ fn weighted(
     weight: impl Fn(usize) -> f64,
 ) -> DenseMatrix {
     DenseMatrix::from_fn(seen.nrows(), driven.ncols(), |sensor, load| {
-        modes
-            .clone()
-            .map(|mode| seen[(sensor, mode)] * weight(mode) * driven[(mode, load)])
-            .sum()
+        modes.clone().map(|mode| seen[(sensor, mode)] * weight(mode) * driven[(mode, load)]).sum()
     })
 }
 
@@ -333,9 +294,7 @@ fn massless_statics(
     };
     let shifted = system.stiffness() + system.mass() * Scale(shift);
     let moved = DenseCholesky::new(&shifted)?.solve(&paths.loads);
-    let carried = weighted(seen, driven, 0..count, |mode| {
-        1.0 / (basis.squared[mode] + shift)
-    });
+    let carried = weighted(seen, driven, 0..count, |mode| 1.0 / (basis.squared[mode] + shift));
     Ok(&paths.sensors * moved - carried)
 }
 

@@ -44,22 +44,14 @@ impl FrequencyResponse {
     /// [`FrfError::Shape`], [`FrfError::Frequency`], [`FrfError::Order`].
     pub fn new(frequencies_hz: Vec<f64>, receptance: Vec<ComplexMatrix>) -> Result<Self, FrfError> {
         super::error::check_frequencies(&frequencies_hz)?;
-        same(
-            "number of receptances",
-            frequencies_hz.len(),
-            receptance.len(),
-        )?;
+        same("number of receptances", frequencies_hz.len(), receptance.len())?;
         if let Some(first) = receptance.first() {
             for other in &receptance {
                 same("sensors", first.nrows(), other.nrows())?;
                 same("loads", first.ncols(), other.ncols())?;
             }
         }
-        Ok(Self {
-            uncertainty: vec![0.0; frequencies_hz.len()],
-            frequencies_hz,
-            receptance,
-        })
+        Ok(Self { uncertainty: vec![0.0; frequencies_hz.len()], frequencies_hz, receptance })
     }
 
     /// Frequencies, ascending, Hz.
@@ -81,22 +73,12 @@ impl FrequencyResponse {
     ///
     /// # Errors
     /// [`FrfError::NoSuchPath`].
-    pub fn path(
-        &self,
-        sensor: usize,
-        load: usize,
-        quantity: FrfQuantity,
-    ) -> Result<Vec<c64>, FrfError> {
-        let (sensors, loads) = self
-            .receptance
-            .first()
-            .map_or((0, 0), |first| (first.nrows(), first.ncols()));
+    pub fn path(&self, sensor: usize, load: usize, quantity: FrfQuantity) -> Result<Vec<c64>, FrfError> {
+        let (sensors, loads) = self.receptance.first().map_or((0, 0), |first| (first.nrows(), first.ncols()));
         check_path("sensor", sensor, sensors)?;
         check_path("load", load, loads)?;
         let values = self.frequencies_hz.iter().zip(&self.receptance);
-        Ok(values
-            .map(|(&hz, receptance)| quantity.factor(hz) * receptance[(sensor, load)])
-            .collect())
+        Ok(values.map(|(&hz, receptance)| quantity.factor(hz) * receptance[(sensor, load)]).collect())
     }
 
     /// Largest difference of each path to the same path in `other`, relative to the largest receptance of that path in
@@ -105,15 +87,8 @@ impl FrequencyResponse {
     /// # Errors
     /// [`FrfError::Shape`].
     pub fn largest_difference(&self, other: &Self) -> Result<DenseMatrix, FrfError> {
-        same(
-            "number of frequencies",
-            other.receptance.len(),
-            self.receptance.len(),
-        )?;
-        let (sensors, loads) = other
-            .receptance
-            .first()
-            .map_or((0, 0), |first| (first.nrows(), first.ncols()));
+        same("number of frequencies", other.receptance.len(), self.receptance.len())?;
+        let (sensors, loads) = other.receptance.first().map_or((0, 0), |first| (first.nrows(), first.ncols()));
         let mut differences = DenseMatrix::zeros(sensors, loads);
         for sensor in 0..sensors {
             for load in 0..loads {
@@ -124,11 +99,7 @@ impl FrequencyResponse {
                     largest = largest.max(b.norm());
                     difference = difference.max((a - b).norm());
                 }
-                differences[(sensor, load)] = if difference == 0.0 {
-                    0.0
-                } else {
-                    difference / largest
-                };
+                differences[(sensor, load)] = if difference == 0.0 { 0.0 } else { difference / largest };
             }
         }
         Ok(differences)
@@ -136,9 +107,5 @@ impl FrequencyResponse {
 }
 
 pub(super) fn check_path(what: &'static str, index: usize, count: usize) -> Result<(), FrfError> {
-    if index < count {
-        Ok(())
-    } else {
-        Err(FrfError::NoSuchPath { what, index, count })
-    }
+    if index < count { Ok(()) } else { Err(FrfError::NoSuchPath { what, index, count }) }
 }

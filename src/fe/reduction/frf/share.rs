@@ -50,9 +50,8 @@ impl ModalSuperposition {
         let window = Window::new(frequencies_hz, band_hz)?;
         let count = self.modes();
         let part = |mode: usize, place: usize| parts[(mode, place)];
-        let whole: Vec<c64> = (0..frequencies_hz.len())
-            .map(|place| (0..=count).map(|mode| part(mode, place)).sum())
-            .collect();
+        let whole: Vec<c64> =
+            (0..frequencies_hz.len()).map(|place| (0..=count).map(|mode| part(mode, place)).sum()).collect();
         let total = window.integral(|place| whole[place].norm_sqr());
         // a path that does not respond is carried by nothing
         let relative = |value: f64| if total > 0.0 { value / total } else { 0.0 };
@@ -70,9 +69,6 @@ impl ModalSuperposition {
             })
             .collect();
         modes.sort_by(|a, b| b.share.abs().total_cmp(&a.share.abs()));
-        Ok(PathShares {
-            modes,
-            residual: share(count),
-        })
+        Ok(PathShares { modes, residual: share(count) })
     }
 }

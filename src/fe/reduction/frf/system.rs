@@ -31,12 +31,7 @@ impl ReducedSystem {
         let order = stiffness.nrows();
         square("stiffness", &stiffness, order)?;
         square("mass", &mass, order)?;
-        Ok(Self {
-            stiffness,
-            mass,
-            viscous: None,
-            structural: None,
-        })
+        Ok(Self { stiffness, mass, viscous: None, structural: None })
     }
 
     /// Adds viscous damping c [n x n], N s/m, to what there is.
@@ -107,11 +102,7 @@ impl ReducedSystem {
     /// Whether the paths are over this system's coordinates.
     pub(super) fn check(&self, paths: &FrfPaths) -> Result<(), FrfError> {
         same("rows of the loads", self.order(), paths.loads.nrows())?;
-        same(
-            "columns of the sensors",
-            self.order(),
-            paths.sensors.ncols(),
-        )
+        same("columns of the sensors", self.order(), paths.sensors.ncols())
     }
 }
 
@@ -121,13 +112,5 @@ fn square(what: &'static str, matrix: &DenseMatrix, order: usize) -> Result<(), 
 }
 
 pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<(), FrfError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(FrfError::Shape {
-            what,
-            expected,
-            found,
-        })
-    }
+    if found == expected { Ok(()) } else { Err(FrfError::Shape { what, expected, found }) }
 }

@@ -20,10 +20,7 @@ fn oscillator() -> ReducedSystem {
 
 /// Loads and sensors on each coordinate.
 fn everywhere(order: usize) -> FrfPaths {
-    FrfPaths {
-        loads: DenseMatrix::identity(order, order),
-        sensors: DenseMatrix::identity(order, order),
-    }
+    FrfPaths { loads: DenseMatrix::identity(order, order), sensors: DenseMatrix::identity(order, order) }
 }
 
 /// Chain of unit masses and springs between walls, with springs of different stiffness.
@@ -52,12 +49,8 @@ fn two_masses_with_both_kinds_of_damping_in_closed_form() {
     let found = direct_response(&system, &everywhere(2), &list).expect("damped");
     for (&hz, receptance) in list.iter().zip(found.receptance()) {
         let w = TAU * hz;
-        let z = |i: usize, j: usize| {
-            c64::new(
-                STIFFNESS[i][j] - w * w * MASS[i][j],
-                w * VISCOUS[i][j] + STRUCTURAL[i][j],
-            )
-        };
+        let z =
+            |i: usize, j: usize| c64::new(STIFFNESS[i][j] - w * w * MASS[i][j], w * VISCOUS[i][j] + STRUCTURAL[i][j]);
         let determinant = z(0, 0) * z(1, 1) - z(0, 1) * z(1, 0);
         let exact = [[z(1, 1), -z(0, 1)], [-z(1, 0), z(0, 0)]];
         for (i, row) in exact.iter().enumerate() {
@@ -81,9 +74,7 @@ fn mobility_and_accelerance_are_derivatives() {
     assert!((of(FrfQuantity::Mobility) - c64::new(w, 2.0 * w)).norm() < 1e-13);
     let acceleration = c64::new(-2.0 * w * w, w * w);
     assert!((of(FrfQuantity::Accelerance) - acceleration).norm() < 1e-12);
-    let error = response
-        .path(1, 0, FrfQuantity::Mobility)
-        .expect_err("one sensor");
+    let error = response.path(1, 0, FrfQuantity::Mobility).expect_err("one sensor");
     assert_eq!(error.to_string(), "sensor 1 asked for, there are 1");
 }
 
@@ -96,20 +87,12 @@ fn all_modes_are_the_direct_response_for_proportional_damping() {
     let (alpha, beta) = (20.0, 2e-5);
     let points = ModalDamping::Points(vec![(0.0, 0.02), (200.0, 0.005)]);
     let each = ModalDamping::Each((0..25).map(|mode| 0.01 + 0.001 * mode as f64).collect());
-    let dampings = [
-        ModalDamping::Uniform(0.03),
-        ModalDamping::Rayleigh { alpha, beta },
-        points,
-        each,
-    ];
+    let dampings = [ModalDamping::Uniform(0.03), ModalDamping::Rayleigh { alpha, beta }, points, each];
     for damping in &dampings {
         let viscous = basis.viscous_matrix(&system, damping).expect("in range");
         let loss = system.stiffness() * Scale(0.01);
-        let damped = system
-            .clone()
-            .with_viscous(viscous)
-            .and_then(|system| system.with_structural(loss))
-            .expect("square");
+        let damped =
+            system.clone().with_viscous(viscous).and_then(|system| system.with_structural(loss)).expect("square");
         let direct = direct_response(&damped, &everywhere(25), &list).expect("damped");
         let none = ModalDamping::Uniform(0.0);
         let sum = ModalSuperposition::new(&damped, &basis, &everywhere(25), 25, &none);
@@ -120,10 +103,7 @@ fn all_modes_are_the_direct_response_for_proportional_damping() {
         let difference = found.largest_difference(&direct).expect("alike");
         assert!(difference.norm_max() < 1e-11, "{:e}", difference.norm_max());
         // the damping given as ratios is the same as that given as a matrix
-        let undamped = system
-            .clone()
-            .with_structural(system.stiffness() * Scale(0.01))
-            .expect("square");
+        let undamped = system.clone().with_structural(system.stiffness() * Scale(0.01)).expect("square");
         let other = ModalSuperposition::new(&undamped, &basis, &everywhere(25), 25, damping)
             .and_then(|sum| sum.response(&list))
             .expect("damped");
@@ -131,9 +111,7 @@ fn all_modes_are_the_direct_response_for_proportional_damping() {
         assert!(difference.norm_max() < 1e-11, "{:e}", difference.norm_max());
     }
     let rayleigh = chain(25).with_rayleigh(alpha, beta).expect("in range");
-    let by_ratios = basis
-        .viscous_matrix(&rayleigh, &dampings[1])
-        .expect("in range");
+    let by_ratios = basis.viscous_matrix(&rayleigh, &dampings[1]).expect("in range");
     let given = rayleigh.viscous().expect("damped");
     assert!((&by_ratios - given).norm_max() < 1e-10 * given.norm_max());
 }
@@ -214,17 +192,9 @@ fn contributions_add_up_and_shares_to_one() {
     let third = basis.frequencies_hz()[2];
     let band = [0.9 * third, 1.1 * third];
     let resonances: Vec<Resonance> = (0..6)
-        .map(|mode| Resonance {
-            frequency_hz: basis.frequencies_hz()[mode],
-            ratio: sum.ratio(mode).expect("elastic"),
-        })
+        .map(|mode| Resonance { frequency_hz: basis.frequencies_hz()[mode], ratio: sum.ratio(mode).expect("elastic") })
         .collect();
-    let grid = FrequencyGrid {
-        band_hz: band,
-        intervals: 20,
-        points_a_bandwidth: 8,
-        reach: 4.0,
-    };
+    let grid = FrequencyGrid { band_hz: band, intervals: 20, points_a_bandwidth: 8, reach: 4.0 };
     let list = frequency_list(&grid, &resonances).expect("in range");
     let whole = sum.response(&list).expect("damped");
     let path = whole.path(7, 1, FrfQuantity::Receptance).expect("there");
@@ -316,10 +286,7 @@ fn the_number_of_threads_changes_no_bit() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads").install(|| {
-            (
-                direct_response(&system, &everywhere(40), &list).expect("damped"),
-                sum.response(&list).expect("damped"),
-            )
+            (direct_response(&system, &everywhere(40), &list).expect("damped"), sum.response(&list).expect("damped"))
         })
     };
     assert_eq!(on(1), on(3));
@@ -330,19 +297,10 @@ fn what_does_not_fit_is_refused() {
     let message = |error: Option<FrfError>| error.map_or_else(String::new, |e| e.to_string());
     let square = DenseMatrix::identity(3, 3);
     let two = DenseMatrix::identity(2, 2);
-    assert_eq!(
-        message(ReducedSystem::new(square.clone(), two.clone()).err()),
-        "mass: expected 3, found 2"
-    );
+    assert_eq!(message(ReducedSystem::new(square.clone(), two.clone()).err()), "mass: expected 3, found 2");
     let system = ReducedSystem::new(square.clone(), square).expect("square");
-    assert_eq!(
-        message(system.clone().with_viscous(two.clone()).err()),
-        "viscous damping: expected 3, found 2"
-    );
-    assert_eq!(
-        message(system.clone().with_structural(two).err()),
-        "structural damping: expected 3, found 2"
-    );
+    assert_eq!(message(system.clone().with_viscous(two.clone()).err()), "viscous damping: expected 3, found 2");
+    assert_eq!(message(system.clone().with_structural(two).err()), "structural damping: expected 3, found 2");
     assert_eq!(
         message(system.clone().with_rayleigh(-1.0, 0.0).err()),
         "the damping coefficient alpha must be zero or more and finite, found -1"
@@ -358,8 +316,5 @@ fn what_does_not_fit_is_refused() {
     let basis = ModalBasis::new(&system).expect("definite");
     let none = ModalDamping::Uniform(0.0);
     let sum = ModalSuperposition::new(&system, &basis, &everywhere(3), 4, &none);
-    assert_eq!(
-        message(sum.err()),
-        "4 modes asked for, but the system has only 3 with mass"
-    );
+    assert_eq!(message(sum.err()), "4 modes asked for, but the system has only 3 with mass");
 }

@@ -80,12 +80,7 @@ impl Search<'_> {
     }
 
     /// An array: a variable, or a field of this path. Cells, text, objects, functions and sparse arrays are passed over.
-    fn array(
-        &mut self,
-        part: Range<usize>,
-        field: Option<String>,
-        depth: usize,
-    ) -> Result<(), Fault> {
+    fn array(&mut self, part: Range<usize>, field: Option<String>, depth: usize) -> Result<(), Fault> {
         let mut parts = Elements::new(self.whole, part, self.order);
         // an empty field has nothing at all
         if parts.is_empty() {
@@ -128,9 +123,7 @@ impl Search<'_> {
     fn sizes(&self, at: usize, element: &Element) -> Result<Vec<usize>, Fault> {
         let bytes = &self.whole[element.data.clone()];
         let words = bytes.chunks_exact(4).map(|size| self.order.u32(size));
-        let sizes: Option<Vec<usize>> = words
-            .map(|size| Some(i32::try_from(size).ok()? as usize))
-            .collect();
+        let sizes: Option<Vec<usize>> = words.map(|size| Some(i32::try_from(size).ok()? as usize)).collect();
         let usual = sizes.filter(|sizes| (2..=DIMENSIONS).contains(&sizes.len()));
         usual.ok_or_else(|| {
             let found = format!("{} bytes, or a size below 0", bytes.len());
@@ -139,13 +132,7 @@ impl Search<'_> {
     }
 
     /// A struct, or an array of them.
-    fn structs(
-        &mut self,
-        mut parts: Elements<'_>,
-        sizes: &[usize],
-        path: &str,
-        depth: usize,
-    ) -> Result<(), Fault> {
+    fn structs(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, depth: usize) -> Result<(), Fault> {
         let at = parts.place();
         if depth == DEEPEST {
             let expected = format!("structs in structs, up to {DEEPEST} deep");
@@ -198,13 +185,7 @@ impl Search<'_> {
     }
 
     /// An array of numbers.
-    fn numbers(
-        &mut self,
-        mut parts: Elements<'_>,
-        sizes: &[usize],
-        path: &str,
-        complex: bool,
-    ) -> Result<(), Fault> {
+    fn numbers(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, complex: bool) -> Result<(), Fault> {
         let at = parts.place();
         let element = parts.take("numbers")?;
         let Some(numbers) = Numbers::of(element.kind) else {
@@ -212,8 +193,7 @@ impl Search<'_> {
             return Err(Fault::new(at, "numbers", found));
         };
         let bytes = element.data.len();
-        let count =
-            product(sizes).filter(|count| count.checked_mul(numbers.width()) == Some(bytes));
+        let count = product(sizes).filter(|count| count.checked_mul(numbers.width()) == Some(bytes));
         let Some(count) = count else {
             let expected = format!("{} bytes each for sizes {sizes:?}", numbers.width());
             return Err(Fault::new(at, expected, format!("{bytes} bytes")));
@@ -230,14 +210,8 @@ impl Search<'_> {
             // no more than a table is
             (Some(_), Some(_), Some(_)) => return Ok(()),
         };
-        let array = Array {
-            path: path.to_owned(),
-            variable: self.variable,
-            shape,
-            complex,
-            numbers,
-            data: element.data,
-        };
+        let array =
+            Array { path: path.to_owned(), variable: self.variable, shape, complex, numbers, data: element.data };
         if matches!(shape, Shape::Scalar(_)) && !says_something(&array) {
             return Ok(());
         }
@@ -258,9 +232,7 @@ fn says_something(array: &Array) -> bool {
 }
 
 fn product(sizes: &[usize]) -> Option<usize> {
-    sizes
-        .iter()
-        .try_fold(1_usize, |n, &size| n.checked_mul(size))
+    sizes.iter().try_fold(1_usize, |n, &size| n.checked_mul(size))
 }
 
 /// A name without the zeros behind it and without characters that a terminal would obey.

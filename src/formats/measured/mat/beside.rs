@@ -56,10 +56,7 @@ pub(super) fn taken<'a>(
 ) -> Result<Taken<'a>, MeasuredError> {
     let mut other_length = None;
     for scope in scopes(array) {
-        for time in arrays
-            .iter()
-            .filter(|time| time.scope_and_name().0 == scope)
-        {
+        for time in arrays.iter().filter(|time| time.scope_and_name().0 == scope) {
             match (is_time(time), time.shape) {
                 (Some(unit), Shape::Vector(length)) if length == count => {
                     let stated = match request.rate_hz {
@@ -92,11 +89,7 @@ pub(super) fn taken<'a>(
 }
 
 /// The sampling rate among the numbers of a struct, with its name and in Hz.
-fn rate<'a>(
-    arrays: &'a [Array],
-    scope: &'a str,
-    path: &Path,
-) -> Result<Option<(&'a str, f64)>, MeasuredError> {
+fn rate<'a>(arrays: &'a [Array], scope: &'a str, path: &Path) -> Result<Option<(&'a str, f64)>, MeasuredError> {
     let mut rates = numbers(arrays, scope).filter(|(array, _)| is_rate(array.scope_and_name().1));
     let Some((array, rate)) = rates.next() else {
         return Ok(None);
@@ -111,10 +104,7 @@ fn rate<'a>(
         return Err(wrong("one sampling rate above 0 Hz", rate.to_string()));
     }
     match rates.find(|(_, other)| !same(rate, *other)) {
-        Some((other, value)) => Err(wrong(
-            "one sampling rate",
-            format!("{rate} and, in \"{}\", {value}", other.path),
-        )),
+        Some((other, value)) => Err(wrong("one sampling rate", format!("{rate} and, in \"{}\", {value}", other.path))),
         None => Ok(Some((&array.path, rate))),
     }
 }
@@ -133,8 +123,8 @@ pub(super) fn speed_hz(arrays: &[Array], array: &Array) -> Option<f64> {
         // among the variables of a file "rate" may be of anything
         let is_struct = !scope.is_empty();
         let has_rate = numbers(arrays, scope).any(|(array, _)| is_rate(array.scope_and_name().1));
-        let bare = numbers(arrays, scope)
-            .filter(|(array, _)| is_struct && has_rate && is_bare_rate(array.scope_and_name().1));
+        let bare =
+            numbers(arrays, scope).filter(|(array, _)| is_struct && has_rate && is_bare_rate(array.scope_and_name().1));
         let bare: Vec<f64> = bare.map(|(_, value)| value).collect();
         (!bare.is_empty()).then(|| one_speed(bare))
     })?

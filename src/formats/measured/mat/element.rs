@@ -50,12 +50,7 @@ pub(super) struct Fault {
 
 impl Fault {
     pub(super) fn new(at: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self {
-            at,
-            array: None,
-            expected: expected.into(),
-            found: found.into(),
-        }
+        Self { at, array: None, expected: expected.into(), found: found.into() }
     }
 
     /// The same, of an array; the innermost one stays.
@@ -85,11 +80,7 @@ impl<'a> Elements<'a> {
     /// The elements in a part of `whole`; places are counted in `whole`.
     pub(super) fn new(whole: &'a [u8], part: Range<usize>, order: ByteOrder) -> Self {
         let end = part.end.min(whole.len());
-        Self {
-            whole: &whole[..end],
-            order,
-            at: part.start.min(end),
-        }
+        Self { whole: &whole[..end], order, at: part.start.min(end) }
     }
 
     /// Whether there are no more.
@@ -125,10 +116,7 @@ impl<'a> Elements<'a> {
             }
             self.at += TAG;
             let start = at + TAG - SMALL;
-            return Ok(Element {
-                kind: word & 0xffff,
-                data: start..start + size,
-            });
+            return Ok(Element { kind: word & 0xffff, data: start..start + size });
         }
         let size = self.order.u32(&tag[SMALL..]) as usize;
         let start = at + TAG;
@@ -143,9 +131,6 @@ impl<'a> Elements<'a> {
             _ => size.next_multiple_of(TAG).min(left - TAG),
         };
         self.at = start + padded;
-        Ok(Element {
-            kind: word,
-            data: start..end,
-        })
+        Ok(Element { kind: word, data: start..end })
     }
 }

@@ -14,10 +14,7 @@ const HDF5_PLACES: [usize; 2] = [0, 512];
 
 /// Byte order of a file of version 5 to 7, or why it is none.
 pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, MeasuredError> {
-    let version = |found| MeasuredError::MatVersion {
-        path: path.to_owned(),
-        found,
-    };
+    let version = |found| MeasuredError::MatVersion { path: path.to_owned(), found };
     let hdf5 = |&place: &usize| bytes.get(place..).is_some_and(|at| at.starts_with(HDF5));
     if HDF5_PLACES.iter().any(hdf5) || bytes.starts_with(b"MATLAB 7.3") {
         return Err(version("7.3 (HDF5)"));
@@ -48,11 +45,7 @@ pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, Measure
 /// Whether a file begins as one of version 4: five whole numbers, of which the first has the decimal digits MOPT.
 fn is_version_4(bytes: &[u8]) -> bool {
     [ByteOrder::Little, ByteOrder::Big].iter().any(|order| {
-        let numbers: Vec<u32> = bytes
-            .chunks_exact(4)
-            .take(5)
-            .map(|n| order.u32(n))
-            .collect();
+        let numbers: Vec<u32> = bytes.chunks_exact(4).take(5).map(|n| order.u32(n)).collect();
         let &[kind, rows, columns, complex, name] = numbers.as_slice() else {
             return false;
         };

@@ -14,10 +14,7 @@ use super::tests::names;
 fn element(kind: u32, bytes: &[u8]) -> Vec<u8> {
     let size = bytes.len() as u32;
     let mut all = match size {
-        0 | 5.. => [kind, size]
-            .into_iter()
-            .flat_map(u32::to_le_bytes)
-            .collect(),
+        0 | 5.. => [kind, size].into_iter().flat_map(u32::to_le_bytes).collect(),
         _ => (size << 16 | kind).to_le_bytes().to_vec(),
     };
     all.extend(bytes);
@@ -35,12 +32,7 @@ fn words(words: &[u32]) -> Vec<u8> {
 
 /// An array of whole numbers in one byte each.
 fn array(name: &str, sizes: &[u32], values: &[u8]) -> Vec<u8> {
-    matrix(&[
-        element(6, &words(&[6, 0])),
-        element(5, &words(sizes)),
-        element(1, name.as_bytes()),
-        element(2, values),
-    ])
+    matrix(&[element(6, &words(&[6, 0])), element(5, &words(sizes)), element(1, name.as_bytes()), element(2, values)])
 }
 
 fn number(name: &str, value: u8) -> Vec<u8> {
@@ -49,10 +41,7 @@ fn number(name: &str, value: u8) -> Vec<u8> {
 
 /// A struct, or several, with fields of 8 bytes a name.
 fn structs(name: &str, sizes: &[u32], names: &[&str], values: &[Vec<u8>]) -> Vec<u8> {
-    let fields: Vec<u8> = names
-        .iter()
-        .flat_map(|name| [name.as_bytes(), &[0; 8]].concat()[..8].to_vec())
-        .collect();
+    let fields: Vec<u8> = names.iter().flat_map(|name| [name.as_bytes(), &[0; 8]].concat()[..8].to_vec()).collect();
     matrix(&[
         element(6, &words(&[2, 0])),
         element(5, &words(sizes)),
@@ -106,54 +95,24 @@ fn rates_and_speeds_are_taken_only_if_they_are_clear() {
     assert_eq!(found(&[number("FS", 8)]), Ok((8.0, None)));
     let rate = || number("Sampling_Rate", 8);
     assert_eq!(found(&[rate(), number("rate", 25)]), Ok((8.0, None)));
-    assert_eq!(
-        found(&[rate(), number("speed_hz", 2)]),
-        Ok((8.0, Some(2.0)))
-    );
-    assert_eq!(
-        found(&[rate(), number("a_rpm", 60), number("b_rpm", 60)]),
-        Ok((8.0, Some(1.0)))
-    );
-    assert_eq!(
-        found(&[rate(), number("a_rpm", 60), number("b_rpm", 90)]),
-        Ok((8.0, None))
-    );
+    assert_eq!(found(&[rate(), number("speed_hz", 2)]), Ok((8.0, Some(2.0))));
+    assert_eq!(found(&[rate(), number("a_rpm", 60), number("b_rpm", 60)]), Ok((8.0, Some(1.0))));
+    assert_eq!(found(&[rate(), number("a_rpm", 60), number("b_rpm", 90)]), Ok((8.0, None)));
     assert_eq!(found(&[rate(), number("rpm", 0)]), Ok((8.0, None)));
     let wrong = |end: &str| Err(format!("m.mat: array \"Sampling_Rate\": {end}"));
-    assert_eq!(
-        found(&[rate(), number("fs", 9)]),
-        wrong("expected one sampling rate, found 8 and, in \"fs\", 9")
-    );
-    assert_eq!(
-        found(&[number("Sampling_Rate", 0)]),
-        wrong("expected one sampling rate above 0 Hz, found 0")
-    );
+    assert_eq!(found(&[rate(), number("fs", 9)]), wrong("expected one sampling rate, found 8 and, in \"fs\", 9"));
+    assert_eq!(found(&[number("Sampling_Rate", 0)]), wrong("expected one sampling rate above 0 Hz, found 0"));
     // a rate that is asked for needs none in the file
     let asked = request(&[], Some(4.0));
     let both = [x(), rate(), number("fs", 9)];
-    assert_eq!(
-        from(&both, &asked).unwrap().series.step_s().to_bits(),
-        0.25_f64.to_bits()
-    );
+    assert_eq!(from(&both, &asked).unwrap().series.step_s().to_bits(), 0.25_f64.to_bits());
     // a struct's own goes before the file's, and another struct's is not there at all
     let field = |fs: &str| {
-        let values = [
-            array("", &[1, 3], &[1, 2, 3]),
-            number("", 16),
-            number("", 120),
-        ];
+        let values = [array("", &[1, 3], &[1, 2, 3]), number("", 16), number("", 120)];
         structs("s", &[1, 1], &["x", fs, "rpm"], &values)
     };
-    let other = structs(
-        "o",
-        &[1, 1],
-        &["fs", "rpm"],
-        &[number("", 99), number("", 99)],
-    );
-    let own = from(
-        &[rate(), number("rpm", 60), other.clone(), field("fs")],
-        &SignalRequest::default(),
-    );
+    let other = structs("o", &[1, 1], &["fs", "rpm"], &[number("", 99), number("", 99)]);
+    let own = from(&[rate(), number("rpm", 60), other.clone(), field("fs")], &SignalRequest::default());
     let own = own.unwrap();
     assert_eq!((own.series.rate_hz(), own.speed_hz), (16.0, Some(2.0)));
     let outer = from(&[rate(), other, field("y")], &SignalRequest::default()).unwrap();
@@ -179,9 +138,7 @@ fn damage_is_said_with_its_place() {
     let sizes = || element(5, &words(&[3, 1]));
     let name = || element(1, b"x");
     let part = |parts: &[Vec<u8>]| refused(&[matrix(parts)]);
-    let deep = (0..40).fold(number("", 1), |inside, _| {
-        structs("", &[1, 1], &["a"], &[inside])
-    });
+    let deep = (0..40).fold(number("", 1), |inside, _| structs("", &[1, 1], &["a"], &[inside]));
     let zip = packed(&array("x", &[3, 1], &[1, 2, 3]));
     let mut cut = zip.clone();
     cut[4] -= 6;
@@ -191,34 +148,16 @@ fn damage_is_said_with_its_place() {
     sum[last] ^= 1;
     let many = vec![array("x", &[3, 1], &[1, 2, 3]); (1 << 16) + 1];
     let cases = [
-        (
-            refused(&[]),
-            "m.mat: expected one signal or the name of one, found no signals",
-        ),
-        (
-            refused(&[vec![1; 5]]),
-            "m.mat: byte 128: expected a variable, found 5 bytes",
-        ),
-        (
-            refused(&[element(9, &[0; 8])]),
-            "m.mat: byte 128: expected a variable, found an element of type 9",
-        ),
+        (refused(&[]), "m.mat: expected one signal or the name of one, found no signals"),
+        (refused(&[vec![1; 5]]), "m.mat: byte 128: expected a variable, found 5 bytes"),
+        (refused(&[element(9, &[0; 8])]), "m.mat: byte 128: expected a variable, found an element of type 9"),
         (
             refused(&[words(&[14, 80, 0, 0])]),
             "m.mat: byte 128: expected a variable, found 80 bytes, of which 8 are there",
         ),
-        (
-            refused(&[words(&[14 | 5 << 16, 0])]),
-            "m.mat: byte 128: expected a variable, found 5 bytes in four",
-        ),
-        (
-            part(&[element(6, &words(&[6]))]),
-            "m.mat: byte 136: expected 8 bytes of flags of an array, found 4 bytes",
-        ),
-        (
-            part(&[element(6, &words(&[99, 0]))]),
-            "m.mat: byte 136: expected a class of arrays from 1 to 17, found 99",
-        ),
+        (refused(&[words(&[14 | 5 << 16, 0])]), "m.mat: byte 128: expected a variable, found 5 bytes in four"),
+        (part(&[element(6, &words(&[6]))]), "m.mat: byte 136: expected 8 bytes of flags of an array, found 4 bytes"),
+        (part(&[element(6, &words(&[99, 0]))]), "m.mat: byte 136: expected a class of arrays from 1 to 17, found 99"),
         (
             part(&[flags(), element(5, &words(&[3]))]),
             "m.mat: byte 152: expected 2 to 64 sizes of an array, found 4 bytes, or a size below 0",
@@ -227,14 +166,8 @@ fn damage_is_said_with_its_place() {
             part(&[flags(), element(5, &words(&[3, u32::MAX]))]),
             "m.mat: byte 152: expected 2 to 64 sizes of an array, found 8 bytes, or a size below 0",
         ),
-        (
-            part(&[flags(), sizes()]),
-            "m.mat: byte 168: expected the name of an array, found 0 bytes",
-        ),
-        (
-            part(&[flags(), sizes(), name()]),
-            "m.mat: array \"x\", byte 176: expected numbers, found 0 bytes",
-        ),
+        (part(&[flags(), sizes()]), "m.mat: byte 168: expected the name of an array, found 0 bytes"),
+        (part(&[flags(), sizes(), name()]), "m.mat: array \"x\", byte 176: expected numbers, found 0 bytes"),
         (
             part(&[flags(), sizes(), name(), element(16, b"abc")]),
             "m.mat: array \"x\", byte 176: expected numbers, found an element of type 16",
@@ -283,26 +216,14 @@ fn damage_is_said_with_its_place() {
             refused(&[sum]),
             "m.mat: byte 0 of what byte 136 packs: expected a compressed variable, found corrupt deflate stream",
         ),
-        (
-            refused(&many),
-            "m.mat: array \"x\", byte 3670192: expected at most 65536 signals, found more",
-        ),
+        (refused(&many), "m.mat: array \"x\", byte 3670192: expected at most 65536 signals, found more"),
     ];
     let (found, expected): (Vec<String>, Vec<&str>) = cases.into_iter().unzip();
     assert_eq!(found, expected);
     let deep = refused(&[deep]);
-    assert!(
-        deep.ends_with("found no signals"),
-        "a variable without a name: {deep}"
-    );
-    let deep = (0..40).fold(number("", 1), |inside, level| {
-        structs(
-            if level == 39 { "s" } else { "" },
-            &[1, 1],
-            &["a"],
-            &[inside],
-        )
-    });
+    assert!(deep.ends_with("found no signals"), "a variable without a name: {deep}");
+    let deep = (0..40)
+        .fold(number("", 1), |inside, level| structs(if level == 39 { "s" } else { "" }, &[1, 1], &["a"], &[inside]));
     let deep = refused(&[deep]);
     let expected = "expected structs in structs, up to 32 deep, found a deeper one";
     assert!(deep.ends_with(expected), "{deep}");
@@ -319,12 +240,7 @@ fn odd_and_empty_things_are_passed_over() {
         array("", &[1, 3], &[1, 2, 3]),
         structs("none", &[1, 1], &[], &[]),
         structs("zero", &[0, 0], &["a"], &[]),
-        structs(
-            "s",
-            &[2, 1],
-            &["a", "b"],
-            &[nothing.clone(), nothing.clone(), nothing, x.clone()],
-        ),
+        structs("s", &[2, 1], &["a", "b"], &[nothing.clone(), nothing.clone(), nothing, x.clone()]),
         array(&"n".repeat(600), &[1, 3], &[1, 2, 3]),
         array("bell\u{7}", &[1, 3], &[1, 2, 3]),
         x,

@@ -43,10 +43,7 @@ impl Place {
 type Opened<'a> = Option<(usize, Cow<'a, [u8]>)>;
 
 /// Reads the wanted channels of a file.
-pub(in super::super) fn read(
-    path: &Path,
-    request: &SignalRequest,
-) -> Result<Vec<Channel>, MeasuredError> {
+pub(in super::super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     channels(&bytes_of(path)?, path, request)
 }
 
@@ -60,18 +57,12 @@ pub fn signals_from_mat(
     request: &SignalRequest,
 ) -> Result<Vec<MeasuredSignal>, MeasuredError> {
     let channels = channels(bytes, path, request)?;
-    let made = channels
-        .into_iter()
-        .map(|channel| channel.signal(path, request));
+    let made = channels.into_iter().map(|channel| channel.signal(path, request));
     made.collect()
 }
 
 /// Reads the wanted channels.
-fn channels(
-    bytes: &[u8],
-    path: &Path,
-    request: &SignalRequest,
-) -> Result<Vec<Channel>, MeasuredError> {
+fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let file = MatFile::of(bytes, path)?;
     let (names, places) = file.signals();
     let mut opened = None;
@@ -91,23 +82,15 @@ fn channels(
         let taken = taken(&file.arrays, array, place.count, path, request)?;
         let own = match (taken, &clock) {
             // signals beside each other have one time
-            (Taken::Times(times, ..), Some((path, clock))) if *path == times.path => {
-                Rc::clone(clock)
-            }
+            (Taken::Times(times, ..), Some((path, clock))) if *path == times.path => Rc::clone(clock),
             (Taken::Times(times, unit, stated), _) => {
                 let mut times = file.values(&mut opened, times, (0, 1, place.count))?;
                 times.iter_mut().for_each(|time| *time *= unit);
-                let own = Clock::Times {
-                    times,
-                    first_row: 0,
-                };
+                let own = Clock::Times { times, first_row: 0 };
                 own.agrees(path, stated)?;
                 Rc::new(own)
             }
-            (Taken::Rate(rate), _) => Rc::new(Clock::Even {
-                start_s: 0.0,
-                step_s: 1.0 / rate,
-            }),
+            (Taken::Rate(rate), _) => Rc::new(Clock::Even { start_s: 0.0, step_s: 1.0 / rate }),
             (Taken::Unknown, _) => Rc::new(Clock::Unknown),
         };
         if let Taken::Times(times, ..) = taken {
@@ -132,24 +115,12 @@ impl<'a> MatFile<'a> {
         let (mut arrays, mut count) = (Vec::new(), 0);
         for (variable, own) in variables.iter().enumerate() {
             let searched = own.open(bytes, order).and_then(|(whole, part)| {
-                let mut search = Search {
-                    whole: &whole,
-                    order,
-                    variable,
-                    found: &mut arrays,
-                    count: &mut count,
-                };
+                let mut search = Search { whole: &whole, order, variable, found: &mut arrays, count: &mut count };
                 search.variable(part)
             });
             searched.map_err(|fault| wrong(path, Some(own), fault))?;
         }
-        Ok(Self {
-            bytes,
-            path,
-            order,
-            variables,
-            arrays,
-        })
+        Ok(Self { bytes, path, order, variables, arrays })
     }
 
     /// Names and places of all signals. Those of a table run along its longer side: `x(:,1)` is a column, `x(1,:)` a row.
@@ -158,12 +129,7 @@ impl<'a> MatFile<'a> {
         for (array, own) in self.arrays.iter().enumerate() {
             let mut add = |name: String, start: usize, step: usize, count: usize| {
                 names.push(name);
-                places.push(Place {
-                    array,
-                    start,
-                    step,
-                    count,
-                });
+                places.push(Place { array, start, step, count });
             };
             let path = &own.path;
             match own.shape {
@@ -192,10 +158,7 @@ impl<'a> MatFile<'a> {
         (start, step, count): (usize, usize, usize),
     ) -> Result<Vec<f64>, MeasuredError> {
         let variable = &self.variables[array.variable];
-        if opened
-            .as_ref()
-            .is_none_or(|(last, _)| *last != array.variable)
-        {
+        if opened.as_ref().is_none_or(|(last, _)| *last != array.variable) {
             // what was unpacked before is let go first
             *opened = None;
             let open = variable.open(self.bytes, self.order);

@@ -8,9 +8,7 @@ use super::super::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 use super::signals_from_mat;
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data/mat")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/mat").join(name)
 }
 
 fn read(name: &str, request: &SignalRequest) -> Result<Vec<MeasuredSignal>, MeasuredError> {
@@ -38,17 +36,11 @@ fn whole() -> Vec<f64> {
 #[test]
 fn every_class_is_read_little_and_big_endian_and_packed() {
     let rate = |name: &'static str| request(&[name], Some(100.0));
-    for name in [
-        "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32",
-        "float64",
-    ] {
+    for name in ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64"] {
         let found = only(read("classes.mat", &rate(name)).unwrap());
         assert_samples(&found, 0.0, 0.01, &whole(), 0.0);
     }
-    let flags: Vec<f64> = whole()
-        .iter()
-        .map(|x| f64::from(u8::from(*x > 5.0)))
-        .collect();
+    let flags: Vec<f64> = whole().iter().map(|x| f64::from(u8::from(*x > 5.0))).collect();
     let found = only(read("classes.mat", &rate("logical")).unwrap());
     assert_samples(&found, 0.0, 0.01, &flags, 0.0);
     for name in ["i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8", "i8", "u8"] {
@@ -69,8 +61,7 @@ fn times_rates_and_speeds_stand_beside_signals() {
     assert_samples(&asked("x"), 0.5, 1e-3, &x, 1e-15);
     assert_samples(&asked("short"), 0.0, 1e-3, &x[..5], 1e-15);
     let error = read("plain.mat", &request(&["short"], None)).unwrap_err();
-    let expected =
-        "array \"short\": expected a signal of 12 samples, as the time has, found 5 samples";
+    let expected = "array \"short\": expected a signal of 12 samples, as the time has, found 5 samples";
     assert!(error.to_string().ends_with(expected), "{error}");
     assert_eq!(names(&fs::read(data("plain.mat")).unwrap()), ["x", "short"]);
 }
@@ -98,11 +89,7 @@ fn tables_and_structs_have_the_names_of_matlab() {
         assert_eq!((found.name.as_str(), found.speed_hz), (name, speed_hz));
     }
     // several at once, in any order
-    let both = read(
-        "bench.mat",
-        &request(&["run(2).x", "tall(:,2)", "tall(:,1)"], None),
-    )
-    .unwrap();
+    let both = read("bench.mat", &request(&["run(2).x", "tall(:,2)", "tall(:,1)"], None)).unwrap();
     assert_eq!(both[1], one("bench.mat", "tall(:,2)"));
     // no cell, text, sparse, empty or solid array, no single number
     let mut known = names(&fs::read(data("bench.mat")).unwrap());
@@ -112,10 +99,7 @@ fn tables_and_structs_have_the_names_of_matlab() {
     let expected = "array \"spectrum\": expected a signal of real numbers, found complex numbers";
     assert!(error.to_string().ends_with(expected), "{error}");
     let error = read("bench.mat", &request(&["bearing.gd"], None)).unwrap_err();
-    assert_eq!(
-        error.help().unwrap(),
-        "did you mean --channel 'bearing.gs'?"
-    );
+    assert_eq!(error.help().unwrap(), "did you mean --channel 'bearing.gs'?");
 }
 
 #[test]
@@ -128,10 +112,7 @@ fn other_versions_are_refused_with_what_to_do() {
     let help = "write it again as version 7: in MATLAB m = load('m.mat'); save('m-v7.mat', '-struct', 'm', '-v7'), \
                 or in Python scipy.io.savemat('m-v7.mat', {'x': x})";
     let refused = |version: &str| {
-        (
-            format!("in/m.mat: expected a MATLAB file of version 5 to 7, found version {version}"),
-            Some(help.to_owned()),
-        )
+        (format!("in/m.mat: expected a MATLAB file of version 5 to 7, found version {version}"), Some(help.to_owned()))
     };
     let mut head = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".to_vec();
     head.resize(124, b' ');
@@ -146,15 +127,11 @@ fn other_versions_are_refused_with_what_to_do() {
     }
     assert_eq!(message(&fs::read(data("four.mat")).unwrap()), refused("4"));
     // 1000: big-endian
-    let big: Vec<u8> = [1000_u32, 3, 1, 0, 2]
-        .into_iter()
-        .flat_map(u32::to_be_bytes)
-        .collect();
+    let big: Vec<u8> = [1000_u32, 3, 1, 0, 2].into_iter().flat_map(u32::to_be_bytes).collect();
     assert_eq!(message(&big), refused("4"));
     number[125] = 7;
     assert_eq!(message(&number), refused("unknown"));
-    let none =
-        "in/m.mat: byte 126: expected the head of a MATLAB file, which ends in IM or MI, found";
+    let none = "in/m.mat: byte 126: expected the head of a MATLAB file, which ends in IM or MI, found";
     assert_eq!(message(b"").0, format!("{none} a file of 0 bytes"));
     assert_eq!(message(&[0; 300]).0, format!("{none} \"\\x00\\x00\""));
     assert_eq!(message(&[b'a'; 300]).0, format!("{none} \"aa\""));
@@ -172,21 +149,13 @@ fn damaged_files_never_panic() {
                 Ok(_) => continue,
             };
             for name in known.into_iter().take(3) {
-                if let Ok(found) =
-                    signals_from_mat(bytes, Path::new("m.mat"), &request(&[&name], rate_hz))
-                {
+                if let Ok(found) = signals_from_mat(bytes, Path::new("m.mat"), &request(&[&name], rate_hz)) {
                     assert!(found[0].series.values().len() <= 1032 * bytes.len());
                 }
             }
         }
     };
-    for name in [
-        "plain.mat",
-        "bench.mat",
-        "big.mat",
-        "classes.mat",
-        "four.mat",
-    ] {
+    for name in ["plain.mat", "bench.mat", "big.mat", "classes.mat", "four.mat"] {
         let whole = fs::read(data(name)).unwrap();
         for length in 0..whole.len() {
             read(&whole[..length]);
@@ -211,11 +180,7 @@ fn published_records_are_read_as_scipy_reads_them() {
             "105_0.mat",
             "X105_DE_time",
             121_265,
-            [
-                -0.08300435129740519,
-                -0.19573433133732535,
-                0.23341928143712576,
-            ],
+            [-0.08300435129740519, -0.19573433133732535, 0.23341928143712576],
             1_630.233_235_888_223_6,
             12e3,
             1797.0 / 60.0,
@@ -224,11 +189,7 @@ fn published_records_are_read_as_scipy_reads_them() {
             "105_0.mat",
             "X105_FE_time",
             121_265,
-            [
-                -0.40207454545454546,
-                -0.004725454545454545,
-                -0.10663090909090908,
-            ],
+            [-0.40207454545454546, -0.004725454545454545, -0.10663090909090908],
             4_004.067_270_909_090_4,
             12e3,
             1797.0 / 60.0,
@@ -237,11 +198,7 @@ fn published_records_are_read_as_scipy_reads_them() {
             "105_0.mat",
             "X105_BA_time",
             121_265,
-            [
-                0.06466148367952523,
-                -0.023096261127596444,
-                -0.08852225519287835,
-            ],
+            [0.06466148367952523, -0.023096261127596444, -0.08852225519287835],
             739.418_269_673_590_7,
             12e3,
             1797.0 / 60.0,
@@ -277,15 +234,8 @@ fn published_records_are_read_as_scipy_reads_them() {
         let bare = read_signals(&path, &request(&[name], None));
         assert_eq!(bare.is_ok(), states_rate);
         if let Err(error) = bare {
-            assert!(
-                error
-                    .to_string()
-                    .ends_with("expected a time or a sampling rate, found neither")
-            );
-            assert_eq!(
-                error.help().unwrap(),
-                "give the sampling rate with --rate HZ"
-            );
+            assert!(error.to_string().ends_with("expected a time or a sampling rate, found neither"));
+            assert_eq!(error.help().unwrap(), "give the sampling rate with --rate HZ");
         }
     }
 }

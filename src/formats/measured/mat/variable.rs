@@ -38,10 +38,7 @@ pub(super) fn variables(file: &[u8], order: ByteOrder) -> Result<Vec<Variable>, 
                 return Err(Fault::new(at, "a variable", found));
             }
         };
-        found.push(Variable {
-            data: element.data,
-            packed,
-        });
+        found.push(Variable { data: element.data, packed });
     }
     Ok(found)
 }
@@ -53,11 +50,7 @@ impl Variable {
     }
 
     /// The bytes that the variable lies in, and where: all of the file, or what was unpacked.
-    pub(super) fn open<'a>(
-        &self,
-        file: &'a [u8],
-        order: ByteOrder,
-    ) -> Result<(Cow<'a, [u8]>, Range<usize>), Fault> {
+    pub(super) fn open<'a>(&self, file: &'a [u8], order: ByteOrder) -> Result<(Cow<'a, [u8]>, Range<usize>), Fault> {
         if !self.packed {
             return Ok((Cow::Borrowed(file), self.data.clone()));
         }
@@ -81,11 +74,7 @@ fn unpack(packed: &[u8], order: ByteOrder) -> Result<Vec<u8>, Fault> {
     let size = order.u32(&tag[4..]) as usize;
     if size > LARGEST || size / PACKING > packed.len() {
         let most = LARGEST.min(PACKING.saturating_mul(packed.len()));
-        return Err(Fault::new(
-            0,
-            format!("a compressed variable of at most {most} bytes"),
-            format!("{size} bytes"),
-        ));
+        return Err(Fault::new(0, format!("a compressed variable of at most {most} bytes"), format!("{size} bytes")));
     }
     // no more is taken at once than this; the rest comes as it is unpacked
     let mut bytes = Vec::with_capacity(size.min(1 << 16));

@@ -21,9 +21,7 @@ pub enum MbdynError {
         source: LinalgError,
     },
     /// A mechanism, or a plane.
-    #[error(
-        "expected a body that is free (6 rigid motions) or held (none), found {found} rigid motions"
-    )]
+    #[error("expected a body that is free (6 rigid motions) or held (none), found {found} rigid motions")]
     RigidMotions {
         /// Eigenvalues that are zero.
         found: usize,

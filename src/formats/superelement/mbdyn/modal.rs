@@ -81,9 +81,7 @@ pub fn write_mbdyn_fem(
         let found = record.order() - free.len();
         if found != 6 {
             let body = body.name();
-            let expected = format!(
-                "six coordinates of the interface at {body} node {node}, which is to be held"
-            );
+            let expected = format!("six coordinates of the interface at {body} node {node}, which is to be held");
             return Err(Fault::new(expected, found).into());
         }
         let found;
@@ -102,10 +100,7 @@ pub fn write_mbdyn_fem(
         return Err(Fault::new(expected, "none").into());
     }
     let body = Body {
-        damping: record
-            .damping
-            .as_ref()
-            .map(|damping| vectors.transpose() * damping * &vectors),
+        damping: record.damping.as_ref().map(|damping| vectors.transpose() * damping * &vectors),
         eigenvalues,
         vectors,
         nodes,
@@ -129,12 +124,9 @@ type Modes = (Vec<f64>, DenseMatrix);
 /// Eigenvalues are quotients `v^T k v / v^T m v`, which have the square of the vectors' error: the solver's own are less
 /// accurate the higher they are above the lowest.
 fn eigenmodes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usize), MbdynError> {
-    let part = |matrix: &DenseMatrix| {
-        DenseMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])])
-    };
+    let part = |matrix: &DenseMatrix| DenseMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])]);
     let (stiffness, mass) = (part(&record.stiffness), part(&record.mass));
-    let spectrum = acting_generalised_eigen(&stiffness, &mass)
-        .map_err(|source| MbdynError::Eigen { source })?;
+    let spectrum = acting_generalised_eigen(&stiffness, &mass).map_err(|source| MbdynError::Eigen { source })?;
     let finite = spectrum.values.iter().copied().filter(|v| v.is_finite());
     let limit = RIGID_LIMIT * finite.clone().fold(0.0, f64::max);
     let rigid = finite.filter(|&value| value <= limit).count();
@@ -145,8 +137,7 @@ fn eigenmodes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usi
         let product = matrix * &spectrum.vectors;
         let sum = |&mode: &usize| {
             let rows = (0..free.len()).map(|row| (row, mode));
-            rows.map(|place| spectrum.vectors[place] * product[place])
-                .sum()
+            rows.map(|place| spectrum.vectors[place] * product[place]).sum()
         };
         kept.iter().map(sum).collect()
     };

@@ -89,11 +89,7 @@ fn interface_node(record: &SuperelementRecord, of: &DofLabel) -> Option<Node> {
         DofBody::Housing => of.node.to_string(),
         body => format!("{}{}", body.name(), of.node),
     };
-    Some(Node {
-        name,
-        position: of.position,
-        motions,
-    })
+    Some(Node { name, position: of.position, motions })
 }
 
 fn at_right_angles(axes: &[[f64; 3]]) -> bool {

@@ -46,11 +46,7 @@ pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, MbdynError
         let diagonal = if i == j { square } else { 0.0 };
         inertia[(3 + i, 3 + j)] - mass * (diagonal - centre[i] * centre[j])
     };
-    Ok(Inertia {
-        mass,
-        centre,
-        moments: [0, 1, 2].map(|i| [0, 1, 2].map(|j| moment(i, j))),
-    })
+    Ok(Inertia { mass, centre, moments: [0, 1, 2].map(|i| [0, 1, 2].map(|j| moment(i, j))) })
 }
 
 /// Coordinates in the six rigid motions \[n x 6\]: modes with a fixed interface are zero.
@@ -80,8 +76,8 @@ fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<()
     for (motion, name) in MOTIONS.into_iter().enumerate() {
         let (mut largest, mut sums) = (0.0_f64, 0.0_f64);
         for row in 0..record.order() {
-            let parts = (0..record.order())
-                .map(|column| (record.stiffness[(row, column)] * motions[(column, motion)]).abs());
+            let parts =
+                (0..record.order()).map(|column| (record.stiffness[(row, column)] * motions[(column, motion)]).abs());
             largest = largest.max(forces[(row, motion)].abs());
             sums = sums.max(parts.sum());
         }
@@ -90,10 +86,7 @@ fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<()
                 "{:e} of the stiffness's magnitude: positions or axes of the interface do not belong to the matrices",
                 largest / sums
             );
-            return Err(Fault::new(
-                format!("no forces in {name} of a free body"),
-                found,
-            ));
+            return Err(Fault::new(format!("no forces in {name} of a free body"), found));
         }
     }
     Ok(())

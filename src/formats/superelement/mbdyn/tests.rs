@@ -13,8 +13,7 @@ use crate::numerics::linalg::DenseMatrix;
 fn words(text: &str, record: usize) -> Option<Vec<String>> {
     let begin = text.find(&format!("** RECORD GROUP {record},"))?;
     let lines = text[begin..].lines().skip(1);
-    let lines =
-        lines.take_while(|line| !line.starts_with("** RECORD") && !line.starts_with("** END"));
+    let lines = lines.take_while(|line| !line.starts_with("** RECORD") && !line.starts_with("** END"));
     let lines = lines.filter(|line| !line.starts_with("**"));
     let words = lines.flat_map(|line| line.split_ascii_whitespace().map(str::to_owned));
     Some(words.collect())
@@ -29,13 +28,8 @@ fn numbers(text: &str, record: usize) -> Vec<f64> {
 fn labels(points: &[(u64, [f64; 3])]) -> Vec<DofLabel> {
     let unit = |axis: usize| [0, 1, 2].map(|own| if own == axis { 1.0 } else { 0.0 });
     let of = |&(node, position): &(u64, [f64; 3])| {
-        let label = move |direction, axis| DofLabel {
-            body: DofBody::Housing,
-            node,
-            direction,
-            position,
-            axis: unit(axis),
-        };
+        let label =
+            move |direction, axis| DofLabel { body: DofBody::Housing, node, direction, position, axis: unit(axis) };
         let along = (0..3).map(move |axis| label(DofDirection::Along(axis), axis));
         along.chain((0..3).map(move |axis| label(DofDirection::About(axis), axis)))
     };
@@ -65,13 +59,10 @@ fn free_body() -> SuperelementRecord {
     let scaled = DenseMatrix::from_fn(6, 13, |i, j| springs[i] * relative[(i, j)]);
     let mut stiffness = relative.transpose() * scaled;
     stiffness[(12, 12)] = 1e8;
-    let masses = [
-        2.0, 2.0, 2.0, 0.02, 0.03, 0.04, 3.0, 3.0, 3.0, 0.05, 0.06, 0.07, 1.0,
-    ];
+    let masses = [2.0, 2.0, 2.0, 0.02, 0.03, 0.04, 3.0, 3.0, 3.0, 0.05, 0.06, 0.07, 1.0];
     let mass = DenseMatrix::from_fn(13, 13, |i, j| if i == j { masses[i] } else { 0.0 });
     let damping = DenseMatrix::from_fn(13, 13, |i, j| 1e-5 * stiffness[(i, j)]);
-    let mut record =
-        SuperelementRecord::of_matrices(stiffness, mass, labels(&[(11, a), (12, b)])).unwrap();
+    let mut record = SuperelementRecord::of_matrices(stiffness, mass, labels(&[(11, a), (12, b)])).unwrap();
     record.damping = Some(damping);
     record
 }
@@ -145,17 +136,12 @@ fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
     // oscillator they are all that moves
     let shapes = numbers(&text, 8);
     assert_eq!(shapes.len(), modes * 12);
-    let headings: Vec<&str> = text
-        .lines()
-        .filter(|line| line.contains("MODE SHAPE #"))
-        .collect();
+    let headings: Vec<&str> = text.lines().filter(|line| line.contains("MODE SHAPE #")).collect();
     assert_eq!(headings[6], "** NORMAL MODE SHAPE # 7");
     let product = |matrix: &DenseMatrix, i: usize, j: usize| -> f64 {
         let (left, right) = (&shapes[12 * i..], &shapes[12 * j..]);
         let entry = |row: usize, column: usize| left[row] * matrix[(row, column)] * right[column];
-        (0..12)
-            .flat_map(|row| (0..12).map(move |column| entry(row, column)))
-            .sum()
+        (0..12).flat_map(|row| (0..12).map(move |column| entry(row, column))).sum()
     };
     let mut oscillators = 0;
     for i in 0..modes {
@@ -167,11 +153,7 @@ fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
             assert!(i == j || stiffness(i, j) == 0.0);
             // proportional to the stiffness; rounding of the largest eigenvalue, 1e8
             let expected = if i == j { 1e-5 * eigenvalue } else { 0.0 };
-            assert!(
-                (damping(i, j) - expected).abs() < 1e-8,
-                "{i} {j} {}",
-                damping(i, j)
-            );
+            assert!((damping(i, j) - expected).abs() < 1e-8, "{i} {j} {}", damping(i, j));
         }
         if shapes[12 * i..][..12].iter().all(|part| part.abs() < 1e-9) {
             oscillators += 1;
@@ -194,20 +176,9 @@ fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
 #[test]
 fn a_node_that_is_held_does_not_move_in_the_shapes() {
     let record = free_body();
-    let node = |node: u64| MbdynReference::Node {
-        body: DofBody::Housing,
-        node,
-    };
+    let node = |node: u64| MbdynReference::Node { body: DofBody::Housing, node };
     let (summary, text) = written_from(&record, node(11));
-    let mut squares = [
-        1e6 / 3.0,
-        2e6 / 3.0,
-        3e6 / 3.0,
-        4e5 / 0.05,
-        5e5 / 0.06,
-        6e5 / 0.07,
-        1e8,
-    ];
+    let mut squares = [1e6 / 3.0, 2e6 / 3.0, 3e6 / 3.0, 4e5 / 0.05, 5e5 / 0.06, 6e5 / 0.07, 1e8];
     squares.sort_by(f64::total_cmp);
     assert_eq!(summary.frequency_hz.len(), 7);
     for (found, square) in summary.frequency_hz.iter().zip(squares) {
@@ -229,16 +200,9 @@ fn a_node_that_is_held_does_not_move_in_the_shapes() {
 #[test]
 fn nodes_of_the_field_come_after_those_of_the_interface() {
     let mut record = free_body();
-    let recovery = DenseMatrix::from_fn(
-        6,
-        13,
-        |i, j| if i >= 3 { f64::from(j == i - 3) } else { 9.0 },
-    );
-    record.field = Some(FieldRecovery {
-        node_tags: vec![12, 77],
-        positions: vec![[0.75, 0.5, 0.5], [0.25, -0.5, 1.0]],
-        recovery,
-    });
+    let recovery = DenseMatrix::from_fn(6, 13, |i, j| if i >= 3 { f64::from(j == i - 3) } else { 9.0 });
+    record.field =
+        Some(FieldRecovery { node_tags: vec![12, 77], positions: vec![[0.75, 0.5, 0.5], [0.25, -0.5, 1.0]], recovery });
     let (summary, text) = written(&record);
     assert_eq!(summary.nodes, 3);
     assert_eq!(words(&text, 2).unwrap(), ["11", "12", "77"]);
@@ -258,8 +222,7 @@ fn a_held_body_has_no_inertia_and_needs_no_labels() {
         refused(&record),
         "expected a node with a known position and three displacements, in the interface or in the field, found none"
     );
-    let stiffness =
-        DenseMatrix::from_fn(3, 3, |i, j| if i == j { 1e6 * (i + 1) as f64 } else { 0.0 });
+    let stiffness = DenseMatrix::from_fn(3, 3, |i, j| if i == j { 1e6 * (i + 1) as f64 } else { 0.0 });
     let mass = DenseMatrix::from_fn(3, 3, |i, j| f64::from(i == j));
     let axes = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
     let polar = |axis: usize| DofLabel {
@@ -269,8 +232,7 @@ fn a_held_body_has_no_inertia_and_needs_no_labels() {
         position: [1.0, 2.0, 3.0],
         axis: axes[axis],
     };
-    let record =
-        SuperelementRecord::of_matrices(stiffness, mass, (0..3).map(polar).collect()).unwrap();
+    let record = SuperelementRecord::of_matrices(stiffness, mass, (0..3).map(polar).collect()).unwrap();
     let (summary, text) = written(&record);
     assert_eq!((summary.mass, summary.nodes), (None, 1));
     assert!(words(&text, 12).is_none() && words(&text, 13).is_none());
@@ -279,10 +241,7 @@ fn a_held_body_has_no_inertia_and_needs_no_labels() {
     for (mode, axis) in axes.iter().enumerate() {
         for (found, expected) in shapes[6 * mode..].iter().zip(axis) {
             // the mode's sign is free; rounding of the eigenvectors
-            assert!(
-                (found.abs() - expected.abs()).abs() < 1e-12,
-                "{found} {expected}"
-            );
+            assert!((found.abs() - expected.abs()).abs() < 1e-12, "{found} {expected}");
         }
     }
 }
@@ -294,10 +253,7 @@ fn what_mbdyn_cannot_have_is_told() {
         label.position[0] += 0.01;
     }
     let error = refused(&moved);
-    assert!(
-        error.starts_with("expected no forces in rotation about y of a free body, found "),
-        "{error}"
-    );
+    assert!(error.starts_with("expected no forces in rotation about y of a free body, found "), "{error}");
     let mut unknown = free_body();
     unknown.interface[7].position = [f64::NAN; 3];
     assert_eq!(
@@ -308,21 +264,11 @@ fn what_mbdyn_cannot_have_is_told() {
     plane.stiffness[(0, 0)] = 0.0;
     plane.stiffness[(0, 1)] = 0.0;
     plane.stiffness[(1, 0)] = 0.0;
-    assert_eq!(
-        refused(&plane),
-        "expected a body that is free (6 rigid motions) or held (none), found 1 rigid motions"
-    );
+    assert_eq!(refused(&plane), "expected a body that is free (6 rigid motions) or held (none), found 1 rigid motions");
     let mut wrong = record();
     wrong.modal_hz.clear();
-    assert_eq!(
-        refused(&wrong),
-        "array \"modal_hz\": expected 2 entries, found 0"
-    );
-    let error = write_mbdyn_fem(
-        Path::new("no/such.fem"),
-        &free_body(),
-        MbdynReference::Floating,
-    );
+    assert_eq!(refused(&wrong), "array \"modal_hz\": expected 2 entries, found 0");
+    let error = write_mbdyn_fem(Path::new("no/such.fem"), &free_body(), MbdynReference::Floating);
     let error = error.unwrap_err();
     assert!(matches!(error, MbdynError::File(_)));
     let negative = SuperelementRecord::of_matrices(
@@ -332,8 +278,5 @@ fn what_mbdyn_cannot_have_is_told() {
     )
     .unwrap();
     let error = refused(&negative);
-    assert!(
-        error.starts_with("the superelement's eigenvalue problem failed: "),
-        "{error}"
-    );
+    assert!(error.starts_with("the superelement's eigenvalue problem failed: "), "{error}");
 }

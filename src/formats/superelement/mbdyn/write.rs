@@ -25,10 +25,7 @@ pub(super) fn write(path: &Path, body: &Body) -> Result<(), FileError> {
         let modes = body.eigenvalues.len();
         writeln!(to, "** MBDyn modal data, SI units, axes of the mesh")?;
         head(to, 1, "HEADER")?;
-        writeln!(
-            to,
-            "** REVISION, NODES, NORMAL, ATTACHED, CONSTRAINT, REJECTED MODES"
-        )?;
+        writeln!(to, "** REVISION, NODES, NORMAL, ATTACHED, CONSTRAINT, REJECTED MODES")?;
         writeln!(to, "REV0 {} {modes} 0 0 0\n**", body.nodes.len())?;
         head(to, 2, "FINITE ELEMENT NODE LIST")?;
         for names in body.nodes.chunks(6) {
@@ -81,9 +78,7 @@ fn shapes(to: &mut impl Write, body: &Body) -> io::Result<()> {
         for node in &body.nodes {
             let motion = |axis: usize| {
                 let parts = node.motions[axis].iter();
-                parts
-                    .map(|&(row, factor)| factor * body.vectors[(row, mode)])
-                    .sum()
+                parts.map(|&(row, factor)| factor * body.vectors[(row, mode)]).sum()
             };
             line(to, &[0, 1, 2, 3, 4, 5].map(motion))?;
         }

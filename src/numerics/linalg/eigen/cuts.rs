@@ -26,12 +26,7 @@ pub(super) enum Side {
 /// The check of pairs of which all between two cuts were found.
 pub(super) fn check_of(low: Cut, high: Cut) -> CountCheck {
     let counted = high.1.saturating_sub(low.1);
-    CountCheck {
-        above: (low.0 > 0.0).then_some(low.0),
-        below: high.0,
-        counted,
-        found: counted,
-    }
+    CountCheck { above: (low.0 > 0.0).then_some(low.0), below: high.0, counted, found: counted }
 }
 
 impl EigenProblem {

@@ -49,10 +49,7 @@ impl EigenProblem {
         if let Ok((_, factor)) = &tried
             && !factor.is_sharp()
         {
-            tried = Err(LinalgError::NearlySingular {
-                order: self.order(),
-                contraction: factor.contraction,
-            });
+            tried = Err(LinalgError::NearlySingular { order: self.order(), contraction: factor.contraction });
         }
         let first = self.free_shift();
         for larger in [1.0, 1e2, 1e4] {
@@ -65,25 +62,14 @@ impl EigenProblem {
     }
 
     /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
-    pub(super) fn definite(
-        &self,
-        a: &SymmetricMatrix,
-        thorough: bool,
-    ) -> Result<Factor, LinalgError> {
+    pub(super) fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
         let factorise = if thorough { Factor::new } else { Factor::quick };
         let large = self.symbolic.entries() > LARGE;
-        let kind = if large {
-            Kind::Indefinite
-        } else {
-            Kind::Definite
-        };
+        let kind = if large { Kind::Indefinite } else { Kind::Definite };
         let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
         match factor.negative() {
             0 => Ok(factor),
-            negative => Err(LinalgError::Indefinite {
-                order: a.order(),
-                negative,
-            }),
+            negative => Err(LinalgError::Indefinite { order: a.order(), negative }),
         }
     }
 
@@ -96,10 +82,6 @@ impl EigenProblem {
             .map(|(k, m)| k / m)
             .filter(|ratio| ratio.is_finite() && *ratio > 0.0)
             .fold(f64::INFINITY, f64::min);
-        if smallest.is_finite() {
-            FREE_SHIFT * smallest
-        } else {
-            -1.0
-        }
+        if smallest.is_finite() { FREE_SHIFT * smallest } else { -1.0 }
     }
 }

@@ -42,20 +42,12 @@ impl EigenProblem {
     /// The `count` lowest pairs by one search, counted in a gap behind them.
     pub(super) fn lowest_at_once(&self, count: usize) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
-        let mut times = EigenTimes {
-            order: self.order_s,
-            ..EigenTimes::default()
-        };
+        let mut times = EigenTimes { order: self.order_s, ..EigenTimes::default() };
         let mut beyond = BEYOND.min(order - count);
         let mut check = None;
         for round in 1..=ROUNDS {
             let iterated = self.iterate(count, beyond, round, &mut times)?;
-            let Iterated {
-                ritz,
-                quality,
-                shift,
-                counted,
-            } = iterated;
+            let Iterated { ritz, quality, shift, counted } = iterated;
             let Some((value, counted)) = counted else {
                 if round >= CROWDED
                     && let Some(found) = self.count_before(&ritz, count, shift)
@@ -66,12 +58,7 @@ impl EigenProblem {
                 continue;
             };
             let below = ritz.values.iter().filter(|&&found| found < value).count();
-            let found = CountCheck {
-                above: None,
-                below: value,
-                counted,
-                found: below,
-            };
+            let found = CountCheck { above: None, below: value, counted, found: below };
             if counted == below {
                 return self.finished(ritz, quality, count, found, shift, times);
             }
@@ -132,8 +119,7 @@ impl EigenProblem {
         };
         let (ritz, quality, elapsed) = iterated;
         times.iterate += elapsed;
-        let mut memory =
-            Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
+        let mut memory = Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
         if let (Some(gap), None) = (early, &counted) {
             counted = Some(self.count_in(gap, std::mem::take(&mut memory))?);
         }
@@ -147,12 +133,7 @@ impl EigenProblem {
             };
         }
         times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
-        Ok(Iterated {
-            ritz,
-            quality,
-            shift,
-            counted: counted.map(|(value, counted, _)| (value, counted)),
-        })
+        Ok(Iterated { ritz, quality, shift, counted: counted.map(|(value, counted, _)| (value, counted)) })
     }
 
     /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
@@ -175,12 +156,7 @@ impl EigenProblem {
         }
         let place = [low.max(high - 2.0 * near), high - near];
         let (below, counted) = self.count_in_gap(place).ok()?;
-        let check = CountCheck {
-            above: None,
-            below,
-            counted,
-            found,
-        };
+        let check = CountCheck { above: None, below, counted, found };
         (counted == found).then_some(check)
     }
 
@@ -191,14 +167,9 @@ impl EigenProblem {
     }
 
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.
-    fn count_in(
-        &self,
-        gap: [f64; 2],
-        memory: FactorMemory,
-    ) -> Result<(f64, usize, f64), LinalgError> {
+    fn count_in(&self, gap: [f64; 2], memory: FactorMemory) -> Result<(f64, usize, f64), LinalgError> {
         let started = Instant::now();
-        let (value, counted) =
-            count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
+        let (value, counted) = count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
         Ok((value, counted, started.elapsed().as_secs_f64()))
     }
 }

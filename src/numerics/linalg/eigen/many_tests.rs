@@ -22,40 +22,22 @@ fn lattice(cells: usize) -> (EigenProblem, Vec<f64>) {
             }
         }
     }
-    let one = |j: usize| {
-        4.0 * (std::f64::consts::PI * j as f64 / (2 * cells) as f64)
-            .sin()
-            .powi(2)
-    };
-    let mut exact: Vec<f64> = (0..order)
-        .map(|n| one(n % cells) + one(n / cells % cells) + one(n / cells / cells))
-        .collect();
+    let one = |j: usize| 4.0 * (std::f64::consts::PI * j as f64 / (2 * cells) as f64).sin().powi(2);
+    let mut exact: Vec<f64> =
+        (0..order).map(|n| one(n % cells) + one(n / cells % cells) + one(n / cells / cells)).collect();
     exact.sort_by(f64::total_cmp);
-    (
-        EigenProblem::new(&k.build(), &m.build()).expect("an order"),
-        exact,
-    )
+    (EigenProblem::new(&k.build(), &m.build()).expect("an order"), exact)
 }
 
 fn assert_exact(pairs: &EigenPairs, exact: &[f64], what: &str) {
     assert_eq!(pairs.values.len(), exact.len(), "{what}");
     for (value, expected) in pairs.values.iter().zip(exact) {
         // residuals of 1e-5 leave 1e-10 of an eigenvalue; the highest is 12
-        assert!(
-            (value - expected).abs() < 1e-9 * expected + 1e-12,
-            "{what}: {value} {expected}"
-        );
+        assert!((value - expected).abs() < 1e-9 * expected + 1e-12, "{what}: {value} {expected}");
     }
     let check = pairs.count_check;
-    assert!(
-        check.counted == check.found && check.found >= exact.len(),
-        "{what}: {check:?}"
-    );
-    assert!(
-        pairs.orthogonality < 1e-10,
-        "{what}: {:e}",
-        pairs.orthogonality
-    );
+    assert!(check.counted == check.found && check.found >= exact.len(), "{what}: {check:?}");
+    assert!(pairs.orthogonality < 1e-10, "{what}: {:e}", pairs.orthogonality);
 }
 
 #[test]
@@ -73,11 +55,7 @@ fn slices_of_a_band_and_ends_on_eigenvalues() {
     let below = |value: f64| exact.iter().filter(|&&one| one < value).count();
     for [low, high] in [[1.01, 1.11], [0.51, 4.03], [3.02, 12.5], [11.01, 1e300]] {
         let pairs = problem.between(low, high).expect("found");
-        assert_exact(
-            &pairs,
-            &exact[below(low)..below(high)],
-            &format!("{low} {high}"),
-        );
+        assert_exact(&pairs, &exact[below(low)..below(high)], &format!("{low} {high}"));
     }
     for low in [0.0, 1e-20, -1.0] {
         let pairs = problem.between(low, 0.51).expect("found");
@@ -86,22 +64,12 @@ fn slices_of_a_band_and_ends_on_eigenvalues() {
     }
     // the first three are equal, and all within the band that they begin
     let pairs = problem.between(exact[1], exact[4]).expect("found");
-    assert_exact(
-        &pairs,
-        &exact[1..below(exact[4] * (1.0 + 1e-9))],
-        "on eigenvalues",
-    );
+    assert_exact(&pairs, &exact[1..below(exact[4] * (1.0 + 1e-9))], "on eigenvalues");
     for high in [0.0, 1e-20] {
         assert_exact(&problem.below(high).expect("found"), &exact[..1], "zero");
     }
     assert!(problem.between(20.0, 30.0).expect("none").values.is_empty());
-    assert!(
-        problem
-            .between(1e200, 1e300)
-            .expect("none")
-            .values
-            .is_empty()
-    );
+    assert!(problem.between(1e200, 1e300).expect("none").values.is_empty());
 }
 
 #[test]
@@ -110,20 +78,14 @@ fn modes_that_fill_the_memory_are_refused() {
     assert!(problem.find_room(27).is_ok());
     // 2^40 blocks of 27 rows: 10^15 bytes
     let refused = problem.find_room(1 << 40);
-    assert!(
-        matches!(refused, Err(LinalgError::ModesTooLarge { order: 27, .. })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(LinalgError::ModesTooLarge { order: 27, .. })), "{refused:?}");
 }
 
 /// A hundred equal chains: the wanted pair is one of a hundred, and none lies below them.
 #[test]
 fn a_crowd_without_end_is_counted_before_it() {
     let order = 100 * 60;
-    let (mut k, mut m) = (
-        TripletBuilder::new(order, order),
-        TripletBuilder::new(order, order),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(order, order), TripletBuilder::new(order, order));
     for row in 0..order {
         m.add(row, row, 1.0);
         k.add(row, row, 2.0);
@@ -135,14 +97,7 @@ fn a_crowd_without_end_is_counted_before_it() {
     let problem = EigenProblem::new(&k.build(), &m.build()).expect("an order");
     let pairs = problem.lowest(3).expect("found");
     let first = 4.0 * (std::f64::consts::PI / 122.0).sin().powi(2);
-    assert!(
-        pairs
-            .values
-            .iter()
-            .all(|value| (value / first - 1.0).abs() < 1e-9),
-        "{:?}",
-        pairs.values
-    );
+    assert!(pairs.values.iter().all(|value| (value / first - 1.0).abs() < 1e-9), "{:?}", pairs.values);
     let check = pairs.count_check;
     assert_eq!((check.counted, check.found), (0, 0));
     assert!(check.below < first && check.below > 0.0);
@@ -152,10 +107,7 @@ fn a_crowd_without_end_is_counted_before_it() {
 #[test]
 fn no_frequency_at_all() {
     let order = 300;
-    let (mut k, mut m) = (
-        TripletBuilder::new(order, order),
-        TripletBuilder::new(order, order),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(order, order), TripletBuilder::new(order, order));
     for row in 0..order {
         k.add(row, row, 2e299);
         m.add(row, row, 1.0);
@@ -164,23 +116,15 @@ fn no_frequency_at_all() {
             k.add(row - 1, row, -1e299);
         }
     }
-    let found = EigenProblem::new(&k.build(), &m.build())
-        .expect("an order")
-        .lowest(2);
-    assert!(
-        matches!(found, Err(LinalgError::NoFrequency { order: 300, .. })),
-        "{found:?}"
-    );
+    let found = EigenProblem::new(&k.build(), &m.build()).expect("an order").lowest(2);
+    assert!(matches!(found, Err(LinalgError::NoFrequency { order: 300, .. })), "{found:?}");
 }
 
 /// Three hundred equal pairs of masses, with the eigenvalues 1 and 3: a gap behind the crowd is found, and the crowd is not taken whole.
 #[test]
 fn a_crowd_before_a_gap_is_counted_before_it() {
     let order = 600;
-    let (mut k, mut m) = (
-        TripletBuilder::new(order, order),
-        TripletBuilder::new(order, order),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(order, order), TripletBuilder::new(order, order));
     for row in 0..order {
         m.add(row, row, 1.0);
         k.add(row, row, 2.0);

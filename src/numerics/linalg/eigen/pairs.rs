@@ -51,12 +51,7 @@ impl EigenPairs {
             bounds: Vec::new(),
             rounding: Vec::new(),
             orthogonality: 0.0,
-            count_check: CountCheck {
-                above: None,
-                below,
-                counted: 0,
-                found: 0,
-            },
+            count_check: CountCheck { above: None, below, counted: 0, found: 0 },
             shift: 0.0,
             times: EigenTimes::default(),
         }
@@ -70,10 +65,7 @@ impl EigenPairs {
         let mut all = parts.next().unwrap_or_else(|| Self::none(order, 0.0));
         let mut place = 0;
         let mut add = |part: &DenseMatrix| {
-            vectors
-                .as_mut()
-                .subcols_mut(place, part.ncols())
-                .copy_from(part);
+            vectors.as_mut().subcols_mut(place, part.ncols()).copy_from(part);
             place += part.ncols();
         };
         add(&all.vectors);
@@ -103,12 +95,7 @@ impl EigenPairs {
     }
 
     fn keep(&mut self, kept: Range<usize>) {
-        for list in [
-            &mut self.values,
-            &mut self.residuals,
-            &mut self.bounds,
-            &mut self.rounding,
-        ] {
+        for list in [&mut self.values, &mut self.residuals, &mut self.bounds, &mut self.rounding] {
             list.truncate(kept.end);
             list.drain(..kept.start);
         }

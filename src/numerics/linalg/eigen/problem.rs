@@ -47,11 +47,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::new`].
-    pub fn restricted(
-        k: &SparseMatrix,
-        m: &SparseMatrix,
-        kept: &[usize],
-    ) -> Result<Self, LinalgError> {
+    pub fn restricted(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
         let started = Instant::now();
         // of semidefinite matrices a row is empty if its diagonal is
         let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
@@ -76,11 +72,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
-    pub fn with_factor(
-        k: &SparseMatrix,
-        m: &SparseMatrix,
-        factor: &SparseCholesky,
-    ) -> Result<Self, LinalgError> {
+    pub fn with_factor(k: &SparseMatrix, m: &SparseMatrix, factor: &SparseCholesky) -> Result<Self, LinalgError> {
         if factor.order() != k.rows() {
             return Err(LinalgError::Shape {
                 what: "factor of the stiffness",
@@ -97,14 +89,7 @@ impl EigenProblem {
         } else {
             Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?)
         };
-        Ok(Self {
-            ordering,
-            stiffness,
-            mass,
-            symbolic,
-            factor: Some(factor),
-            order_s: started.elapsed().as_secs_f64(),
-        })
+        Ok(Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s: started.elapsed().as_secs_f64() })
     }
 
     /// Number of degrees of freedom.
@@ -144,12 +129,9 @@ impl EigenProblem {
     pub(super) fn find_room(&self, count: usize) -> Result<(), LinalgError> {
         let bytes = 8 * COPIES * self.order() as u64 * count as u64;
         match memory::available() {
-            Some(free) if bytes > free => Err(LinalgError::ModesTooLarge {
-                asked: count,
-                order: self.order(),
-                bytes,
-                free,
-            }),
+            Some(free) if bytes > free => {
+                Err(LinalgError::ModesTooLarge { asked: count, order: self.order(), bytes, free })
+            }
             _ => Ok(()),
         }
     }
@@ -169,11 +151,7 @@ impl EigenProblem {
     ) -> Result<EigenPairs, LinalgError> {
         let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
         if let Some(mode) = quality.residuals.iter().position(too_large) {
-            return Err(LinalgError::Residual {
-                mode,
-                residual: quality.residuals[mode],
-                limit: LARGEST_RESIDUAL,
-            });
+            return Err(LinalgError::Residual { mode, residual: quality.residuals[mode], limit: LARGEST_RESIDUAL });
         }
         let mut vectors = DenseMatrix::zeros(self.order(), count);
         let found = ritz.vectors.subcols(0, count).to_owned();

@@ -68,12 +68,7 @@ impl EigenProblem {
         let (slices, end) = self.slices(start, count, None)?;
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;
-        pairs.count_check = CountCheck {
-            above: None,
-            below: end.0,
-            counted: end.1,
-            found: pairs.values.len(),
-        };
+        pairs.count_check = CountCheck { above: None, below: end.0, counted: end.1, found: pairs.values.len() };
         pairs.keep_first(count);
         Ok(pairs)
     }
@@ -115,11 +110,8 @@ impl EigenProblem {
     /// What a pair j has of another slice's pair i is taken out to first order, `x_i' (K - l_j M) x_j / (l_j - l_i)`: then the vectors are
     /// orthogonal in mass and in stiffness.
     pub(super) fn joined(&self, parts: Vec<EigenPairs>) -> Result<EigenPairs, LinalgError> {
-        let slices: Vec<usize> = parts
-            .iter()
-            .enumerate()
-            .flat_map(|(slice, part)| part.values.iter().map(move |_| slice))
-            .collect();
+        let slices: Vec<usize> =
+            parts.iter().enumerate().flat_map(|(slice, part)| part.values.iter().map(move |_| slice)).collect();
         let mut pairs = EigenPairs::one_behind_the_other(parts, self.order());
         let coupling = |vectors: &DenseMatrix| {
             let heavy = self.mass_times(vectors);
@@ -207,16 +199,11 @@ impl EigenProblem {
             let found = cut.1.saturating_sub(low.1);
             if found > MOST && step > SHORTEST * low.0.abs() {
                 many = Some(cut.0);
-            } else if found < FEWEST
-                && cut.1 < wanted
-                && many.is_none_or(|many| many - few.0 > SHORTEST * few.0.abs())
+            } else if found < FEWEST && cut.1 < wanted && many.is_none_or(|many| many - few.0 > SHORTEST * few.0.abs())
             {
                 few = cut;
                 if value > self.above_all() {
-                    return Err(LinalgError::TooManyModes {
-                        asked: wanted,
-                        available: cut.1,
-                    });
+                    return Err(LinalgError::TooManyModes { asked: wanted, available: cut.1 });
                 }
             } else {
                 return Ok(cut);

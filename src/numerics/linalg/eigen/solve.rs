@@ -39,16 +39,12 @@ impl EigenProblem {
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
         if count == 0 || count > order {
-            return Err(LinalgError::TooManyModes {
-                asked: count,
-                available: order,
-            });
+            return Err(LinalgError::TooManyModes { asked: count, available: order });
         }
         self.find_room(count)?;
         let fills = largest_basis(count + BEYOND.min(order - count)) > order;
-        let dense = order <= DENSE_LIMIT
-            || self.is_too_small_for_slices() && fills
-            || order <= DENSE_SHARE_LIMIT && fills;
+        let dense =
+            order <= DENSE_LIMIT || self.is_too_small_for_slices() && fills || order <= DENSE_SHARE_LIMIT && fills;
         if dense {
             let found = self.by_dense_solver(count);
             return found.map_err(|error| self.explained(error));
@@ -107,9 +103,7 @@ impl EigenProblem {
             let mut found = Err(LinalgError::NoGap { asked: high.1 });
             if !self.is_too_small_for_slices() {
                 let nearer = self.nearer_end(high)?;
-                found = self
-                    .slices(low, high.1, Some(nearer))
-                    .and_then(|(slices, _)| self.joined(slices));
+                found = self.slices(low, high.1, Some(nearer)).and_then(|(slices, _)| self.joined(slices));
             }
             if self.order() <= DENSE_RESCUE_LIMIT && failed(&found) {
                 found = self.by_dense_solver(high.1);
@@ -139,10 +133,7 @@ impl EigenProblem {
     }
 
     fn by_dense_solver(&self, count: usize) -> Result<EigenPairs, LinalgError> {
-        let mut times = EigenTimes {
-            order: self.order_s,
-            ..EigenTimes::default()
-        };
+        let mut times = EigenTimes { order: self.order_s, ..EigenTimes::default() };
         let started = Instant::now();
         let shift = self.free_shift();
         let (ritz, check) = small::all_pairs(&self.stiffness, &self.mass, count, shift)?;

@@ -4,10 +4,7 @@ use std::f64::consts::PI;
 
 /// Chain of unit masses and springs `stiffness`, fixed at both ends: `4 k sin^2(j pi / (2 n + 2))`.
 fn chain(order: usize, stiffness: f64) -> (SparseMatrix, SparseMatrix) {
-    let (mut k, mut m) = (
-        TripletBuilder::new(order, order),
-        TripletBuilder::new(order, order),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(order, order), TripletBuilder::new(order, order));
     for row in 0..order {
         k.add(row, row, 2.0 * stiffness);
         m.add(row, row, 1.0);
@@ -37,21 +34,10 @@ fn beside(one: &SparseMatrix, copies: usize) -> SparseMatrix {
 
 /// Free rods beside each other: one zero eigenvalue each.
 fn free_rods(rods: usize, length: usize) -> (SparseMatrix, SparseMatrix) {
-    let (mut k, mut m) = (
-        TripletBuilder::new(length, length),
-        TripletBuilder::new(length, length),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(length, length), TripletBuilder::new(length, length));
     for row in 0..length {
         m.add(row, row, 1.0);
-        k.add(
-            row,
-            row,
-            if row == 0 || row + 1 == length {
-                1.0
-            } else {
-                2.0
-            },
-        );
+        k.add(row, row, if row == 0 || row + 1 == length { 1.0 } else { 2.0 });
         if row + 1 < length {
             k.add(row, row + 1, -1.0);
             k.add(row + 1, row, -1.0);
@@ -69,10 +55,7 @@ fn assert_within_bounds(pairs: &EigenPairs, expected: impl Fn(usize) -> f64) {
         let error = (value - expected(index)).abs();
         // the expected value itself is a sine: a few units of round-off
         let allowed = pairs.bounds[index] + 8.0 * f64::EPSILON * value.abs();
-        assert!(
-            error <= allowed,
-            "{index}: {value} off by {error:e}, bound {allowed:e}"
-        );
+        assert!(error <= allowed, "{index}: {value} off by {error:e}, bound {allowed:e}");
     }
 }
 
@@ -123,27 +106,13 @@ fn a_limit_finds_what_is_below_it_and_a_band_what_is_inside() {
     let below = problem.below(middle(13)).expect("converges");
     assert_eq!(below.values.len(), 13);
     assert_within_bounds(&below, |index| exact(index + 1, order));
-    assert!(
-        problem
-            .below(0.5 * exact(1, order))
-            .expect("none")
-            .values
-            .is_empty()
-    );
-    let band = problem
-        .between(middle(100), middle(112))
-        .expect("converges");
+    assert!(problem.below(0.5 * exact(1, order)).expect("none").values.is_empty());
+    let band = problem.between(middle(100), middle(112)).expect("converges");
     assert_eq!(band.values.len(), 12);
     assert_eq!(band.count_check.counted, 12);
     assert_within_bounds(&band, |index| exact(index + 101, order));
     let empty = 0.6 * exact(9, order) + 0.4 * exact(10, order);
-    assert!(
-        problem
-            .between(empty, middle(9))
-            .expect("none")
-            .values
-            .is_empty()
-    );
+    assert!(problem.between(empty, middle(9)).expect("none").values.is_empty());
 }
 
 /// Ends of a band on eigenvalues: counted a little beside them, and the answer says where.
@@ -161,10 +130,7 @@ fn a_band_of_repeated_eigenvalues() {
     let (k, m) = chain(80, 1.0);
     let (k, m) = (beside(&k, 5), beside(&m, 5));
     let band = problem(&k, &m)
-        .between(
-            0.5 * (exact(9, 80) + exact(10, 80)),
-            0.5 * (exact(12, 80) + exact(13, 80)),
-        )
+        .between(0.5 * (exact(9, 80) + exact(10, 80)), 0.5 * (exact(12, 80) + exact(13, 80)))
         .expect("converges");
     assert_eq!(band.values.len(), 15);
     assert_within_bounds(&band, |index| exact(10 + index / 5, 80));
@@ -181,9 +147,7 @@ fn a_ratio_of_stiffness_of_a_million() {
             k.add(first + row, first + column, value);
         }
     }
-    let pairs = problem(&k.build(), &beside(&m, 2))
-        .lowest(20)
-        .expect("converges");
+    let pairs = problem(&k.build(), &beside(&m, 2)).lowest(20).expect("converges");
     assert_within_bounds(&pairs, |index| exact(index + 1, 150));
 }
 
@@ -205,17 +169,9 @@ fn mass_in_part_of_the_model() {
         1 => -0.5,
         _ => 0.0,
     });
-    let all = super::super::symmetric_eigen(&reduced)
-        .expect("finite")
-        .values;
+    let all = super::super::symmetric_eigen(&reduced).expect("finite").values;
     assert_within_bounds(&pairs, |index| all[index]);
-    assert_eq!(
-        problem(&k, &m).lowest(101).err(),
-        Some(LinalgError::TooManyModes {
-            asked: 101,
-            available: 100
-        })
-    );
+    assert_eq!(problem(&k, &m).lowest(101).err(), Some(LinalgError::TooManyModes { asked: 101, available: 100 }));
 }
 
 #[test]
@@ -228,10 +184,7 @@ fn a_run_repeats_to_the_bit() {
 #[test]
 fn more_modes_than_degrees_of_freedom_is_an_error() {
     let (k, m) = chain(5, 1.0);
-    let expected = LinalgError::TooManyModes {
-        asked: 6,
-        available: 5,
-    };
+    let expected = LinalgError::TooManyModes { asked: 6, available: 5 };
     assert_eq!(problem(&k, &m).lowest(6).err(), Some(expected));
     assert_eq!(problem(&k, &m).lowest(5).expect("all").values.len(), 5);
     let (k, m) = chain(200, 1.0);
@@ -243,10 +196,7 @@ fn a_part_of_the_unknowns() {
     // held in the middle: two chains of 50
     let (k, m) = chain(101, 1.0);
     let kept: Vec<usize> = (0..101).filter(|&row| row != 50).collect();
-    let pairs = EigenProblem::restricted(&k, &m, &kept)
-        .expect("an order")
-        .lowest(8)
-        .expect("found");
+    let pairs = EigenProblem::restricted(&k, &m, &kept).expect("an order").lowest(8).expect("found");
     assert_within_bounds(&pairs, |index| exact(index / 2 + 1, 50));
     assert_eq!(pairs.vectors.nrows(), 100);
 }
@@ -254,10 +204,7 @@ fn a_part_of_the_unknowns() {
 /// A chain and beside it degrees of freedom without mass, joined to each other by `spring` alone.
 fn chain_and_nothing(order: usize, spring: f64) -> (SparseMatrix, SparseMatrix) {
     let (k, m) = chain(order, 1.0);
-    let mut all = [
-        TripletBuilder::new(order + 2, order + 2),
-        TripletBuilder::new(order + 2, order + 2),
-    ];
+    let mut all = [TripletBuilder::new(order + 2, order + 2), TripletBuilder::new(order + 2, order + 2)];
     for (whole, part) in all.iter_mut().zip([&k, &m]) {
         for (&value, (row, column)) in part.iter() {
             whole.add(row, column, value);
@@ -296,10 +243,7 @@ fn a_motion_without_stiffness_and_mass_is_an_error() {
         let error = problem(&k, &m).lowest(5).err();
         println!("{order}: {error:?}");
         assert!(
-            matches!(
-                error,
-                Some(LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. })
-            ),
+            matches!(error, Some(LinalgError::NotPositiveDefinite { .. } | LinalgError::NearlySingular { .. })),
             "{order}: {error:?}"
         );
     }

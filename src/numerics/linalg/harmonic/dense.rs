@@ -20,19 +20,12 @@ pub struct ComplexSolution {
 ///
 /// # Errors
 /// [`LinalgError::Shape`]. A singular matrix is no error: its uncertainty is.
-pub(crate) fn complex_solve(
-    z: &ComplexMatrix,
-    f: &ComplexMatrix,
-) -> Result<ComplexSolution, LinalgError> {
+pub(crate) fn complex_solve(z: &ComplexMatrix, f: &ComplexMatrix) -> Result<ComplexSolution, LinalgError> {
     run_sequentially();
     let order = z.nrows();
     for (what, found) in [("columns of Z", z.ncols()), ("loads", f.nrows())] {
         if found != order {
-            return Err(LinalgError::Shape {
-                what,
-                expected: order,
-                found,
-            });
+            return Err(LinalgError::Shape { what, expected: order, found });
         }
     }
     let scale: Vec<f64> = (0..order)
@@ -41,18 +34,12 @@ pub(crate) fn complex_solve(
             size => size.sqrt().recip(),
         })
         .collect();
-    let scaled = ComplexMatrix::from_fn(order, order, |row, column| {
-        z[(row, column)] * (scale[row] * scale[column])
-    });
+    let scaled = ComplexMatrix::from_fn(order, order, |row, column| z[(row, column)] * (scale[row] * scale[column]));
     let known = pseudo_random(order, 1, 0);
     let known = ComplexMatrix::from_fn(order, 1, |row, _| c64::new(known[(row, 0)], 0.0));
     let answer = &scaled * &known;
     let loads = ComplexMatrix::from_fn(order, f.ncols() + 1, |row, column| {
-        if column < f.ncols() {
-            f[(row, column)] * scale[row]
-        } else {
-            answer[(row, 0)]
-        }
+        if column < f.ncols() { f[(row, column)] * scale[row] } else { answer[(row, 0)] }
     });
     let factor = scaled.partial_piv_lu();
     let mut x = factor.solve(&loads);
@@ -61,14 +48,8 @@ pub(crate) fn complex_solve(
     x += factor.solve(&loads - &scaled * &x);
     let uncertainty = if size > 0.0 { error / size } else { 0.0 };
     Ok(ComplexSolution {
-        x: ComplexMatrix::from_fn(order, f.ncols(), |row, column| {
-            x[(row, column)] * scale[row]
-        }),
-        uncertainty: if uncertainty.is_finite() {
-            uncertainty
-        } else {
-            f64::INFINITY
-        },
+        x: ComplexMatrix::from_fn(order, f.ncols(), |row, column| x[(row, column)] * scale[row]),
+        uncertainty: if uncertainty.is_finite() { uncertainty } else { f64::INFINITY },
     })
 }
 
@@ -81,8 +62,7 @@ mod tests {
     fn units_do_no_harm() {
         let units = [1.0, 1e8, 1e-6, 1e3];
         let plain = |i: usize, j: usize| {
-            c64::new(1.0 / (1 + i + 2 * j) as f64, 0.1 * (i + j) as f64)
-                + if i == j { 2.0 } else { 0.0 }
+            c64::new(1.0 / (1 + i + 2 * j) as f64, 0.1 * (i + j) as f64) + if i == j { 2.0 } else { 0.0 }
         };
         let z = ComplexMatrix::from_fn(4, 4, |i, j| plain(i, j) * (units[i] * units[j]));
         let exact = |row: usize| c64::new(row as f64 + 1.0, -0.5) * (1.0 / units[row]);
@@ -99,21 +79,11 @@ mod tests {
     #[test]
     fn a_singular_matrix_is_uncertain() {
         // exactly singular; with a condition of 1e14 round-off takes most of sixteen digits; regular
-        let cases = [
-            (4.0, [1e-3, f64::INFINITY]),
-            (4.0 + 1e-13, [1e-6, 1.0]),
-            (4.01, [0.0, 1e-12]),
-        ];
+        let cases = [(4.0, [1e-3, f64::INFINITY]), (4.0 + 1e-13, [1e-6, 1.0]), (4.01, [0.0, 1e-12])];
         for (corner, limits) in cases {
-            let z = ComplexMatrix::from_fn(2, 2, |i, j| {
-                c64::new([[1.0, 2.0], [2.0, corner]][i][j], 0.0)
-            });
+            let z = ComplexMatrix::from_fn(2, 2, |i, j| c64::new([[1.0, 2.0], [2.0, corner]][i][j], 0.0));
             let found = complex_solve(&z, &ComplexMatrix::zeros(2, 1)).expect("square");
-            assert!(
-                (limits[0]..=limits[1]).contains(&found.uncertainty),
-                "{:e}",
-                found.uncertainty
-            );
+            assert!((limits[0]..=limits[1]).contains(&found.uncertainty), "{:e}", found.uncertainty);
         }
     }
 

@@ -18,10 +18,7 @@ struct Pair {
 impl Pair {
     /// Complex column `index` of pairs of real columns.
     fn of(x: &DenseMatrix, index: usize) -> Self {
-        Self {
-            re: x.col_as_slice(2 * index).to_vec(),
-            im: x.col_as_slice(2 * index + 1).to_vec(),
-        }
+        Self { re: x.col_as_slice(2 * index).to_vec(), im: x.col_as_slice(2 * index + 1).to_vec() }
     }
 
     /// `self^H other`.
@@ -185,10 +182,7 @@ pub(super) fn solve(
     let count = f.ncols() / 2;
     let norms: Vec<f64> = (0..count).map(|index| Pair::of(f, index).norm()).collect();
     let mut x = DenseMatrix::zeros(f.nrows(), f.ncols());
-    let mut residuals: Vec<f64> = norms
-        .iter()
-        .map(|&n| f64::from(u8::from(n > 0.0)))
-        .collect();
+    let mut residuals: Vec<f64> = norms.iter().map(|&n| f64::from(u8::from(n > 0.0))).collect();
     let mut iterations = vec![0; count];
     let mut remainders = f.clone();
     let mut active: Vec<usize> = (0..count).filter(|&index| norms[index] > 0.0).collect();
@@ -196,14 +190,9 @@ pub(super) fn solve(
         if active.is_empty() {
             break;
         }
-        let mut processes: Vec<Arnoldi> = active
-            .iter()
-            .map(|&index| Arnoldi::new(Pair::of(&remainders, index)))
-            .collect();
-        let goals: Vec<f64> = active
-            .iter()
-            .map(|&index| 0.5 * limits.tolerance * norms[index])
-            .collect();
+        let mut processes: Vec<Arnoldi> =
+            active.iter().map(|&index| Arnoldi::new(Pair::of(&remainders, index))).collect();
+        let goals: Vec<f64> = active.iter().map(|&index| 0.5 * limits.tolerance * norms[index]).collect();
         for _ in 0..limits.directions {
             let mut running: Vec<(usize, &mut Arnoldi)> = processes
                 .iter_mut()
@@ -213,19 +202,13 @@ pub(super) fn solve(
             if running.is_empty() {
                 break;
             }
-            let newest: Vec<&Pair> = running
-                .iter()
-                .filter_map(|(_, process)| process.basis.last())
-                .collect();
+            let newest: Vec<&Pair> = running.iter().filter_map(|(_, process)| process.basis.last()).collect();
             let mut directions = joined(&newest);
             precondition(&mut directions);
             let products = multiply(&directions);
-            running
-                .par_iter_mut()
-                .enumerate()
-                .for_each(|(place, (_, process))| {
-                    process.step(Pair::of(&directions, place), Pair::of(&products, place));
-                });
+            running.par_iter_mut().enumerate().for_each(|(place, (_, process))| {
+                process.step(Pair::of(&directions, place), Pair::of(&products, place));
+            });
             for (place, _) in &running {
                 iterations[active[*place]] += 1;
             }
@@ -244,11 +227,7 @@ pub(super) fn solve(
             residuals[index] > limits.tolerance && residuals[index] < 0.5 * before
         });
     }
-    Iterated {
-        x,
-        residuals,
-        iterations,
-    }
+    Iterated { x, residuals, iterations }
 }
 
 /// Complex vectors as pairs of columns.
@@ -257,9 +236,7 @@ fn joined(pairs: &[&Pair]) -> DenseMatrix {
     let mut whole = DenseMatrix::zeros(rows, 2 * pairs.len());
     for (index, pair) in pairs.iter().enumerate() {
         whole.col_as_slice_mut(2 * index).copy_from_slice(&pair.re);
-        whole
-            .col_as_slice_mut(2 * index + 1)
-            .copy_from_slice(&pair.im);
+        whole.col_as_slice_mut(2 * index + 1).copy_from_slice(&pair.im);
     }
     whole
 }

@@ -44,11 +44,7 @@ impl HarmonicMatrices {
         }
         let fits = |what, matrix: &SparseMatrix| match matrix.rows().min(matrix.cols()) {
             found if found == k.rows() && found == matrix.rows().max(matrix.cols()) => Ok(()),
-            found => Err(LinalgError::Shape {
-                what,
-                expected: k.rows(),
-                found,
-            }),
+            found => Err(LinalgError::Shape { what, expected: k.rows(), found }),
         };
         fits("mass", m)?;
         let permuted = |what, matrix: Option<&SparseMatrix>| match matrix {
@@ -96,11 +92,7 @@ impl HarmonicMatrices {
                 *entry -= squared * mass;
             }
             // i (a + i b) = -b + i a
-            let (other, sign) = if column % 2 == 0 {
-                (column + 1, -1.0)
-            } else {
-                (column - 1, 1.0)
-            };
+            let (other, sign) = if column % 2 == 0 { (column + 1, -1.0) } else { (column - 1, 1.0) };
             let from = lossy.col_as_slice(other);
             for (entry, loss) in product.col_as_slice_mut(column).iter_mut().zip(from) {
                 *entry += sign * loss;
@@ -110,13 +102,7 @@ impl HarmonicMatrices {
     }
 
     /// `(w C + K_s) X` for real columns, with `K X` and `M X` given.
-    fn damping_times(
-        &self,
-        omega: f64,
-        x: &DenseMatrix,
-        stiff: &DenseMatrix,
-        heavy: &DenseMatrix,
-    ) -> DenseMatrix {
+    fn damping_times(&self, omega: f64, x: &DenseMatrix, stiff: &DenseMatrix, heavy: &DenseMatrix) -> DenseMatrix {
         let (alpha, beta) = (omega * self.alpha, omega * self.beta);
         let mut sum = DenseMatrix::zeros(x.nrows(), x.ncols());
         let mut add = |factor: f64, part: &DenseMatrix| {
@@ -147,14 +133,9 @@ impl HarmonicMatrices {
         let lossy = self.damping_times(omega, x, &stiff, &heavy);
         let product = |column: usize| -> f64 {
             let entries = x.col_as_slice(column).iter();
-            entries
-                .zip(lossy.col_as_slice(column))
-                .map(|(x, y)| x * y)
-                .sum()
+            entries.zip(lossy.col_as_slice(column)).map(|(x, y)| x * y).sum()
         };
-        (0..x.ncols() / 2)
-            .map(|pair| product(2 * pair) + product(2 * pair + 1))
-            .collect()
+        (0..x.ncols() / 2).map(|pair| product(2 * pair) + product(2 * pair + 1)).collect()
     }
 
     /// `| |Z| |x| |`, the size of what is summed in `Z x`, of one complex column.

@@ -87,9 +87,7 @@ pub struct HarmonicTimes {
 
 /// A real matrix [n x p] as a complex one.
 pub(crate) fn complex_columns(real: &DenseMatrix) -> ComplexMatrix {
-    ComplexMatrix::from_fn(real.nrows(), real.ncols(), |row, column| {
-        c64::new(real[(row, column)], 0.0)
-    })
+    ComplexMatrix::from_fn(real.nrows(), real.ncols(), |row, column| c64::new(real[(row, column)], 0.0))
 }
 
 impl HarmonicProblem {
@@ -99,11 +97,7 @@ impl HarmonicProblem {
     /// # Errors
     /// [`HarmonicError::Coefficient`]; [`LinalgError::Shape`] for matrices that do not fit;
     /// [`LinalgError::NothingThere`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
-    pub fn new(
-        k: &SparseMatrix,
-        m: &SparseMatrix,
-        damping: &HarmonicDamping<'_>,
-    ) -> Result<Self, HarmonicError> {
+    pub fn new(k: &SparseMatrix, m: &SparseMatrix, damping: &HarmonicDamping<'_>) -> Result<Self, HarmonicError> {
         let all: Vec<usize> = (0..k.rows()).collect();
         Self::restricted(k, m, damping, &all)
     }
@@ -125,12 +119,7 @@ impl HarmonicProblem {
         let ordering = Ordering::of_part(k, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
         let symbolic = Arc::new(Symbolic::new(&matrices.real(1.0))?);
-        Ok(Self {
-            ordering,
-            matrices,
-            symbolic,
-            memory: Mutex::default(),
-        })
+        Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })
     }
 
     /// Number of degrees of freedom.
@@ -144,33 +133,17 @@ impl HarmonicProblem {
     /// [`HarmonicError::Frequency`], [`HarmonicError::Load`], [`LinalgError::Shape`];
     /// [`HarmonicError::Resonance`] and [`HarmonicError::FreeAtRest`] where there is no response;
     /// [`HarmonicError::NotSolved`] if the iteration fails.
-    pub fn solve(
-        &self,
-        omega: f64,
-        loads: &ComplexMatrix,
-    ) -> Result<HarmonicSolution, HarmonicError> {
+    pub fn solve(&self, omega: f64, loads: &ComplexMatrix) -> Result<HarmonicSolution, HarmonicError> {
         if !(omega >= 0.0 && omega.is_finite()) {
             return Err(HarmonicError::Frequency { hz: omega / TAU });
         }
         let f = self.split(loads)?;
         let started = Instant::now();
         let factor = self.factor(omega)?;
-        let mut times = HarmonicTimes {
-            factor: started.elapsed().as_secs_f64(),
-            ..HarmonicTimes::default()
-        };
+        let mut times = HarmonicTimes { factor: started.elapsed().as_secs_f64(), ..HarmonicTimes::default() };
         let started = Instant::now();
-        let limits = Limits {
-            tolerance: TOLERANCE,
-            directions: DIRECTIONS,
-            restarts: RESTARTS,
-        };
-        let found = krylov::solve(
-            &f,
-            |x| self.matrices.times(omega, x),
-            |x| factor.solve(x.as_mut()),
-            limits,
-        );
+        let limits = Limits { tolerance: TOLERANCE, directions: DIRECTIONS, restarts: RESTARTS };
+        let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()), limits);
         times.iterate = started.elapsed().as_secs_f64();
         for (load, &residual) in found.residuals.iter().enumerate() {
             self.judge(omega, load, residual, &f, &found)?;
@@ -195,20 +168,14 @@ impl HarmonicProblem {
                 drop(factor);
                 factor = self.factorised(squared, true)?;
             }
-            let limit = if factor.is_double() {
-                RESONANCE
-            } else {
-                LARGEST_CONTRACTION[0]
-            };
+            let limit = if factor.is_double() { RESONANCE } else { LARGEST_CONTRACTION[0] };
             return if factor.contraction <= limit {
                 Ok(factor)
             } else {
                 Err(HarmonicError::singular(omega, factor.contraction))
             };
         }
-        let is_good = |factor: &Factor| {
-            factor.contraction <= LARGEST_CONTRACTION[usize::from(factor.is_double())]
-        };
+        let is_good = |factor: &Factor| factor.contraction <= LARGEST_CONTRACTION[usize::from(factor.is_double())];
         for double in [false, true] {
             for beside in BESIDE {
                 if is_good(&factor) {
@@ -223,10 +190,7 @@ impl HarmonicProblem {
     }
 
     fn factorised(&self, squared: f64, double: bool) -> Result<Factor, LinalgError> {
-        let memory = self
-            .memory
-            .lock()
-            .map_or_else(|_| FactorMemory::default(), |mut kept| take(&mut *kept));
+        let memory = self.memory.lock().map_or_else(|_| FactorMemory::default(), |mut kept| take(&mut *kept));
         let a = self.matrices.real(squared);
         Factor::unjudged(&self.symbolic, &a, Kind::Indefinite, double, memory)
     }
@@ -255,13 +219,7 @@ impl HarmonicProblem {
         if residual <= ROUNDING * rounding {
             return Ok(());
         }
-        Err(HarmonicError::NotSolved {
-            hz: omega / TAU,
-            load,
-            residual,
-            rounding,
-            iterations: found.iterations[load],
-        })
+        Err(HarmonicError::NotSolved { hz: omega / TAU, load, residual, rounding, iterations: found.iterations[load] })
     }
 
     /// Power that damping takes from each motion [n x k] at `omega` (rad/s), averaged over a period \[k\], W:
@@ -269,11 +227,7 @@ impl HarmonicProblem {
     ///
     /// # Errors
     /// [`LinalgError::Shape`], [`HarmonicError::Load`] for entries that are not finite.
-    pub fn dissipated_power(
-        &self,
-        omega: f64,
-        displacements: &ComplexMatrix,
-    ) -> Result<Vec<f64>, HarmonicError> {
+    pub fn dissipated_power(&self, omega: f64, displacements: &ComplexMatrix) -> Result<Vec<f64>, HarmonicError> {
         let x = self.split(displacements)?;
         let energies = self.matrices.dissipation(omega, &x);
         Ok(energies.iter().map(|energy| 0.5 * omega * energy).collect())
@@ -282,12 +236,7 @@ impl HarmonicProblem {
     /// Complex columns as pairs of real ones, in the factor's order.
     fn split(&self, complex: &ComplexMatrix) -> Result<DenseMatrix, HarmonicError> {
         if complex.nrows() != self.order() {
-            return Err(LinalgError::Shape {
-                what: "loads",
-                expected: self.order(),
-                found: complex.nrows(),
-            }
-            .into());
+            return Err(LinalgError::Shape { what: "loads", expected: self.order(), found: complex.nrows() }.into());
         }
         let parts = DenseMatrix::from_fn(self.order(), 2 * complex.ncols(), |row, column| {
             let entry = complex[(row, column / 2)];

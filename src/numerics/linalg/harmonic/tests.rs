@@ -18,10 +18,7 @@ fn matrix(rows: &[&[f64]]) -> SparseMatrix {
 
 /// Chain of unit masses and springs, the first and last held by a spring of `ground`.
 fn chain(order: usize, ground: f64) -> (SparseMatrix, SparseMatrix) {
-    let (mut k, mut m) = (
-        TripletBuilder::new(order, order),
-        TripletBuilder::new(order, order),
-    );
+    let (mut k, mut m) = (TripletBuilder::new(order, order), TripletBuilder::new(order, order));
     for row in 0..order {
         let ends = usize::from(row == 0) + usize::from(row + 1 == order);
         k.add(row, row, 2.0 - ends as f64 * (1.0 - ground));
@@ -35,9 +32,7 @@ fn chain(order: usize, ground: f64) -> (SparseMatrix, SparseMatrix) {
 }
 
 fn unit_load(order: usize, place: usize) -> ComplexMatrix {
-    ComplexMatrix::from_fn(order, 1, |row, _| {
-        c64::new(f64::from(u8::from(row == place)), 0.0)
-    })
+    ComplexMatrix::from_fn(order, 1, |row, _| c64::new(f64::from(u8::from(row == place)), 0.0))
 }
 
 /// `Z^-1` of two masses by Cramer's rule, with all kinds of damping at once.
@@ -48,28 +43,17 @@ fn two_masses_in_closed_form() {
     let (alpha, beta, eta) = (4.0, 2e-5, 0.03);
     let rows = |a: &[[f64; 2]; 2]| matrix(&[&a[0], &a[1]]);
     let structural = k.map(|row| row.map(|entry| eta * entry));
-    let damping = HarmonicDamping {
-        alpha,
-        beta,
-        viscous: Some(&rows(&c)),
-        structural: Some(&rows(&structural)),
-    };
+    let damping = HarmonicDamping { alpha, beta, viscous: Some(&rows(&c)), structural: Some(&rows(&structural)) };
     let mass = [[m[0], 0.0], [0.0, m[1]]];
     let problem = HarmonicProblem::new(&rows(&k), &rows(&mass), &damping).expect("regular");
     for omega in [0.0, 300.0, 1034.7, 1900.0, 1e5] {
         let z = |i: usize, j: usize| {
             let viscous = alpha * mass[i][j] + beta * k[i][j] + c[i][j];
-            c64::new(
-                k[i][j] - omega * omega * mass[i][j],
-                omega * viscous + eta * k[i][j],
-            )
+            c64::new(k[i][j] - omega * omega * mass[i][j], omega * viscous + eta * k[i][j])
         };
         let determinant = z(0, 0) * z(1, 1) - z(0, 1) * z(1, 0);
         let f = [c64::new(1.0, 2.0), c64::new(-0.5, 0.25)];
-        let exact = [
-            (f[0] * z(1, 1) - f[1] * z(0, 1)) / determinant,
-            (f[1] * z(0, 0) - f[0] * z(1, 0)) / determinant,
-        ];
+        let exact = [(f[0] * z(1, 1) - f[1] * z(0, 1)) / determinant, (f[1] * z(0, 0) - f[0] * z(1, 0)) / determinant];
         let loads = ComplexMatrix::from_fn(2, 1, |row, _| f[row]);
         let solution = problem.solve(omega, &loads).expect("damped");
         for (row, exact) in exact.iter().enumerate() {
@@ -86,17 +70,11 @@ fn a_chain_by_its_modes() {
     let order = 60;
     let (k, m) = chain(order, 1.0);
     let (alpha, beta) = (0.01, 0.03);
-    let damping = HarmonicDamping {
-        alpha,
-        beta,
-        ..HarmonicDamping::default()
-    };
+    let damping = HarmonicDamping { alpha, beta, ..HarmonicDamping::default() };
     let problem = HarmonicProblem::new(&k, &m, &damping).expect("regular");
     let place = 17;
     for omega in [0.0, 0.3, 1.0, 1.9] {
-        let solution = problem
-            .solve(omega, &unit_load(order, place))
-            .expect("damped");
+        let solution = problem.solve(omega, &unit_load(order, place)).expect("damped");
         assert!(solution.residuals[0] <= 1e-12);
         for row in [0, 17, 40] {
             let mut exact = c64::new(0.0, 0.0);
@@ -128,20 +106,13 @@ fn an_undamped_resonance_is_an_error() {
     };
     assert!((hz - omega / TAU).abs() < 1e-15 && uncertainty > 1e-4);
     assert_eq!(
-        HarmonicError::Resonance {
-            hz: 12.5,
-            uncertainty: 0.5
-        }
-        .to_string(),
+        HarmonicError::Resonance { hz: 12.5, uncertainty: 0.5 }.to_string(),
         "at 12.5 Hz the undamped structure is in resonance: its response is without bound (round-off times amplification is 5.0e-1); give it damping, or leave this frequency out"
     );
     // a thousandth beside it there is a response, and with damping there is one on it
     let beside = none.solve(1.001 * omega, &load).expect("beside");
     assert!(beside.residuals[0] < 1e-11);
-    let damping = HarmonicDamping {
-        beta: 1e-3,
-        ..HarmonicDamping::default()
-    };
+    let damping = HarmonicDamping { beta: 1e-3, ..HarmonicDamping::default() };
     let damped = HarmonicProblem::new(&k, &m, &damping).expect("regular");
     let on = damped.solve(omega, &load).expect("damped");
     assert!(on.residuals[0] < 1e-11, "{:e}", on.residuals[0]);
@@ -157,11 +128,7 @@ fn a_free_body_at_rest_is_an_error() {
     let (k, m) = chain(30, 0.0);
     let structural = k.map(|value| 0.1 * value);
     for structural in [None, Some(&structural)] {
-        let damping = HarmonicDamping {
-            alpha: 0.1,
-            structural,
-            ..HarmonicDamping::default()
-        };
+        let damping = HarmonicDamping { alpha: 0.1, structural, ..HarmonicDamping::default() };
         let free = HarmonicProblem::new(&k, &m, &damping).expect("analysed");
         let error = free.solve(0.0, &unit_load(30, 0)).expect_err("free");
         assert_eq!(error, HarmonicError::FreeAtRest);
@@ -169,10 +136,7 @@ fn a_free_body_at_rest_is_an_error() {
         // the rigid body: f / (n (-w^2 + i w alpha)); the springs add the static 10 of a free chain, 1 % of 333
         let rigid = 1.0 / c64::new(-1e-6, 1e-4) / 30.0;
         let found = moving.displacements[(0, 0)];
-        assert!(
-            (found - rigid).norm() < 0.05 * rigid.norm(),
-            "{found} {rigid}"
-        );
+        assert!((found - rigid).norm() < 0.05 * rigid.norm(), "{found} {rigid}");
     }
     assert_eq!(
         HarmonicError::FreeAtRest.to_string(),
@@ -186,25 +150,17 @@ fn a_loose_undamped_mode_in_resonance_is_an_error() {
     let k = matrix(&[&[2.0, 0.0], &[0.0, 3.0]]);
     let m = matrix(&[&[1.0, 0.0], &[0.0, 3.0]]);
     let structural = matrix(&[&[0.2, 0.0], &[0.0, 0.0]]);
-    let damping = HarmonicDamping {
-        structural: Some(&structural),
-        ..HarmonicDamping::default()
-    };
+    let damping = HarmonicDamping { structural: Some(&structural), ..HarmonicDamping::default() };
     let problem = HarmonicProblem::new(&k, &m, &damping).expect("regular");
     let error = problem.solve(1.0, &unit_load(2, 1)).expect_err("resonance");
-    assert!(
-        matches!(error, HarmonicError::NotSolved { load: 0, residual, .. } if residual > 0.1),
-        "{error}"
-    );
+    assert!(matches!(error, HarmonicError::NotSolved { load: 0, residual, .. } if residual > 0.1), "{error}");
 }
 
 #[test]
 fn a_load_of_zeros_moves_nothing() {
     let (k, m) = chain(10, 1.0);
     let problem = HarmonicProblem::new(&k, &m, &HarmonicDamping::default()).expect("regular");
-    let solution = problem
-        .solve(0.1, &ComplexMatrix::zeros(10, 2))
-        .expect("nothing to do");
+    let solution = problem.solve(0.1, &ComplexMatrix::zeros(10, 2)).expect("nothing to do");
     assert!(solution.displacements.norm_max() == 0.0 && solution.residuals == [0.0, 0.0]);
 }
 
@@ -217,41 +173,20 @@ fn what_makes_no_sense_is_refused() {
         Err(error) => error.to_string(),
     };
     let one = unit_load(4, 0);
-    assert_eq!(
-        message(-TAU, &one),
-        "a frequency must be zero or more and finite, found -1 Hz"
-    );
-    assert_eq!(
-        message(f64::NAN, &one),
-        "a frequency must be zero or more and finite, found NaN Hz"
-    );
-    assert_eq!(
-        message(0.1, &unit_load(3, 0)),
-        "loads: expected 4 rows, found 3"
-    );
+    assert_eq!(message(-TAU, &one), "a frequency must be zero or more and finite, found -1 Hz");
+    assert_eq!(message(f64::NAN, &one), "a frequency must be zero or more and finite, found NaN Hz");
+    assert_eq!(message(0.1, &unit_load(3, 0)), "loads: expected 4 rows, found 3");
     let bad = ComplexMatrix::from_fn(4, 2, |_, column| c64::new(0.0, 1.0 / (1.0 - column as f64)));
     assert_eq!(message(0.1, &bad), "load 1 has an entry that is not finite");
-    let negative = HarmonicDamping {
-        beta: -1.0,
-        ..HarmonicDamping::default()
-    };
+    let negative = HarmonicDamping { beta: -1.0, ..HarmonicDamping::default() };
     let error = HarmonicProblem::new(&k, &m, &negative).expect_err("drives");
-    assert_eq!(
-        error.to_string(),
-        "the damping coefficient beta must be zero or more and finite, found -1"
-    );
+    assert_eq!(error.to_string(), "the damping coefficient beta must be zero or more and finite, found -1");
     let (_, small) = chain(3, 1.0);
     let error = HarmonicProblem::new(&k, &small, &HarmonicDamping::default()).expect_err("shape");
     assert_eq!(error.to_string(), "mass: expected 4 rows, found 3");
-    let other = HarmonicDamping {
-        structural: Some(&small),
-        ..HarmonicDamping::default()
-    };
+    let other = HarmonicDamping { structural: Some(&small), ..HarmonicDamping::default() };
     let error = HarmonicProblem::new(&k, &m, &other).expect_err("shape");
-    assert_eq!(
-        error.to_string(),
-        "structural damping: expected 4 rows, found 3"
-    );
+    assert_eq!(error.to_string(), "structural damping: expected 4 rows, found 3");
 }
 
 /// What a restriction leaves out is held.
@@ -260,10 +195,7 @@ fn rows_left_out_are_held() {
     let (k, m) = chain(12, 0.0);
     let kept: Vec<usize> = (1..12).collect();
     let part = |a: &SparseMatrix| crate::numerics::linalg::submatrix(a, &kept, &kept);
-    let damping = HarmonicDamping {
-        beta: 0.1,
-        ..HarmonicDamping::default()
-    };
+    let damping = HarmonicDamping { beta: 0.1, ..HarmonicDamping::default() };
     let whole = HarmonicProblem::restricted(&k, &m, &damping, &kept).expect("held");
     let alone = HarmonicProblem::new(&part(&k), &part(&m), &damping).expect("held");
     let [a, b] = [&whole, &alone].map(|problem| {
@@ -278,10 +210,7 @@ fn rows_left_out_are_held() {
 #[test]
 fn both_precisions_lead_to_the_same_response() {
     let (k, m) = chain(400, 1.0);
-    let damping = HarmonicDamping {
-        alpha: 0.01,
-        ..HarmonicDamping::default()
-    };
+    let damping = HarmonicDamping { alpha: 0.01, ..HarmonicDamping::default() };
     let problem = HarmonicProblem::new(&k, &m, &damping).expect("held");
     let f = problem.split(&unit_load(400, 100)).expect("fits");
     let omega = 0.5;
@@ -291,20 +220,10 @@ fn both_precisions_lead_to_the_same_response() {
             &f,
             |x| problem.matrices.times(omega, x),
             |x| factor.solve(x.as_mut()),
-            krylov::Limits {
-                tolerance: 1e-12,
-                directions: 30,
-                restarts: 2,
-            },
+            krylov::Limits { tolerance: 1e-12, directions: 30, restarts: 2 },
         )
     };
-    let double = Factor::unjudged(
-        &problem.symbolic,
-        &a,
-        Kind::Indefinite,
-        true,
-        FactorMemory::default(),
-    );
+    let double = Factor::unjudged(&problem.symbolic, &a, Kind::Indefinite, true, FactorMemory::default());
     let single = Factor::single_for_test(&problem.symbolic, &a);
     let found = [double, single].map(|factor| solve(&factor.expect("regular")));
     assert!(found.iter().all(|found| found.residuals[0] <= 1e-12));

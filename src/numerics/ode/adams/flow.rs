@@ -59,10 +59,7 @@ impl Flow {
     pub(super) fn new(coordinates: &[LinearCoordinate], held: usize, step: f64) -> Self {
         let (held, free) = coordinates.split_at(held);
         let groups = held.chunks(LANES).chain(free.chunks(LANES));
-        Self {
-            step,
-            groups: groups.map(|group| GroupFlow::new(group, step)).collect(),
-        }
+        Self { step, groups: groups.map(|group| GroupFlow::new(group, step)).collect() }
     }
 }
 
@@ -78,11 +75,7 @@ impl GroupFlow {
             flow.response[l] = one.response;
             flow.ramp[l] = one.ramp;
             flow.square[l] = one.square;
-            for (over, of) in flow
-                .over
-                .iter_mut()
-                .zip([one.response, one.ramp, one.square])
-            {
+            for (over, of) in flow.over.iter_mut().zip([one.response, one.ramp, one.square]) {
                 over[l] = of / step;
             }
         }
@@ -131,22 +124,14 @@ mod tests {
             let k = (phase / step) * (phase / step);
             let (flow, kept) = GroupFlow::on_springs(step, &[k, 0.0, k, 0.0]);
             assert!((kept[0] - k).abs() <= f64::EPSILON * k);
-            let beside = Propagator::new(
-                LinearCoordinate {
-                    squared_frequency: k,
-                    damping: 0.0,
-                },
-                step,
-            );
+            let beside = Propagator::new(LinearCoordinate { squared_frequency: k, damping: 0.0 }, step);
             let (y, v, g): (f64, f64, f64) = (2e-6, 1.5, 3e6);
             let inside = g - k * y;
             let place = y + flow.position_velocity[2] * v + flow.response[2] * inside;
             let rate = flow.velocity_velocity[2] * v + flow.position_velocity[2] * inside;
-            let expected =
-                beside.position_position * y + beside.position_velocity * v + beside.response * g;
-            let expected_rate = beside.velocity_position * y
-                + beside.velocity_velocity * v
-                + beside.position_velocity * g;
+            let expected = beside.position_position * y + beside.position_velocity * v + beside.response * g;
+            let expected_rate =
+                beside.velocity_position * y + beside.velocity_velocity * v + beside.position_velocity * g;
             // the first term that the series leaves out, phase^14 / 16!, and round-off; of terms of at most 5e-6 and, for the
             // velocity, 4 and phase^2 of 1.5
             let left_out = 2.0 * phase.powi(14) / 2.0e13 + 1e-13;

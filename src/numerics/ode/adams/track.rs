@@ -2,9 +2,7 @@
 
 use super::flow::{Flow, GroupFlow};
 use crate::numerics::lanes::{LANES, Lanes, each, from, put, together};
-use crate::numerics::ode::{
-    LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use multiversion::multiversion;
 
 /// A force that is the small difference of large parts is held to this share of them: with all of them quiet starts of a dented
@@ -96,22 +94,12 @@ impl Weights {
         let (step, [last, before]) = (of.step, of.past);
         if last <= 0.0 {
             // no slope is known before the first step: it is of the second order
-            return Self {
-                of,
-                correction: [1.0, 0.0, 0.0],
-                ..Self::default()
-            };
+            return Self { of, correction: [1.0, 0.0, 0.0], ..Self::default() };
         }
         let (ratio, lean) = (step / last, last / step);
         let share = ratio / (1.0 + ratio);
-        let mut weights = Self {
-            of,
-            line: ratio,
-            bow: [0.0; 2],
-            lean,
-            correction: [share * lean, 2.0 * share, 0.0],
-            share,
-        };
+        let mut weights =
+            Self { of, line: ratio, bow: [0.0; 2], lean, correction: [share * lean, 2.0 * share, 0.0], share };
         if before > 0.0 {
             let square = step * step / (last + before);
             weights.bow = [square / last, square / before];
@@ -127,13 +115,8 @@ impl Weights {
 
 /// Number of coordinates that are held by a spring or a damper of their own, up to the last such one.
 pub(super) fn held(coordinates: &[LinearCoordinate]) -> usize {
-    let held = |coordinate: &LinearCoordinate| {
-        coordinate.squared_frequency != 0.0 || coordinate.damping != 0.0
-    };
-    coordinates
-        .iter()
-        .rposition(held)
-        .map_or(0, |last| last + 1)
+    let held = |coordinate: &LinearCoordinate| coordinate.squared_frequency != 0.0 || coordinate.damping != 0.0;
+    coordinates.iter().rposition(held).map_or(0, |last| last + 1)
 }
 
 impl Track {
@@ -163,11 +146,7 @@ impl Track {
 
     /// Goes over a step from there under the line of the force, or the parabola.
     pub(super) fn predict(&mut self, flow: &Flow) {
-        let now = Stencil {
-            step: flow.step,
-            past: self.past,
-            quadratic: self.quadratic,
-        };
+        let now = Stencil { step: flow.step, past: self.past, quadratic: self.quadratic };
         if self.weights.of != now {
             self.weights = Weights::new(now);
         }
@@ -238,15 +217,10 @@ impl Track {
         self.quadratic = snapshot.flag()?;
         let mut values = vec![0.0; LANES * self.groups.len()];
         for (what, of) in [
-            (
-                "forces a step before",
-                (|group| &mut group.before) as fn(&mut Group) -> &mut Lanes,
-            ),
+            ("forces a step before", (|group| &mut group.before) as fn(&mut Group) -> &mut Lanes),
             ("positions a step before", |group| &mut group.place_before),
             ("forces two steps before", |group| &mut group.two_before),
-            ("positions two steps before", |group| {
-                &mut group.place_two_before
-            }),
+            ("positions two steps before", |group| &mut group.place_two_before),
             ("springs", |group| &mut group.spring),
             ("largest forces", |group| &mut group.largest),
         ] {
@@ -288,12 +262,7 @@ fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
 
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn predict(track: &mut Track, flow: &Flow) {
-    let Track {
-        free,
-        with_springs,
-        weights,
-        ..
-    } = *track;
+    let Track { free, with_springs, weights, .. } = *track;
     let (position, velocity) = (&mut track.position, &mut track.velocity);
     let shape = [free, position.len()];
     each_group(&mut track.groups, shape, |number, group, place| {
@@ -322,11 +291,7 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     group.line = line;
     group.parabola = each(|l| lean[l] + bow[l]);
     group.over = flow.over;
-    let curve = if weights.of.quadratic {
-        [lean, bow]
-    } else {
-        [line, [0.0; LANES]]
-    };
+    let curve = if weights.of.quadratic { [lean, bow] } else { [line, [0.0; LANES]] };
     let [linear, square] = &curve;
     group.position = each(|l| {
         (flow.position_position[l] * y[l] + flow.position_velocity[l] * v[l])
@@ -335,9 +300,7 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     let [over, ramp_over, _] = &flow.over;
     group.velocity = each(|l| {
         (flow.velocity_position[l] * y[l] + flow.velocity_velocity[l] * v[l])
-            + (flow.position_velocity[l] * g[l]
-                + over[l] * linear[l]
-                + 2.0 * ramp_over[l] * square[l])
+            + (flow.position_velocity[l] * g[l] + over[l] * linear[l] + 2.0 * ramp_over[l] * square[l])
     });
 }
 
@@ -359,11 +322,7 @@ fn compare(track: &mut Track) -> [f64; 2] {
         let from_parabola = each(|l| rise[l] - parabola[l]);
         by_line = each(|l| larger(by_line[l], from_line[l].abs() * share[l]));
         by_parabola = each(|l| larger(by_parabola[l], from_parabola[l].abs() * share[l]));
-        group.defect = if weights.of.quadratic {
-            from_parabola
-        } else {
-            from_line
-        };
+        group.defect = if weights.of.quadratic { from_parabola } else { from_line };
     });
     [by_line, by_parabola].map(|of| together(of).into_iter().fold(0.0, f64::max))
 }

@@ -36,8 +36,7 @@ pub(super) struct Scale {
 impl Scale {
     /// For states of so many numbers with what fills them up.
     pub(super) fn new(linear: &[LinearCoordinate], length: usize) -> Self {
-        let group =
-            |coordinate: &LinearCoordinate| usize::from(coordinate.squared_frequency <= 0.0);
+        let group = |coordinate: &LinearCoordinate| usize::from(coordinate.squared_frequency <= 0.0);
         Self {
             dof: linear.len(),
             group: linear.iter().map(group).collect(),
@@ -85,29 +84,18 @@ impl Scale {
 
     /// A step to begin with, s: a hundredth of what changes anything by its size at the present slope, a tenth of what turns
     /// the fastest spring by a radian; `otherwise` where nothing moves.
-    pub(super) fn first_step(
-        &self,
-        linear: &[LinearCoordinate],
-        slope: &[f64],
-        otherwise: f64,
-    ) -> f64 {
+    pub(super) fn first_step(&self, linear: &[LinearCoordinate], slope: &[f64], otherwise: f64) -> f64 {
         let (mut rate, mut fastest): (f64, f64) = (0.0, 0.0);
         for i in 0..self.dof {
             let size = self.largest[i].max(self.floors[0][self.group[i]]);
             if size > 0.0 {
                 let acceleration = slope[self.dof + i].abs();
-                rate = rate
-                    .max(slope[i].abs() / size)
-                    .max((acceleration / size).sqrt());
+                rate = rate.max(slope[i].abs() / size).max((acceleration / size).sqrt());
             }
             fastest = fastest.max(linear[i].squared_frequency.sqrt());
         }
         let step = (0.01 / rate).min(0.1 / fastest);
-        if step.is_finite() && step > 0.0 {
-            step
-        } else {
-            otherwise
-        }
+        if step.is_finite() && step > 0.0 { step } else { otherwise }
     }
 
     /// Error of the step that `stages` hold, `h` s long, in units of the scales: the largest over the coordinates of the

@@ -91,16 +91,12 @@ impl Crossings {
     ///
     /// # Errors
     /// [`SnapshotError`] for those of another system.
-    pub(super) fn recalled(
-        tolerance: f64,
-        snapshot: &mut SnapshotReader,
-    ) -> Result<Self, SnapshotError> {
+    pub(super) fn recalled(tolerance: f64, snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
         let (count, crowded) = (snapshot.count()?, snapshot.count()?);
         let largest = snapshot.numbers()?;
         let mut after = vec![0.0; largest.len()];
         snapshot.numbers_into("events", &mut after)?;
-        let above: Result<Vec<bool>, SnapshotError> =
-            after.iter().map(|_| snapshot.flag()).collect();
+        let above: Result<Vec<bool>, SnapshotError> = after.iter().map(|_| snapshot.flag()).collect();
         Ok(Self {
             tolerance,
             above: above?,

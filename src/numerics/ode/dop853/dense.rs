@@ -16,11 +16,7 @@ pub(super) struct Dense {
 
 impl Dense {
     pub(super) fn new(length: usize) -> Self {
-        Self {
-            ready: false,
-            terms: std::array::from_fn(|_| vec![0.0; length]),
-            state: vec![0.0; length],
-        }
+        Self { ready: false, terms: std::array::from_fn(|_| vec![0.0; length]), state: vec![0.0; length] }
     }
 
     /// Forgets the step.

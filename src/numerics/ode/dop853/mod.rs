@@ -16,9 +16,7 @@ mod stages;
 mod tableau;
 
 use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{
-    Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use crate::numerics::ode::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use control::{Controller, Scale};
 use crossings::{Crossings, resolution};
 use dense::Dense;
@@ -47,12 +45,7 @@ pub(super) struct Dop853 {
 
 impl Dop853 {
     /// From the instant `t` (s); `tolerance` is relative, above 0 and below 1.
-    pub(super) fn new(
-        system: &impl SecondOrderSystem,
-        t: f64,
-        tolerance: f64,
-        events: bool,
-    ) -> Self {
+    pub(super) fn new(system: &impl SecondOrderSystem, t: f64, tolerance: f64, events: bool) -> Self {
         let linear = system.linear();
         let stages = Stages::new(linear);
         Self {
@@ -80,18 +73,12 @@ impl Dop853 {
             self.crossings = Crossings::new(system, self.tolerance, t, [y, v]);
         }
         let slope = self.stages.slope(LAST);
-        let step = self
-            .scale
-            .first_step(system.linear(), slope, 1e-3 * (t1 - t));
+        let step = self.scale.first_step(system.linear(), slope, 1e-3 * (t1 - t));
         self.next = Some(step);
     }
 
     /// Takes one step.
-    fn advance<S: SecondOrderSystem>(
-        &mut self,
-        system: &mut S,
-        next: f64,
-    ) -> Result<(), Divergence> {
+    fn advance<S: SecondOrderSystem>(&mut self, system: &mut S, next: f64) -> Result<(), Divergence> {
         let from = self.span.to;
         self.stages.turn_over();
         if from >= self.change {
@@ -155,14 +142,7 @@ fn end_of_step(from: f64, h: f64, change: f64) -> f64 {
 }
 
 impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
-    fn step(
-        &mut self,
-        system: &mut S,
-        t1: f64,
-        y: &mut [f64],
-        v: &mut [f64],
-        g: &mut [f64],
-    ) -> Result<(), Divergence> {
+    fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence> {
         if self.next.is_none() {
             self.begin(system, t1, [y, v, g]);
         }
@@ -172,11 +152,8 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
             self.advance(system, next)?;
         }
         let place = self.span.place(t1);
-        let [at_y, at_v] = if place < 1.0 {
-            self.dense.at(system, &mut self.stages, &self.span, place)
-        } else {
-            self.stages.end()
-        };
+        let [at_y, at_v] =
+            if place < 1.0 { self.dense.at(system, &mut self.stages, &self.span, place) } else { self.stages.end() };
         y.copy_from_slice(at_y);
         v.copy_from_slice(at_v);
         system.force_into(t1, y, v, g);
@@ -189,10 +166,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
             steps: self.steps,
             rejected: self.rejected,
             evaluations: self.stages.evaluations + self.samples + 1,
-            events: self
-                .crossings
-                .as_ref()
-                .map_or(0, |crossings| crossings.count),
+            events: self.crossings.as_ref().map_or(0, |crossings| crossings.count),
             ..Statistics::default()
         }
     }
@@ -225,11 +199,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
         self.dense.recall(snapshot)?;
         self.scale.recall(snapshot)?;
         self.controller.recall(snapshot)?;
-        self.crossings = if snapshot.flag()? {
-            Some(Crossings::recalled(self.tolerance, snapshot)?)
-        } else {
-            None
-        };
+        self.crossings = if snapshot.flag()? { Some(Crossings::recalled(self.tolerance, snapshot)?) } else { None };
         Ok(())
     }
 }

@@ -1,9 +1,7 @@
 //! One step of the pair on the first-order form (y, v)' = (v, g - damping v - omega^2 y).
 
 use super::tableau::{Combination, ERROR_3, ERROR_5, EXTENDED, NODES, ROWS, STAGES};
-use crate::numerics::ode::{
-    LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader,
-};
+use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
 use std::ops::Range;
 
 /// Numbers that are combined at once.
@@ -24,11 +22,7 @@ pub(super) struct Span {
 impl Span {
     /// The step between two instants (s), with the next jump of the force by time at `change`.
     pub(super) fn new(from: f64, to: f64, change: f64) -> Self {
-        Self {
-            from,
-            to,
-            inside: if to < change { to } else { change.next_down() },
-        }
+        Self { from, to, inside: if to < change { to } else { change.next_down() } }
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -37,11 +31,7 @@ impl Span {
 
     /// Instant of a place (0 to 1), s.
     pub(super) fn at(&self, place: f64) -> f64 {
-        if place < 1.0 {
-            (self.from + place * self.length()).min(self.inside)
-        } else {
-            self.inside
-        }
+        if place < 1.0 { (self.from + place * self.length()).min(self.inside) } else { self.inside }
     }
 
     /// Writes it.
@@ -56,11 +46,7 @@ impl Span {
     /// # Errors
     /// [`SnapshotError::Short`].
     pub(super) fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
-        Ok(Self {
-            from: snapshot.number()?,
-            to: snapshot.number()?,
-            inside: snapshot.number()?,
-        })
+        Ok(Self { from: snapshot.number()?, to: snapshot.number()?, inside: snapshot.number()? })
     }
 
     /// Place of an instant.

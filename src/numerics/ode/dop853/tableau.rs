@@ -40,22 +40,9 @@ pub(super) const ROWS: [Combination; EXTENDED] = [
     &[(0, 0.05260015195876773)],
     &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
     &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
-    &[
-        (0, 0.2413651341592667),
-        (2, -0.8845494793282861),
-        (3, 0.924834003261792),
-    ],
-    &[
-        (0, 0.037037037037037035),
-        (3, 0.17082860872947386),
-        (4, 0.12546768756682242),
-    ],
-    &[
-        (0, 0.037109375),
-        (3, 0.17025221101954405),
-        (4, 0.06021653898045596),
-        (5, -0.017578125),
-    ],
+    &[(0, 0.2413651341592667), (2, -0.8845494793282861), (3, 0.924834003261792)],
+    &[(0, 0.037037037037037035), (3, 0.17082860872947386), (4, 0.12546768756682242)],
+    &[(0, 0.037109375), (3, 0.17025221101954405), (4, 0.06021653898045596), (5, -0.017578125)],
     &[
         (0, 0.03709200011850479),
         (3, 0.17038392571223998),
@@ -275,18 +262,10 @@ mod tests {
         }
         // trees with two branchings below the root: sum b_i c_i a_ij c_j^q and sum b_i a_ij a_jk c_k^q
         for q in 0..=5 {
-            let below: f64 = weights
-                .iter()
-                .map(|&(i, b)| b * NODES[i] * sum(ROWS[i], q))
-                .sum();
+            let below: f64 = weights.iter().map(|&(i, b)| b * NODES[i] * sum(ROWS[i], q)).sum();
             let power = f64::from(q);
             holds(below, 1.0 / ((power + 1.0) * (power + 3.0)), "one below");
-            let twice = |i: usize| {
-                ROWS[i]
-                    .iter()
-                    .map(|&(j, a)| a * sum(ROWS[j], q))
-                    .sum::<f64>()
-            };
+            let twice = |i: usize| ROWS[i].iter().map(|&(j, a)| a * sum(ROWS[j], q)).sum::<f64>();
             let below: f64 = weights.iter().map(|&(i, b)| b * twice(i)).sum();
             let expected = 1.0 / ((power + 1.0) * (power + 2.0) * (power + 3.0));
             holds(below, expected, "two below");

@@ -22,10 +22,7 @@ fn lists_and_names_that_must_hold_something_do() {
 
 #[test]
 fn a_link_connects_two_groups() {
-    full(
-        "housing.links[0].between=['lid','lid']",
-        "\"lid\" stands here a second time, expected each once",
-    );
+    full("housing.links[0].between=['lid','lid']", "\"lid\" stands here a second time, expected each once");
 }
 
 #[test]
@@ -65,15 +62,9 @@ fn nothing_stands_twice() {
     );
     for mesh in ["pedestal.msh", "pedestal_coarse.msh"] {
         // the case's own, or one of the others again
-        full(
-            &format!("modes.convergence.meshes[1]={mesh}"),
-            &twice(&format!("folder/{mesh}")),
-        );
+        full(&format!("modes.convergence.meshes[1]={mesh}"), &twice(&format!("folder/{mesh}")));
     }
-    full(
-        "sensors[0].name=shaft_x",
-        "\"shaft_x\" is the name of another signal",
-    );
+    full("sensors[0].name=shaft_x", "\"shaft_x\" is the name of another signal");
     full(
         "sensors[0].name='../P1'",
         "found \"../P1\", expected letters, digits, `_`, `-`, `.` and spaces: the signal is saved under this name",

@@ -31,26 +31,13 @@ fn rings_and_contacts_have_no_loss_factor() {
 
 #[test]
 fn materials_exist() {
-    for key in [
-        "housing.parts[0].material",
-        "ring.sections[0].material",
-        "bearing.ball_material",
-    ] {
-        full(
-            &format!("{key}=\"steal\""),
-            "no material is called \"steal\"",
-        );
+    for key in ["housing.parts[0].material", "ring.sections[0].material", "bearing.ball_material"] {
+        full(&format!("{key}=\"steal\""), "no material is called \"steal\"");
     }
     for (argument, name) in [
         ("bearing.race_material=brass", "brass"),
-        (
-            "bearing.race_material={inner=\"tin\",outer=\"steel\"}",
-            "tin",
-        ),
-        (
-            "bearing.race_material={inner=\"steel\",outer=\"tin\"}",
-            "tin",
-        ),
+        ("bearing.race_material={inner=\"tin\",outer=\"steel\"}", "tin"),
+        ("bearing.race_material={inner=\"steel\",outer=\"tin\"}", "tin"),
     ] {
         full(argument, &format!("no material is called \"{name}\""));
     }
@@ -66,11 +53,7 @@ fn materials_exist() {
 #[test]
 fn rings_and_contacts_are_isotropic() {
     let rule = "\"printed\" is orthotropic, expected an isotropic material: rings and contacts have no other";
-    for key in [
-        "ring.sections[0].material",
-        "bearing.ball_material",
-        "bearing.race_material",
-    ] {
+    for key in ["ring.sections[0].material", "bearing.ball_material", "bearing.race_material"] {
         full(&format!("{key}=printed"), rule);
     }
     holds(FULL, &["housing.parts[0].material=printed"]);
@@ -87,10 +70,7 @@ fn an_orthotropic_material_has_positive_energy_and_axes() {
         "materials.printed.y_axis=[2,0,0]",
         "the material axes x (1, 0, 0) and y (2, 0, 0) are parallel: two different directions are needed",
     );
-    full(
-        "materials.printed.x_axis=[0,0,0]",
-        "found a vector of length zero, expected a direction",
-    );
+    full("materials.printed.x_axis=[0,0,0]", "found a vector of length zero, expected a direction");
 }
 
 /// Values that overflow or vanish in the products of matrix entries: refused where they are written.
@@ -113,17 +93,10 @@ fn materials_and_directions_beyond_all_numbers() {
             "materials.steel.young",
             "found 1e-300, expected a modulus from 1e-6 to 1e18 Pa",
         ),
-        (
-            "young=1e300,poisson=0.3,density=7800",
-            "materials.steel.young",
-            "expected a modulus from 1e-6 to 1e18 Pa",
-        ),
+        ("young=1e300,poisson=0.3,density=7800", "materials.steel.young", "expected a modulus from 1e-6 to 1e18 Pa"),
     ] {
         let text = read(FULL, &[&material(keys)]).unwrap_err().to_string();
-        assert!(
-            text.contains(&format!("`{key}`")) && text.contains(rule),
-            "{text}"
-        );
+        assert!(text.contains(&format!("`{key}`")) && text.contains(rule), "{text}");
     }
     for length in ["1e-200", "1e200"] {
         let broken = direction("direction", [length.parse().unwrap(), 0.0, 0.0]);

@@ -49,10 +49,7 @@ fn what_must_exceed_zero_does() {
             full(&format!("{key}={value}"), &rule);
         }
     }
-    full(
-        "condense.interface_modes=0",
-        "found 0, expected a number above 0",
-    );
+    full("condense.interface_modes=0", "found 0, expected a number above 0");
     let text = FULL.replace("ball_mass = 3.29e-5\n", "");
     let (key, rule) = ("bearing.density", "found 0, expected a number above 0");
     breaks(&text, &["bearing.density=0"], key, rule);
@@ -69,10 +66,7 @@ fn what_may_be_zero_is_not_below() {
         "accuracy.band_hz[0]",
         "transient.start",
     ] {
-        full(
-            &format!("{key}=-1e-9"),
-            "found -1e-9, expected a number not below 0",
-        );
+        full(&format!("{key}=-1e-9"), "found -1e-9, expected a number not below 0");
         holds(FULL, &[&format!("{key}=0")]);
     }
     for (key, other) in [("alpha", "beta"), ("beta", "alpha")] {
@@ -88,10 +82,7 @@ fn what_may_be_zero_is_not_below() {
 
 #[test]
 fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
-    let (key, alpha) = (
-        "transient.spectral_radius",
-        "transient.method=generalized-alpha",
-    );
+    let (key, alpha) = ("transient.spectral_radius", "transient.method=generalized-alpha");
     for value in ["-0.1", "1.01"] {
         let rule = format!("found {value}, expected a number from 0 to 1");
         breaks(FULL, &[alpha, &format!("{key}={value}")], key, &rule);
@@ -99,10 +90,7 @@ fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
     for value in ["0", "1"] {
         holds(FULL, &[alpha, &format!("{key}={value}")]);
     }
-    full(
-        "transient.spectral_radius=0.5",
-        "needs `transient.method = \"generalized-alpha\"`, which the case lacks",
-    );
+    full("transient.spectral_radius=0.5", "needs `transient.method = \"generalized-alpha\"`, which the case lacks");
 }
 
 #[test]
@@ -132,11 +120,7 @@ fn ratios_and_fractions_stay_within_one() {
     }
     let rule = "found 1.5, expected a number from 0 to below 1";
     breaks(FULL, &["damping={modal=1.5}"], "damping.modal", rule);
-    for key in [
-        "modes.expected[0].within",
-        "modes.compare[0].within",
-        "accuracy.target",
-    ] {
+    for key in ["modes.expected[0].within", "modes.compare[0].within", "accuracy.target"] {
         for value in ["0", "1"] {
             let rule = format!("found {value}, expected a number above 0 and below 1");
             full(&format!("{key}={value}"), &rule);
@@ -171,14 +155,8 @@ fn counts_stay_within_their_range() {
         ("bearing.balls=2", "found 2, expected 3 to 40 balls"),
         ("bearing.balls=41", "found 41, expected 3 to 40 balls"),
         ("transient.modes=0", "found 0, expected at least 1"),
-        (
-            "transient.ensemble.runs=1",
-            "found 1, expected 2 to 10000 runs",
-        ),
-        (
-            "transient.ensemble.runs=10001",
-            "found 10001, expected 2 to 10000 runs",
-        ),
+        ("transient.ensemble.runs=1", "found 1, expected 2 to 10000 runs"),
+        ("transient.ensemble.runs=10001", "found 10001, expected 2 to 10000 runs"),
     ] {
         full(argument, rule);
     }
@@ -194,14 +172,8 @@ fn angles_beyond_a_hundred_turns_are_refused() {
     let expected = "found 1e12, expected an angle from -36000 to 36000 degrees";
     for (set, key) in [
         ("bearing.first_ball_deg=1e12", "bearing.first_ball_deg"),
-        (
-            "bearing.defects=[{on='outer',angle_deg=1e12,length=1e-3,depth=1e-5}]",
-            "bearing.defects[0].angle_deg",
-        ),
-        (
-            "sensors=[{name='a',direction=[0,1,0],ring_deg=1e12}]",
-            "sensors[0].ring_deg",
-        ),
+        ("bearing.defects=[{on='outer',angle_deg=1e12,length=1e-3,depth=1e-5}]", "bearing.defects[0].angle_deg"),
+        ("sensors=[{name='a',direction=[0,1,0],ring_deg=1e12}]", "sensors[0].ring_deg"),
     ] {
         breaks(FULL, &[set], key, expected);
     }

@@ -39,17 +39,11 @@ fn limits() -> ComparedModes {
 }
 
 /// The result against its own modes, changed.
-fn against(
-    result: &ModesResult,
-    change: impl Fn(&mut ModeShapes),
-) -> Result<FileComparison, ComputeError> {
+fn against(result: &ModesResult, change: impl Fn(&mut ModeShapes)) -> Result<FileComparison, ComputeError> {
     let mut modes = result.mode_shapes();
     change(&mut modes);
     let asked = limits();
-    let file = ComparedFile {
-        asked: &asked,
-        modes,
-    };
+    let file = ComparedFile { asked: &asked, modes };
     file.compare(&result.survey, result.mesh_and_model())
 }
 
@@ -95,11 +89,7 @@ fn a_frequency_beyond_its_limit_fails_its_pair_alone() {
     for (factor, ok) in [(1.009, true), (1.011, false), (0.989, false)] {
         let found = against(&result, |modes| modes.frequencies_hz[7] /= factor).expect("compares");
         assert_eq!(found.ok, ok, "{factor}");
-        let pair = found
-            .pairs
-            .iter()
-            .find(|pair| pair.here == [7])
-            .expect("paired");
+        let pair = found.pairs.iter().find(|pair| pair.here == [7]).expect("paired");
         assert!((pair.relative_difference.expect("elastic") - (factor - 1.0)).abs() < 1e-12);
         let misses: &[Miss] = if ok { &[] } else { &[Miss::Frequency] };
         assert_eq!(pair.misses, misses);
@@ -121,11 +111,7 @@ fn a_repeated_pair_may_be_turned() {
     })
     .expect("compares");
     assert!(found.ok);
-    let pair = found
-        .pairs
-        .iter()
-        .find(|pair| pair.here == [3, 4])
-        .expect("paired");
+    let pair = found.pairs.iter().find(|pair| pair.here == [3, 4]).expect("paired");
     assert!(pair.mac > 1.0 - 1e-12);
     // the two are equally long at the nodes to the mesh's symmetry only
     assert!((found.mac[3][3] - 0.75).abs() < 1e-3, "{}", found.mac[3][3]);
@@ -144,11 +130,7 @@ fn a_shape_beyond_its_limit_fails() {
         }
     })
     .expect("compares");
-    let pair = found
-        .pairs
-        .iter()
-        .find(|pair| pair.here == [7])
-        .expect("paired");
+    let pair = found.pairs.iter().find(|pair| pair.here == [7]).expect("paired");
     assert_eq!(pair.misses, [Miss::Mac]);
     assert!((pair.mac - 0.8).abs() < 1e-3, "{}", pair.mac);
     assert!(!found.ok);
@@ -176,18 +158,10 @@ fn modes_without_a_partner_fail_where_both_sides_reach() {
     assert_eq!(found.agreeing(), [5, 5]);
     // of a pair one: missing, but not at the end of the list
     let found = against(&result, |modes| remove(modes, 4)).expect("compares");
-    let pair = found
-        .pairs
-        .iter()
-        .find(|pair| pair.here == [3, 4])
-        .expect("paired");
+    let pair = found.pairs.iter().find(|pair| pair.here == [3, 4]).expect("paired");
     assert_eq!(pair.misses, [Miss::Count]);
     assert!(!found.ok);
-    assert!(
-        against(&result, |modes| remove(modes, 9))
-            .expect("compares")
-            .ok
-    );
+    assert!(against(&result, |modes| remove(modes, 9)).expect("compares").ok);
 }
 
 #[test]
@@ -232,19 +206,14 @@ fn points_are_known_by_place_or_by_label() {
     let of_mesh = against(&tied, |modes| {
         modes.points = None;
         modes.node_tags = Some(tags.clone());
-        modes
-            .shapes
-            .iter_mut()
-            .for_each(|shape| shape.truncate(3 * 120));
+        modes.shapes.iter_mut().for_each(|shape| shape.truncate(3 * 120));
     })
     .expect("compares");
     assert!(of_mesh.ok && of_mesh.points.matched == 120);
-    let message = |result: &ModesResult, change: fn(&mut ModeShapes)| {
-        against(result, change).expect_err("refused").to_string()
-    };
+    let message =
+        |result: &ModesResult, change: fn(&mut ModeShapes)| against(result, change).expect_err("refused").to_string();
     assert_eq!(
-        message(&result, |modes| (modes.points, modes.node_tags) =
-            (None, None)),
+        message(&result, |modes| (modes.points, modes.node_tags) = (None, None)),
         "bench.csv: expected mode shapes at points, found neither points nor node labels"
     );
     let ring = computed(&(RING.to_owned() + MODES));
@@ -258,12 +227,7 @@ fn points_are_known_by_place_or_by_label() {
     );
     // millimetres taken for metres
     let far = |modes: &mut ModeShapes| {
-        modes
-            .points
-            .iter_mut()
-            .flatten()
-            .flatten()
-            .for_each(|x| *x *= 1e3);
+        modes.points.iter_mut().flatten().flatten().for_each(|x| *x *= 1e3);
     };
     let error = against(&result, far).expect_err("refused");
     assert!(matches!(&error, ComputeError::Compared { source, .. }
@@ -278,27 +242,12 @@ fn points_within_widens_the_match() {
     let mut modes = result.mode_shapes();
     modes.node_tags = None;
     // 0.1 mm off: the default is 0.025 mm
-    modes
-        .points
-        .iter_mut()
-        .flatten()
-        .for_each(|point| point[0] += 1e-4);
-    let file = ComparedFile {
-        asked: &asked,
-        modes: modes.clone(),
-    };
-    assert!(
-        file.compare(&result.survey, result.mesh_and_model())
-            .is_err()
-    );
+    modes.points.iter_mut().flatten().for_each(|point| point[0] += 1e-4);
+    let file = ComparedFile { asked: &asked, modes: modes.clone() };
+    assert!(file.compare(&result.survey, result.mesh_and_model()).is_err());
     asked.points_within = Some(1.1e-4);
-    let file = ComparedFile {
-        asked: &asked,
-        modes,
-    };
-    let found = file
-        .compare(&result.survey, result.mesh_and_model())
-        .expect("compares");
+    let file = ComparedFile { asked: &asked, modes };
+    let found = file.compare(&result.survey, result.mesh_and_model()).expect("compares");
     assert_eq!(found.points.matched, 120);
     assert!((found.points.largest_distance_m - 1e-4).abs() < 1e-12);
 }

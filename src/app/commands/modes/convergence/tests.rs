@@ -24,11 +24,7 @@ fn case(mesh: &str, others: &str, more: &str) -> Case {
          parts = [{{ group = \"housing\", material = \"aluminium\" }}]\n{more}\
          [modes]\ncount = 12\nconvergence = {{ meshes = [{others}] }}\n"
     );
-    let source = Source {
-        path: path("meshes/case.toml"),
-        text,
-        set: Vec::new(),
-    };
+    let source = Source { path: path("meshes/case.toml"), text, set: Vec::new() };
     Case::from_source(source).expect("a case")
 }
 
@@ -54,11 +50,7 @@ fn the_mesh_error_is_that_against_the_exact_frequency() {
         let others = [names[(own + 1) % 3], names[(own + 2) % 3]];
         let others = format!("\"{}\", \"{}\"", others[0], others[1]);
         let found = converged(&case(names[own], &others, ""));
-        let sizes: Vec<f64> = found
-            .meshes
-            .iter()
-            .map(|mesh| mesh.element_size_m)
-            .collect();
+        let sizes: Vec<f64> = found.meshes.iter().map(|mesh| mesh.element_size_m).collect();
         // 24, 96, 216 elements of 45 pi mm^2
         for (size, elements) in sizes.iter().zip([24.0, 96.0, 216.0_f64]) {
             let drawn = (45e-6 * std::f64::consts::PI / elements).sqrt();
@@ -71,20 +63,13 @@ fn the_mesh_error_is_that_against_the_exact_frequency() {
         assert_eq!(found.modes.len(), 9);
         for (mode, exact) in found.modes.iter().zip(&exact) {
             let own_hz = mode.frequencies_hz[2 - own].expect("its own");
-            let [error, around] =
-                [mode.mesh_error, mode.mesh_error_uncertainty].map(Option::unwrap);
+            let [error, around] = [mode.mesh_error, mode.mesh_error_uncertainty].map(Option::unwrap);
             let real = own_hz / exact - 1.0;
-            assert!(
-                (error - real).abs() <= around,
-                "{own} {exact}: {error} {around} {real}"
-            );
+            assert!((error - real).abs() <= around, "{own} {exact}: {error} {around} {real}");
             let limit = mode.limit.as_ref().expect("a limit");
             let left = (limit.estimate.expect("an estimate") - exact).abs();
             // measured: 0.05 to 0.39 of the finest mesh's distance
-            assert!(
-                left < 0.5 * (limit.finest - exact).abs(),
-                "{own} {exact} {left}"
-            );
+            assert!(left < 0.5 * (limit.finest - exact).abs(), "{own} {exact} {left}");
             assert!((2.9..4.1).contains(&limit.order.expect("an order")));
         }
     }
@@ -94,15 +79,8 @@ fn the_mesh_error_is_that_against_the_exact_frequency() {
 fn two_meshes_take_the_promised_order_and_say_so() {
     let found = converged(&case("ring_6_9_48.msh", "\"ring_6_9_24.msh\"", ""));
     assert!((found.formal_order - 4.0).abs() < 1e-12);
-    let behaviours = found
-        .modes
-        .iter()
-        .map(|mode| mode.limit.as_ref().map(|limit| limit.behaviour));
-    assert!(
-        behaviours
-            .clone()
-            .all(|behaviour| behaviour == Some(Behaviour::Unknown))
-    );
+    let behaviours = found.modes.iter().map(|mode| mode.limit.as_ref().map(|limit| limit.behaviour));
+    assert!(behaviours.clone().all(|behaviour| behaviour == Some(Behaviour::Unknown)));
     assert_eq!(
         found.notes,
         [
@@ -132,9 +110,7 @@ fn scaled(mesh: &str, factor: f64) -> (tempfile::TempDir, PathBuf) {
         if !nodes || words.len() != 3 {
             return format!("{line}\n");
         }
-        let moved = words
-            .iter()
-            .map(|word| factor * word.parse::<f64>().expect("a number"));
+        let moved = words.iter().map(|word| factor * word.parse::<f64>().expect("a number"));
         moved.map(|x| format!("{x:.16} ")).collect::<String>() + "\n"
     });
     let text: String = lines.collect();
@@ -155,8 +131,7 @@ fn what_does_not_converge_is_told() {
         let limit = mode.limit.as_ref().expect("a limit");
         assert_eq!(limit.behaviour, Behaviour::Oscillating);
         assert_eq!(mode.mesh_error, None);
-        let [coarse, middle, own] =
-            [0, 1, 2].map(|mesh| mode.frequencies_hz[mesh].expect("a mode"));
+        let [coarse, middle, own] = [0, 1, 2].map(|mesh| mode.frequencies_hz[mesh].expect("a mode"));
         assert!(middle < own && own < coarse);
         // the range of the three values, over that of the finest mesh
         let range = mode.mesh_error_uncertainty.expect("a range");
@@ -203,35 +178,14 @@ fn a_pair_cut_in_two_is_recognised() {
 
 #[test]
 fn ring_and_housing_together() {
-    let found = converged(&case(
-        "ring_6_9_48.msh",
-        "\"ring_6_9_24.msh\", \"ring_6_9.msh\"",
-        RING,
-    ));
+    let found = converged(&case("ring_6_9_48.msh", "\"ring_6_9_24.msh\", \"ring_6_9.msh\"", RING));
     let dof: Vec<usize> = found.meshes.iter().map(|mesh| mesh.free_dof).collect();
     // two a node of the mesh less the bore's, three a node of the ring
-    assert_eq!(
-        dof,
-        [240 - 2 * 48 + 72, 768 - 2 * 96 + 72, 1584 - 2 * 144 + 72]
-    );
-    assert!(
-        found
-            .modes
-            .iter()
-            .all(|mode| mode.frequencies_hz.iter().all(Option::is_some))
-    );
-    assert!(
-        found
-            .notes
-            .iter()
-            .any(|note| note.starts_with("The ring keeps its nodes"))
-    );
+    assert_eq!(dof, [240 - 2 * 48 + 72, 768 - 2 * 96 + 72, 1584 - 2 * 144 + 72]);
+    assert!(found.modes.iter().all(|mode| mode.frequencies_hz.iter().all(Option::is_some)));
+    assert!(found.notes.iter().any(|note| note.starts_with("The ring keeps its nodes")));
     let worst = found.worst().expect("one");
-    let largest = found
-        .modes
-        .iter()
-        .filter_map(|mode| mode.mesh_error)
-        .fold(0.0_f64, |m, e| m.max(e.abs()));
+    let largest = found.modes.iter().filter_map(|mode| mode.mesh_error).fold(0.0_f64, |m, e| m.max(e.abs()));
     assert!((worst.mesh_error.expect("its error").abs() - largest).abs() < 1e-15);
 }
 
@@ -241,9 +195,7 @@ fn wrong_meshes_are_named_before_anything_is_computed() {
         let error = compute_modes(&case("ring_6_9_48.msh", others, ""), &Stageless);
         let error = error.expect_err("refused");
         assert!(error.is_input());
-        error
-            .to_string()
-            .replace(&path("meshes").display().to_string(), "meshes")
+        error.to_string().replace(&path("meshes").display().to_string(), "meshes")
     };
     assert_eq!(
         message("\"ring_6_9_24.msh\", \"no.msh\""),

@@ -20,18 +20,10 @@ pub(crate) const MEASURED_SHARE: f64 = 0.5;
 /// Balls with inertia, as a stretch without it showed an error; none where it could not be stepped.
 pub(crate) fn needed(error: Option<f64>) -> (BallsInertia, ChosenPart) {
     let why = match error {
-        Some(error) => format!(
-            "without the balls' mass a stretch errs by {}",
-            significant(error, 2)
-        ),
+        Some(error) => format!("without the balls' mass a stretch errs by {}", significant(error, 2)),
         None => "a stretch without the balls' mass could not be stepped".to_owned(),
     };
-    let part = ChosenPart {
-        what: "balls",
-        chosen: WITH_INERTIA.to_owned(),
-        why,
-        estimated_error: Some(0.0),
-    };
+    let part = ChosenPart { what: "balls", chosen: WITH_INERTIA.to_owned(), why, estimated_error: Some(0.0) };
     (BallsInertia::Dynamic, part)
 }
 
@@ -45,30 +37,19 @@ pub(crate) fn chosen(
     loaded: &LoadedErrors,
 ) -> (BallsInertia, ChosenPart) {
     let balls = scene.equilibrium.balls.iter();
-    let pressed = balls
-        .clone()
-        .all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    let slowest = balls
-        .map(|ball| hertz(ball_frequency(scene, ball.inner, ball.outer)))
-        .fold(f64::INFINITY, f64::min);
+    let pressed = balls.clone().all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
+    let slowest = balls.map(|ball| hertz(ball_frequency(scene, ball.inner, ball.outer))).fold(f64::INFINITY, f64::min);
     let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls()));
     let setup = &scene.setup;
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
     let (inertia, why) = match given {
         Some(given) => (given, "given".to_owned()),
-        None if !pressed => (
-            BallsInertia::Dynamic,
-            "not all balls are held between both races: they move on their own".to_owned(),
-        ),
-        None if damaged => (
-            BallsInertia::Dynamic,
-            "damage throws balls off their races".to_owned(),
-        ),
-        None if !supported => (
-            BallsInertia::Dynamic,
-            "contact damping and the printed equations need it".to_owned(),
-        ),
+        None if !pressed => {
+            (BallsInertia::Dynamic, "not all balls are held between both races: they move on their own".to_owned())
+        }
+        None if damaged => (BallsInertia::Dynamic, "damage throws balls off their races".to_owned()),
+        None if !supported => (BallsInertia::Dynamic, "contact damping and the printed equations need it".to_owned()),
         None => {
             let enough = lost.is_some_and(|lost| lost <= SHARE * target);
             let inertia = match enough {
@@ -87,11 +68,6 @@ pub(crate) fn chosen(
         BallsInertia::Dynamic => (WITH_INERTIA, Some(0.0)),
         BallsInertia::QuasiStatic => ("without inertia", lost),
     };
-    let part = ChosenPart {
-        what: "balls",
-        chosen: chosen.to_owned(),
-        why,
-        estimated_error,
-    };
+    let part = ChosenPart { what: "balls", chosen: chosen.to_owned(), why, estimated_error };
     (inertia, part)
 }

@@ -15,14 +15,10 @@ const HEAVIER: f64 = 1.05;
 ///
 /// # Errors
 /// [`ComputeError::System`] where the shaft finds no equilibrium under that load.
-pub(crate) fn heaviest(
-    asked: &case::Transient,
-    scene: &Scene,
-) -> Result<Option<(f64, Equilibrium)>, ComputeError> {
+pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<(f64, Equilibrium)>, ComputeError> {
     let setup = &scene.setup;
     let duration = asked.end - asked.start;
-    let evenly =
-        (1..=INSTANTS).map(|i| asked.start + duration * f64::from(i) / f64::from(INSTANTS));
+    let evenly = (1..=INSTANTS).map(|i| asked.start + duration * f64::from(i) / f64::from(INSTANTS));
     let knots = knots(asked, scene);
     let at_rest = |t: f64| {
         let [x, y] = setup.shaft_load(t);
@@ -32,12 +28,10 @@ pub(crate) fn heaviest(
         let speed = setup.cage.shaft().motion(t).speed;
         at_rest(t) + setup.shaft.unbalance.abs() * speed * speed
     };
-    let most = evenly
-        .chain(knots)
-        .fold(asked.start, |most, t| match force(t) > force(most) {
-            true => t,
-            false => most,
-        });
+    let most = evenly.chain(knots).fold(asked.start, |most, t| match force(t) > force(most) {
+        true => t,
+        false => most,
+    });
     if at_rest(most) <= 0.0 || force(most) <= HEAVIER * at_rest(asked.start) {
         return Ok(None);
     }

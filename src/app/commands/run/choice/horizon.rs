@@ -57,23 +57,13 @@ impl Horizon {
         let mut horizon = None;
         for length in LENGTHS {
             let looked_s = (length * first_s).min(run_s);
-            let span = Span {
-                duration: looked_s,
-                output_hz: asked.output_hz,
-            };
+            let span = Span { duration: looked_s, output_hz: asked.output_hz };
             let models = [&choice.model, &finer];
             let Ok(compared) = Compared::over(scene, models, span, from_s, band_hz) else {
                 break;
             };
             let held_s = compared.held_s(most, first_s);
-            horizon = Some(Self {
-                from_s,
-                start_s,
-                held_s: held_s.min(looked_s),
-                looked_s,
-                run_s,
-                strikes: true,
-            });
+            horizon = Some(Self { from_s, start_s, held_s: held_s.min(looked_s), looked_s, run_s, strikes: true });
             if held_s < looked_s || looked_s >= run_s {
                 break;
             }
@@ -96,10 +86,7 @@ impl Horizon {
         };
         let held = ms(self.held_s);
         let place = match self.from_s > self.start_s {
-            true => format!(
-                "for {held} ms from rest at {} s",
-                significant(self.from_s, 4)
-            ),
+            true => format!("for {held} ms from rest at {} s", significant(self.from_s, 4)),
             false => format!("in the first {held} ms of {whole}"),
         };
         match (self.passed(), self.looked_s < self.run_s) {
@@ -152,32 +139,18 @@ mod tests {
     /// Against runs with all modes in equal steps of 25 ns, the error since the start passes the estimate of 0.0037 after 5.6 ms.
     #[test]
     fn a_healthy_bearing_in_play_is_predicted_for_some_milliseconds() {
-        let end = [
-            "transient.start=0",
-            "transient.end=0.02",
-            "analysis.envelope=[]",
-        ];
+        let end = ["transient.start=0", "transient.end=0.02", "analysis.envelope=[]"];
         let horizon = horizon("scenes/healthy", &end);
         assert!((3e-3..5.6e-3).contains(&horizon.held_s), "{horizon:?}");
         assert!(horizon.passed() && horizon.strikes);
         let sentence = horizon.sentence();
-        assert!(
-            sentence.contains(" ms of 20; later, the waveform"),
-            "{sentence}"
-        );
+        assert!(sentence.contains(" ms of 20; later, the waveform"), "{sentence}");
     }
 
     /// The same references: 0.015 is passed after 2.5 ms, where the first ball that the preload does not hold comes back.
     #[test]
     fn a_preload_of_ten_nanometres_holds_no_ball_for_long() {
-        let horizon = horizon(
-            "scenes/smooth",
-            &[
-                "ring.nodes=36",
-                "bearing.radial_play=-1e-8",
-                "transient.end=5e-3",
-            ],
-        );
+        let horizon = horizon("scenes/smooth", &["ring.nodes=36", "bearing.radial_play=-1e-8", "transient.end=5e-3"]);
         assert!((1.9e-3..2.5e-3).contains(&horizon.held_s), "{horizon:?}");
     }
 
@@ -186,10 +159,7 @@ mod tests {
         let horizon = horizon("scenes/smooth", &["transient.end=6e-3"]);
         assert!(!horizon.strikes && !horizon.passed(), "{horizon:?}");
         assert_eq!(horizon.sentence(), "over the whole run");
-        let longer = Horizon {
-            run_s: 1.0,
-            ..horizon
-        };
+        let longer = Horizon { run_s: 1.0, ..horizon };
         assert!(longer.sentence().contains("at least"), "{longer:?}");
     }
 

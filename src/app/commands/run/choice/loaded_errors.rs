@@ -99,19 +99,11 @@ impl LoadedErrors {
     ///
     /// # Errors
     /// [`ComputeError::System`] for a scene that has no loaded modes.
-    fn at(
-        scene: &Scene,
-        rest: &Equilibrium,
-        band_hz: f64,
-        seconds: f64,
-    ) -> Result<Self, ComputeError> {
+    fn at(scene: &Scene, rest: &Equilibrium, band_hz: f64, seconds: f64) -> Result<Self, ComputeError> {
         let count = scene.stage.modes.count();
         // the printed equations take all modes, and balls with inertia
         if scene.setup.formulation == Formulation::Printed {
-            return Ok(Self {
-                by_count: vec![0.0; count + 1],
-                balls: 0.0,
-            });
+            return Ok(Self { by_count: vec![0.0; count + 1], balls: 0.0 });
         }
         let loaded = Loaded::of(scene, rest, seconds)?;
         let mut by_count = loaded.responses(band_hz);
@@ -129,10 +121,7 @@ impl LoadedErrors {
             mass * amplitudes.map(|a| a * a).sum::<f64>()
         };
         let of_balls: Vec<f64> = loaded.modes.iter().map(of_balls).collect();
-        Ok(Self {
-            by_count,
-            balls: loaded.drift(&of_balls, band_hz, seconds),
-        })
+        Ok(Self { by_count, balls: loaded.drift(&of_balls, band_hz, seconds) })
     }
 
     /// With so many of the lowest modes and the static residual of the others.
@@ -150,17 +139,9 @@ impl<'a> Loaded<'a> {
     fn of(scene: &'a Scene, rest: &'a Equilibrium, seconds: f64) -> Result<Self, ComputeError> {
         let (stage, setup) = (&scene.stage, &scene.setup);
         let shapes = LoadedShapes::at(&stage.structure, &stage.modes, setup, rest)?;
-        let sensors: Vec<_> = judged(scene)
-            .map(|sensor| participations(&stage.modes, &sensor.row))
-            .collect();
+        let sensors: Vec<_> = judged(scene).map(|sensor| participations(&stage.modes, &sensor.row)).collect();
         let balls = radial_forces(scene, rest.balls.iter().map(|ball| ball.angle));
-        let mut loaded = Self {
-            scene,
-            rest,
-            modes: Vec::with_capacity(shapes.amplitudes.len()),
-            sensors,
-            balls,
-        };
+        let mut loaded = Self { scene, rest, modes: Vec::with_capacity(shapes.amplitudes.len()), sensors, balls };
         for (mode, amplitudes) in shapes.modes.modes.iter().zip(shapes.amplitudes) {
             let pushed = loaded.pushing().map(|ball| dot(ball, &amplitudes).powi(2));
             let pushed: f64 = pushed.sum();
@@ -182,9 +163,7 @@ impl<'a> Loaded<'a> {
 
     /// The balls that push the race, evenly among all.
     fn pushing(&self) -> impl Iterator<Item = &Vec<f64>> {
-        self.balls
-            .iter()
-            .step_by(self.balls.len().div_ceil(PUSHING))
+        self.balls.iter().step_by(self.balls.len().div_ceil(PUSHING))
     }
 
     /// What a mode's dampers take out, `a C a` with those of the structure's modes and `c F` of every contact, 1/s.
@@ -238,9 +217,8 @@ impl<'a> Loaded<'a> {
         let pushing = rows.len() - sensors;
         // columns: of a frequency the rows, of a row real and imaginary part
         let width = 2 * rows.len();
-        let participations = DenseMatrix::from_fn(self.modes.len(), rows.len(), |i, row| {
-            dot(rows[row], &self.modes[i].amplitudes)
-        });
+        let participations =
+            DenseMatrix::from_fn(self.modes.len(), rows.len(), |i, row| dot(rows[row], &self.modes[i].amplitudes));
         let at = |frequency: usize| (frequency + 1) as f64 * spacing;
         // a line narrower than the distance of two frequencies would be missed, or met
         let receptance = |mode: &Mode, w: f64| -> Complex {
@@ -253,14 +231,10 @@ impl<'a> Loaded<'a> {
             let part = receptance(&self.modes[i], at(frequency))[place % 2];
             part * participations[(i, place / 2)]
         });
-        let shapes =
-            DenseMatrix::from_fn(count, self.modes.len(), |k, i| self.modes[i].amplitudes[k]);
+        let shapes = DenseMatrix::from_fn(count, self.modes.len(), |k, i| self.modes[i].amplitudes[k]);
         let of_modes = shapes * &right;
         let balls = self.rest.balls.iter().zip(&self.balls);
-        let dampers: Vec<f64> = balls
-            .clone()
-            .map(|(ball, _)| self.scene.setup.contact_damping * ball.outer)
-            .collect();
+        let dampers: Vec<f64> = balls.clone().map(|(ball, _)| self.scene.setup.contact_damping * ball.outer).collect();
         let pairs = DenseMatrix::from_fn(self.balls.len(), self.modes.len(), |j, i| {
             let amplitudes = &self.modes[i].amplitudes;
             dampers[j] * (dot(&self.balls[j], amplitudes) - amplitudes[count + 2 + j])
@@ -280,9 +254,7 @@ impl<'a> Loaded<'a> {
                     *entry = [0, 1].map(|part| {
                         let modes = 0..self.modes.len();
                         let column = frequency * width + column + part;
-                        modes
-                            .map(|i| participations[(i, sensor)] * right[(i, column)])
-                            .sum()
+                        modes.map(|i| participations[(i, sensor)] * right[(i, column)]).sum()
                     });
                 }
             }
@@ -385,10 +357,7 @@ mod tests {
         let plain = smooth(&[], 40e3, 4e-3);
         for (modes, measured) in [(13, 7.2e-3), (24, 2.7e-3), (60, 8.8e-4)] {
             let ratio = loaded.with(modes) / measured;
-            println!(
-                "{modes}: {ratio:.2}, {:.2}",
-                loaded.with(modes) / plain.with(modes)
-            );
+            println!("{modes}: {ratio:.2}, {:.2}", loaded.with(modes) / plain.with(modes));
             // never below the error, and no more above it than the safety and the first order's own error
             assert!((1.0..6.0).contains(&ratio), "{modes}: {ratio}");
             assert!(loaded.with(modes) > 3.0 * plain.with(modes), "{modes}");

@@ -45,13 +45,9 @@ impl ModeErrors {
     pub(crate) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
         let modes = &scene.stage.modes;
         let contacts = at_raceway(scene);
-        let sensors: Vec<Vec<f64>> = judged(scene)
-            .map(|sensor| participations(modes, &sensor.row))
-            .collect();
+        let sensors: Vec<Vec<f64>> = judged(scene).map(|sensor| participations(modes, &sensor.row)).collect();
         let stiffness = in_series(scene);
-        let frequencies: Vec<f64> = (1..=FREQUENCIES)
-            .map(|k| TAU * band_hz * k as f64 / FREQUENCIES as f64)
-            .collect();
+        let frequencies: Vec<f64> = (1..=FREQUENCIES).map(|k| TAU * band_hz * k as f64 / FREQUENCIES as f64).collect();
         let highest = undamped_ball_hz(scene).map_or(band_hz, |ball_hz| ball_hz.max(band_hz));
         let widening = highest / band_hz;
         let adds_up = undamped_ball_hz(scene).map_or(1.0, |_| ADDS_UP);
@@ -91,8 +87,7 @@ impl ModeErrors {
                 let path = path.map(|(lost, whole)| lost[kind] / whole[0].max(f64::MIN_POSITIVE));
                 let contact = by_place.iter().map(|lost| lost[kind] / FREQUENCIES as f64);
                 let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-                by_count[mode][kind] =
-                    (most(&mut path.into_iter()) + most(&mut contact.into_iter())).sqrt();
+                by_count[mode][kind] = (most(&mut path.into_iter()) + most(&mut contact.into_iter())).sqrt();
             }
             let [_, with_residual] = &mut by_count[mode];
             *with_residual = with_residual.hypot(loaded.with(mode));
@@ -102,9 +97,7 @@ impl ModeErrors {
 
     /// With so many of the lowest modes.
     pub(crate) fn with(&self, modes: usize, residual: bool) -> f64 {
-        self.by_count
-            .get(modes)
-            .map_or(0.0, |errors| errors[usize::from(residual)])
+        self.by_count.get(modes).map_or(0.0, |errors| errors[usize::from(residual)])
     }
 
     /// The fewest modes with an estimate of at most `target`, at least one.
@@ -138,8 +131,7 @@ impl Lost {
         let [without, with] = &self.0;
         let square = |entries: &[Complex]| entries.iter().flatten().map(|x| x * x).sum::<f64>();
         let both = without.chunks(stretch).zip(with.chunks(stretch));
-        both.map(|(without, with)| [square(without), square(with)])
-            .collect()
+        both.map(|(without, with)| [square(without), square(with)]).collect()
     }
 }
 
@@ -156,10 +148,7 @@ fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] 
 /// Participations of radial forces at places all round the raceway.
 fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
     let count = PLACES * scene.setup.balls();
-    radial_forces(
-        scene,
-        (0..count).map(|number| TAU * number as f64 / count as f64),
-    )
+    radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64))
 }
 
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.

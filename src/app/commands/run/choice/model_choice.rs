@@ -62,10 +62,7 @@ impl ModelChoice {
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
         let largest = parts.max_by(|(_, a), (_, b)| a.total_cmp(b));
         let Some(together) = self.estimated_error else {
-            let unknown = self
-                .parts
-                .iter()
-                .find(|part| part.estimated_error.is_none());
+            let unknown = self.parts.iter().find(|part| part.estimated_error.is_none());
             return unknown.into_iter().map(|part| self.unknown(part)).collect();
         };
         let Some((part, error)) = largest else {

@@ -27,15 +27,13 @@ pub(crate) fn modes(
     let (all, known) = (scene.stage.structure.dof(), scene.stage.modes.count());
     let (selection, why) = match asked.modes {
         ModesKept::All => (ModeSelection::All, "given".to_owned()),
-        ModesKept::Count(count) if count > known => (
-            ModeSelection::Count(known),
-            format!("given: {count}, of which there are {known}"),
-        ),
+        ModesKept::Count(count) if count > known => {
+            (ModeSelection::Count(known), format!("given: {count}, of which there are {known}"))
+        }
         ModesKept::Count(count) => (ModeSelection::Count(count), "given".to_owned()),
-        ModesKept::Auto if whole => (
-            ModeSelection::All,
-            "the equations or the method need all displacements of the ring".to_owned(),
-        ),
+        ModesKept::Auto if whole => {
+            (ModeSelection::All, "the equations or the method need all displacements of the ring".to_owned())
+        }
         ModesKept::Auto => {
             let share = MODES_SHARE * target;
             let fewest = with_pairs(scene, errors.fewest(share, asked.residual));
@@ -73,11 +71,7 @@ pub(crate) fn modes(
         chosen: format!(
             "{kept} of {all}, up to {} kHz{}",
             significant(highest / 1e3, 4),
-            if kept < all && asked.residual {
-                ", static residual of the others"
-            } else {
-                ""
-            }
+            if kept < all && asked.residual { ", static residual of the others" } else { "" }
         ),
         why: format!("{why}; {left}"),
         estimated_error: Some(errors.with(kept, asked.residual)),
@@ -89,9 +83,7 @@ pub(crate) fn modes(
 fn with_pairs(scene: &Scene, count: usize) -> usize {
     let modes = &scene.stage.modes;
     let mut kept = count.clamp(1, modes.count());
-    while kept < modes.count()
-        && modes.frequency_hz(kept) <= (1.0 + PAIR) * modes.frequency_hz(kept - 1)
-    {
+    while kept < modes.count() && modes.frequency_hz(kept) <= (1.0 + PAIR) * modes.frequency_hz(kept - 1) {
         kept += 1;
     }
     kept

@@ -69,11 +69,7 @@ pub(crate) fn measured(
     strikes: bool,
 ) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
-    let length_s = if strikes {
-        first_s
-    } else {
-        (LONG * first_s).min(run_s)
-    };
+    let length_s = if strikes { first_s } else { (LONG * first_s).min(run_s) };
     let from_s = match strikes {
         true => begin(asked, scene, run_s - length_s),
         false => long_begin(asked, scene, length_s),
@@ -85,10 +81,7 @@ pub(crate) fn measured(
     });
     let (mut most, mut rms) = (0.0_f64, 0.0_f64);
     for (begin, duration) in [Some((from_s, length_s)), change].into_iter().flatten() {
-        let span = Span {
-            duration,
-            output_hz: asked.output_hz,
-        };
+        let span = Span { duration, output_hz: asked.output_hz };
         let [run, finer] = Compared::over(scene, [model, &finer], span, begin, band_hz)?.signals;
         for (run, finer) in run.iter().zip(&finer) {
             let error = relative_difference(run, finer).map_err(|error| error.to_string())?;
@@ -105,13 +98,7 @@ pub(crate) fn measured(
         _ => 0.0,
     };
     let safety = if strikes { 1.0 } else { SAFETY };
-    Ok(Measured {
-        error: safety * most / (1.0 - left),
-        from_s,
-        length_s,
-        rms,
-        finer,
-    })
+    Ok(Measured { error: safety * most / (1.0 - left), from_s, length_s, rms, finer })
 }
 
 /// The largest difference of two series in a part of `first_s / PARTS` relative to the size of the whole second one, or since the start up to the
@@ -163,12 +150,7 @@ pub(crate) fn finer(
         return Ok(None);
     }
     let (method, as_the_model) = match (model.method, model.modes) {
-        (
-            Method::ExponentialAdams {
-                tolerance: Some(tolerance),
-            },
-            _,
-        ) => (stepping::adams(FINER * tolerance), true),
+        (Method::ExponentialAdams { tolerance: Some(tolerance) }, _) => (stepping::adams(FINER * tolerance), true),
         (Method::Exponential, _) => (Method::Exponential, true),
         (_, ModeSelection::All) => (Method::Exponential, false),
         _ => (stepping::adams(FINER * stepping::tolerance(target)), false),
@@ -186,11 +168,7 @@ pub(crate) fn finer(
     // what of the steps the tolerance does not govern follows the added modes
     if !(as_the_model && method == Method::Exponential) {
         let (step, _) = stepping::own_step(asked, &finer, scene, heaviest)?;
-        finer.step = if as_the_model {
-            step.min(model.step)
-        } else {
-            step
-        };
+        finer.step = if as_the_model { step.min(model.step) } else { step };
     }
     finer.step *= SHORTER;
     Ok(Some(finer))
@@ -219,9 +197,7 @@ impl Compared {
         }
         let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
         let (run, finer) = rayon::join(|| signals(model), || signals(finer));
-        Ok(Self {
-            signals: [run?, finer?],
-        })
+        Ok(Self { signals: [run?, finer?] })
     }
 
     /// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
@@ -254,13 +230,7 @@ impl Compared {
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.
-fn stretch(
-    scene: &Scene,
-    model: &RunModel,
-    span: Span,
-    begin: f64,
-    band_hz: f64,
-) -> Result<Vec<TimeSeries>, String> {
+fn stretch(scene: &Scene, model: &RunModel, span: Span, begin: f64, band_hz: f64) -> Result<Vec<TimeSeries>, String> {
     let condition = StaticCondition::at(&scene.setup, begin);
     let rest = Equilibrium::find(&scene.stage.structure, &scene.setup, condition);
     let rest = rest.map_err(|error| error.to_string())?;
@@ -328,12 +298,7 @@ mod tests {
         let asked = run.transient;
         let scene = Scene::build(run, &Unwatched).unwrap();
         let choice = ModelChoice::of_case(run, &scene).unwrap();
-        let model = RunModel {
-            method: Method::ExponentialAdams {
-                tolerance: Some(tolerance),
-            },
-            ..choice.model
-        };
+        let model = RunModel { method: Method::ExponentialAdams { tolerance: Some(tolerance) }, ..choice.model };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
         let finer = finer(asked, &model, &scene, 1e-2, None).unwrap();
         let measured = measured(asked, &model, finer.unwrap(), &scene, 40e3, true);
@@ -360,14 +325,6 @@ mod tests {
         let ahead = (defect.angle() - cage.angle).rem_euclid(scene.setup.cage.spacing());
         let edge = ahead / defect.contact_half_angle();
         assert!((edge - 1.5).abs() < 0.5, "{edge}");
-        assert!(
-            cage.speed
-                > 0.9
-                    * scene
-                        .setup
-                        .cage
-                        .motion(case.transient.as_ref().unwrap().end)
-                        .speed
-        );
+        assert!(cage.speed > 0.9 * scene.setup.cage.motion(case.transient.as_ref().unwrap().end).speed);
     }
 }

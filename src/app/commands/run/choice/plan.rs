@@ -30,12 +30,7 @@ impl ModelChoice {
     /// # Errors
     /// [`ComputeError`] for modes or a residual that do not fit the scene.
     pub fn of_case(run: RunCase<'_>, scene: &Scene) -> Result<Self, ComputeError> {
-        let RunCase {
-            case,
-            bearing,
-            transient: asked,
-            ..
-        } = run;
+        let RunCase { case, bearing, transient: asked, .. } = run;
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let target = case.target();
         let source = asked.method == case::Method::NewmarkExplicit;
@@ -46,17 +41,11 @@ impl ModelChoice {
         let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
         let errors = ModeErrors::of(scene, band_hz, &loaded);
         let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
-        let (mut balls_inertia, mut balls_part) =
-            balls::chosen(bearing.balls_inertia, scene, band_hz, target, &loaded);
+        let (mut balls_inertia, mut balls_part) = balls::chosen(bearing.balls_inertia, scene, band_hz, target, &loaded);
         let growth = growth(scene, rest);
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
-            let mut model = RunModel {
-                modes,
-                residual: asked.residual,
-                balls_inertia,
-                method: Method::Exponential,
-                step: 0.0,
-            };
+            let mut model =
+                RunModel { modes, residual: asked.residual, balls_inertia, method: Method::Exponential, step: 0.0 };
             let (method, method_part) = stepping::method(asked, &model, target);
             model.method = method;
             let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
@@ -77,10 +66,7 @@ impl ModelChoice {
             BallsInertia::QuasiStatic => {
                 let with_inertia = planned(BallsInertia::Dynamic)?;
                 let found = beside(&model, &with_inertia.0);
-                let error = found
-                    .as_ref()
-                    .ok()
-                    .and_then(|found| Some(found.as_ref()?.error));
+                let error = found.as_ref().ok().and_then(|found| Some(found.as_ref()?.error));
                 match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
                     false if bearing.balls_inertia.is_none() => {
                         (balls_inertia, balls_part) = balls::needed(error);
@@ -97,8 +83,7 @@ impl ModelChoice {
         {
             model.step = shorter;
             step_part.chosen = format!("{} s", significant(shorter, 3));
-            "by the target, from the error that longer ones made on a stretch"
-                .clone_into(&mut step_part.why);
+            "by the target, from the error that longer ones made on a stretch".clone_into(&mut step_part.why);
             measured = match balls_inertia {
                 BallsInertia::Dynamic => beside(&model, &model),
                 BallsInertia::QuasiStatic => beside(&model, &planned(BallsInertia::Dynamic)?.0),
@@ -113,8 +98,7 @@ impl ModelChoice {
             Ok(None) => {}
             Err(why) => {
                 method_part.estimated_error = None;
-                method_part.why +=
-                    &format!("; its error could not be measured before the run: {why}");
+                method_part.why += &format!("; its error could not be measured before the run: {why}");
             }
         }
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
@@ -123,10 +107,7 @@ impl ModelChoice {
         for part in &mut parts {
             if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
                 part.estimated_error = Some(growth * error);
-                part.why += &format!(
-                    "; {} times the linear estimate, as balls strike",
-                    significant(growth, 2)
-                );
+                part.why += &format!("; {} times the linear estimate, as balls strike", significant(growth, 2));
             }
         }
         let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
@@ -162,10 +143,7 @@ fn superelement(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     Some(ChosenPart {
         what: SUPERELEMENT,
         chosen: format!("{} vectors", imported.record.modal_hz.len()),
-        why: format!(
-            "given; vectors above {} kHz were left out when it was condensed",
-            significant(highest / 1e3, 4)
-        ),
+        why: format!("given; vectors above {} kHz were left out when it was condensed", significant(highest / 1e3, 4)),
         estimated_error: Some(left_out(band_hz, highest)),
     })
 }

@@ -40,9 +40,7 @@ pub(crate) fn dynamic(model: &RunModel) -> bool {
 }
 
 pub(crate) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
-    (0..modes.count())
-        .map(|mode| modes.participation(mode, row))
-        .collect()
+    (0..modes.count()).map(|mode| modes.participation(mode, row)).collect()
 }
 
 /// Participations of radial forces at angles (rad) of the raceway.

@@ -58,18 +58,12 @@ pub(crate) fn tolerance(target: f64) -> f64 {
 
 /// exponential-adams with a tolerance.
 pub(crate) fn adams(tolerance: f64) -> Method {
-    Method::ExponentialAdams {
-        tolerance: Some(tolerance),
-    }
+    Method::ExponentialAdams { tolerance: Some(tolerance) }
 }
 
 /// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
 /// no limit there.
-pub(crate) fn method(
-    asked: &case::Transient,
-    model: &RunModel,
-    target: f64,
-) -> (Method, ChosenPart) {
+pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> (Method, ChosenPart) {
     let by_steps = asked.step == StepLength::Auto;
     let adams = |given: Option<f64>| Method::ExponentialAdams {
         tolerance: given.or_else(|| by_steps.then(|| tolerance(target))),
@@ -81,13 +75,10 @@ pub(crate) fn method(
         case::Method::NewmarkExplicit => Method::NewmarkExplicit,
         case::Method::Splitting => Method::Splitting,
         case::Method::Newmark => Method::Newmark,
-        case::Method::GeneralizedAlpha => Method::GeneralizedAlpha {
-            spectral_radius: asked.spectral_radius.unwrap_or(SPECTRAL_RADIUS),
-        },
-        case::Method::Dop853 => Method::Dop853 {
-            tolerance: asked.tolerance.unwrap_or(DOP853_TOLERANCE),
-            events: true,
-        },
+        case::Method::GeneralizedAlpha => {
+            Method::GeneralizedAlpha { spectral_radius: asked.spectral_radius.unwrap_or(SPECTRAL_RADIUS) }
+        }
+        case::Method::Dop853 => Method::Dop853 { tolerance: asked.tolerance.unwrap_or(DOP853_TOLERANCE), events: true },
     };
     let chosen = asked.method == case::Method::Auto;
     let why = match (chosen, method) {
@@ -98,24 +89,16 @@ pub(crate) fn method(
         (true, _) => "one evaluation a step, the linear part and the balls' contacts as springs exactly, order and steps by the error of each".to_owned(),
     };
     let (text, estimated_error) = match method {
-        Method::ExponentialAdams {
-            tolerance: Some(tolerance),
-        } => (
+        Method::ExponentialAdams { tolerance: Some(tolerance) } => (
             format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
             Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(ADAMS_ORDER)),
         ),
-        Method::Dop853 { tolerance, .. } => (
-            format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
-            None,
-        ),
+        Method::Dop853 { tolerance, .. } => {
+            (format!("{}, tolerance {}", method.name(), significant(tolerance, 2)), None)
+        }
         _ => (method.name().to_owned(), None),
     };
-    let part = ChosenPart {
-        what: "method",
-        chosen: text,
-        why,
-        estimated_error,
-    };
+    let part = ChosenPart { what: "method", chosen: text, why, estimated_error };
     (method, part)
 }
 
@@ -138,10 +121,9 @@ pub(crate) fn step(
             let (duration, interval) = (asked.end - asked.start, 1.0 / asked.output_hz);
             let step = Schedule::covering(duration, interval, given)?.step();
             let why = match step < given * (1.0 - SAME_STEP) {
-                true => format!(
-                    "given: {} s, of which no whole number fills an output interval",
-                    significant(given, 3)
-                ),
+                true => {
+                    format!("given: {} s, of which no whole number fills an output interval", significant(given, 3))
+                }
                 false => "given".to_owned(),
             };
             (step, why)
@@ -223,9 +205,7 @@ pub(crate) fn stable_below(
     let mut system = scene.system(model)?;
     let rest = scene.at_rest(&system);
     let limit = model.method.step_limit(&mut system, &rest);
-    Ok(limit
-        .map(|limit| limit.step_s)
-        .filter(|stable| model.step > *stable))
+    Ok(limit.map(|limit| limit.step_s).filter(|stable| model.step > *stable))
 }
 
 /// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of
@@ -257,9 +237,7 @@ fn stable_step(
         return None;
     };
     let heaviest = heaviest.map(|(t, rest)| system.state_at(*t, rest, &scene.stage.modes));
-    let states = [Some(scene.at_rest(&system)), heaviest]
-        .into_iter()
-        .flatten();
+    let states = [Some(scene.at_rest(&system)), heaviest].into_iter().flatten();
     let limits = states.filter_map(|rest| model.method.step_limit(&mut system, &rest));
     let shortest = limits.map(|limit| limit.step_s).reduce(f64::min)?;
     Some(STABLE * shortest)

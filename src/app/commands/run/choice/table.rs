@@ -15,9 +15,8 @@ impl ModelChoice {
                 Column::text("Estimated error"),
             ],
         );
-        let error = |value: Option<f64>| {
-            value.map_or_else(|| "not estimated".to_owned(), |value| significant(value, 2))
-        };
+        let error =
+            |value: Option<f64>| value.map_or_else(|| "not estimated".to_owned(), |value| significant(value, 2));
         for part in &self.parts {
             table = table.row([
                 Cell::text(part.what),

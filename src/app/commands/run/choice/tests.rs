@@ -22,10 +22,7 @@ fn part(choice: &ModelChoice, what: &str) -> f64 {
 #[test]
 fn a_load_that_comes_later_is_looked_at() {
     let loads = "shaft.loads=[{profile=[{time=0,force=[0,0]},{time=0.002,force=[0,0]},{time=0.003,force=[30,-50]}]}]";
-    let (plain, late) = (
-        choice("scenes/smooth", &[]),
-        choice("scenes/smooth", &[loads]),
-    );
+    let (plain, late) = (choice("scenes/smooth", &[]), choice("scenes/smooth", &[loads]));
     assert!(plain.estimated_error.unwrap() < 0.01);
     let found = late.estimated_error.unwrap();
     println!("{found}");
@@ -43,22 +40,14 @@ fn the_estimate_of_modes_looks_at_few_of_many_sensors_and_says_so() {
         choice("scenes/smooth", &[&set]).parts[0].why.clone()
     };
     let few = why(130);
-    assert!(
-        few.ends_with("; estimated at 44 of the 130 sensors"),
-        "{few}"
-    );
+    assert!(few.ends_with("; estimated at 44 of the 130 sensors"), "{few}");
     assert!(!why(2).contains("estimated at"));
 }
 
 /// With a preload; the vectors of the second one are complete up to twice the band.
 #[test]
 fn a_condensed_housing_is_part_of_the_estimate() {
-    let preload = [
-        "bearing.radial_play=-2e-6",
-        "bearing.defects=[]",
-        "transient.end=0.008",
-        "analysis.envelope=[]",
-    ];
+    let preload = ["bearing.radial_play=-2e-6", "bearing.defects=[]", "transient.end=0.008", "analysis.envelope=[]"];
     let auto = choice("housings/pillow_block", &preload);
     let few = [&preload[..], &["condense.fixed_interface_modes=8"]].concat();
     let few = choice("housings/pillow_block", &few);

@@ -28,10 +28,7 @@ pub(crate) fn longest_step(asked: &case::Transient, scene: &Scene) -> Option<f64
     });
     let waves = setup.waves.iter();
     let waves = waves.map(|wave| TAU / f64::from(wave.order) / along(wave.race));
-    let shortest = defects
-        .chain(flats)
-        .chain(waves)
-        .fold(f64::INFINITY, f64::min);
+    let shortest = defects.chain(flats).chain(waves).fold(f64::INFINITY, f64::min);
     (shortest > 0.0 && shortest.is_finite()).then_some(shortest / STEPS)
 }
 
@@ -44,12 +41,8 @@ mod tests {
 
     /// Five milliseconds of a shipped case at 30 Hz.
     fn case(name: &str, keys: &[&str]) -> (Case, Scene) {
-        let steady = [
-            "speed.profile=[{time=0,hz=30}]",
-            "transient.start=0",
-            "transient.end=5e-3",
-            "analysis.envelope=[]",
-        ];
+        let steady =
+            ["speed.profile=[{time=0,hz=30}]", "transient.start=0", "transient.end=5e-3", "analysis.envelope=[]"];
         let case = Case::example(name, &[&steady, keys].concat());
         let scene = Scene::build(case.for_run().unwrap(), &Unwatched).unwrap();
         (case, scene)
@@ -61,10 +54,7 @@ mod tests {
 
     /// How many steps see ball 0 on what turns past it, while it passes once.
     fn seen(step: f64, on: impl Fn(f64) -> bool) -> usize {
-        let seen: Vec<bool> = (0..)
-            .map(|k| on(f64::from(k) * step))
-            .take(200_000)
-            .collect();
+        let seen: Vec<bool> = (0..).map(|k| on(f64::from(k) * step)).take(200_000).collect();
         let begins = (1..seen.len()).find(|&k| seen[k] && !seen[k - 1]).unwrap();
         seen[begins..].iter().take_while(|&&on| on).count()
     }
@@ -103,13 +93,7 @@ mod tests {
                 flat.shape.contains(race, reduced(angle))
             })
         });
-        assert!(
-            counts
-                .into_iter()
-                .min()
-                .is_some_and(|least| (7..=9).contains(&least)),
-            "{counts:?}"
-        );
+        assert!(counts.into_iter().min().is_some_and(|least| (7..=9).contains(&least)), "{counts:?}");
     }
 
     #[test]
@@ -122,10 +106,7 @@ mod tests {
         let expected = 1.0 / (30.0 * 0.633_145 * 40.0 * 8.0);
         let found = longest(&waved).unwrap();
         assert!((found / expected - 1.0).abs() < 1e-5, "{found}");
-        let standing = case(
-            "tadina2011/healthy",
-            &[wave, "speed.profile=[{time=0,hz=0}]"],
-        );
+        let standing = case("tadina2011/healthy", &[wave, "speed.profile=[{time=0,hz=0}]"]);
         assert_eq!(longest(&standing), None);
     }
 }

@@ -79,10 +79,7 @@ impl Checkpoint {
     /// [`UnfinishedError::File`], [`UnfinishedError::Damaged`].
     pub fn read(path: &Path) -> Result<Self, UnfinishedError> {
         let bytes = fs::read(path).map_err(FileError::read(path))?;
-        Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged {
-            path: path.to_owned(),
-            what,
-        })
+        Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged { path: path.to_owned(), what })
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {
@@ -143,20 +140,12 @@ mod tests {
         assert_eq!(read.columns_sha256, columns.digest());
         assert_eq!(read.identity, identity());
         let whole = fs::read(&path).unwrap();
-        for place in [
-            MAGIC.len() + 5,
-            whole.len() / 2,
-            whole.len() - 40,
-            whole.len() - 1,
-        ] {
+        for place in [MAGIC.len() + 5, whole.len() / 2, whole.len() - 40, whole.len() - 1] {
             let mut damaged = whole.clone();
             damaged[place] ^= 4;
             fs::write(&path, &damaged).unwrap();
             let error = Checkpoint::read(&path).unwrap_err().to_string();
-            assert!(
-                error.ends_with("is no whole checkpoint: its digest is not that of its content"),
-                "{error}"
-            );
+            assert!(error.ends_with("is no whole checkpoint: its digest is not that of its content"), "{error}");
         }
         for length in 0..whole.len() {
             assert!(Checkpoint::parse(&whole[..length]).is_err(), "{length}");

@@ -51,30 +51,19 @@ impl RunIdentity {
     pub fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = Vec::new();
         if self.plummer != now.plummer {
-            changes.push(format!(
-                "plummer {}, now plummer {}",
-                self.plummer, now.plummer
-            ));
+            changes.push(format!("plummer {}, now plummer {}", self.plummer, now.plummer));
         }
         if self.case_sha256 != now.case_sha256 {
             changes.push("another text of the case file".to_owned());
         }
         if self.set != now.set {
-            changes.push(format!(
-                "{}, now {}",
-                set_text(&self.set),
-                set_text(&now.set)
-            ));
+            changes.push(format!("{}, now {}", set_text(&self.set), set_text(&now.set)));
         }
-        let hashes = |files: &[FileDigest]| -> Vec<String> {
-            files.iter().map(|file| file.sha256.clone()).collect()
-        };
+        let hashes = |files: &[FileDigest]| -> Vec<String> { files.iter().map(|file| file.sha256.clone()).collect() };
         if hashes(&self.files) != hashes(&now.files) {
             let pairs = self.files.iter().zip(&now.files);
             let other = pairs.filter(|(then, now)| then.sha256 != now.sha256);
-            let mut names: Vec<String> = other
-                .map(|(_, now)| now.path.display().to_string())
-                .collect();
+            let mut names: Vec<String> = other.map(|(_, now)| now.path.display().to_string()).collect();
             if names.is_empty() {
                 names.push("more or fewer files".to_owned());
             }
@@ -102,10 +91,7 @@ mod tests {
             plummer: "0.1.0".to_owned(),
             case_sha256: "aa".to_owned(),
             set: vec!["a=1".to_owned()],
-            files: vec![FileDigest {
-                path: "a.msh".into(),
-                sha256: "bb".to_owned(),
-            }],
+            files: vec![FileDigest { path: "a.msh".into(), sha256: "bb".to_owned() }],
         };
         assert!(identity.changes(&identity).is_empty());
         let mut moved = identity.clone();
@@ -115,10 +101,7 @@ mod tests {
             plummer: "0.2.0".to_owned(),
             case_sha256: "ab".to_owned(),
             set: Vec::new(),
-            files: vec![FileDigest {
-                path: "a.msh".into(),
-                sha256: "cc".to_owned(),
-            }],
+            files: vec![FileDigest { path: "a.msh".into(), sha256: "cc".to_owned() }],
         };
         assert_eq!(
             identity.changes(&other),
@@ -130,9 +113,6 @@ mod tests {
             ]
         );
         moved.files.clear();
-        assert_eq!(
-            identity.changes(&moved),
-            ["another content of more or fewer files"]
-        );
+        assert_eq!(identity.changes(&moved), ["another content of more or fewer files"]);
     }
 }

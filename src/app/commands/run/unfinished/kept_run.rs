@@ -68,22 +68,14 @@ impl UnfinishedRun {
     /// [`UnfinishedError::Nothing`], [`UnfinishedError::Changed`] if what it was begun with is not what it would go on
     /// with, [`UnfinishedError::Damaged`].
     pub fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
-        files::no_link(folder).map_err(|source| UnfinishedError::Folder {
-            path: folder.to_owned(),
-            source,
-        })?;
+        files::no_link(folder).map_err(|source| UnfinishedError::Folder { path: folder.to_owned(), source })?;
         if !Self::is_in(folder) {
-            return Err(UnfinishedError::Nothing {
-                path: folder.to_owned(),
-            });
+            return Err(UnfinishedError::Nothing { path: folder.to_owned() });
         }
         let checkpoint = Checkpoint::read(&folder.join(FILE))?;
         let changes = checkpoint.identity.changes(&identity);
         if !changes.is_empty() {
-            return Err(UnfinishedError::Changed {
-                path: folder.to_owned(),
-                changes,
-            });
+            return Err(UnfinishedError::Changed { path: folder.to_owned(), changes });
         }
         Ok(Self::with(folder, identity, Some(checkpoint)))
     }
@@ -130,10 +122,7 @@ impl UnfinishedRun {
 
 /// Removes what an unfinished run left, the checkpoint first.
 pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
-    let failed = |source| UnfinishedError::Folder {
-        path: folder.to_owned(),
-        source,
-    };
+    let failed = |source| UnfinishedError::Folder { path: folder.to_owned(), source };
     files::no_link(folder).map_err(failed)?;
     if UnfinishedRun::is_in(folder) {
         fs::remove_file(folder.join(FILE)).map_err(failed)?;
@@ -147,20 +136,14 @@ pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
 impl Keeper for UnfinishedRun {
     type Record = ColumnFiles;
 
-    fn open(
-        &mut self,
-        sensors: Vec<String>,
-        balls: usize,
-    ) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
         self.stop.deaf.store(false, Ordering::SeqCst);
         self.last = Instant::now();
         Ok(match self.resumed.take() {
             None => {
                 remove(&self.folder)?;
-                fs::create_dir_all(&self.folder).map_err(|source| UnfinishedError::Folder {
-                    path: self.folder.clone(),
-                    source,
-                })?;
+                fs::create_dir_all(&self.folder)
+                    .map_err(|source| UnfinishedError::Folder { path: self.folder.clone(), source })?;
                 (ColumnFiles::create(&self.folder, sensors, balls)?, None)
             }
             Some(checkpoint) => {
@@ -169,8 +152,7 @@ impl Keeper for UnfinishedRun {
                 if record.digest() != checkpoint.columns_sha256 {
                     return Err(UnfinishedError::Damaged {
                         path: self.folder.clone(),
-                        what: "the rows in its columns are not those that the checkpoint counts"
-                            .to_owned(),
+                        what: "the rows in its columns are not those that the checkpoint counts".to_owned(),
                     }
                     .into());
                 }
@@ -189,12 +171,7 @@ impl Keeper for UnfinishedRun {
         }
     }
 
-    fn keep(
-        &mut self,
-        record: &ColumnFiles,
-        t: f64,
-        snapshot: &Snapshot,
-    ) -> Result<(), ComputeError> {
+    fn keep(&mut self, record: &ColumnFiles, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         let began = Instant::now();
         record.sync()?;
         let path = self.folder.join(FILE);

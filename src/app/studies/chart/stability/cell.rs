@@ -76,13 +76,7 @@ pub(super) fn by_tolerance(
     method: Method,
     [sample, samples]: [f64; 2],
 ) -> MethodStability {
-    let seen = observe(
-        measurement.variant,
-        method,
-        sample,
-        samples as u32,
-        |_, _| true,
-    );
+    let seen = observe(measurement.variant, method, sample, samples as u32, |_, _| true);
     let predicted_limit_s = method.limit_of(linearised).map(|limit| limit.step_s);
     let note = match predicted_limit_s {
         Some(_) => "in longer steps small motions grow up to the tolerance",
@@ -126,16 +120,10 @@ pub(super) fn on_grid(
         if measured == StepState::Unstable && failure.is_none() {
             failure = why;
         }
-        steps.push(StepRecord {
-            step_s,
-            predicted,
-            measured,
-        });
+        steps.push(StepRecord { step_s, predicted, measured });
     }
     let predicted_limit_s = method.limit_of(linearised).map(|limit| limit.step_s);
-    let first = steps
-        .iter()
-        .position(|step| step.measured == StepState::Unstable);
+    let first = steps.iter().position(|step| step.measured == StepState::Unstable);
     let measured_limit_s = first.filter(|&place| place > 0).map(|place| {
         let (mut stable, mut grows) = (steps[place - 1].step_s, steps[place].step_s);
         for _ in 0..HALVINGS {
@@ -157,21 +145,9 @@ pub(super) fn on_grid(
     };
     // beyond it the contacts alone are unstable, whatever the modes do
     let reach = (2.0 / scale).min(longest);
-    let (windows, phases) = if method.is_implicit() {
-        (Vec::new(), [0, 0])
-    } else {
-        windows(linearised, method, [scale, reach], most)
-    };
-    MethodStability {
-        method,
-        predicted_limit_s,
-        measured_limit_s,
-        chosen_step_s: None,
-        windows,
-        phases,
-        steps,
-        note,
-    }
+    let (windows, phases) =
+        if method.is_implicit() { (Vec::new(), [0, 0]) } else { windows(linearised, method, [scale, reach], most) };
+    MethodStability { method, predicted_limit_s, measured_limit_s, chosen_step_s: None, windows, phases, steps, note }
 }
 
 /// A run tells that something grows, the prediction whether it is a mode in resonance.
@@ -205,10 +181,7 @@ fn windows(
             continue;
         };
         drop(found);
-        if windows
-            .iter()
-            .any(|window| (window.from_s..=window.to_s).contains(&peak))
-        {
+        if windows.iter().any(|window| (window.from_s..=window.to_s).contains(&peak)) {
             continue;
         }
         let mut edge = |side: f64| {
@@ -223,12 +196,7 @@ fn windows(
             }
             peak * (1.0 + side * inside)
         };
-        windows.push(Window {
-            from_s: edge(-1.0),
-            to_s: edge(1.0),
-            resonance,
-            growth_per_step,
-        });
+        windows.push(Window { from_s: edge(-1.0), to_s: edge(1.0), resonance, growth_per_step });
     }
     (windows, [phases.len().min(most), phases.len()])
 }

@@ -39,21 +39,12 @@ const EQUAL: [Method; 6] = [
     Method::NewmarkExplicit,
     Method::Splitting,
     Method::Newmark,
-    Method::GeneralizedAlpha {
-        spectral_radius: SPECTRAL_RADIUS,
-    },
+    Method::GeneralizedAlpha { spectral_radius: SPECTRAL_RADIUS },
 ];
 
 /// Methods that choose their steps, with the program's own tolerances for an error of a percent.
-const BY_TOLERANCE: [Method; 2] = [
-    Method::ExponentialAdams {
-        tolerance: Some(1e-2),
-    },
-    Method::Dop853 {
-        tolerance: 1e-6,
-        events: true,
-    },
-];
+const BY_TOLERANCE: [Method; 2] =
+    [Method::ExponentialAdams { tolerance: Some(1e-2) }, Method::Dop853 { tolerance: 1e-6, events: true }];
 
 /// Time between samples of these, s, and how many: 2 ms.
 const SAMPLES: [f64; 2] = [4e-7, 5000.0];
@@ -129,10 +120,7 @@ pub fn compute_stability(
         .collect();
     let modes = prepared.first().and_then(|first| first.as_ref().ok());
     let kept = modes.map_or(0, |first| first.variant.system.modes());
-    let conditions = conditions
-        .into_iter()
-        .zip(prepared)
-        .zip(cells.chunks(methods));
+    let conditions = conditions.into_iter().zip(prepared).zip(cells.chunks(methods));
     let conditions = conditions.map(|((condition, prepared), cells)| ConditionStability {
         condition,
         methods: prepared.map(|_| cells.iter().flatten().cloned().collect()),
@@ -156,11 +144,7 @@ fn prepare(
     let variant = condition.variant(case, scene, model)?;
     let all_modes = matches!(condition, Condition::AllModes | Condition::AllModesUndamped);
     let slow_steps = of_effort(SLOW_RUN, effort);
-    let steps = if all_modes {
-        slow_steps
-    } else {
-        of_effort(RUN, effort)
-    };
+    let steps = if all_modes { slow_steps } else { of_effort(RUN, effort) };
     let mut linearised = Linearised::new(&mut variant.system.clone(), &variant.state);
     let limit = Method::Exponential.limit_of(&mut linearised);
     let limit = limit.map_or(1e-6, |limit| limit.step_s);
@@ -169,23 +153,13 @@ fn prepare(
     let finer_steps = (f64::from(steps) * limit / finer).ceil() as u32;
     let rate = fastest(&linearised).unwrap_or(0.0);
     let reference = Reference::of(&variant, Method::Exponential, finer, finer_steps, rate);
-    Ok(Prepared {
-        variant,
-        steps,
-        slow_steps,
-        all_modes,
-        reference,
-    })
+    Ok(Prepared { variant, steps, slow_steps, all_modes, reference })
 }
 
 /// A method under a condition; none of an implicit one in all modes, where a step solves for all of them, and of one that chooses
 /// steps by the highest.
 fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<MethodStability> {
-    let measurement = |steps| Measurement {
-        variant: &of.variant,
-        steps,
-        reference: &of.reference,
-    };
+    let measurement = |steps| Measurement { variant: &of.variant, steps, reference: &of.reference };
     let mut linearised = Linearised::new(&mut of.variant.system.clone(), &of.variant.state);
     let Some(&equal) = EQUAL.get(method) else {
         let chosen = BY_TOLERANCE.get(method - EQUAL.len())?;
@@ -195,19 +169,9 @@ fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<Me
     if equal.is_implicit() && of.all_modes {
         return None;
     }
-    let steps = if equal.is_implicit() {
-        of.slow_steps
-    } else {
-        of.steps
-    };
+    let steps = if equal.is_implicit() { of.slow_steps } else { of.steps };
     let phases = of_effort(PHASES, effort);
-    Some(on_grid(
-        &measurement(steps),
-        &mut linearised,
-        equal,
-        grid,
-        phases,
-    ))
+    Some(on_grid(&measurement(steps), &mut linearised, equal, grid, phases))
 }
 
 fn of_effort<T>([full, quick]: [T; 2], effort: Effort) -> T {

@@ -7,9 +7,7 @@ use crate::app::scene::bearing::setup_of;
 use crate::app::scene::{RunModel, Scene};
 use crate::bearing::{ContactStiffness, SpeedKnot};
 use crate::report::significant;
-use crate::system::{
-    BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
-};
+use crate::system::{BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
 
 /// Forces on the shaft, in units of those given.
 const LOADS: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
@@ -69,11 +67,7 @@ impl Condition {
         };
         let mut all = vec![Self::AsGiven];
         all.extend(ends(&LOADS).into_iter().map(Self::Load));
-        all.extend(
-            ends(&PLAYS)
-                .into_iter()
-                .map(|x| Self::RadialPlay(x * radius)),
-        );
+        all.extend(ends(&PLAYS).into_iter().map(|x| Self::RadialPlay(x * radius)));
         all.extend(ends(&SPEEDS).into_iter().map(Self::Speed));
         if defects > 0 {
             all.extend(ends(&DEPTHS).into_iter().map(Self::DefectDepth));
@@ -133,20 +127,12 @@ impl Condition {
     ///
     /// # Errors
     /// [`ChartError`] for a condition that the bearing cannot be in.
-    pub(super) fn variant(
-        self,
-        case: &Case,
-        scene: &Scene,
-        model: &RunModel,
-    ) -> Result<Variant, ChartError> {
+    pub(super) fn variant(self, case: &Case, scene: &Scene, model: &RunModel) -> Result<Variant, ChartError> {
         let mut case = case.clone();
         self.apply(&mut case, scene);
         let run = case.for_chart().map_err(ComputeError::from)?;
         let setup = setup_of(run.case, run.bearing, run.shaft)?;
-        let setup = BearingSetup {
-            balls_inertia: model.balls_inertia,
-            ..setup
-        };
+        let setup = BearingSetup { balls_inertia: model.balls_inertia, ..setup };
         let damping = match self {
             Self::ModalDamping(ratio) => ModeDamping::Modal(ratio),
             Self::AllModesUndamped => ModeDamping::Modal(0.0),
@@ -159,14 +145,7 @@ impl Condition {
         let stage = &scene.stage;
         let condition = StaticCondition::at(&setup, scene.start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
-        let system = CoupledSystem::new(
-            &stage.structure,
-            &stage.modes,
-            setup,
-            modes,
-            damping,
-            residual,
-        )?;
+        let system = CoupledSystem::new(&stage.structure, &stage.modes, setup, modes, damping, residual)?;
         let state = system.state_at(scene.start, &equilibrium, &stage.modes);
         Ok(Variant { system, state })
     }
@@ -180,10 +159,7 @@ impl Condition {
                 }
             }
             Self::Speed(hz) => {
-                let profile = vec![SpeedKnot {
-                    time: 0.0,
-                    frequency_hz: hz,
-                }];
+                let profile = vec![SpeedKnot { time: 0.0, frequency_hz: hz }];
                 case.speed = Some(case::Speed { profile });
             }
             _ => {}

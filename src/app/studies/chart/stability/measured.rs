@@ -61,22 +61,14 @@ impl Reference {
             true
         });
         let size = variant.state.y.iter().map(|y| y * y).sum::<f64>().sqrt();
-        Self {
-            every_s: h * f64::from(STRIDE),
-            values,
-            still: MOVING * size * fastest,
-        }
+        Self { every_s: h * f64::from(STRIDE), values, still: MOVING * size * fastest }
     }
 
     /// Largest velocity and distance until a time after the start, s.
     fn until(&self, time: f64) -> [f64; 2] {
         let last = self.values.len().saturating_sub(1);
         let place = (time / self.every_s).max(BEGINNING * last as f64);
-        let [speed, apart] = self
-            .values
-            .get((place as usize).min(last))
-            .copied()
-            .unwrap_or([0.0; 2]);
+        let [speed, apart] = self.values.get((place as usize).min(last)).copied().unwrap_or([0.0; 2]);
         [speed.max(self.still), apart.max(APART * self.still)]
     }
 }
@@ -85,17 +77,11 @@ impl Measurement<'_> {
     /// Whether runs with steps of `h` (s) do what fine ones do not; with the failure if there is one.
     pub(super) fn unstable(&self, method: Method, h: f64) -> (bool, Option<String>) {
         let mut grown = false;
-        let seen = observe(
-            self.variant,
-            method,
-            h,
-            self.steps,
-            |time, [speed, apart]| {
-                let [fast, far] = self.reference.until(time);
-                grown = speed > FASTER * fast || apart > FARTHER * far;
-                !grown
-            },
-        );
+        let seen = observe(self.variant, method, h, self.steps, |time, [speed, apart]| {
+            let [fast, far] = self.reference.until(time);
+            grown = speed > FASTER * fast || apart > FARTHER * far;
+            !grown
+        });
         (grown || seen.failure.is_some(), seen.failure)
     }
 }
@@ -110,10 +96,7 @@ pub(super) fn observe(
     see: impl FnMut(f64, [f64; 2]) -> bool,
 ) -> Observed {
     let run = run(variant, method, h, (steps / STRIDE).max(1), see);
-    Observed {
-        mean_step_s: run.as_ref().map_or(h, |mean| *mean),
-        failure: run.err().map(|error| error.to_string()),
-    }
+    Observed { mean_step_s: run.as_ref().map_or(h, |mean| *mean), failure: run.err().map(|error| error.to_string()) }
 }
 
 fn run(
@@ -123,21 +106,13 @@ fn run(
     intervals: u32,
     mut see: impl FnMut(f64, [f64; 2]) -> bool,
 ) -> Result<f64, TransientError> {
-    let schedule = Schedule {
-        interval: h * f64::from(STRIDE),
-        steps_per_interval: STRIDE,
-        intervals: u64::from(intervals),
-    };
+    let schedule =
+        Schedule { interval: h * f64::from(STRIDE), steps_per_interval: STRIDE, intervals: u64::from(intervals) };
     let mut beside = variant.state.clone();
     perturb(&mut beside, APART, 1, 0);
     let mut systems = [variant.system.clone(), variant.system.clone()];
-    let begin = |system: &mut _, state: State| {
-        Integration::begin(system, method, schedule, state, &mut NoRecord)
-    };
-    let mut runs = [
-        begin(&mut systems[0], variant.state.clone())?,
-        begin(&mut systems[1], beside)?,
-    ];
+    let begin = |system: &mut _, state: State| Integration::begin(system, method, schedule, state, &mut NoRecord);
+    let mut runs = [begin(&mut systems[0], variant.state.clone())?, begin(&mut systems[1], beside)?];
     for interval in 1..=intervals {
         for (run, system) in runs.iter_mut().zip(&mut systems) {
             run.advance(system, &mut NoRecord)?;

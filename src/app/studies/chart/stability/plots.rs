@@ -61,21 +61,14 @@ pub fn stability_map(stability: &Stability) -> StepMap {
 #[must_use]
 pub fn resonance_plot() -> Plot {
     let [first, last] = PHASES;
-    let phases: Vec<f64> = (0..POINTS)
-        .map(|k| first + (last - first) * k as f64 / (POINTS - 1) as f64)
-        .collect();
+    let phases: Vec<f64> = (0..POINTS).map(|k| first + (last - first) * k as f64 / (POINTS - 1) as f64).collect();
     let curve = |method: Method, colour: usize| {
         let grown = phases.iter().map(|phase| {
             let mut oscillator = OnContact::linearised();
             let found = growth(&mut oscillator, method, phase * PI, 1.0, STEPS);
             found.per_step.max(0.0)
         });
-        Curve::new(
-            method.name(),
-            Abscissa::Points(phases.clone()),
-            grown.collect(),
-        )
-        .colour(colour)
+        Curve::new(method.name(), Abscissa::Points(phases.clone()), grown.collect()).colour(colour)
     };
     Plot::new(
         "Resonance of the step with a mode",
@@ -96,15 +89,8 @@ struct OnContact([LinearCoordinate; 1]);
 
 impl OnContact {
     fn linearised() -> Linearised {
-        let held = LinearCoordinate {
-            squared_frequency: 1.0,
-            damping: 0.0,
-        };
-        let rest = State {
-            t: 0.0,
-            y: vec![0.0],
-            v: vec![0.0],
-        };
+        let held = LinearCoordinate { squared_frequency: 1.0, damping: 0.0 };
+        let rest = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
         Linearised::new(&mut Self([held]), &rest)
     }
 }

@@ -56,10 +56,7 @@ fn limits(stability: &Stability) -> Table {
             Cell::text(method.method.name()),
             microseconds(method.predicted_limit_s),
             microseconds(method.measured_limit_s),
-            limits.map_or_else(
-                || Cell::text("–"),
-                |(predicted, measured)| Cell::number(measured / predicted, 3),
-            ),
+            limits.map_or_else(|| Cell::text("–"), |(predicted, measured)| Cell::number(measured / predicted, 3)),
             Cell::text(method.note.as_deref().unwrap_or("")),
         ]);
     }
@@ -76,12 +73,7 @@ fn limits(stability: &Stability) -> Table {
 fn chosen(stability: &Stability) -> Table {
     let mut table = Table::new(
         "Steps of the methods that choose them",
-        [
-            Column::text("Condition"),
-            Column::text("Method"),
-            Column::number("Mean step", "µs"),
-            Column::text("Remark"),
-        ],
+        [Column::text("Condition"), Column::text("Method"), Column::number("Mean step", "µs"), Column::text("Remark")],
     );
     for (of, method) in cells(stability).filter(|(_, of)| of.steps.is_empty()) {
         table = table.row([
@@ -130,15 +122,7 @@ fn resonances(stability: &Stability) -> Table {
         let text = |text: &str| Cell::text(text);
         let looked: usize = cells(stability).map(|(_, of)| of.phases[0]).sum();
         let what = format!("none in {} phases", significant(looked as f64, 6));
-        table = table.row([
-            text(&what),
-            text("–"),
-            text("–"),
-            text("–"),
-            text("–"),
-            text("–"),
-            text("–"),
-        ]);
+        table = table.row([text(&what), text("–"), text("–"), text("–"), text("–"), text("–"), text("–")]);
     }
     table
 }

@@ -74,11 +74,7 @@ impl Stability {
     pub fn summary(&self) -> StabilitySummary<'_> {
         let [modes, of_modes] = self.modes;
         StabilitySummary {
-            model: StabilityModel {
-                modes,
-                of_modes,
-                residual: self.model.residual,
-            },
+            model: StabilityModel { modes, of_modes, residual: self.model.residual },
             steps_s: &self.steps_s,
             conditions: self.conditions.iter().map(ConditionSummary::of).collect(),
         }
@@ -93,9 +89,7 @@ impl<'a> ConditionSummary<'a> {
             value: value.map(|(value, _)| value),
             unit: value.map(|(_, unit)| unit),
             label: of.condition.label(),
-            methods: methods
-                .ok()
-                .map(|all| all.iter().map(MethodSummary::of).collect()),
+            methods: methods.ok().map(|all| all.iter().map(MethodSummary::of).collect()),
             reason: methods.err().map(String::as_str),
         }
     }

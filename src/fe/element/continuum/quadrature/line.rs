@@ -17,9 +17,7 @@ pub(in crate::fe::element::continuum) fn gauss(n: usize, alpha: u32) -> Vec<Gaus
     let mut rule: Vec<Gauss> = Vec::with_capacity(n);
     for k in 0..n {
         let chebyshev = -(std::f64::consts::PI * (k as f64 + 0.5) / n as f64).cos();
-        let mut x = rule
-            .last()
-            .map_or(chebyshev, |last| 0.5 * (chebyshev + last.at));
+        let mut x = rule.last().map_or(chebyshev, |last| 0.5 * (chebyshev + last.at));
         // Newton is quadratic near a root: the bound only ends a cycle between two roundings
         for _ in 0..50 {
             let (p, slope) = jacobi(n, a, x);

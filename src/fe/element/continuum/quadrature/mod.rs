@@ -142,28 +142,18 @@ impl Rule {
 
 /// The one point that a product starts from.
 const fn origin() -> QuadraturePoint {
-    QuadraturePoint {
-        natural: [0.0; 3],
-        weight: 1.0,
-    }
+    QuadraturePoint { natural: [0.0; 3], weight: 1.0 }
 }
 
 /// A rule times an n-point Gauss-Legendre rule in another direction.
-pub(super) fn product(
-    base: &[QuadraturePoint],
-    n: usize,
-    direction: usize,
-) -> Vec<QuadraturePoint> {
+pub(super) fn product(base: &[QuadraturePoint], n: usize, direction: usize) -> Vec<QuadraturePoint> {
     let line = gauss(n, 0);
     let along = |point: &QuadraturePoint| {
         let point = *point;
         line.clone().into_iter().map(move |g| {
             let mut natural = point.natural;
             natural[direction] = g.at;
-            QuadraturePoint {
-                natural,
-                weight: point.weight * g.weight,
-            }
+            QuadraturePoint { natural, weight: point.weight * g.weight }
         })
     };
     base.iter().flat_map(along).collect()

@@ -45,11 +45,7 @@ pub(super) fn triangle_12() -> Vec<QuadraturePoint> {
         triangle_orbit_3(0.249_286_745_170_910_42, 0.058_393_137_863_189_68),
         triangle_orbit_3(0.063_089_014_491_502_23, 0.025_422_453_185_103_41),
     ];
-    let six = triangle_orbit_6(
-        0.310_352_451_033_784_4,
-        0.636_502_499_121_398_6,
-        0.041_425_537_809_186_79,
-    );
+    let six = triangle_orbit_6(0.310_352_451_033_784_4, 0.636_502_499_121_398_6, 0.041_425_537_809_186_79);
     [&threes.concat(), six.as_slice()].concat()
 }
 
@@ -77,15 +73,8 @@ pub(super) fn tetrahedron_14() -> Vec<QuadraturePoint> {
     ];
     let b = 0.045_503_704_125_649_65;
     let c = 0.5 - b;
-    let six = [
-        [b, b, c],
-        [b, c, b],
-        [c, b, b],
-        [b, c, c],
-        [c, b, c],
-        [c, c, b],
-    ]
-    .map(|natural| point(natural, 0.042_546_020_777_081_466 * SIXTH));
+    let six = [[b, b, c], [b, c, b], [c, b, b], [b, c, c], [c, b, c], [c, c, b]]
+        .map(|natural| point(natural, 0.042_546_020_777_081_466 * SIXTH));
     [&fours.concat(), six.as_slice()].concat()
 }
 
@@ -118,10 +107,7 @@ pub(super) fn tetrahedron_24() -> Vec<QuadraturePoint> {
 
 /// A Gauss-Jacobi rule moved to [0, 1]: `int (1 - u)^alpha f(u) du`.
 fn unit_interval(n: usize, alpha: u32) -> Vec<Gauss> {
-    let shrunk = |g: Gauss| Gauss {
-        at: 0.5 * (1.0 + g.at),
-        weight: g.weight / f64::from(alpha + 1).exp2(),
-    };
+    let shrunk = |g: Gauss| Gauss { at: 0.5 * (1.0 + g.at), weight: g.weight / f64::from(alpha + 1).exp2() };
     gauss(n, alpha).into_iter().map(shrunk).collect()
 }
 

@@ -9,11 +9,7 @@ fn simplex_moment([i, j, k]: [i32; 3], dimension: i32) -> f64 {
 
 /// `int x^i` over [-1, 1].
 fn line_moment(i: i32) -> f64 {
-    if i % 2 == 0 {
-        2.0 / f64::from(i + 1)
-    } else {
-        0.0
-    }
+    if i % 2 == 0 { 2.0 / f64::from(i + 1) } else { 0.0 }
 }
 
 fn error(points: &[QuadraturePoint], powers: [i32; 3], exact: f64) -> f64 {
@@ -58,9 +54,7 @@ fn simplex_rules_are_exact_to_their_degree_and_no_further() {
     for (points, dimension, degree, count) in rules {
         assert_eq!(points.len(), count);
         let worst = |total: i32| {
-            let errors = powers(total, dimension)
-                .into_iter()
-                .map(|p| error(&points, p, simplex_moment(p, dimension)));
+            let errors = powers(total, dimension).into_iter().map(|p| error(&points, p, simplex_moment(p, dimension)));
             errors.fold(0.0, f64::max)
         };
         for total in 0..=degree {

@@ -3,9 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Outcome, PLAIN};
-use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, PlaneAssumption, stiffness,
-};
+use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, PlaneAssumption, stiffness};
 use crate::fe::material::{ElasticMaterial, Material};
 
 const LENGTH: f64 = 1.0;
@@ -30,12 +28,7 @@ fn deflection(
     // a station is a section: its nodes, (y, z) in a section
     let section: &[[f64; 2]] = match n {
         2 => &[[0.0, 0.0], [HEIGHT, 0.0]],
-        _ => &[
-            [0.0, 0.0],
-            [HEIGHT, 0.0],
-            [HEIGHT, THICKNESS],
-            [0.0, THICKNESS],
-        ],
+        _ => &[[0.0, 0.0], [HEIGHT, 0.0], [HEIGHT, THICKNESS], [0.0, THICKNESS]],
     };
     let per = section.len();
     let mut nodes = Vec::new();
@@ -43,11 +36,7 @@ fn deflection(
         let inner = station > 0 && station < ELEMENTS;
         let sign = if station % 2 == 0 { 1.0 } else { -1.0 };
         for &[y, z] in section {
-            let lean = if inner {
-                slant * sign * (y - 0.5 * HEIGHT)
-            } else {
-                0.0
-            };
+            let lean = if inner { slant * sign * (y - 0.5 * HEIGHT) } else { 0.0 };
             nodes.push([LENGTH * station as f64 / ELEMENTS as f64 + lean, y, z]);
         }
     }
@@ -56,11 +45,7 @@ fn deflection(
         let (left, right) = (station * per, (station + 1) * per);
         let element: Vec<usize> = match n {
             2 => vec![left, right, right + 1, left + 1],
-            _ => [0, 1, 2, 3]
-                .map(|i| left + i)
-                .into_iter()
-                .chain([0, 1, 2, 3].map(|i| right + i))
-                .collect(),
+            _ => [0, 1, 2, 3].map(|i| left + i).into_iter().chain([0, 1, 2, 3].map(|i| right + i)).collect(),
         };
         let coords: Vec<_> = element.iter().map(|&i| nodes[i]).collect();
         let local = stiffness(kind, &coords, &p, formulation)?;
@@ -86,15 +71,9 @@ fn deflection(
     }
     let free: Vec<usize> = (0..n * nodes.len()).filter(|i| !held.contains(i)).collect();
     let k_ff = k.select_rows(&free).select_columns(&free);
-    let solution = k_ff
-        .cholesky()
-        .ok_or("the beam is loose")?
-        .solve(&force.select_rows(&free));
+    let solution = k_ff.cholesky().ok_or("the beam is loose")?.solve(&force.select_rows(&free));
     let wanted = n * last + 1;
-    let at = free
-        .iter()
-        .position(|&i| i == wanted)
-        .ok_or("the end is held")?;
+    let at = free.iter().position(|&i| i == wanted).ok_or("the end is held")?;
     let inertia = THICKNESS * HEIGHT.powi(3) / 12.0;
     Ok(solution[at] / (moment * LENGTH * LENGTH / (2.0 * young * inertia)))
 }
@@ -121,10 +100,7 @@ fn slanted_elements_stiffen() -> Outcome {
     for kind in [ContinuumKind::Quad4, ContinuumKind::Hex8] {
         let modes = deflection(kind, 0.0, Formulation::default(), 0.5)?;
         let plain = deflection(kind, 0.0, PLAIN, 0.5)?;
-        assert!(
-            modes > 2.0 * plain && modes < 1.0,
-            "{kind:?}: {modes} {plain}"
-        );
+        assert!(modes > 2.0 * plain && modes < 1.0, "{kind:?}: {modes} {plain}");
     }
     Ok(())
 }

@@ -2,14 +2,11 @@
 
 use proptest::prelude::*;
 
-use super::fixtures::{
-    all_properties, aluminium, distorted, message, properties, rigid_motions, straight,
-};
+use super::fixtures::{all_properties, aluminium, distorted, message, properties, rigid_motions, straight};
 use super::{FOUR_POINT, Outcome, PLAIN};
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, measure, nodal_mass, nodal_mass_into,
-    stiffness, stiffness_into,
+    ContinuumKind, ContinuumProperties, Formulation, measure, nodal_mass, nodal_mass_into, stiffness, stiffness_into,
 };
 
 pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
@@ -25,29 +22,16 @@ pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
     let point = vec![[0.5, 0.25, 0.125]; kind.nodes()];
     let huge: Vec<_> = straight(kind).iter().map(|x| x.map(|v| 1e61 * v)).collect();
     let mut missing = good.clone();
-    missing[1] = [
-        1.3,
-        f64::NAN,
-        if kind.dimension() == 2 { 0.0 } else { 0.25 },
-    ];
+    missing[1] = [1.3, f64::NAN, if kind.dimension() == 2 { 0.0 } else { 0.25 }];
     let (nodes, dof) = (kind.nodes(), kind.dof());
     let degenerate = format!("the {name} element is degenerate or folded: Jacobian determinant ");
     let cases: [(&[[f64; 3]], String); 6] = [
-        (
-            &mirrored,
-            format!("the {name} element is inverted: {cause} ("),
-        ),
+        (&mirrored, format!("the {name} element is inverted: {cause} (")),
         (&flat, degenerate.clone()),
         (&point, degenerate),
-        (
-            &missing,
-            format!("node 1 of the {name} element has the coordinates {numbers} m: expected"),
-        ),
+        (&missing, format!("node 1 of the {name} element has the coordinates {numbers} m: expected")),
         (&huge, format!("the {name} element measures ")),
-        (
-            &good[1..],
-            format!("a {name} element has {nodes} nodes, found {}", nodes - 1),
-        ),
+        (&good[1..], format!("a {name} element has {nodes} nodes, found {}", nodes - 1)),
     ];
     for (coords, expected) in cases {
         let found = [
@@ -97,12 +81,7 @@ fn inverted_and_folded_plane_elements_say_where() -> Outcome {
         "the Tri3 element is inverted: its nodes run clockwise (Jacobian determinant -2.000000e-6 m^2 \
          at (0.000000e0, 0.000000e0) m); reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)"
     );
-    let arrowhead = [
-        [0.0; 3],
-        [1.0, 0.0, 0.0],
-        [0.25, 0.25, 0.0],
-        [0.0, 1.0, 0.0],
-    ];
+    let arrowhead = [[0.0; 3], [1.0, 0.0, 0.0], [0.25, 0.25, 0.0], [0.0, 1.0, 0.0]];
     for formulation in [PLAIN, Formulation::default()] {
         assert_eq!(
             message(stiffness(ContinuumKind::Quad4, &arrowhead, &p, formulation)),
@@ -134,12 +113,7 @@ fn inverted_and_folded_solids_say_where() -> Outcome {
              positive everywhere"
         );
     }
-    let huge = [
-        [0.0; 3],
-        [1e61, 0.0, 0.0],
-        [0.0, 1e61, 0.0],
-        [0.0, 0.0, 1e61],
-    ];
+    let huge = [[0.0; 3], [1e61, 0.0, 0.0], [0.0, 1e61, 0.0], [0.0, 0.0, 1e61]];
     assert_eq!(
         message(measure(ContinuumKind::Tet4, &huge)),
         "the Tet4 element measures 1e61 m: expected at most 1e60 m"
@@ -172,12 +146,7 @@ fn a_fold_at_a_node_is_found() -> Outcome {
         }
     }
     let inside = 0.49;
-    let quadrilateral = [
-        [0.0; 3],
-        [1.0, 0.0, 0.0],
-        [inside, inside, 0.0],
-        [0.0, 1.0, 0.0],
-    ];
+    let quadrilateral = [[0.0; 3], [1.0, 0.0, 0.0], [inside, inside, 0.0], [0.0, 1.0, 0.0]];
     fires(ContinuumKind::Quad4, &quadrilateral)?;
     let upper = quadrilateral.map(|[x, y, _]| [x, y, 1.0]);
     fires(ContinuumKind::Hex8, &[quadrilateral, upper].concat())
@@ -185,10 +154,7 @@ fn a_fold_at_a_node_is_found() -> Outcome {
 
 #[test]
 fn condensation_failure_names_the_element() {
-    let error = ElementError::Condensation {
-        kind: "Hex8",
-        pivot: -1.5,
-    };
+    let error = ElementError::Condensation { kind: "Hex8", pivot: -1.5 };
     assert_eq!(
         error.to_string(),
         "the incompatible modes of the Hex8 element have no stiffness (pivot -1.500000e0 N/m): use the plain \

@@ -3,12 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::quadrature::{
-    conical_tetrahedron, conical_triangle, cube, product, square,
-};
-use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass,
-};
+use crate::fe::element::continuum::quadrature::{conical_tetrahedron, conical_triangle, cube, product, square};
+use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 
 pub(super) const THICKNESS: f64 = 4e-3;
@@ -49,9 +45,7 @@ pub(super) fn properties(
 }
 
 /// Of both materials.
-pub(super) fn all_properties(
-    kind: ContinuumKind,
-) -> Result<Vec<ContinuumProperties>, Box<dyn std::error::Error>> {
+pub(super) fn all_properties(kind: ContinuumKind) -> Result<Vec<ContinuumProperties>, Box<dyn std::error::Error>> {
     let mut all = properties(kind, &aluminium()?)?;
     all.extend(properties(kind, &laminate(kind)?)?);
     Ok(all)
@@ -64,11 +58,7 @@ pub(super) fn straight(kind: ContinuumKind) -> Vec<[f64; 3]> {
         let plane = [1.1 * x + 0.2 * y + 0.3, 0.9 * y - 0.15 * x - 0.2];
         match kind.dimension() {
             2 => [plane[0], plane[1], 0.0],
-            _ => [
-                plane[0] + 0.1 * z,
-                plane[1] + 0.2 * z,
-                1.2 * z + 0.05 * x - 0.1 * y + 0.4,
-            ],
+            _ => [plane[0] + 0.1 * z, plane[1] + 0.2 * z, 1.2 * z + 0.05 * x - 0.1 * y + 0.4],
         }
     };
     kind.natural_nodes().iter().map(place).collect()
@@ -121,15 +111,8 @@ pub(super) fn very_fine(kind: ContinuumKind) -> Vec<QuadraturePoint> {
 }
 
 /// A displacement field at the nodes.
-pub(super) fn field(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]],
-    u: impl Fn([f64; 3]) -> [f64; 3],
-) -> DVector<f64> {
-    let values: Vec<f64> = coords
-        .iter()
-        .flat_map(|&x| u(x).into_iter().take(kind.dimension()))
-        .collect();
+pub(super) fn field(kind: ContinuumKind, coords: &[[f64; 3]], u: impl Fn([f64; 3]) -> [f64; 3]) -> DVector<f64> {
+    let values: Vec<f64> = coords.iter().flat_map(|&x| u(x).into_iter().take(kind.dimension())).collect();
     DVector::from_vec(values)
 }
 

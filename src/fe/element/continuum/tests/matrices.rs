@@ -4,16 +4,14 @@ use nalgebra::DMatrix;
 
 use super::Outcome;
 use super::fixtures::{
-    POISSON, SHEAR, YOUNG, all_properties, aluminium, curved, distorted, elements, field, laminate,
-    laminate_along, mass, properties, rigid_motions, straight, very_fine,
+    POISSON, SHEAR, YOUNG, all_properties, aluminium, curved, distorted, elements, field, laminate, laminate_along,
+    mass, properties, rigid_motions, straight, very_fine,
 };
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::dispatch::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
-use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, measure, nodal_mass, stiffness,
-};
+use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, measure, nodal_mass, stiffness};
 use crate::fe::material::{ElasticMaterial, OrthotropicMaterial};
 
 pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
@@ -80,14 +78,9 @@ fn mass_is_density_times_volume(
     let m = mass(kind, coords, p)?;
     let expected = p.density() * p.thickness() * measure(kind, coords)?;
     for d in 0..kind.dimension() {
-        let translation = field(kind, coords, |_| {
-            [0, 1, 2].map(|i| f64::from(u8::from(i == d)))
-        });
+        let translation = field(kind, coords, |_| [0, 1, 2].map(|i| f64::from(u8::from(i == d))));
         let found = translation.dot(&(&m * &translation));
-        assert!(
-            (found / expected - 1.0).abs() < 1e-14,
-            "{kind:?}: {found} {expected}"
-        );
+        assert!((found / expected - 1.0).abs() < 1e-14, "{kind:?}: {found} {expected}");
     }
     let smallest = m.symmetric_eigenvalues().min();
     assert!(smallest > 0.0, "{kind:?}: mass eigenvalue {smallest}");
@@ -95,22 +88,14 @@ fn mass_is_density_times_volume(
 }
 
 /// Against 12 points a direction, on straight, distorted and curved elements.
-fn mass_is_exact(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]],
-    p: &ContinuumProperties,
-) -> Result<(), ElementError> {
+fn mass_is_exact(kind: ContinuumKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<(), ElementError> {
     let fine = fine_mass(kind, coords, p)?;
     let error = (nodal_mass(kind, coords, p)? - &fine).amax() / fine.amax();
     assert!(error < 1e-14, "{kind:?}: {error:e}");
     Ok(())
 }
 
-fn fine_mass(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]],
-    p: &ContinuumProperties,
-) -> Result<DMatrix<f64>, ElementError> {
+fn fine_mass(kind: ContinuumKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<DMatrix<f64>, ElementError> {
     fn integrate<const N: usize, const D: usize>(
         kind: ContinuumKind,
         coords: &[[f64; 3]],
@@ -119,9 +104,7 @@ fn fine_mass(
     ) -> Result<(), ElementError> {
         let placed = Placed::<N>::new(kind, coords)?;
         let table = Table::new(kind, &very_fine(kind));
-        crate::fe::element::continuum::mass::integrate::<N, D>(
-            kind, coords, &placed, density, &table, out,
-        )
+        crate::fe::element::continuum::mass::integrate::<N, D>(kind, coords, &placed, density, &table, out)
     }
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
     let density = p.density() * p.thickness();
@@ -136,14 +119,7 @@ fn simplices(kind: ContinuumKind) -> &'static [&'static [usize]] {
         "Quad" => &[&[0, 1, 2], &[0, 2, 3]],
         "Tet" => &[&[0, 1, 2, 3]],
         "Wedge" => &[&[0, 1, 2, 5], &[0, 1, 5, 4], &[0, 4, 5, 3]],
-        _ => &[
-            &[0, 1, 2, 6],
-            &[0, 2, 3, 6],
-            &[0, 3, 7, 6],
-            &[0, 7, 4, 6],
-            &[0, 4, 5, 6],
-            &[0, 5, 1, 6],
-        ],
+        _ => &[&[0, 1, 2, 6], &[0, 2, 3, 6], &[0, 3, 7, 6], &[0, 7, 4, 6], &[0, 4, 5, 6], &[0, 5, 1, 6]],
     }
 }
 
@@ -161,10 +137,7 @@ fn simplex_measure(x: &[[f64; 3]]) -> f64 {
 
 /// A rotation meets `rho int |w x r|^2 dV`, by hand. Over a simplex with n
 /// corners `int x_i x_j dV = V / (n (n + 1)) (sum_a x_ai x_aj + sum_a x_ai sum_a x_aj)`.
-fn inertia_about_the_axes(
-    kind: ContinuumKind,
-    p: &ContinuumProperties,
-) -> Result<(), ElementError> {
+fn inertia_about_the_axes(kind: ContinuumKind, p: &ContinuumProperties) -> Result<(), ElementError> {
     let coords = straight(kind);
     let mut moments = [0.0; 3];
     let mut volume = 0.0;
@@ -190,10 +163,7 @@ fn inertia_about_the_axes(
         };
         let found = motion.dot(&(&m * motion));
         let expected = p.density() * p.thickness() * second;
-        assert!(
-            (found / expected - 1.0).abs() < 1e-14,
-            "{kind:?}: {found} {expected}"
-        );
+        assert!((found / expected - 1.0).abs() < 1e-14, "{kind:?}: {found} {expected}");
     }
     Ok(())
 }
@@ -201,11 +171,7 @@ fn inertia_about_the_axes(
 /// Energy of uniform strains, by hand from the definition of the constants: strains under given stresses in
 /// material axes, `1/2 sigma . eps V`. On every shape: the volume is integrated exactly, but for the four-point
 /// rule on curved Tet10.
-fn uniform_strain_energy(
-    kind: ContinuumKind,
-    formulation: Formulation,
-    orthotropic: bool,
-) -> Outcome {
+fn uniform_strain_energy(kind: ContinuumKind, formulation: Formulation, orthotropic: bool) -> Outcome {
     let (material, young, poisson, shear, axes) = if orthotropic {
         let material = laminate(kind)?;
         let ElasticMaterial::Orthotropic(constants) = material else {
@@ -227,8 +193,7 @@ fn uniform_strain_energy(
             for stress in [[3.0, 0.0], [0.0, 2.0], [1.0, -1.5]] {
                 for slip in [0.0, 0.7] {
                     let [x, y] = stress;
-                    let plane_strain =
-                        poisson[2] * young[2] / young[0] * x + poisson[1] * young[2] / young[1] * y;
+                    let plane_strain = poisson[2] * young[2] / young[0] * x + poisson[1] * young[2] / young[1] * y;
                     let z = match (kind.dimension(), which) {
                         (2, 0) => 0.0,
                         (2, _) => plane_strain,
@@ -264,11 +229,7 @@ fn strain(e: [f64; 3], nu: [f64; 3], g: [f64; 3], s: [f64; 6]) -> [f64; 6] {
 fn displacement(axes: [[f64; 3]; 3], eps: [f64; 6], at: [f64; 3]) -> [f64; 3] {
     let own = axes.map(|axis| (0..3).map(|d| axis[d] * at[d]).sum::<f64>());
     let [x, y, z] = own;
-    let moved = [
-        eps[0] * x + eps[3] * y,
-        eps[1] * y + eps[4] * z,
-        eps[2] * z + eps[5] * x,
-    ];
+    let moved = [eps[0] * x + eps[3] * y, eps[1] * y + eps[4] * z, eps[2] * z + eps[5] * x];
     [0, 1, 2].map(|d| (0..3).map(|i| axes[i][d] * moved[i]).sum())
 }
 
@@ -283,11 +244,7 @@ fn rotation(kind: ContinuumKind, formulation: Formulation, orthotropic: bool) ->
         [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| about_z[i][k] * about_x[k][j]).sum()))
     };
     let apply = |x: [f64; 3]| turn.map(|row: [f64; 3]| (0..3).map(|d| row[d] * x[d]).sum::<f64>());
-    let before = if orthotropic {
-        laminate(kind)?
-    } else {
-        aluminium()?
-    };
+    let before = if orthotropic { laminate(kind)? } else { aluminium()? };
     let after = match before {
         ElasticMaterial::Orthotropic(OrthotropicMaterial { axes, .. }) => {
             laminate_along(apply(axes[0]), apply(axes[1]))?
@@ -299,10 +256,7 @@ fn rotation(kind: ContinuumKind, formulation: Formulation, orthotropic: bool) ->
     let t = DMatrix::identity(kind.nodes(), kind.nodes()).kronecker(&block);
     for coords in [distorted(kind), curved(kind)] {
         let turned: Vec<_> = coords.iter().copied().map(apply).collect();
-        for (p, q) in properties(kind, &before)?
-            .iter()
-            .zip(properties(kind, &after)?)
-        {
+        for (p, q) in properties(kind, &before)?.iter().zip(properties(kind, &after)?) {
             let k = stiffness(kind, &coords, p, formulation)?;
             let found = stiffness(kind, &turned, &q, formulation)?;
             let error = (found - &t * &k * t.transpose()).amax() / k.amax();

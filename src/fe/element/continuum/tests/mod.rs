@@ -15,14 +15,9 @@ use super::{ContinuumKind, Formulation, Integration, LinearFormulation};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const FOUR_POINT: Formulation = Formulation {
-    integration: Integration::FourPoint,
-    linear: LinearFormulation::Incompatible,
-};
-const PLAIN: Formulation = Formulation {
-    integration: Integration::Full,
-    linear: LinearFormulation::Plain,
-};
+const FOUR_POINT: Formulation =
+    Formulation { integration: Integration::FourPoint, linear: LinearFormulation::Incompatible };
+const PLAIN: Formulation = Formulation { integration: Integration::Full, linear: LinearFormulation::Plain };
 
 /// A test an element and formulation.
 macro_rules! harness {

@@ -25,11 +25,7 @@ struct Patch {
 pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
     let straight = build(kind, 0.0);
     // small enough that nothing folds: tetrahedra have the shortest edges
-    let bulge = if kind == ContinuumKind::Tet10 {
-        0.01
-    } else {
-        0.02
-    };
+    let bulge = if kind == ContinuumKind::Tet10 { 0.01 } else { 0.02 };
     let curved = build(kind, bulge);
     for p in all_properties(kind)? {
         let error = error(kind, &p, formulation, &straight)?;
@@ -44,23 +40,9 @@ pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
     Ok(())
 }
 
-const PLANE: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [2.0, 0.0],
-    [2.0, 1.5],
-    [0.0, 1.5],
-    [0.5, 0.4],
-    [1.5, 0.3],
-    [1.6, 1.1],
-    [0.4, 0.9],
-];
-const PLANE_CELLS: [[usize; 4]; 5] = [
-    [0, 1, 5, 4],
-    [1, 2, 6, 5],
-    [2, 3, 7, 6],
-    [3, 0, 4, 7],
-    [4, 5, 6, 7],
-];
+const PLANE: [[f64; 2]; 8] =
+    [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5], [0.5, 0.4], [1.5, 0.3], [1.6, 1.1], [0.4, 0.9]];
+const PLANE_CELLS: [[usize; 4]; 5] = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
 
 /// The inner corners of the cube after MacNeal and Harder 1985, figure 2; the fifth has y = 0.286 instead of
 /// 0.186, with which the element outside it has a negative determinant at a corner (-0.0016, computed).
@@ -75,14 +57,7 @@ const CUBE: [[f64; 3]; 8] = [
     [0.165, 0.745, 0.702],
 ];
 /// The faces of a hexahedron, seen from outside.
-const FACES: [[usize; 4]; 6] = [
-    [0, 3, 2, 1],
-    [4, 5, 6, 7],
-    [0, 1, 5, 4],
-    [1, 2, 6, 5],
-    [2, 3, 7, 6],
-    [3, 0, 4, 7],
-];
+const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
 fn triangles([a, b, c, d]: [usize; 4]) -> [[usize; 3]; 2] {
     [[a, b, c], [a, c, d]]
@@ -114,12 +89,7 @@ fn wedge_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
         for [a, b, c] in PLANE_CELLS.into_iter().flat_map(triangles) {
             let up = |corner: usize, level: usize| corner + 8 * level;
             let levels = [layer, layer + 1];
-            cells.push(
-                levels
-                    .into_iter()
-                    .flat_map(|l| [up(a, l), up(b, l), up(c, l)])
-                    .collect(),
-            );
+            cells.push(levels.into_iter().flat_map(|l| [up(a, l), up(b, l), up(c, l)]).collect());
         }
     }
     (nodes, cells)
@@ -171,9 +141,7 @@ fn build(kind: ContinuumKind, bulge: f64) -> Patch {
         6 => wedge_cells(),
         _ => hexahedron_cells(),
     };
-    let high = nodes
-        .iter()
-        .fold([0.0_f64; 3], |m, n| [0, 1, 2].map(|d| m[d].max(n[d])));
+    let high = nodes.iter().fold([0.0_f64; 3], |m, n| [0, 1, 2].map(|d| m[d].max(n[d])));
     let sides = |node: &[f64; 3]| {
         let on = |d: usize| node[d].abs() < 1e-9 || (node[d] - high[d]).abs() < 1e-9;
         (0..kind.dimension()).any(on)
@@ -198,11 +166,7 @@ fn build(kind: ContinuumKind, bulge: f64) -> Patch {
         elements.push(element);
     }
     let outer = nodes.iter().map(sides).collect();
-    Patch {
-        nodes,
-        elements,
-        outer,
-    }
+    Patch { nodes, elements, outer }
 }
 
 /// The largest error inside, relative to the largest displacement.
@@ -240,9 +204,6 @@ fn error(
     let force = &k * &held;
     let load = DVector::from_fn(inside.len(), |i, _| -force[inside[i]]);
     let found = k_ii.cholesky().ok_or("the patch is singular")?.solve(&load);
-    let errors = inside
-        .iter()
-        .zip(found.iter())
-        .map(|(&i, value)| (value - exact[i]).abs());
+    let errors = inside.iter().zip(found.iter()).map(|(&i, value)| (value - exact[i]).abs());
     Ok(errors.fold(0.0, f64::max) / exact.amax())
 }

@@ -2,24 +2,14 @@
 
 use super::Outcome;
 use super::fixtures::{THICKNESS, aluminium, distorted, laminate_along, message};
-use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, PlaneAssumption, stiffness,
-};
+use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, PlaneAssumption, stiffness};
 use crate::fe::material::{ElasticMaterial, Material, OrthotropicMaterial};
 
 #[test]
 fn thickness_must_be_positive() -> Outcome {
-    for (value, text) in [
-        (0.0, "0"),
-        (-1.0, "-1"),
-        (f64::NAN, "NaN"),
-        (f64::INFINITY, "inf"),
-    ] {
+    for (value, text) in [(0.0, "0"), (-1.0, "-1"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
         let found = ContinuumProperties::plane(&aluminium()?, PlaneAssumption::Strain, value);
-        assert_eq!(
-            message(found),
-            format!("thickness must be positive and finite, found {text} m")
-        );
+        assert_eq!(message(found), format!("thickness must be positive and finite, found {text} m"));
     }
     Ok(())
 }

@@ -8,10 +8,7 @@ use crate::fe::element::continuum::{ContinuumKind, measure, quality};
 fn straight_elements_have_ratio_one() -> Outcome {
     for kind in ContinuumKind::ALL {
         let found = quality(kind, &straight(kind))?;
-        assert!(
-            (found.scaled_jacobian - 1.0).abs() < 1e-13,
-            "{kind:?}: {found:?}"
-        );
+        assert!((found.scaled_jacobian - 1.0).abs() < 1e-13, "{kind:?}: {found:?}");
         let natural: f64 = kind.mass_rule().points().iter().map(|p| p.weight).sum();
         let expected = measure(kind, &straight(kind))? / natural;
         assert!((found.smallest_determinant / expected - 1.0).abs() < 1e-13);
@@ -40,12 +37,7 @@ fn bad_elements_have_a_quality_too() -> Outcome {
 /// opposite one.
 #[test]
 fn arrowhead_by_hand() -> Outcome {
-    let arrowhead = [
-        [0.0; 3],
-        [1.0, 0.0, 0.0],
-        [0.25, 0.25, 0.0],
-        [0.0, 1.0, 0.0],
-    ];
+    let arrowhead = [[0.0; 3], [1.0, 0.0, 0.0], [0.25, 0.25, 0.0], [0.0, 1.0, 0.0]];
     let found = quality(ContinuumKind::Quad4, &arrowhead)?;
     assert!((found.smallest_determinant + 0.125).abs() < 1e-15);
     assert!((found.scaled_jacobian + 0.5).abs() < 1e-15);

@@ -9,8 +9,7 @@ use crate::fe::element::continuum::dispatch::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass,
-    stiffness,
+    ContinuumKind, ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
 };
 
 /// The stiffness by any points.
@@ -29,9 +28,7 @@ fn by_points(
     ) -> Result<(), ElementError> {
         let placed = Placed::<N>::new(kind, coords)?;
         let table = Table::new(kind, points);
-        crate::fe::element::continuum::stiffness::integrate::<N, D>(
-            kind, coords, &placed, p, &table, out,
-        )
+        crate::fe::element::continuum::stiffness::integrate::<N, D>(kind, coords, &placed, p, &table, out)
     }
     let mut out = DMatrix::zeros(kind.dof(), kind.dof());
     for_kind!(kind, integrate(kind, coords, p, points, out.as_mut_slice()))?;
@@ -74,10 +71,7 @@ fn straightness_has_no_step() -> Outcome {
         assert!(error < 20.0 * moved + 1e-14, "{moved}: {error:e}");
     }
     // a millimetre a hundred metres from the origin: coordinates are rounded to 1e-14 m
-    let far: Vec<_> = straight
-        .iter()
-        .map(|x| x.map(|v| 1e-3 * v + 100.0))
-        .collect();
+    let far: Vec<_> = straight.iter().map(|x| x.map(|v| 1e-3 * v + 100.0)).collect();
     assert!(Placed::<10>::new(kind, &far)?.straight);
     Ok(())
 }
@@ -92,11 +86,7 @@ fn on_a_bore(kind: ContinuumKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
     let place = |&[xi, eta, zeta]: &[f64; 3]| {
         let radius = 1.0 + height * arc * unit(xi, simplex || wedge);
         let angle = arc * unit(eta, simplex || wedge);
-        let along = if kind.dimension() == 3 {
-            arc * unit(zeta, simplex)
-        } else {
-            0.0
-        };
+        let along = if kind.dimension() == 3 { arc * unit(zeta, simplex) } else { 0.0 };
         [radius * angle.cos(), radius * angle.sin(), along]
     };
     let corners = &kind.natural_nodes()[..kind.corners()];
@@ -139,10 +129,7 @@ fn curved_tet10_is_converged() -> Outcome {
             let shape = (degrees, 1.0);
             let found = rule_error(ContinuumKind::Tet10, shape, rule)?;
             let near = (found / expected - 1.0).abs() < 0.1;
-            assert!(
-                near,
-                "{rule:?} {shape:?}: {found:.1e} documented {expected:.1e}"
-            );
+            assert!(near, "{rule:?} {shape:?}: {found:.1e} documented {expected:.1e}");
         }
     }
     Ok(())
@@ -152,13 +139,7 @@ fn curved_tet10_is_converged() -> Outcome {
 #[test]
 fn other_curved_elements_are_as_documented() -> Outcome {
     use ContinuumKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
-    for (kind, expected) in [
-        (Tet10, 2.3e-9),
-        (Tri6, 3.1e-6),
-        (Quad8, 2.9e-4),
-        (Hex20, 2.6e-4),
-        (Wedge15, 9.4e-5),
-    ] {
+    for (kind, expected) in [(Tet10, 2.3e-9), (Tri6, 3.1e-6), (Quad8, 2.9e-4), (Hex20, 2.6e-4), (Wedge15, 9.4e-5)] {
         let found = rule_error(kind, (10.0, 1.0), kind.stiffness_rule())?;
         let near = (found / expected - 1.0).abs() < 0.1;
         assert!(near, "{kind:?}: {found:.1e} documented {expected:.1e}");

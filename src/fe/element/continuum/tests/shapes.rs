@@ -41,10 +41,7 @@ fn middle_nodes_are_in_gmshs_order() {
     ];
     for (kind, node, expected) in cases {
         let found = kind.natural_nodes()[node];
-        let same = found
-            .iter()
-            .zip(expected)
-            .all(|(f, e)| (f - e).abs() < 1e-15);
+        let same = found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-15);
         assert!(same, "{kind:?} node {node}: {found:?}");
     }
 }
@@ -99,11 +96,7 @@ fn derivatives_against_differences(kind: ContinuumKind) {
             let (plus, minus) = (shape_values(kind, plus), shape_values(kind, minus));
             for i in 0..kind.nodes() {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
-                let expected = if d < kind.dimension() {
-                    difference
-                } else {
-                    0.0
-                };
+                let expected = if d < kind.dimension() { difference } else { 0.0 };
                 let error = (expected - exact[i][d]).abs();
                 assert!(error < 1e-10, "{kind:?} node {i} direction {d}: {error}");
             }

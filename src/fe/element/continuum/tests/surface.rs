@@ -12,64 +12,35 @@ fn flat_surfaces_have_the_textbook_weights() -> Outcome {
     let natural = |kind: SurfaceKind| -> Vec<[f64; 2]> {
         match kind {
             SurfaceKind::Line2 | SurfaceKind::Line3 => vec![[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]],
-            SurfaceKind::Tri3 | SurfaceKind::Tri6 => super::ContinuumKind::Tri6
-                .natural_nodes()
-                .iter()
-                .map(|n| [n[0], n[1]])
-                .collect(),
-            _ => super::ContinuumKind::Quad8
-                .natural_nodes()
-                .iter()
-                .map(|n| [n[0], n[1]])
-                .collect(),
+            SurfaceKind::Tri3 | SurfaceKind::Tri6 => {
+                super::ContinuumKind::Tri6.natural_nodes().iter().map(|n| [n[0], n[1]]).collect()
+            }
+            _ => super::ContinuumKind::Quad8.natural_nodes().iter().map(|n| [n[0], n[1]]).collect(),
         }
     };
     let cases: [(SurfaceKind, f64, &[f64]); 6] = [
         (SurfaceKind::Line2, 4.0, &[0.5; 2]),
         (SurfaceKind::Line3, 4.0, &[1.0 / 6.0, 1.0 / 6.0, 4.0 / 6.0]),
         (SurfaceKind::Tri3, 2.0, &[1.0 / 3.0; 3]),
-        (
-            SurfaceKind::Tri6,
-            2.0,
-            &[0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
-        ),
+        (SurfaceKind::Tri6, 2.0, &[0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0]),
         (SurfaceKind::Quad4, 16.0, &[0.25; 4]),
         (
             SurfaceKind::Quad8,
             16.0,
-            &[
-                -1.0 / 12.0,
-                -1.0 / 12.0,
-                -1.0 / 12.0,
-                -1.0 / 12.0,
-                1.0 / 3.0,
-                1.0 / 3.0,
-                1.0 / 3.0,
-                1.0 / 3.0,
-            ],
+            &[-1.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
         ),
     ];
     for (kind, size, shares) in cases {
-        let coords: Vec<_> = natural(kind)
-            .into_iter()
-            .take(kind.nodes())
-            .map(place)
-            .collect();
+        let coords: Vec<_> = natural(kind).into_iter().take(kind.nodes()).map(place).collect();
         let weights = surface_weights(kind, &coords)?;
         assert_eq!(weights.len(), shares.len());
         for (weight, share) in weights.iter().zip(shares) {
-            assert!(
-                (weight - size * share).abs() < 1e-14 * size,
-                "{kind:?}: {weights:?}"
-            );
+            assert!((weight - size * share).abs() < 1e-14 * size, "{kind:?}: {weights:?}");
         }
         for (i, &at) in natural(kind).iter().take(kind.nodes()).enumerate() {
             for (j, value) in surface_shape(kind, at).0.into_iter().enumerate() {
                 let expected = if i == j { 1.0 } else { 0.0 };
-                assert!(
-                    (value - expected).abs() < 1e-15,
-                    "{kind:?} N_{j} at node {i}: {value}"
-                );
+                assert!((value - expected).abs() < 1e-15, "{kind:?} N_{j} at node {i}: {value}");
             }
         }
     }
@@ -89,10 +60,7 @@ fn derivatives_against_differences() {
             let (plus, minus) = (surface_shape(kind, plus).0, surface_shape(kind, minus).0);
             for i in 0..8 {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
-                assert!(
-                    (difference - derivatives[i][d]).abs() < 1e-10,
-                    "{kind:?} {i} {d}"
-                );
+                assert!((difference - derivatives[i][d]).abs() < 1e-10, "{kind:?} {i} {d}");
             }
         }
     }
@@ -104,11 +72,7 @@ fn derivatives_against_differences() {
 fn curved_edge_has_the_length_of_its_parabola() -> Outcome {
     let half_angle = 10.0_f64.to_radians();
     let (sin, cos) = half_angle.sin_cos();
-    let nodes = [
-        [0.6 * sin, 0.8 * sin, cos],
-        [-0.6 * sin, -0.8 * sin, cos],
-        [0.0, 0.0, 1.0],
-    ];
+    let nodes = [[0.6 * sin, 0.8 * sin, cos], [-0.6 * sin, -0.8 * sin, cos], [0.0, 0.0, 1.0]];
     let weights = surface_weights(SurfaceKind::Line3, &nodes)?;
     let (c, h) = (sin, 1.0 - cos);
     let length = c.hypot(2.0 * h) + c * c / (2.0 * h) * (2.0 * h / c).asinh();
@@ -153,19 +117,13 @@ fn curved_faces_have_the_area_of_their_parabola() -> Outcome {
 #[test]
 fn every_rule_fires_with_its_message() {
     let message = |kind, coords: &[[f64; 3]]| message(surface_weights(kind, coords));
-    assert_eq!(
-        message(SurfaceKind::Line2, &[[0.0; 3]]),
-        "a Line2 element has 2 nodes, found 1"
-    );
+    assert_eq!(message(SurfaceKind::Line2, &[[0.0; 3]]), "a Line2 element has 2 nodes, found 1");
     assert_eq!(
         message(SurfaceKind::Line2, &[[0.5, 0.25, 0.0]; 2]),
         "the Line2 edge at (5.000000e-1, 2.500000e-1, 0.000000e0) m has no length"
     );
     assert_eq!(
-        message(
-            SurfaceKind::Tri3,
-            &[[1.0, 0.0, 0.0], [2.0, 0.1, 0.0], [3.0, 0.2, 0.0]]
-        ),
+        message(SurfaceKind::Tri3, &[[1.0, 0.0, 0.0], [2.0, 0.1, 0.0], [3.0, 0.2, 0.0]]),
         "the Tri3 surface at (1.000000e0, 0.000000e0, 0.000000e0) m has no area"
     );
     assert_eq!(
@@ -183,27 +141,16 @@ fn consistent_shares_are_positive() -> Outcome {
             SurfaceKind::Line2 | SurfaceKind::Line3 => {
                 vec![[0.0; 3], [3.0, 0.0, 0.0], [1.5, 0.0, 0.0]]
             }
-            SurfaceKind::Tri3 | SurfaceKind::Tri6 => {
-                super::ContinuumKind::Tri6.natural_nodes().to_vec()
-            }
+            SurfaceKind::Tri3 | SurfaceKind::Tri6 => super::ContinuumKind::Tri6.natural_nodes().to_vec(),
             _ => super::ContinuumKind::Quad8.natural_nodes().to_vec(),
         };
         let coords = &flat[..kind.nodes()];
-        let (matrix, weights) = (
-            surface_matrix(kind, coords)?,
-            surface_weights(kind, coords)?,
-        );
+        let (matrix, weights) = (surface_matrix(kind, coords)?, surface_weights(kind, coords)?);
         for (row, weight) in weights.iter().enumerate() {
-            assert!(
-                (matrix.row(row).sum() - weight).abs() < 1e-14,
-                "{kind:?} {row}"
-            );
+            assert!((matrix.row(row).sum() - weight).abs() < 1e-14, "{kind:?} {row}");
         }
         let lowest = matrix.clone().symmetric_eigenvalues().min();
-        assert!(
-            lowest > 1e-3 * matrix.trace() / kind.nodes() as f64,
-            "{kind:?}: {lowest}"
-        );
+        assert!(lowest > 1e-3 * matrix.trace() / kind.nodes() as f64, "{kind:?}: {lowest}");
         if kind == SurfaceKind::Line2 {
             assert!((matrix[(0, 0)] - 1.0).abs() < 1e-14 && (matrix[(0, 1)] - 0.5).abs() < 1e-14);
         }

@@ -12,11 +12,10 @@ fn is_sound(bytes: &[u8]) -> bool {
             let groups_inside = mesh.groups.iter().all(|group| {
                 group.nodes.iter().all(|&node| node < nodes)
                     && group.nodes.is_sorted()
-                    && group.elements.iter().all(|id| {
-                        mesh.blocks
-                            .get(id.block)
-                            .is_some_and(|b| b.element(id.index).is_some())
-                    })
+                    && group
+                        .elements
+                        .iter()
+                        .all(|id| mesh.blocks.get(id.block).is_some_and(|b| b.element(id.index).is_some()))
             });
             let blocks_inside = mesh.blocks.iter().all(|block| {
                 block.connectivity.iter().all(|&node| node < nodes)
@@ -32,13 +31,7 @@ fn encodings() -> Result<Vec<Vec<u8>>, String> {
     let mut all = vec![SMALL.as_bytes().to_vec()];
     for big_endian in [false, true] {
         for size_bytes in [4, 8] {
-            all.push(binary(
-                SMALL,
-                Layout {
-                    big_endian,
-                    size_bytes,
-                },
-            )?);
+            all.push(binary(SMALL, Layout { big_endian, size_bytes })?);
         }
     }
     Ok(all)
@@ -49,10 +42,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, limit: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize % limit
     }
 }
@@ -63,11 +53,7 @@ fn cut_anywhere() -> Result<(), String> {
         // the last byte is a line end that nobody needs
         for length in 0..bytes.len() - 1 {
             let message = read(&bytes[..length]);
-            assert!(
-                message.is_err(),
-                "cut to {length} of {} bytes is accepted",
-                bytes.len()
-            );
+            assert!(message.is_err(), "cut to {length} of {} bytes is accepted", bytes.len());
         }
     }
     Ok(())
@@ -112,43 +98,21 @@ fn random_damage() -> Result<(), String> {
 #[test]
 fn every_number_made_huge() -> Result<(), String> {
     let words: Vec<&str> = SMALL.split_inclusive(char::is_whitespace).collect();
-    for huge in [
-        "18446744073709551615",
-        "9223372036854775807",
-        "4294967296",
-        "2147483647",
-        "99999",
-    ] {
+    for huge in ["18446744073709551615", "9223372036854775807", "4294967296", "2147483647", "99999"] {
         for position in 0..words.len() {
             let mut damaged = words.clone();
-            let replaced = format!(
-                "{huge}{}",
-                if words[position].ends_with('\n') {
-                    "\n"
-                } else {
-                    " "
-                }
-            );
+            let replaced = format!("{huge}{}", if words[position].ends_with('\n') { "\n" } else { " " });
             damaged[position] = &replaced;
-            assert!(
-                is_sound(damaged.concat().as_bytes()),
-                "word {position} replaced by {huge}"
-            );
+            assert!(is_sound(damaged.concat().as_bytes()), "word {position} replaced by {huge}");
         }
     }
-    let layout = Layout {
-        big_endian: false,
-        size_bytes: 8,
-    };
+    let layout = Layout { big_endian: false, size_bytes: 8 };
     let bytes = binary(SMALL, layout)?;
     for position in 0..bytes.len() - 8 {
         for huge in [u64::MAX, i64::MAX as u64, 1 << 40, i32::MAX as u64] {
             let mut damaged = bytes.clone();
             damaged[position..position + 8].copy_from_slice(&huge.to_le_bytes());
-            assert!(
-                is_sound(&damaged),
-                "8 bytes at {position} replaced by {huge}"
-            );
+            assert!(is_sound(&damaged), "8 bytes at {position} replaced by {huge}");
         }
     }
     Ok(())

@@ -32,16 +32,8 @@ impl Writer<'_> {
                 let value: u64 = word.parse().map_err(|_| word.to_owned())?;
                 value.to_le_bytes()[..self.layout.size_bytes].to_vec()
             }
-            Int => word
-                .parse::<i32>()
-                .map_err(|_| word.to_owned())?
-                .to_le_bytes()
-                .to_vec(),
-            Double => word
-                .parse::<f64>()
-                .map_err(|_| word.to_owned())?
-                .to_le_bytes()
-                .to_vec(),
+            Int => word.parse::<i32>().map_err(|_| word.to_owned())?.to_le_bytes().to_vec(),
+            Double => word.parse::<f64>().map_err(|_| word.to_owned())?.to_le_bytes().to_vec(),
         };
         if self.layout.big_endian {
             bytes.reverse();
@@ -55,12 +47,7 @@ impl Writer<'_> {
     }
 
     fn entities(&mut self) -> Result<(), String> {
-        let counts = [
-            self.put(Size)?,
-            self.put(Size)?,
-            self.put(Size)?,
-            self.put(Size)?,
-        ];
+        let counts = [self.put(Size)?, self.put(Size)?, self.put(Size)?, self.put(Size)?];
         for (dimension, count) in counts.into_iter().enumerate() {
             for _ in 0..count {
                 self.put(Int)?;
@@ -113,20 +100,13 @@ fn section<'a>(text: &'a str, name: &str) -> Result<&'a str, String> {
 /// An ASCII mesh (points, lines, quadrilaterals) in binary.
 pub(super) fn binary(text: &str, layout: Layout) -> Result<Vec<u8>, String> {
     let mut out = format!("$MeshFormat\n4.1 1 {}\n", layout.size_bytes).into_bytes();
-    out.extend(if layout.big_endian {
-        [0, 0, 0, 1]
-    } else {
-        [1, 0, 0, 0]
-    });
+    out.extend(if layout.big_endian { [0, 0, 0, 1] } else { [1, 0, 0, 0] });
     out.extend(b"\n$EndMeshFormat\n$PhysicalNames\n");
     out.extend(section(text, "PhysicalNames")?.as_bytes());
     out.extend(b"$EndPhysicalNames\n");
     type Write = fn(&mut Writer<'_>) -> Result<(), String>;
-    let sections: [(&str, Write); 3] = [
-        ("Entities", |w| w.entities()),
-        ("Nodes", |w| w.nodes()),
-        ("Elements", |w| w.elements()),
-    ];
+    let sections: [(&str, Write); 3] =
+        [("Entities", |w| w.entities()), ("Nodes", |w| w.nodes()), ("Elements", |w| w.elements())];
     for (name, write) in sections {
         let mut writer = Writer {
             layout,
@@ -145,10 +125,7 @@ fn every_binary_layout_reads_like_ascii() -> Result<(), String> {
     let ascii = read(SMALL.as_bytes())?;
     for big_endian in [false, true] {
         for size_bytes in [4, 8] {
-            let layout = Layout {
-                big_endian,
-                size_bytes,
-            };
+            let layout = Layout { big_endian, size_bytes };
             let mut read = read(&binary(SMALL, layout)?)?;
             assert!(read.format.binary);
             read.format = ascii.format;
@@ -160,23 +137,12 @@ fn every_binary_layout_reads_like_ascii() -> Result<(), String> {
 
 #[test]
 fn binary_files_name_the_byte() -> Result<(), String> {
-    let layout = Layout {
-        big_endian: false,
-        size_bytes: 8,
-    };
-    let nan = binary(
-        &SMALL.replace("1 1 0\n2 1 0\n$", "1 NaN 0\n2 1 0\n$"),
-        layout,
-    )?;
-    let start = nan
-        .windows(8)
-        .position(|w| w == f64::NAN.to_le_bytes())
-        .ok_or("no NaN")?;
+    let layout = Layout { big_endian: false, size_bytes: 8 };
+    let nan = binary(&SMALL.replace("1 1 0\n2 1 0\n$", "1 NaN 0\n2 1 0\n$"), layout)?;
+    let start = nan.windows(8).position(|w| w == f64::NAN.to_le_bytes()).ok_or("no NaN")?;
     assert_eq!(
         read(&nan),
-        Err(format!(
-            "$Nodes, byte {start}: node 5 has the coordinate NaN: expected a finite number"
-        ))
+        Err(format!("$Nodes, byte {start}: node 5 has the coordinate NaN: expected a finite number"))
     );
     Ok(())
 }

@@ -24,10 +24,7 @@ const POINT: &str = "1 15 2 7 1 1";
 #[test]
 fn is_the_mesh_of_4_1() -> Result<(), String> {
     let quads = ["4 3 2 10 1 1 2 5 6", "5 3 2 10 1 2 3 4 5"];
-    for edges in [
-        ["2 1 2 1 1 6 1", "3 1 2 5 1 6 1"],
-        ["2 1 2 1 1 6 1", "3 1 3 -5 1 0 1 6"],
-    ] {
+    for edges in [["2 1 2 1 1 6 1", "3 1 2 5 1 6 1"], ["2 1 2 1 1 6 1", "3 1 3 -5 1 0 1 6"]] {
         let mut mesh = small_v22(&[POINT, edges[0], edges[1], quads[0], quads[1]])?;
         let mut expected = read(SMALL.as_bytes())?;
         assert_eq!(mesh.format.version, MshVersion::V22);
@@ -57,10 +54,7 @@ fn groups_may_share_some_of_an_entity() -> Result<(), String> {
         let group = mesh.group(name).map_err(|error| error.to_string())?;
         Ok(group.elements.iter().map(|id| id.index).collect())
     };
-    assert_eq!(
-        (members("plate")?, members("11")?),
-        (vec![0, 1], vec![1, 2])
-    );
+    assert_eq!((members("plate")?, members("11")?), (vec![0, 1], vec![1, 2]));
     assert_eq!(mesh.inventory().ungrouped_elements, 1);
     Ok(())
 }
@@ -70,12 +64,7 @@ fn groups_may_share_some_of_an_entity() -> Result<(), String> {
 fn elements_on_the_same_nodes_in_one_group_stay() -> Result<(), String> {
     let twice = small_v22(&["1 3 2 10 1 1 2 5 6", "2 3 2 10 1 1 2 5 6"])?;
     assert_eq!(twice.blocks[0].tags, [1, 2]);
-    let both = small_v22(&[
-        "1 3 2 10 1 1 2 5 6",
-        "2 3 2 10 1 1 2 5 6",
-        "3 3 2 11 1 5 6 1 2",
-        "4 3 2 10 1 2 3 4 5",
-    ])?;
+    let both = small_v22(&["1 3 2 10 1 1 2 5 6", "2 3 2 10 1 1 2 5 6", "3 3 2 11 1 5 6 1 2", "4 3 2 10 1 2 3 4 5"])?;
     assert_eq!(both.blocks[0].tags, [1, 2, 4]);
     let group = both.group("11").map_err(|error| error.to_string())?;
     assert_eq!(group.elements.len(), 1);
@@ -87,12 +76,6 @@ fn elements_on_the_same_nodes_in_one_group_stay() -> Result<(), String> {
 #[test]
 fn other_entities_have_their_own_elements() -> Result<(), String> {
     let mesh = small_v22(&["1 3 2 10 1 1 2 5 6", "2 3 2 11 2 1 2 5 6"])?;
-    assert_eq!(
-        mesh.blocks
-            .iter()
-            .map(|block| block.len())
-            .collect::<Vec<_>>(),
-        [1, 1]
-    );
+    assert_eq!(mesh.blocks.iter().map(|block| block.len()).collect::<Vec<_>>(), [1, 1]);
     Ok(())
 }

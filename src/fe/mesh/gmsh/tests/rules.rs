@@ -23,29 +23,15 @@ fn cut(before: &str) -> String {
 #[test]
 fn not_a_mesh() {
     let rule = "not a gmsh mesh: expected $MeshFormat at the start, found";
-    assert_eq!(
-        after("$MeshFormat", "solid cube"),
-        format!("{rule} \"solid cube\"")
-    );
+    assert_eq!(after("$MeshFormat", "solid cube"), format!("{rule} \"solid cube\""));
     assert_eq!(read(b"").err(), Some(format!("{rule} nothing")));
-    assert_eq!(
-        read(&[0x89, b'P', b'N', b'G', 13, 10]).err(),
-        Some(format!("{rule} \"\u{fffd}PNG\""))
-    );
-    assert_eq!(
-        after("4.1 0", "four 0"),
-        "$MeshFormat, line 2: expected the version, found \"four\""
-    );
+    assert_eq!(read(&[0x89, b'P', b'N', b'G', 13, 10]).err(), Some(format!("{rule} \"\u{fffd}PNG\"")));
+    assert_eq!(after("4.1 0", "four 0"), "$MeshFormat, line 2: expected the version, found \"four\"");
 }
 
 #[test]
 fn other_versions_say_how_to_convert() {
-    for (line, version) in [
-        ("2.1 0 8", "2.1"),
-        ("4 0 8", "4"),
-        ("4.0 0 8", "4.0"),
-        ("5 0 8", "5"),
-    ] {
+    for (line, version) in [("2.1 0 8", "2.1"), ("4 0 8", "4"), ("4.0 0 8", "4.0"), ("5 0 8", "5")] {
         assert_eq!(
             after("4.1 0 8", line),
             format!(
@@ -77,18 +63,10 @@ fn header() {
 fn cut_files_name_the_section() {
     let cases = [
         ("4.1", "MeshFormat", "the version"),
-        (
-            " 0 8",
-            "MeshFormat",
-            "the file type, 0 (ASCII) or 1 (binary)",
-        ),
+        (" 0 8", "MeshFormat", "the file type, 0 (ASCII) or 1 (binary)"),
         ("ormat\n$PhysicalNames", "MeshFormat", "$EndMeshFormat"),
         ("4\n0 7", "PhysicalNames", "the number of physical names"),
-        (
-            "2 10 \"plate\"",
-            "PhysicalNames",
-            "dimension, tag and \"name\" of a physical group",
-        ),
+        ("2 10 \"plate\"", "PhysicalNames", "dimension, tag and \"name\" of a physical group"),
         ("1 1 1 0", "Entities", "the number of points"),
         ("1 10 1 1", "Entities", "the number of physical tags"),
         ("Entities\n$Nodes", "Entities", "$EndEntities"),
@@ -98,8 +76,7 @@ fn cut_files_name_the_section() {
         ("2 3 4 5\n$", "Elements", "the tag of a node of an element"),
     ];
     for (before, section, expected) in cases {
-        let message =
-            format!("the file ends inside ${section}: expected {expected}; is it complete?");
+        let message = format!("the file ends inside ${section}: expected {expected}; is it complete?");
         assert_eq!(cut(before), message, "cut before {before:?}");
     }
     assert_eq!(
@@ -107,14 +84,8 @@ fn cut_files_name_the_section() {
         "$Nodes, line 25: 4 announced as the number of nodes of a block, but only 1 bytes follow; is the \
          file complete?"
     );
-    assert_eq!(
-        cut("$Elements"),
-        "the file has no $Elements section: expected one; is the file complete?"
-    );
-    assert_eq!(
-        cut("$Nodes"),
-        "the file has no $Nodes section: expected one; is the file complete?"
-    );
+    assert_eq!(cut("$Elements"), "the file has no $Elements section: expected one; is the file complete?");
+    assert_eq!(cut("$Nodes"), "the file has no $Nodes section: expected one; is the file complete?");
     let open = format!("{SMALL}$Periodic\n0\n");
     assert_eq!(
         read(open.as_bytes()).err().as_deref(),
@@ -125,10 +96,7 @@ fn cut_files_name_the_section() {
 #[test]
 fn sections() {
     let twice = format!("{SMALL}$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n");
-    assert_eq!(
-        read(twice.as_bytes()).err().as_deref(),
-        Some("line 45: a second $Nodes section, expected one")
-    );
+    assert_eq!(read(twice.as_bytes()).err().as_deref(), Some("line 45: a second $Nodes section, expected one"));
     let (start, rest) = SMALL.split_once("$Nodes").unwrap_or_default();
     let (nodes, elements) = rest.split_once("$Elements").unwrap_or_default();
     let swapped = format!("{start}$Elements{elements}$Nodes{nodes}");
@@ -140,19 +108,10 @@ fn sections() {
         after("$Nodes", "Nodes"),
         "$Entities, line 17: expected a section ($...) after $EndEntities, found \"Nodes\""
     );
+    assert_eq!(after("$EndNodes", "$EndNode"), "$Nodes, line 34: expected $EndNodes, found \"$EndNode\"");
+    assert_eq!(after("$EndNodes", "$EndNodes 1"), "$Nodes, line 34: expected nothing after $EndNodes, found \" 1\"");
     assert_eq!(
-        after("$EndNodes", "$EndNode"),
-        "$Nodes, line 34: expected $EndNodes, found \"$EndNode\""
-    );
-    assert_eq!(
-        after("$EndNodes", "$EndNodes 1"),
-        "$Nodes, line 34: expected nothing after $EndNodes, found \" 1\""
-    );
-    assert_eq!(
-        after(
-            "$Nodes",
-            "$PartitionedEntities\n$EndPartitionedEntities\n$Nodes"
-        ),
+        after("$Nodes", "$PartitionedEntities\n$EndPartitionedEntities\n$Nodes"),
         "$PartitionedEntities, line 17: a partitioned mesh cannot be read; save it unpartitioned \
          (Mesh.NbPartitions = 0, or UnpartitionMesh)"
     );
@@ -160,20 +119,10 @@ fn sections() {
 
 #[test]
 fn physical_names() {
-    let rule =
-        "$PhysicalNames, line 6: expected dimension, tag and \"name\" of a physical group, found";
-    assert_eq!(
-        after("0 7 \"corner point\"", "0 7 corner"),
-        format!("{rule} \"0 7 corner\"")
-    );
-    assert_eq!(
-        after("0 7 \"corner", "0 \"corner"),
-        format!("{rule} \"0 \"corner point\"\"")
-    );
-    assert_eq!(
-        after("0 7 \"corner", "4 7 \"corner"),
-        format!("{rule} \"4 7 \"corner point\"\"")
-    );
+    let rule = "$PhysicalNames, line 6: expected dimension, tag and \"name\" of a physical group, found";
+    assert_eq!(after("0 7 \"corner point\"", "0 7 corner"), format!("{rule} \"0 7 corner\""));
+    assert_eq!(after("0 7 \"corner", "0 \"corner"), format!("{rule} \"0 \"corner point\"\""));
+    assert_eq!(after("0 7 \"corner", "4 7 \"corner"), format!("{rule} \"4 7 \"corner point\"\""));
     assert_eq!(
         after("4\n0 7", "four\n0 7"),
         "$PhysicalNames, line 5: expected the number of physical names, found \"four\""
@@ -187,18 +136,12 @@ fn physical_names() {
 
 #[test]
 fn numbers() {
-    assert_eq!(
-        after("1 1 1 0\n", "1 -1 1 0\n"),
-        "$Entities, line 12: expected the number of curves, found \"-1\""
-    );
+    assert_eq!(after("1 1 1 0\n", "1 -1 1 0\n"), "$Entities, line 12: expected the number of curves, found \"-1\"");
     assert_eq!(
         after("1 0 0 0 1 7", "1 0 0,5 0 1 7"),
         "$Entities, line 13: expected a coordinate of an entity, found \"0,5\""
     );
-    assert_eq!(
-        after("2 1 -2", "2 1 two"),
-        "$Entities, line 14: expected the tag of a bounding entity, found \"two\""
-    );
+    assert_eq!(after("2 1 -2", "2 1 two"), "$Entities, line 14: expected the tag of a bounding entity, found \"two\"");
     assert_eq!(
         after("2 1 0 4\n", "4 1 0 4\n"),
         "$Nodes, line 25: expected the dimension of an entity, 0 to 3, found \"4\""
@@ -260,16 +203,11 @@ fn nodes() {
         after("2\n5\n4\n", "2\n6\n4\n"),
         "$Nodes, line 28: node tag 6 occurs a second time: expected every tag once"
     );
-    assert_eq!(
-        after("2\n5\n4\n", "2\n0\n4\n"),
-        "$Nodes, line 28: expected a node tag, greater than 0, found \"0\""
-    );
+    assert_eq!(after("2\n5\n4\n", "2\n0\n4\n"), "$Nodes, line 28: expected a node tag, greater than 0, found \"0\"");
     for tag in ["9223372036854775808", "18446744073709551615"] {
         assert_eq!(
             after("2\n5\n4\n", &format!("2\n{tag}\n4\n")),
-            format!(
-                "$Nodes, line 28: expected a node tag, at most 9223372036854775807, found \"{tag}\""
-            )
+            format!("$Nodes, line 28: expected a node tag, at most 9223372036854775807, found \"{tag}\"")
         );
     }
     assert_eq!(
@@ -312,8 +250,7 @@ fn no_elements() {
 
 #[test]
 fn unsupported_elements_are_named() {
-    let known =
-        "Point, Line2, Line3, Tri3, Tri6, Quad4, Quad8, Tet4, Tet10, Hex8, Hex20, Wedge6, Wedge15";
+    let known = "Point, Line2, Line3, Tri3, Tri6, Quad4, Quad8, Tet4, Tet10, Hex8, Hex20, Wedge6, Wedge15";
     let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
     let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
                    Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
@@ -324,11 +261,7 @@ fn unsupported_elements_are_named() {
         (13, "Wedge18", complete),
         (7, "Pyramid5", pyramid),
         (14, "Pyramid14", pyramid),
-        (
-            36,
-            "of higher order or special purpose",
-            "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again",
-        ),
+        (36, "of higher order or special purpose", "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again"),
     ];
     for (number, name, advice) in cases {
         assert_eq!(

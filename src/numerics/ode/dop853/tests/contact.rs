@@ -44,11 +44,7 @@ impl SecondOrderSystem for Bouncing {
 
 /// Relative error of the energy after ten bounces, and what it took.
 fn bounced(tolerance: f64, events: bool) -> (f64, Statistics) {
-    let mut state = State {
-        t: 0.0,
-        y: vec![1.0],
-        v: vec![0.0],
-    };
+    let mut state = State { t: 0.0, y: vec![1.0], v: vec![0.0] };
     let statistics = integrate(
         &mut Bouncing::new(),
         Method::Dop853 { tolerance, events },
@@ -66,14 +62,10 @@ fn bounced(tolerance: f64, events: bool) -> (f64, Statistics) {
 fn steps_that_end_at_contact_keep_more_of_the_energy() {
     for exponent in 3..=12 {
         let tolerance = 10.0_f64.powi(-exponent);
-        let ((across, plain), (ending, located)) =
-            (bounced(tolerance, false), bounced(tolerance, true));
+        let ((across, plain), (ending, located)) = (bounced(tolerance, false), bounced(tolerance, true));
         // 3 to 50 times were found, for up to 30 % more evaluations
         assert!(2.0 * ending < across, "{tolerance:e}: {ending} {across}");
-        assert!(
-            2 * located.evaluations < 3 * plain.evaluations,
-            "{tolerance:e}"
-        );
+        assert!(2 * located.evaluations < 3 * plain.evaluations, "{tolerance:e}");
         // each of the ten bounces begins and ends once
         assert_eq!((plain.events, located.events), (0, 20), "{tolerance:e}");
     }
@@ -82,14 +74,8 @@ fn steps_that_end_at_contact_keep_more_of_the_energy() {
 #[test]
 fn work_is_what_it_was() {
     // a change of these numbers is a change of efficiency: to be looked at, and then to be written here
-    let counts = |statistics: Statistics| {
-        [
-            statistics.steps,
-            statistics.rejected,
-            statistics.evaluations,
-            statistics.events,
-        ]
-    };
+    let counts =
+        |statistics: Statistics| [statistics.steps, statistics.rejected, statistics.evaluations, statistics.events];
     assert_eq!(counts(bounced(1e-6, false).1), [197, 130, 3799, 0]);
     assert_eq!(counts(bounced(1e-6, true).1), [215, 156, 4437, 20]);
     assert_eq!(counts(bounced(1e-10, true).1), [517, 264, 9209, 20]);
@@ -109,10 +95,7 @@ fn events_are_located_within_their_band() {
             if Stepper::<Bouncing>::statistics(&method).events > before {
                 let [height, speed] = method.stages.end().map(|part| part[0]);
                 // the largest overlap of a height of 1 m is 1
-                assert!(
-                    height.abs() <= 0.01 * tolerance,
-                    "{tolerance:e}: {height:e}"
-                );
+                assert!(height.abs() <= 0.01 * tolerance, "{tolerance:e}: {height:e}");
                 if landings == 0 {
                     let exact = (2.0 / GRAVITY).sqrt();
                     let late = (method.span.to - exact).abs() * speed.abs();

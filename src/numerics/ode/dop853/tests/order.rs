@@ -102,11 +102,7 @@ impl Observer<Oscillator> for Samples {
 fn samples_are_all_taken_and_change_nothing() {
     let sampled = |interval: f64, step: f64| {
         let ((y, v), mut samples) = (steady(0.0), Samples::default());
-        let mut state = State {
-            t: 0.0,
-            y: vec![y],
-            v: vec![v],
-        };
+        let mut state = State { t: 0.0, y: vec![y], v: vec![v] };
         let statistics = integrate(
             &mut Oscillator::new(0.7),
             method(1e-8),
@@ -125,15 +121,7 @@ fn samples_are_all_taken_and_change_nothing() {
     // the first
     assert_eq!(often.steps, rarely.steps);
     assert!((20..120).contains(&often.steps), "{often:?}");
-    assert_eq!(
-        often.evaluations - rarely.evaluations,
-        (1200 - 3) + 3 * (often.steps - 1 - 3)
-    );
+    assert_eq!(often.evaluations - rarely.evaluations, (1200 - 3) + 3 * (often.steps - 1 - 3));
     // found 5 tolerances at the ends of steps that add up to 12 s, 20 between them: order 7
-    assert!(
-        few.worst < 8e-8 && many.worst < 4e-7,
-        "{:e} {:e}",
-        few.worst,
-        many.worst
-    );
+    assert!(few.worst < 8e-8 && many.worst < 4e-7, "{:e} {:e}", few.worst, many.worst);
 }

@@ -26,27 +26,14 @@ impl SecondOrderSystem for Jump {
     }
 
     fn next_change(&self, t: f64) -> f64 {
-        if self.told && t < JUMP {
-            JUMP
-        } else {
-            f64::INFINITY
-        }
+        if self.told && t < JUMP { JUMP } else { f64::INFINITY }
     }
 }
 
 /// Error at 2 s of a body at rest under that force, what it took, and how often it was evaluated.
 fn jumped(told: bool) -> (f64, Statistics, u64) {
-    let mut system = Jump {
-        linear: free(),
-        told,
-        after: -2.0,
-        calls: 0,
-    };
-    let mut state = State {
-        t: 0.0,
-        y: vec![0.0],
-        v: vec![0.0],
-    };
+    let mut system = Jump { linear: free(), told, after: -2.0, calls: 0 };
+    let mut state = State { t: 0.0, y: vec![0.0], v: vec![0.0] };
     let statistics = integrate(
         &mut system,
         method(1e-6),
@@ -93,18 +80,9 @@ impl SecondOrderSystem for Resting {
 
 #[test]
 fn what_stands_still_does_not_shorten_the_steps() {
-    let coordinate = |squared_frequency: f64| LinearCoordinate {
-        squared_frequency,
-        damping: 0.0,
-    };
-    let mut system = Resting {
-        linear: [coordinate(1e6), coordinate(0.0), coordinate(0.0)],
-    };
-    let mut state = State {
-        t: 0.0,
-        y: vec![9.81e-6, 1e-6 / 7.0, 1e-6 / 3.0],
-        v: vec![0.0; 3],
-    };
+    let coordinate = |squared_frequency: f64| LinearCoordinate { squared_frequency, damping: 0.0 };
+    let mut system = Resting { linear: [coordinate(1e6), coordinate(0.0), coordinate(0.0)] };
+    let mut state = State { t: 0.0, y: vec![9.81e-6, 1e-6 / 7.0, 1e-6 / 3.0], v: vec![0.0; 3] };
     let statistics = integrate(
         &mut system,
         method(1e-8),
@@ -122,35 +100,16 @@ fn what_stands_still_does_not_shorten_the_steps() {
 #[test]
 fn what_no_step_is_short_enough_for_is_said() {
     let run = |system: &mut Jump, tolerance: f64| {
-        let mut state = State {
-            t: 0.0,
-            y: vec![0.1],
-            v: vec![0.3],
-        };
+        let mut state = State { t: 0.0, y: vec![0.1], v: vec![0.3] };
         let schedule = Schedule::covering(2.0, 1.0, 0.1).unwrap();
         let method = method(tolerance);
         let mut record = NoRecord;
-        integrate(
-            system,
-            method,
-            &schedule,
-            &mut state,
-            &mut record,
-            |_, _| Stepping::Continue,
-        )
-        .unwrap_err()
-        .to_string()
+        integrate(system, method, &schedule, &mut state, &mut record, |_, _| Stepping::Continue)
+            .unwrap_err()
+            .to_string()
     };
-    let mut system = Jump {
-        linear: free(),
-        told: false,
-        after: 1e20,
-        calls: 0,
-    };
-    assert_eq!(
-        run(&mut system, 0.0),
-        "tolerance must be at least 1e-14 and below 1, found 0.0"
-    );
+    let mut system = Jump { linear: free(), told: false, after: 1e20, calls: 0 };
+    assert_eq!(run(&mut system, 0.0), "tolerance must be at least 1e-14 and below 1, found 0.0");
     assert!(run(&mut system, f64::NAN).contains("found NaN"));
     assert!(run(&mut system, 1e-3).contains("no step is short enough for the tolerance"));
     system.linear[0].squared_frequency = f64::NAN;
