@@ -88,7 +88,7 @@ impl Cage {
 
     /// Slip of the cage.
     #[must_use]
-    pub fn slip(&self) -> &SlipProfile {
+    pub(crate) fn slip(&self) -> &SlipProfile {
         &self.slip
     }
 
@@ -109,7 +109,7 @@ impl Cage {
     /// Angle between neighbouring balls, rad.
     #[must_use]
     #[inline]
-    pub fn spacing(&self) -> f64 {
+    pub(crate) fn spacing(&self) -> f64 {
         self.spacing
     }
 
@@ -123,7 +123,7 @@ impl Cage {
     /// The same, searching from where `cursor` was left.
     #[must_use]
     #[inline]
-    pub fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+    pub(crate) fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
         self.rotation.at_from(cursor, time)
     }
 

@@ -49,7 +49,7 @@ impl HertzContact {
     /// At the edges (δ = 0, or damping that cancels the force) the derivatives of the free side, zero, are given.
     #[must_use]
     #[inline]
-    pub fn linearised(&self, delta: f64, rate: f64) -> ContactForce {
+    pub(crate) fn linearised(&self, delta: f64, rate: f64) -> ContactForce {
         let factor = 1.0 + self.damping * rate;
         if delta <= 0.0 || factor <= 0.0 {
             return ContactForce { force: 0.0, by_penetration: 0.0, by_rate: 0.0 };
@@ -62,7 +62,7 @@ impl HertzContact {
     /// Elastic energy at penetration `delta` (m), J: `(2/5) k δ^{5/2}`, the paper's (9).
     #[must_use]
     #[inline]
-    pub fn energy(&self, delta: f64) -> f64 {
+    pub(crate) fn energy(&self, delta: f64) -> f64 {
         if delta <= 0.0 { 0.0 } else { 0.4 * self.stiffness * delta * delta * delta.sqrt() }
     }
 }

@@ -106,7 +106,7 @@ impl ContactStiffness {
     ///
     /// # Errors
     /// [`StiffnessError::Hertz`].
-    pub fn hertz(
+    pub(crate) fn hertz(
         bearing: &BearingGeometry,
         ball: ContactMaterial,
         inner_race: ContactMaterial,
@@ -153,7 +153,7 @@ impl ContactStiffness {
 
     /// Both in series, N/m^{3/2}: `(k_i^{-2/3} + k_o^{-2/3})^{-3/2}`, shaft against outer race through one ball.
     #[must_use]
-    pub fn series(&self) -> f64 {
+    pub(crate) fn series(&self) -> f64 {
         let compliance = self.inner.powf(-2.0 / 3.0) + self.outer.powf(-2.0 / 3.0);
         compliance.powf(-1.5)
     }

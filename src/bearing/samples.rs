@@ -3,7 +3,7 @@
 use super::{BearingDimensions, BearingGeometry, ContactMaterial, ContactStiffness};
 
 /// Table 1 of the source, SI.
-pub fn source_dimensions() -> BearingDimensions {
+pub(crate) fn source_dimensions() -> BearingDimensions {
     BearingDimensions {
         balls: 7,
         ball_radius: 1e-3,
@@ -16,16 +16,16 @@ pub fn source_dimensions() -> BearingDimensions {
 }
 
 /// The source's bearing, checked.
-pub fn source_bearing() -> BearingGeometry {
+pub(crate) fn source_bearing() -> BearingGeometry {
     BearingGeometry::new(source_dimensions()).unwrap()
 }
 
 /// Bearing steel, 206 GPa.
-pub fn steel() -> ContactMaterial {
+pub(crate) fn steel() -> ContactMaterial {
     ContactMaterial { young: 206e9, poisson: 0.3 }
 }
 
 /// Hertz stiffness of the source's bearing in steel.
-pub fn source_stiffness() -> ContactStiffness {
+pub(crate) fn source_stiffness() -> ContactStiffness {
     ContactStiffness::hertz(&source_bearing(), steel(), steel(), steel()).unwrap()
 }

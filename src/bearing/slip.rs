@@ -73,7 +73,7 @@ impl SlipProfile {
     ///
     /// # Errors
     /// [`SlipError`] naming the row.
-    pub fn over_time(points: &[(f64, f64)]) -> Result<Self, SlipError> {
+    pub(crate) fn over_time(points: &[(f64, f64)]) -> Result<Self, SlipError> {
         check(points, "time", f64::NEG_INFINITY, "must be finite")?;
         Ok(Self { over: Over::Time, points: points.to_vec() })
     }
@@ -82,21 +82,21 @@ impl SlipProfile {
     ///
     /// # Errors
     /// [`SlipError`] naming the row.
-    pub fn over_speed(points: &[(f64, f64)]) -> Result<Self, SlipError> {
+    pub(crate) fn over_speed(points: &[(f64, f64)]) -> Result<Self, SlipError> {
         check(points, "hz", 0.0, "must be finite and zero or more")?;
         Ok(Self { over: Over::Speed, points: points.iter().map(|&(hz, slip)| (TAU * hz, slip)).collect() })
     }
 
     /// Smallest and largest slip of the table.
     #[must_use]
-    pub fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let slips = self.points.iter().map(|point| point.1);
         slips.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], slip| [low.min(slip), high.max(slip)])
     }
 
     /// Slip at a `time` (s) when the shaft turns at `speed` (rad/s).
     #[must_use]
-    pub fn at(&self, time: f64, speed: f64) -> f64 {
+    pub(crate) fn at(&self, time: f64, speed: f64) -> f64 {
         let place = match self.over {
             Over::Time => time,
             Over::Speed => speed.abs(),

@@ -102,7 +102,7 @@ impl SpeedProfile {
     }
 
     /// Times (s) at which the acceleration jumps.
-    pub fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
         self.rotation.knot_times()
     }
 
@@ -115,7 +115,7 @@ impl SpeedProfile {
 
     /// Largest magnitude of the angular speed from `start` to `end` (s), rad/s.
     #[must_use]
-    pub fn fastest(&self, start: f64, end: f64) -> f64 {
+    pub(crate) fn fastest(&self, start: f64, end: f64) -> f64 {
         let knots = self.knot_times().filter(|&time| start < time && time < end);
         let times = knots.chain([start, end]);
         times.map(|time| self.speed(time).abs()).fold(0.0, f64::max)
@@ -124,7 +124,7 @@ impl SpeedProfile {
     /// Angular acceleration at `time` (s), rad/s²; at a knot that of the interval to its right.
     #[must_use]
     #[inline]
-    pub fn acceleration(&self, time: f64) -> f64 {
+    pub(crate) fn acceleration(&self, time: f64) -> f64 {
         self.motion(time).acceleration
     }
 
@@ -145,7 +145,7 @@ impl SpeedProfile {
     /// All three at `time` (s), searching from where `cursor` was left.
     #[must_use]
     #[inline]
-    pub fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+    pub(crate) fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
         self.rotation.at_from(cursor, time)
     }
 }

@@ -63,7 +63,7 @@ impl Wave {
     ///
     /// # Errors
     /// [`WaveError`].
-    pub fn checked(self, bearing: &BearingGeometry) -> Result<Self, WaveError> {
+    pub(crate) fn checked(self, bearing: &BearingGeometry) -> Result<Self, WaveError> {
         let refused = |key, value, rule| Err(WaveError::Value { key, value, rule });
         if self.order == 0 {
             return refused("order", 0.0, "must be at least 1");
@@ -97,7 +97,7 @@ pub struct Waviness {
 impl Waviness {
     /// Those of `waves` that are on `race`.
     #[must_use]
-    pub fn of(race: Race, waves: &[Wave]) -> Self {
+    pub(crate) fn of(race: Race, waves: &[Wave]) -> Self {
         let own = waves.iter().filter(|wave| wave.race == race && wave.amplitude > 0.0);
         Self { waves: own.copied().collect() }
     }
@@ -105,13 +105,13 @@ impl Waviness {
     /// Whether there is none.
     #[must_use]
     #[inline]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.waves.is_empty()
     }
 
     /// Largest deviation that is possible, m.
     #[must_use]
-    pub fn most(&self) -> f64 {
+    pub(crate) fn most(&self) -> f64 {
         self.waves.iter().map(|wave| wave.amplitude).sum()
     }
 
@@ -119,7 +119,7 @@ impl Waviness {
     /// positive.
     #[must_use]
     #[inline]
-    pub fn at(&self, angle: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, angle: f64) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for wave in &self.waves {
             let order = f64::from(wave.order);

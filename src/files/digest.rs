@@ -29,7 +29,7 @@ impl FileDigest {
 
     /// The digest of a file's content that is at hand.
     #[must_use]
-    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
+    pub(crate) fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
         let mut hasher = Sha256::new();
         hasher.update(bytes);
         Self::of_hash(path, hasher)

@@ -108,12 +108,12 @@ impl ColumnFiles {
     }
 
     /// Names of the sensors.
-    pub fn sensors(&self) -> &[String] {
+    pub(crate) fn sensors(&self) -> &[String] {
         &self.sensors
     }
 
     /// Number of balls.
-    pub fn balls(&self) -> usize {
+    pub(crate) fn balls(&self) -> usize {
         self.balls
     }
 
@@ -167,7 +167,7 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`ColumnError::File`] and what `take` returns.
-    pub fn read<E: From<ColumnError>>(
+    pub(crate) fn read<E: From<ColumnError>>(
         &self,
         column: Column,
         rows: Range<usize>,

@@ -79,7 +79,7 @@ impl Report {
     /// Name and content ([`Table::to_csv`]) of each table's file, in the order and with the numbers of the page; names
     /// begin with the folder of [`Report::tables_in`].
     #[must_use]
-    pub fn csv_files(&self) -> Vec<(String, String)> {
+    pub(crate) fn csv_files(&self) -> Vec<(String, String)> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
         let tables = blocks.filter_map(|block| match block {
             Block::Table(table) => Some(table),

@@ -169,7 +169,7 @@ impl Marker {
 
     /// The line in the colour of a family.
     #[must_use]
-    pub fn family(mut self, family: usize) -> Self {
+    pub(crate) fn family(mut self, family: usize) -> Self {
         self.family = family;
         self
     }

@@ -27,7 +27,7 @@ impl Report {
     ///
     /// # Errors
     /// [`ReportError::Record`] for bytes that are damaged, cut off, or of another version's making.
-    pub fn from_record(bytes: &[u8]) -> Result<Self, ReportError> {
+    pub(crate) fn from_record(bytes: &[u8]) -> Result<Self, ReportError> {
         let failed = |reason: String| ReportError::Record { reason };
         let mut unpacked = BufReader::new(GzDecoder::new(bytes).take(LARGEST));
         let report = ciborium::from_reader(&mut unpacked).map_err(|error| failed(error.to_string()))?;

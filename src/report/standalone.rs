@@ -36,7 +36,7 @@ impl Report {
     ///
     /// # Errors
     /// As [`Plot::to_svg`].
-    pub fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
+    pub(crate) fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
         let plots = blocks.filter_map(|block| match block {
             Block::Plot(plot) => Some(plot.as_ref()),

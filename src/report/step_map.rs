@@ -41,7 +41,7 @@ pub enum StepState {
 impl StepState {
     /// In results and reports.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Stable => "stable",
             Self::Resonant => "resonant",

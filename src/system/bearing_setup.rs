@@ -107,14 +107,14 @@ impl BearingSetup {
     /// Number of the flat on `ball`, and its angle from the ball's radius vector when the shaft has turned to `shaft_angle`,
     /// both rad: by pure rolling a ball turns [`ball_spin`](crate::bearing::kinematics::DefectOrders::ball_spin) times
     /// against the shaft in one of its turns, seen from the cage.
-    pub fn spin(&self, ball: usize, shaft_angle: f64) -> Option<(usize, f64)> {
+    pub(crate) fn spin(&self, ball: usize, shaft_angle: f64) -> Option<(usize, f64)> {
         let number = self.flats.iter().position(|flat| flat.ball == ball)?;
         let turned = self.geometry.orders().ball_spin * shaft_angle;
         Some((number, self.flats[number].angle - turned))
     }
 
     /// Distance from the ring's node radius out to the raceway, m; negative inside.
-    pub fn raceway_arm(&self, node_radius: f64) -> f64 {
+    pub(crate) fn raceway_arm(&self, node_radius: f64) -> f64 {
         self.geometry.outer_race_radius() - node_radius
     }
 }

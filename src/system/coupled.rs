@@ -46,14 +46,14 @@ pub enum ModeDamping {
 impl ModeDamping {
     /// Rayleigh damping with the given ratios at two frequencies (Hz):
     /// `zeta = alpha / (2 omega) + beta omega / 2`.
-    pub fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
+    pub(crate) fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
         let (w1, w2) = (TAU * first.0, TAU * second.0);
         let beta = 2.0 * (second.1 * w2 - first.1 * w1) / (w2 * w2 - w1 * w1);
         Self::Rayleigh { alpha: 2.0 * first.1 * w1 - beta * w1 * w1, beta }
     }
 
     /// 2 zeta omega of a mode, 1/s.
-    pub fn coefficient(&self, squared_frequency: f64) -> f64 {
+    pub(crate) fn coefficient(&self, squared_frequency: f64) -> f64 {
         match *self {
             Self::Rayleigh { alpha, beta } => alpha + beta * squared_frequency,
             Self::Modal(ratio) => 2.0 * ratio * squared_frequency.max(0.0).sqrt(),
@@ -219,17 +219,17 @@ impl CoupledSystem {
     }
 
     /// Largest omega^2 among the kept modes, 1/s^2.
-    pub fn highest_squared_frequency(&self) -> f64 {
+    pub(crate) fn highest_squared_frequency(&self) -> f64 {
         self.linear.iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max)
     }
 
     /// Whether the static residual of the modes left out is in use.
-    pub fn has_residual(&self) -> bool {
+    pub(crate) fn has_residual(&self) -> bool {
         self.residual.is_some()
     }
 
     /// Names of the sensors.
-    pub fn sensor_names(&self) -> Vec<String> {
+    pub(crate) fn sensor_names(&self) -> Vec<String> {
         self.sensors.iter().map(|(name, _)| name.clone()).collect()
     }
 
@@ -240,7 +240,7 @@ impl CoupledSystem {
 
     /// Inverse of the least mass that a contact force can set in motion, 1/kg: a ball's, or without their inertia that of
     /// shaft and kept modes together.
-    pub fn contact_mobility(&self) -> f64 {
+    pub(crate) fn contact_mobility(&self) -> f64 {
         match self.setup.balls_inertia {
             BallsInertia::Dynamic => self.ball_mobility,
             BallsInertia::QuasiStatic => {

@@ -9,12 +9,12 @@ pub struct LoadProfile {
 
 impl LoadProfile {
     /// The same force always.
-    pub fn constant(force: [f64; 2]) -> Self {
+    pub(crate) fn constant(force: [f64; 2]) -> Self {
         Self { points: vec![(0.0, force)] }
     }
 
     /// Through points (s, N); those that do not come after the one before are left out. Without points there is no force.
-    pub fn through(points: &[(f64, [f64; 2])]) -> Self {
+    pub(crate) fn through(points: &[(f64, [f64; 2])]) -> Self {
         let mut kept: Vec<(f64, [f64; 2])> = Vec::with_capacity(points.len());
         for &point in points {
             if kept.last().is_none_or(|last| point.0 > last.0) {
@@ -32,7 +32,7 @@ impl LoadProfile {
 
     /// Force at `time` (s), N.
     #[inline]
-    pub fn at(&self, time: f64) -> [f64; 2] {
+    pub(crate) fn at(&self, time: f64) -> [f64; 2] {
         let after = self.points.partition_point(|point| point.0 <= time);
         match (after.checked_sub(1), self.points.get(after)) {
             (Some(before), Some((end, last))) => {

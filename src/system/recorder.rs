@@ -56,17 +56,17 @@ impl Recorder {
 
     /// Declares everything observed so far good: rows that are complete may leave. To be called between intervals; what a run
     /// that blows up showed in its last interval stays here.
-    pub fn confirm(&mut self) {
+    pub(crate) fn confirm(&mut self) {
         self.confirmed = self.queue.rows();
     }
 
     /// Number of rows that may leave.
-    pub fn confirmed(&self) -> usize {
+    pub(crate) fn confirmed(&self) -> usize {
         self.confirmed
     }
 
     /// Takes these rows out.
-    pub fn take_confirmed(&mut self) -> RunRecord {
+    pub(crate) fn take_confirmed(&mut self) -> RunRecord {
         let rows = std::mem::take(&mut self.confirmed);
         self.queue.take_first(rows)
     }
@@ -79,7 +79,7 @@ impl Recorder {
 
     /// Writes all that the rows to come depend on. Confirmed rows belong to those who took them out: to be called after
     /// [`take_confirmed`](Self::take_confirmed).
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(crate) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.count(self.begun as u64);
         for filter in &self.filters {
             let state = filter.state();

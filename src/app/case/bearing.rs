@@ -103,7 +103,7 @@ impl Bearing {
 
     /// Returns the radial play that the radii give, R - r - 2 rho_b, in m.
     #[must_use]
-    pub fn play_from_radii(&self) -> f64 {
+    pub(crate) fn play_from_radii(&self) -> f64 {
         self.outer_race_radius - self.inner_race_radius - 2.0 * self.ball_radius
     }
 }

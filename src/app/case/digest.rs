@@ -18,7 +18,7 @@ impl Source {
     ///
     /// # Errors
     /// [`CaseError`] for a text that is no TOML, or arguments that cannot be applied.
-    pub fn digest(&self) -> Result<String, CaseError> {
+    pub(crate) fn digest(&self) -> Result<String, CaseError> {
         let document = Document::read(self)?;
         let mut text = String::new();
         if let Value::Table(keys) = &document.root.value {

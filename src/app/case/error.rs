@@ -150,7 +150,7 @@ pub enum CaseError {
 impl CaseError {
     /// Returns what to do about it: the nearest valid name, the names there are, or what to write instead.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Read { .. } | Self::Syntax { .. } | Self::WrongValue { .. } | Self::MissingKey { .. } => None,
             Self::Set { problem, .. } => Some(problem.help().to_owned()),

@@ -27,7 +27,7 @@ pub enum HousingSource {
 impl HousingSource {
     /// The file that it is read from.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Mesh(housing) => &housing.mesh,
             Self::Superelement(path) => path,
@@ -54,7 +54,7 @@ impl Case {
 
     /// Returns the file of the superelement that stands for the housing, if there is one.
     #[must_use]
-    pub fn superelement(&self) -> Option<&Path> {
+    pub(crate) fn superelement(&self) -> Option<&Path> {
         match &self.housing {
             Some(HousingSource::Superelement(path)) => Some(path),
             _ => None,

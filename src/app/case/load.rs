@@ -86,7 +86,7 @@ impl Case {
     ///
     /// # Errors
     /// As [`Case::variants`].
-    pub fn frf_variants(&self) -> Result<Vec<VariantCase>, CaseError> {
+    pub(crate) fn frf_variants(&self) -> Result<Vec<VariantCase>, CaseError> {
         let variants = self.frf.as_ref().map_or(&[][..], |frf| &frf.variants);
         self.read_variants(variants, "frf.variants")
     }
@@ -115,7 +115,7 @@ impl Case {
 
     /// Returns where a key was written: file and line, or `--set` argument.
     #[must_use]
-    pub fn place(&self, key: &str) -> Place {
+    pub(crate) fn place(&self, key: &str) -> Place {
         match Document::read(&self.source) {
             Ok(document) => document.place(key),
             Err(_) => Place::File { path: self.source.path.clone() },

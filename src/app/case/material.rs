@@ -65,7 +65,7 @@ impl Material {
 
     /// Structural loss factor, >= 0 and < 2.
     #[must_use]
-    pub fn loss_factor(&self) -> f64 {
+    pub(crate) fn loss_factor(&self) -> f64 {
         match self {
             Self::Isotropic(material) => material.loss_factor,
             Self::Orthotropic(material) => material.loss_factor,
@@ -74,7 +74,7 @@ impl Material {
 
     /// Density in kg/m^3.
     #[must_use]
-    pub fn density(&self) -> f64 {
+    pub(crate) fn density(&self) -> f64 {
         match self {
             Self::Isotropic(material) => material.density,
             Self::Orthotropic(material) => material.density,
@@ -83,7 +83,7 @@ impl Material {
 
     /// The isotropic material, if it is one.
     #[must_use]
-    pub fn isotropic(&self) -> Option<&IsotropicMaterial> {
+    pub(crate) fn isotropic(&self) -> Option<&IsotropicMaterial> {
         match self {
             Self::Isotropic(material) => Some(material),
             Self::Orthotropic(_) => None,

@@ -106,7 +106,7 @@ impl Case {
     ///
     /// # Errors
     /// As [`Case::for_run`].
-    pub fn for_chart(&self) -> Result<RunCase<'_>, CaseError> {
+    pub(crate) fn for_chart(&self) -> Result<RunCase<'_>, CaseError> {
         self.simulated("`chart`")
     }
 

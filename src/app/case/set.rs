@@ -51,7 +51,7 @@ pub enum SetProblem {
 impl SetProblem {
     /// Returns what to write instead.
     #[must_use]
-    pub fn help(&self) -> &'static str {
+    pub(crate) fn help(&self) -> &'static str {
         match self {
             Self::NoEquals | Self::Key { .. } => {
                 "for example: --set bearing.formulation=printed, or --set 'bearing.defects[0].depth=2e-5'"
@@ -117,7 +117,7 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
 
 /// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
 #[must_use]
-pub fn split_argument(argument: &str) -> Option<(&str, &str)> {
+pub(crate) fn split_argument(argument: &str) -> Option<(&str, &str)> {
     let at = equals_sign(argument)?;
     Some((argument[..at].trim(), argument[at + 1..].trim()))
 }

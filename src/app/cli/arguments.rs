@@ -316,7 +316,7 @@ pub enum ChartPart {
 impl ChartPart {
     /// The word that stands after `--only`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Accuracy => "accuracy",
             Self::Stability => "stability",
@@ -344,7 +344,7 @@ pub enum ExportFormat {
 impl ExportFormat {
     /// The word that stands after `--to`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Vtu => "vtu",
             Self::Uff => "uff",
@@ -360,7 +360,7 @@ impl Command {
     /// Returns the command's word, which is also its result file's name: `run` writes `run.json`; `analyze` alone writes
     /// `analysis.json`.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Run { .. } => "run",
             Self::Modes { .. } => "modes",
@@ -382,7 +382,7 @@ impl Command {
 
     /// The result files that it writes, which an earlier result is known by.
     #[must_use]
-    pub fn result_files(&self) -> Vec<String> {
+    pub(crate) fn result_files(&self) -> Vec<String> {
         let names: &[&str] = match self {
             Self::Chart { only: None, .. } => &["chart", "stability"],
             Self::Chart { only: Some(ChartPart::Stability), .. } => &["stability"],
@@ -394,7 +394,7 @@ impl Command {
 
     /// How much a chart computes.
     #[must_use]
-    pub fn effort(&self) -> Effort {
+    pub(crate) fn effort(&self) -> Effort {
         match self {
             Self::Chart { quick: true, .. } => Effort::Quick,
             _ => Effort::Full,
@@ -454,7 +454,7 @@ fn density(text: &str) -> Result<f64, String> {
 impl Options {
     /// The command line that computes this again.
     #[must_use]
-    pub fn command_line(&self, command: &str, case: &Case) -> String {
+    pub(crate) fn command_line(&self, command: &str, case: &Case) -> String {
         let file = shell_word(&case.source.path.to_string_lossy());
         let mut words = vec![format!("plummer {command} {file}")];
         words.extend(self.set.iter().map(|set| format!("--set {}", shell_word(set))));
@@ -463,7 +463,7 @@ impl Options {
 
     /// Returns whether progress may be shown at all.
     #[must_use]
-    pub fn visibility(&self) -> Visibility {
+    pub(crate) fn visibility(&self) -> Visibility {
         if self.quiet || self.json { Visibility::Hidden } else { Visibility::OnTerminal }
     }
 }

@@ -18,7 +18,7 @@ use crate::formats::write_superelement_npz;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn condense(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
+pub(crate) fn condense(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let options = &arguments.options;
     let comparison = match &arguments.command {

@@ -164,7 +164,7 @@ impl From<ComputeError> for CliError {
 impl CliError {
     /// Returns the program's exit code: 2 when the input is to blame, 1 otherwise.
     #[must_use]
-    pub fn exit_code(&self) -> u8 {
+    pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Case(_)
             | Self::Analyze(_)
@@ -198,7 +198,7 @@ impl CliError {
 
     /// Returns what to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help(),
             Self::Stage(error) => error.help(),
@@ -231,7 +231,7 @@ impl CliError {
 
     /// Writes the lines `error: ...` and, for each thing that can be done, `help: ...`. Nothing can be done about a failure
     /// to write them.
-    pub fn report(&self, to: &mut impl Write) {
+    pub(crate) fn report(&self, to: &mut impl Write) {
         let _ = writeln!(to, "error: {}", printable(&self.to_string()));
         for line in self.help().iter().flat_map(|help| help.lines()) {
             let _ = writeln!(to, "help: {}", printable(line));

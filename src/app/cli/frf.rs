@@ -13,7 +13,7 @@ use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_respo
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+pub(crate) fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let result = compute_frf(case, progress)?;
     progress.stage("write");

@@ -18,7 +18,7 @@ const DENSITIES: [f64; 2] = [2700.0, 7850.0];
 ///
 /// # Errors
 /// [`CliError`] when the mesh cannot be read or the result cannot be written.
-pub fn inspect(
+pub(crate) fn inspect(
     path: &Path,
     unit: Option<LengthUnit>,
     density: Option<f64>,

@@ -45,7 +45,8 @@ pub use export::ExportError;
 pub use failure::CliError;
 pub use init::{InitArguments, InitError};
 pub use outcome::{Outcome, Verdict};
-pub use output::{OutputFolder, emit, write_atomic};
+pub use output::OutputFolder;
+pub(crate) use output::{emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
 pub use results_error::ResultsError;
 pub use sweep::{Share, SweepArguments};
@@ -105,7 +106,7 @@ fn on_arguments() -> ExitCode {
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
-pub fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
+pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
     set_arguments::check_set(arguments)?;
     let options = &arguments.options;
     let threads = options.threads.map_or(0, NonZeroUsize::get);

@@ -44,7 +44,7 @@ impl Outcome {
     ///
     /// # Errors
     /// [`CliError::StandardOutput`] when `to` cannot be written; a closed pipe is none.
-    pub fn show(&self, options: &Options, to: &mut impl Write) -> Result<(), CliError> {
+    pub(crate) fn show(&self, options: &Options, to: &mut impl Write) -> Result<(), CliError> {
         if options.json {
             return emit(to, &format!("{:#}", self.result));
         }

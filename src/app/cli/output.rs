@@ -16,7 +16,7 @@ use crate::files;
 ///
 /// # Errors
 /// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
-pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
+pub(crate) fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
     match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
         _ => Ok(()),
@@ -28,7 +28,7 @@ pub fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// # Errors
 /// [`CliError::File`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
 /// name is as it was.
-pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
 }
 
@@ -50,7 +50,7 @@ pub struct OutputFolder {
 impl OutputFolder {
     /// Returns the folder of a case: `--out`, else `out/` and the case's name. Makes nothing yet.
     #[must_use]
-    pub fn of(case: &Case, options: &Options) -> Self {
+    pub(crate) fn of(case: &Case, options: &Options) -> Self {
         let path = match &options.out {
             Some(path) => path.clone(),
             None => Path::new("out").join(case.name()),
@@ -60,13 +60,13 @@ impl OutputFolder {
 
     /// Returns the folder of this path.
     #[must_use]
-    pub fn at(path: &Path) -> Self {
+    pub(crate) fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
     /// Returns the folder's path.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
@@ -74,7 +74,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`CliError::ResultExists`], [`CliError::Busy`] or [`CliError::Folder`].
-    pub fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
+    pub(crate) fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
         self.claim_files(&[&format!("{command}.json")], force)
     }
 
@@ -82,7 +82,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
-    pub fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
+    pub(crate) fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
         fs::create_dir_all(&self.path).map_err(|source| CliError::Folder { path: self.path.clone(), source })?;
         self.lock()?;
         let mut paths = names.iter().map(|name| self.path.join(name));
@@ -96,7 +96,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`CliError::Busy`], [`CliError::Folder`].
-    pub fn lock(&self) -> Result<(), CliError> {
+    pub(crate) fn lock(&self) -> Result<(), CliError> {
         let path = self.path.clone();
         match folder_lock::take(&path) {
             Ok(true) => Ok(()),
@@ -108,7 +108,7 @@ impl OutputFolder {
 
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
     #[must_use]
-    pub fn report_name(&self, command: &str) -> String {
+    pub(crate) fn report_name(&self, command: &str) -> String {
         let others = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"]
             .into_iter()
             .filter(|&other| other != command);
@@ -130,7 +130,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`CliError::Folder`] or [`CliError::File`].
-    pub fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+    pub(crate) fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
         self.write(name, bytes)
     }
@@ -139,7 +139,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`CliError::Folder`].
-    pub fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
+    pub(crate) fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
         files::make_below(&self.path, name).map_err(|source| CliError::Folder { path: self.path.join(name), source })
     }
 
@@ -147,7 +147,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`CliError::File`].
-    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+    pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         let path = self.path.join(name);
         write_atomic(&path, bytes)?;
         Ok(path)

@@ -59,7 +59,7 @@ impl Progress {
     }
 
     /// Ends the stage before and begins one of this name, of unknown length until [`Progress::set`].
-    pub fn stage(&self, name: &str) {
+    pub(crate) fn stage(&self, name: &str) {
         self.stages().push((name.to_owned(), Instant::now()));
         self.bar.unset_length();
         self.bar.set_style(style(WITHOUT_END));
@@ -69,7 +69,7 @@ impl Progress {
 
     /// Shows how much of the stage is done: 0 to 1; values beyond are taken as the nearest of these, NaN as 0. The first value is
     /// where the stage begins: the time left is estimated from there on.
-    pub fn set(&self, fraction: f64) {
+    pub(crate) fn set(&self, fraction: f64) {
         // From 0 to STEPS; NaN gives 0.
         let position = (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if self.bar.length().is_none() {
@@ -86,7 +86,7 @@ impl Progress {
     }
 
     /// Shows how many files of a stage are done.
-    pub fn count(&self, done: usize, of: usize) {
+    pub(crate) fn count(&self, done: usize, of: usize) {
         if self.bar.length().is_none() {
             self.bar.set_style(style(COUNTED));
             self.bar.set_length(of as u64);
@@ -96,7 +96,7 @@ impl Progress {
 
     /// The meshes that were read, with each content that they had.
     #[must_use]
-    pub fn files(&self) -> Vec<FileDigest> {
+    pub(crate) fn files(&self) -> Vec<FileDigest> {
         let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         files.clone()
     }
@@ -108,7 +108,7 @@ impl Progress {
 
     /// Returns how long each stage took; the last one lasts until now.
     #[must_use]
-    pub fn times(&self) -> Vec<StageTime> {
+    pub(crate) fn times(&self) -> Vec<StageTime> {
         let stages = self.stages();
         let ends = stages.iter().skip(1).map(|&(_, start)| start);
         stages

@@ -42,7 +42,7 @@ struct PageSummary {
 ///
 /// # Errors
 /// [`CliError`] when the folder has no content of a report, one is damaged, or a file cannot be written.
-pub fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
+pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError> {
     let folder = OutputFolder::at(options.out.as_deref().unwrap_or(from));
     let mut reports = Vec::new();
     for (path, page) in records(from)? {

@@ -101,7 +101,7 @@ pub enum ResultsError {
 impl ResultsError {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         let text = match self {
             Self::Missing { folder, command, .. } => {
                 format!("run `plummer {command} CASE.toml --out {}` first", shell_word(&folder.to_string_lossy()))

@@ -55,7 +55,7 @@ pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliEr
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or is interrupted, or a file cannot be written.
-pub fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
+pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
     let (started, options) = (std::time::Instant::now(), &arguments.options);
     let folder = OutputFolder::of(case, options);
     let mut unfinished = unfinished(case, arguments, &folder)?;

@@ -15,7 +15,7 @@ const FOLDER: &str = "out/verify";
 ///
 /// # Errors
 /// [`CliError`] when a check cannot be carried out or a file cannot be written.
-pub fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
+pub(crate) fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
     let folder = OutputFolder::at(options.out.as_deref().unwrap_or(Path::new(FOLDER)));
     folder.claim("verify", options.force)?;
     let progress = Progress::new(options.visibility());

@@ -92,14 +92,14 @@ impl Inspection {
     ///
     /// # Errors
     /// [`MeshError`] if it cannot be read.
-    pub fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
+    pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
         let mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
         Ok(Self::of_mesh(&mesh, unit))
     }
 
     /// Looks at a mesh that was read with this unit, as metres without one.
     #[must_use]
-    pub fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
+    pub(crate) fn of_mesh(mesh: &Mesh, unit: Option<LengthUnit>) -> Self {
         let inventory = mesh.inventory();
         let bodies = Bodies::of_mesh(mesh);
         let overlapping = bodies.overlaps();

@@ -401,7 +401,7 @@ impl ComputeError {
     }
 
     /// What to do about it, where the message does not say it already.
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help(),
             Self::Measured(error) => error.help(),
@@ -442,7 +442,7 @@ impl ComputeError {
     }
 
     /// Whether the input is wrong, rather than the computation failed.
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         match self {
             Self::Reduction(error) => !matches!(error, ReductionError::Linalg(_)),
             Self::System(error) => matches!(

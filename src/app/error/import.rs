@@ -122,7 +122,7 @@ pub enum ImportError {
 
 impl ImportError {
     /// What to do about it, where the message does not say it already.
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         let text = match self {
             Self::Count { .. } | Self::Label { .. } => {
                 "`plummer condense` with interface = \"ring\" writes such a file: x, y, about_z of node after node, in \

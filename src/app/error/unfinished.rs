@@ -61,7 +61,7 @@ impl UnfinishedError {
     pub(crate) const ANEW: &'static str = "begin anew with --force";
 
     /// What to do about it.
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Nothing { .. } => Some("leave --resume out to begin a run".to_owned()),
             Self::InTheWay { .. } => Some("go on with --resume, or give it up and begin anew with --force".to_owned()),
@@ -72,7 +72,7 @@ impl UnfinishedError {
     }
 
     /// Whether the input is to blame, rather than the file system.
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         !matches!(self, Self::File(_) | Self::Folder { .. })
     }
 }

@@ -45,7 +45,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn with_all_modes(run: RunCase<'_>, watch: &impl Watch) -> Result<Self, ComputeError> {
+    pub(crate) fn with_all_modes(run: RunCase<'_>, watch: &impl Watch) -> Result<Self, ComputeError> {
         Self::with_modes(run, usize::MAX, watch)
     }
 
@@ -89,7 +89,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`ComputeError::System`] for a model that does not fit it.
-    pub fn system(&self, model: &RunModel) -> Result<CoupledSystem, ComputeError> {
+    pub(crate) fn system(&self, model: &RunModel) -> Result<CoupledSystem, ComputeError> {
         let setup = BearingSetup { balls_inertia: model.balls_inertia, ..self.setup.clone() };
         Ok(CoupledSystem::new(
             &self.stage.structure,
@@ -102,12 +102,12 @@ impl Scene {
     }
 
     /// At rest in the equilibrium.
-    pub fn at_rest(&self, system: &CoupledSystem) -> State {
+    pub(crate) fn at_rest(&self, system: &CoupledSystem) -> State {
         system.state_at(self.start, &self.equilibrium, &self.stage.modes)
     }
 
     /// Whether the outer race has no defect.
-    pub fn outer_race_is_sound(&self) -> bool {
+    pub(crate) fn outer_race_is_sound(&self) -> bool {
         let mut defects = self.setup.race_defects.iter();
         !defects.any(|defect| defect.race() == Race::Outer)
     }

@@ -52,7 +52,7 @@ pub(crate) fn setup_of(
 ///
 /// # Errors
 /// [`ComputeError`] naming what is out of range.
-pub fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, ComputeError> {
+pub(crate) fn race_contacts(case: &Case) -> Result<Option<RaceContacts>, ComputeError> {
     let asked = case.bearing.as_ref();
     asked.map(|asked| contacts_of(case, asked)).transpose()
 }
@@ -69,7 +69,7 @@ pub(crate) fn contacts_of(case: &Case, asked: &case::Bearing) -> Result<RaceCont
 ///
 /// # Errors
 /// [`ComputeError`] naming what is out of range.
-pub fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, ComputeError> {
+pub(crate) fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, ComputeError> {
     let asked = case.bearing.as_ref();
     asked.map(|asked| geometry(case, asked)).transpose()
 }

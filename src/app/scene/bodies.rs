@@ -22,7 +22,7 @@ impl Bodies {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model, elements, ring and tie.
-    pub fn assemble(case: &Case, watch: &impl Watch) -> Result<(Self, CoupledMatrices), ComputeError> {
+    pub(crate) fn assemble(case: &Case, watch: &impl Watch) -> Result<(Self, CoupledMatrices), ComputeError> {
         let Some(asked) = &case.ring else {
             let housing = AssembledHousing::of(case, watch)?;
             let matrices = CoupledMatrices::of_housing(housing.matrices, &housing.model);
@@ -41,7 +41,7 @@ impl Bodies {
     }
 
     /// Modes at the nodes of the mesh and of the ring.
-    pub fn mode_set(&self, modes: &FullModes) -> ModeSet {
+    pub(crate) fn mode_set(&self, modes: &FullModes) -> ModeSet {
         let all = modes.over_all_rows();
         let housing = self.housing.as_ref();
         let moved = housing.map(|(_, model)| modes.motions().housing(model, &all));
@@ -56,7 +56,7 @@ impl Bodies {
     }
 
     /// Where the ring sits: in the mesh's axes, or in its own.
-    pub fn frame(&self) -> RingFrame {
+    pub(crate) fn frame(&self) -> RingFrame {
         let housing = self.housing.as_ref();
         housing.map_or_else(RingFrame::default, |(_, model)| *model.frame())
     }

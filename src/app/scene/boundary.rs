@@ -17,7 +17,7 @@ pub enum Boundary {
 
 impl Boundary {
     /// How the housing's degrees of freedom are split.
-    pub fn partition(&self) -> &HousingPartition {
+    pub(crate) fn partition(&self) -> &HousingPartition {
         match self {
             Self::Ring(bodies) => bodies.1.partition(),
             Self::Nodes(nodes) => &nodes.partition,
@@ -40,7 +40,7 @@ impl Boundary {
     }
 
     /// Ring and tie, if that is what it is.
-    pub fn ring(&self) -> Option<(&Ring, &RingTie)> {
+    pub(crate) fn ring(&self) -> Option<(&Ring, &RingTie)> {
         match self {
             Self::Ring(bodies) => Some((&bodies.0, &bodies.1)),
             Self::Nodes(_) => None,

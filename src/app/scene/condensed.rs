@@ -158,7 +158,7 @@ impl CondensedHousing {
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.
-    pub fn interface_labels(&self) -> Vec<DofLabel> {
+    pub(crate) fn interface_labels(&self) -> Vec<DofLabel> {
         match &self.boundary {
             Boundary::Ring(bodies) => of_ring(&bodies.0, self.housing.model.frame()),
             Boundary::Nodes(_) => {
@@ -170,7 +170,7 @@ impl CondensedHousing {
     }
 
     /// Unit rigid motions about the bore's centre, over the housing and over the interface.
-    pub fn rigid_motions(&self) -> RigidMotions {
+    pub(crate) fn rigid_motions(&self) -> RigidMotions {
         let model = &self.housing.model;
         let about = model.frame().centre();
         let motions = rigid_motions(model.coordinates(), model.dimension(), about);
@@ -195,7 +195,7 @@ impl CondensedHousing {
     }
 
     /// Matrices of the housing in the displacements that the partition uses.
-    pub fn matrices(&self) -> Cow<'_, SystemMatrices> {
+    pub(crate) fn matrices(&self) -> Cow<'_, SystemMatrices> {
         self.boundary.matrices(&self.housing)
     }
 

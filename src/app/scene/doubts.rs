@@ -49,7 +49,7 @@ const WIDTH: f64 = 2.0;
 ///
 /// # Errors
 /// [`ComputeError`] of materials and of the bearing.
-pub fn doubts(
+pub(crate) fn doubts(
     case: &Case,
     housing: Option<(&Mesh, &HousingModel)>,
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
@@ -74,7 +74,7 @@ pub fn doubts(
 ///
 /// # Errors
 /// [`ComputeError`] of mesh, model and ring.
-pub fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
+pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
     let Some(housing) = case.meshed_housing() else {
         return doubts(case, None, None);
     };

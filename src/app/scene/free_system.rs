@@ -30,7 +30,7 @@ impl FreeSystem {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model, elements, ring and tie.
-    pub fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
+    pub(crate) fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         if let Some(path) = case.superelement()
             && let Some(asked) = &case.ring
         {

@@ -50,7 +50,7 @@ impl ImportedHousing {
     /// # Errors
     /// [`ComputeError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`ComputeError`]
     /// of the ring.
-    pub fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), ComputeError> {
+    pub(crate) fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), ComputeError> {
         let fault = |source: ImportError| ComputeError::Import { path: path.to_owned(), source: Box::new(source) };
         let record = record(path, asked.nodes).map_err(fault)?;
         if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
@@ -90,7 +90,7 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::Check`] with the first check that fails.
-    pub fn accept(&self) -> Result<(), ComputeError> {
+    pub(crate) fn accept(&self) -> Result<(), ComputeError> {
         match self.checks.iter().find(|check| !check.ok()) {
             None => Ok(()),
             Some(check) => Err(self.fault(ImportError::Check {
@@ -105,7 +105,7 @@ impl ImportedHousing {
 
     /// Up to which frequency the file has all vectors of the housing's interior, Hz: as the file says, else the band that it was condensed for,
     /// else the highest vector that follows the one before it closely. Residual vectors are far above the last mode, and far from each other.
-    pub fn complete_hz(&self) -> f64 {
+    pub(crate) fn complete_hz(&self) -> f64 {
         let said = self.record.complete_hz.or(self.record.band_hz);
         said.unwrap_or_else(|| last_mode_hz(&self.record.modal_hz))
     }
@@ -113,7 +113,7 @@ impl ImportedHousing {
     /// What is to be said of results up to a frequency: nothing within the band that the file was condensed for. A file that does not
     /// say its band is taken for good up to two thirds of its last mode, the usual rule for a fixed interface (R. R. Craig, A. J. Kurdila,
     /// *Fundamentals of Structural Dynamics*, 2006, chapter 17).
-    pub fn doubt(&self, top_hz: f64) -> Option<String> {
+    pub(crate) fn doubt(&self, top_hz: f64) -> Option<String> {
         let (end, whose) = match self.record.band_hz {
             Some(band) => (band, "the band that it was condensed for"),
             None if self.record.modal_hz.is_empty() => return None,
@@ -149,7 +149,7 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::StructuralDamping`].
-    pub fn refuse_structural_damping(&self) -> Result<(), ComputeError> {
+    pub(crate) fn refuse_structural_damping(&self) -> Result<(), ComputeError> {
         match &self.record.structural {
             Some(matrix) if matrix.norm_max() > 0.0 => Err(self.fault(ImportError::StructuralDamping)),
             _ => Ok(()),
@@ -160,7 +160,7 @@ impl ImportedHousing {
     ///
     /// # Errors
     /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring.
-    pub fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, ComputeError> {
+    pub(crate) fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, ComputeError> {
         let sensors = case.sensors.iter();
         sensors
             .map(|sensor| {

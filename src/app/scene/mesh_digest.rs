@@ -32,7 +32,7 @@ pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, C
 ///
 /// # Errors
 /// [`ComputeError::Mesh`] for a file that cannot be read, [`ComputeError::Case`] for a variant that is no case.
-pub fn mesh_digests(case: &Case) -> Result<Vec<FileDigest>, ComputeError> {
+pub(crate) fn mesh_digests(case: &Case) -> Result<Vec<FileDigest>, ComputeError> {
     let variants = case.variants()?;
     let cases = std::iter::once(case).chain(variants.iter().map(|variant| &variant.case));
     let housings = cases.filter_map(|case| case.housing.as_ref());

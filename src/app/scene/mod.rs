@@ -30,14 +30,15 @@ pub(crate) mod structure_modes;
 pub mod tie_price;
 
 pub use at_rest::Scene;
-pub use bearing::{bearing_geometry, bearing_setup, race_contacts};
+pub use bearing::bearing_setup;
+pub(crate) use bearing::{bearing_geometry, race_contacts};
 pub use boundary::Boundary;
 pub use condensed::CondensedHousing;
-pub use doubts::{doubts, doubts_of_case};
+pub(crate) use doubts::{doubts, doubts_of_case};
 pub use free_system::FreeSystem;
 pub use housing::AssembledHousing;
 pub use imported::ImportedHousing;
-pub use mesh_digest::mesh_digests;
+pub(crate) use mesh_digest::mesh_digests;
 pub use reduced_interface::ReducedInterface;
 pub use run_model::RunModel;
 pub use structure::CoupledStructure;

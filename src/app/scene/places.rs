@@ -30,7 +30,7 @@ pub(crate) enum Named<'a> {
 
 impl<'a> Named<'a> {
     /// The name alone.
-    pub fn name(self) -> &'a str {
+    pub(crate) fn name(self) -> &'a str {
         match self {
             Self::Sensor(name) | Self::Force(name) => name,
         }
@@ -119,7 +119,7 @@ impl Place {
 
     /// The row over the coordinates of a condensed housing \[order\], of which the interface is the ring if there is
     /// one.
-    pub fn reduced(&self, condensed: &CraigBampton) -> Vec<f64> {
+    pub(crate) fn reduced(&self, condensed: &CraigBampton) -> Vec<f64> {
         match self {
             Self::Ring(_) => self.on_ring(condensed.superelement.order()),
             Self::Housing(entries) => {
@@ -137,7 +137,7 @@ impl Place {
     }
 
     /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
-    pub fn on_housing(&self, dof: usize) -> Vec<f64> {
+    pub(crate) fn on_housing(&self, dof: usize) -> Vec<f64> {
         let mut row = vec![0.0; dof];
         if let Self::Housing(entries) = self {
             for &(at, factor) in entries {
@@ -148,7 +148,7 @@ impl Place {
     }
 
     /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
-    pub fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
+    pub(crate) fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
         let mut row = vec![0.0; matrices.mass.rows()];
         let ring = boundary.ring();
         let first = row.len() - ring.map_or(0, |(ring, _)| ring.dof());
@@ -178,7 +178,7 @@ impl Place {
     }
 
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
-    pub fn on_ring(&self, order: usize) -> Vec<f64> {
+    pub(crate) fn on_ring(&self, order: usize) -> Vec<f64> {
         let mut row = vec![0.0; order];
         if let Self::Ring(entries) = self {
             for &(dof, factor) in entries {

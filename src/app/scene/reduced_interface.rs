@@ -19,7 +19,7 @@ pub struct ReducedInterface {
 
 impl ReducedInterface {
     /// The largest rise of a frequency in the band; 0 without modes.
-    pub fn largest_rise(&self) -> f64 {
+    pub(crate) fn largest_rise(&self) -> f64 {
         self.rises.iter().copied().fold(0.0, f64::max)
     }
 

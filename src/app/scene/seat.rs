@@ -24,7 +24,7 @@ impl Seat {
     ///
     /// # Errors
     /// [`ComputeError::Model`] if the mesh lacks it.
-    pub fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
+    pub(crate) fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
         let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
         let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
         let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();
@@ -43,7 +43,7 @@ impl Seat {
     }
 
     /// Share, 0 to 1, of a ring of this width (m) about the ring's plane that lies beyond the bore's ends.
-    pub fn share_outside(&self, width: f64) -> f64 {
+    pub(crate) fn share_outside(&self, width: f64) -> f64 {
         let half = 0.5 * width;
         let inside = self.to.min(half) - self.from.max(-half);
         1.0 - inside.max(0.0) / width

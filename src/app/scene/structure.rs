@@ -169,7 +169,7 @@ impl CoupledStructure {
     }
 
     /// Where the bearing sits in the mesh's axes; a ring alone has none but its own.
-    pub fn frame(&self) -> RingFrame {
+    pub(crate) fn frame(&self) -> RingFrame {
         match (&self.housing, &self.imported) {
             (Some(housing), _) => *housing.model.frame(),
             (None, Some(imported)) => imported.frame,

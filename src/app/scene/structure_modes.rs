@@ -12,7 +12,7 @@ impl CoupledStructure {
     ///
     /// # Errors
     /// [`ComputeError`] of eigenvalue computation and analysis.
-    pub fn survey(&self, extent: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
+    pub(crate) fn survey(&self, extent: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
         let ring = self.structure.ring();
         let range = extent;
         Ok(match (&self.housing, &self.tie) {

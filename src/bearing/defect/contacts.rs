@@ -50,7 +50,7 @@ impl DefectContact {
     /// (in the fixed frame) it is `ρ (θ̇ − ω_b)`.
     #[must_use]
     #[inline]
-    pub fn rate(&self, radial: f64, tangential: f64) -> f64 {
+    pub(crate) fn rate(&self, radial: f64, tangential: f64) -> f64 {
         self.normal_radial * radial + self.normal_tangential * tangential
     }
 }
@@ -66,7 +66,7 @@ impl DefectContacts {
     /// No contact: what a query `_into` starts from.
     #[must_use]
     #[inline]
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         let blank = DefectContact {
             feature: Feature::Plain,
             delta: 0.0,
@@ -119,7 +119,7 @@ impl DefectContacts {
     /// The contacts, in order of angle.
     #[must_use]
     #[inline]
-    pub fn as_slice(&self) -> &[DefectContact] {
+    pub(crate) fn as_slice(&self) -> &[DefectContact] {
         self.items.get(..self.count).unwrap_or(&self.items)
     }
 

@@ -81,7 +81,7 @@ mod vector;
 #[cfg(test)]
 mod tests;
 
-pub use angle::reduced;
+pub(crate) use angle::reduced;
 pub use contacts::{DefectContact, DefectContacts, Feature, MOST_CONTACTS};
 pub use dent::{CurvatureReading, DEFAULT_RIM_RADIUS, Dent, DentShape};
 pub use error::DefectError;

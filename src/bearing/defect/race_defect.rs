@@ -21,7 +21,7 @@ pub enum RaceDefect {
 impl RaceDefect {
     /// Whichever it is.
     #[must_use]
-    pub fn profile(&self) -> &dyn RaceProfile {
+    pub(crate) fn profile(&self) -> &dyn RaceProfile {
         match self {
             Self::Dent(dent) => dent,
             Self::SurfaceDent(dent) => dent,
@@ -31,43 +31,43 @@ impl RaceDefect {
 
     /// See [`RaceProfile::race`].
     #[must_use]
-    pub fn race(&self) -> Race {
+    pub(crate) fn race(&self) -> Race {
         self.profile().race()
     }
 
     /// See [`RaceProfile::angle`].
     #[must_use]
-    pub fn angle(&self) -> f64 {
+    pub(crate) fn angle(&self) -> f64 {
         self.profile().angle()
     }
 
     /// See [`RaceProfile::half_angle`].
     #[must_use]
-    pub fn half_angle(&self) -> f64 {
+    pub(crate) fn half_angle(&self) -> f64 {
         self.profile().half_angle()
     }
 
     /// See [`RaceProfile::contact_half_angle`].
     #[must_use]
-    pub fn contact_half_angle(&self) -> f64 {
+    pub(crate) fn contact_half_angle(&self) -> f64 {
         self.profile().contact_half_angle()
     }
 
     /// See [`RaceProfile::profile_radius`].
     #[must_use]
-    pub fn profile_radius(&self, angle: f64) -> f64 {
+    pub(crate) fn profile_radius(&self, angle: f64) -> f64 {
         self.profile().profile_radius(angle)
     }
 
     /// See [`RaceProfile::ball_drop`].
     #[must_use]
-    pub fn ball_drop(&self) -> f64 {
+    pub(crate) fn ball_drop(&self) -> f64 {
         self.profile().ball_drop()
     }
 
     /// See [`RaceProfile::rise`].
     #[must_use]
-    pub fn rise(&self) -> f64 {
+    pub(crate) fn rise(&self) -> f64 {
         self.profile().rise()
     }
 
@@ -79,7 +79,7 @@ impl RaceDefect {
 
     /// See [`RaceProfile::contacts_into`].
     #[inline]
-    pub fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
+    pub(crate) fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
         // no table of functions in the hot loop
         match self {
             Self::Dent(dent) => dent.contacts_into(ball, found),

@@ -67,7 +67,7 @@ impl CoupledMatrices {
 
 impl CoupledMatrices {
     /// A housing alone; its matrices are used up.
-    pub fn of_housing(matrices: SystemMatrices, model: &HousingModel) -> Self {
+    pub(crate) fn of_housing(matrices: SystemMatrices, model: &HousingModel) -> Self {
         Self {
             stiffness: matrices.stiffness,
             mass: matrices.mass,
@@ -81,13 +81,13 @@ impl CoupledMatrices {
     }
 
     /// A ring alone.
-    pub fn of_ring(ring: &Ring) -> Self {
+    pub(crate) fn of_ring(ring: &Ring) -> Self {
         Self::of_condensed(ring.stiffness(), ring.mass(), ring.dof())
     }
 
     /// A ring in a housing that is condensed already: stiffness and mass [n x n] over the ring's displacements, then
     /// over amplitudes of the housing's modes. Nothing of the housing can be recovered.
-    pub fn of_condensed(stiffness: &DenseMatrix, mass: &DenseMatrix, ring_dof: usize) -> Self {
+    pub(crate) fn of_condensed(stiffness: &DenseMatrix, mass: &DenseMatrix, ring_dof: usize) -> Self {
         let order = stiffness.nrows();
         Self {
             stiffness: placed(stiffness, 0, order),
@@ -101,7 +101,7 @@ impl CoupledMatrices {
 impl CoupledMotions {
     /// Displacements of the housing in the mesh's axes [housing dof x k] for coordinates x [n x k], tied nodes filled
     /// in.
-    pub fn housing(&self, model: &HousingModel, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn housing(&self, model: &HousingModel, x: &DenseMatrix) -> DenseMatrix {
         let moved = sparse_times_dense(&self.recovery, x);
         match model.tie_matrix() {
             Some(tie) => sparse_times_dense(&tie, &moved),
@@ -116,13 +116,13 @@ impl CoupledMotions {
     }
 
     /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
-    pub fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
         x.submatrix(self.housing_dof, 0, self.ring_dof, x.ncols()).to_owned()
     }
 
     /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the ring
     /// [ring dof x k]. What the tie drives follows the ring.
-    pub fn coordinates(&self, housing: &DenseMatrix, ring: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn coordinates(&self, housing: &DenseMatrix, ring: &DenseMatrix) -> DenseMatrix {
         // the recovery's columns of the housing are orthonormal or empty
         let mut x = transpose_times_dense(&self.recovery, housing);
         for column in 0..x.ncols() {

@@ -25,7 +25,7 @@ impl From<OrthotropicMaterial> for ElasticMaterial {
 
 impl ElasticMaterial {
     /// Density rho, kg/m^3.
-    pub fn density(&self) -> f64 {
+    pub(crate) fn density(&self) -> f64 {
         match self {
             Self::Isotropic(material) => material.density,
             Self::Orthotropic(material) => material.density,
@@ -33,7 +33,7 @@ impl ElasticMaterial {
     }
 
     /// Structural loss factor eta, in [0, 2).
-    pub fn loss_factor(&self) -> f64 {
+    pub(crate) fn loss_factor(&self) -> f64 {
         match self {
             Self::Isotropic(material) => material.loss_factor,
             Self::Orthotropic(material) => material.loss_factor,
@@ -47,7 +47,7 @@ impl ElasticMaterial {
     /// last three, with `lambda = E nu / ((1 + nu)(1 - 2 nu))`, `mu = E / (2 (1 + nu))` (Bathe, Finite
     /// Element Procedures (1996), table 4.3). Orthotropic: the inverse of the compliance, turned into
     /// mesh axes.
-    pub fn stiffness_matrix(&self) -> [[f64; 6]; 6] {
+    pub(crate) fn stiffness_matrix(&self) -> [[f64; 6]; 6] {
         match self {
             Self::Isotropic(material) => {
                 let (lambda, mu) = (material.lame_lambda(), material.shear_modulus());

@@ -70,7 +70,7 @@ impl OrthotropicMaterial {
     ///
     /// # Errors
     /// [`MaterialError::OutOfRange`].
-    pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
+    pub(crate) fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
         check_loss_factor(loss_factor)?;
         Ok(Self { loss_factor, ..self })
     }

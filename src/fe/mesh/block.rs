@@ -42,7 +42,7 @@ impl ElementBlock {
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.tags.is_empty()
     }
 
@@ -65,7 +65,7 @@ impl ElementBlock {
 
 impl Mesh {
     /// The elements of one dimension (0 points to 3 volumes), in the order of the mesh.
-    pub fn element_ids(&self, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
+    pub(crate) fn element_ids(&self, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
         let blocks = self.blocks.iter().enumerate();
         blocks
             .filter(move |(_, block)| block.kind.dimension() == dimension)

@@ -104,7 +104,7 @@ impl ModalBasis {
     ///
     /// # Errors
     /// [`LinalgError`] of factorisation, iteration or proof, and what `products` reports.
-    pub fn sharpened<E: From<LinalgError>>(
+    pub(crate) fn sharpened<E: From<LinalgError>>(
         problem: &EigenProblem,
         range: ModeRange,
         products: impl FnOnce(&DenseMatrix) -> Result<DenseMatrix, E>,

@@ -96,7 +96,7 @@ impl EnergyShares {
     ///
     /// # Errors
     /// As [`EnergyShares::new`], [`ModalError::Shape`] also if the modes do not belong to the ring.
-    pub fn with_ring(
+    pub(crate) fn with_ring(
         (mesh, model): (&Mesh, &HousingModel),
         ring: &Ring,
         shapes: &DenseMatrix,
@@ -113,7 +113,7 @@ impl EnergyShares {
     ///
     /// # Errors
     /// [`ModalError::Shape`] if the modes [ring dof x count] do not belong to the ring.
-    pub fn of_ring(ring: &Ring, ring_shapes: &DenseMatrix, rigid_modes: usize) -> Result<Self, ModalError> {
+    pub(crate) fn of_ring(ring: &Ring, ring_shapes: &DenseMatrix, rigid_modes: usize) -> Result<Self, ModalError> {
         let sums = RingSums::new(ring, ring_shapes)?;
         Ok(Self::of(None, Some(sums), ring_shapes.ncols(), rigid_modes))
     }

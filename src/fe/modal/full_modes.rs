@@ -36,7 +36,7 @@ impl FullModes {
     ///
     /// # Errors
     /// [`ModalError::Linalg`], [`ModalError::NoModes`].
-    pub fn of(matrices: CoupledMatrices, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
+    pub(crate) fn of(matrices: CoupledMatrices, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
         Self::by(matrices, range, |problem, _| Ok(ModalBasis::of(problem, range)?), watch)
     }
 
@@ -44,7 +44,7 @@ impl FullModes {
     ///
     /// # Errors
     /// [`ModalError::Linalg`], [`ModalError::NoModes`], and what `products` reports.
-    pub fn sharpened(
+    pub(crate) fn sharpened(
         matrices: CoupledMatrices,
         range: ModeRange,
         products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
@@ -80,7 +80,7 @@ impl FullModes {
     ///
     /// # Errors
     /// As [`sharpened`](Self::sharpened).
-    pub fn analysed(
+    pub(crate) fn analysed(
         matrices: CoupledMatrices,
         range: ModeRange,
         rigid: &DenseMatrix,
@@ -98,7 +98,7 @@ impl FullModes {
     ///
     /// # Errors
     /// [`ModalError::Linalg`].
-    pub fn lowest(matrices: CoupledMatrices, count: usize, watch: &impl Watch) -> Result<Self, ModalError> {
+    pub(crate) fn lowest(matrices: CoupledMatrices, count: usize, watch: &impl Watch) -> Result<Self, ModalError> {
         Self::of(matrices, ModeRange::AtMost(count), watch)
     }
 
@@ -106,7 +106,7 @@ impl FullModes {
     ///
     /// # Errors
     /// What `products` reports, and [`ModalError::Linalg`].
-    pub fn sharpen(
+    pub(crate) fn sharpen(
         &mut self,
         products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
     ) -> Result<(), ModalError> {
@@ -115,17 +115,17 @@ impl FullModes {
     }
 
     /// What the coordinates mean.
-    pub fn motions(&self) -> &CoupledMotions {
+    pub(crate) fn motions(&self) -> &CoupledMotions {
         &self.rows.motions
     }
 
     /// Number of degrees of freedom that the modes were computed over.
-    pub fn free_dof(&self) -> usize {
+    pub(crate) fn free_dof(&self) -> usize {
         self.rows.free.len()
     }
 
     /// Shapes over all rows of the matrices [rows x count].
-    pub fn over_all_rows(&self) -> DenseMatrix {
+    pub(crate) fn over_all_rows(&self) -> DenseMatrix {
         self.rows.all(&self.basis.shapes)
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct OwnModes<'a> {
 
 impl OwnModes<'_> {
     /// Points and displacements in one list; labelled by the mesh's tags where no node of a ring is among them.
-    pub fn set(&self) -> ModeSet {
+    pub(crate) fn set(&self) -> ModeSet {
         let mut points = Vec::new();
         if let Some((mesh, ..)) = self.housing {
             points.extend_from_slice(&mesh.nodes);

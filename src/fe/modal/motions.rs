@@ -11,7 +11,7 @@ use crate::numerics::linalg::{DenseMatrix, scattered_rows, sparse_times_dense};
 /// `u = t + omega x (x - about)`, a column for each component of t and of omega. `dimension` is 2 for a plane
 /// model, otherwise 3. Source: Craig and Kurdila, Fundamentals of
 /// Structural Dynamics (2006).
-pub fn rigid_motions(coordinates: &[[f64; 3]], dimension: usize, about: [f64; 3]) -> DenseMatrix {
+pub(crate) fn rigid_motions(coordinates: &[[f64; 3]], dimension: usize, about: [f64; 3]) -> DenseMatrix {
     let d = if dimension == 2 { 2 } else { 3 };
     DenseMatrix::from_fn(d * coordinates.len(), rigid_count(d), |row, motion| {
         let (node, component) = (row / d, row % d);

@@ -40,7 +40,7 @@ impl Cells {
         }
     }
 
-    pub fn node(&mut self, copy: usize, at: [i32; 3]) -> usize {
+    pub(crate) fn node(&mut self, copy: usize, at: [i32; 3]) -> usize {
         let mesh = &mut self.mesh;
         let pitch = self.pitch;
         *self.nodes.entry((copy, at)).or_insert_with(|| {
@@ -80,7 +80,7 @@ impl Cells {
     }
 
     /// Cells from one corner to the other; in the plane z does not count.
-    pub fn block(mut self, group: &str, copy: usize, from: [i32; 3], to: [i32; 3]) -> Self {
+    pub(crate) fn block(mut self, group: &str, copy: usize, from: [i32; 3], to: [i32; 3]) -> Self {
         const RING: [[i32; 2]; 4] = [[0, 0], [1, 0], [1, 1], [0, 1]];
         let layers = if self.plane { 0..1 } else { from[2]..to[2] };
         let mut elements = Vec::new();
@@ -100,14 +100,14 @@ impl Cells {
     }
 
     /// A group of points.
-    pub fn points(mut self, group: &str, copy: usize, at: &[[i32; 3]]) -> Self {
+    pub(crate) fn points(mut self, group: &str, copy: usize, at: &[[i32; 3]]) -> Self {
         let nodes: Vec<Vec<usize>> = at.iter().map(|&at| vec![self.node(copy, at)]).collect();
         self.add(group, ElementKind::Point, &nodes);
         self
     }
 
     /// A group of quadrilaterals at the height z, or of lines at the height y in the plane.
-    pub fn face(mut self, group: &str, copy: usize, from: [i32; 3], to: [i32; 3]) -> Self {
+    pub(crate) fn face(mut self, group: &str, copy: usize, from: [i32; 3], to: [i32; 3]) -> Self {
         let mut elements = Vec::new();
         for x in from[0]..to[0] {
             if self.plane {

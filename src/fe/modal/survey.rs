@@ -42,7 +42,7 @@ impl ModalSurvey {
     ///
     /// # Errors
     /// [`ModalError`] of eigenvalue computation and analysis.
-    pub fn of_housing(
+    pub(crate) fn of_housing(
         mesh: &Mesh,
         model: &HousingModel,
         matrices: SystemMatrices,
@@ -88,7 +88,7 @@ impl ModalSurvey {
     ///
     /// # Errors
     /// [`ModalError`] of eigenvalue computation and analysis.
-    pub fn of_coupled(
+    pub(crate) fn of_coupled(
         (mesh, model, matrices): (&Mesh, &HousingModel, &SystemMatrices),
         tie: &RingTie,
         ring: &Ring,
@@ -139,7 +139,7 @@ impl ModalSurvey {
     ///
     /// # Errors
     /// [`ModalError`] of eigenvalue computation and analysis.
-    pub fn of_ring(ring: &Ring, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
+    pub(crate) fn of_ring(ring: &Ring, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
         let frame = RingFrame::default();
         let rigid = ring_motions(ring, &frame, [0.0; 3]);
         let matrices = CoupledMatrices::of_ring(ring);

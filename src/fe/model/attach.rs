@@ -20,7 +20,7 @@ impl HousingModel {
     }
 
     /// Point masses on nodes that supports hold in every direction.
-    pub fn held_masses(&self) -> impl Iterator<Item = &PointMass> {
+    pub(crate) fn held_masses(&self) -> impl Iterator<Item = &PointMass> {
         let is_held = |node: &usize| self.fixed[*node][..self.dimension].iter().all(Option::is_some);
         let numbered = self.point_masses.iter().enumerate();
         let held = numbered.filter(move |(index, _)| {

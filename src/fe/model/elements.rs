@@ -29,7 +29,7 @@ impl HousingElements {
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
@@ -39,7 +39,7 @@ impl HousingElements {
     }
 
     /// All elements.
-    pub fn as_slice(&self) -> &[HousingElement] {
+    pub(crate) fn as_slice(&self) -> &[HousingElement] {
         &self.list
     }
 

@@ -61,7 +61,7 @@ struct Hold {
 impl HousingModel {
     /// The flat layers of incompatible elements on held faces, from there to the next face without a neighbour or to the
     /// next held one; `None` if there are none.
-    pub fn flat_layers(&self) -> Option<FlatLayer> {
+    pub(crate) fn flat_layers(&self) -> Option<FlatLayer> {
         if self.formulation.linear != LinearFormulation::Incompatible {
             return None;
         }

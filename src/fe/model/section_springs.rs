@@ -28,7 +28,7 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::RingSections`] if they do not.
-    pub fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
+    pub(crate) fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
         for spring in ring.springs() {
             let (node, in_plane) = ring.node_of(spring.dofs[0]);
             let stations = solid.sections.len();

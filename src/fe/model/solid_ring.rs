@@ -44,7 +44,7 @@ pub struct MeshedRing {
 
 impl SolidRing {
     /// Number of elements in space (`dimension` 3) or in the plane.
-    pub fn elements(&self, dimension: usize) -> usize {
+    pub(crate) fn elements(&self, dimension: usize) -> usize {
         self.around * self.across * self.layers(dimension).unwrap_or(1)
     }
 

@@ -60,7 +60,7 @@ impl CharacteristicModes {
     ///
     /// # Errors
     /// What the dense eigenvalue solver reports.
-    pub fn of(
+    pub(crate) fn of(
         substructure: &Substructure,
         attached: Option<Attached<'_>>,
         rigid: &DenseMatrix,
@@ -85,17 +85,17 @@ impl CharacteristicModes {
     }
 
     /// Number of modes.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.values.len()
     }
 
     /// How many of the first ones are rigid motions.
-    pub fn rigid(&self) -> usize {
+    pub(crate) fn rigid(&self) -> usize {
         self.rigid
     }
 
     /// Frequency of a mode, Hz; `None` beyond the last.
-    pub fn frequency_hz(&self, mode: usize) -> Option<f64> {
+    pub(crate) fn frequency_hz(&self, mode: usize) -> Option<f64> {
         let value = self.values.get(mode)?;
         Some(value.max(0.0).sqrt() / TAU)
     }
@@ -104,7 +104,7 @@ impl CharacteristicModes {
     ///
     /// # Errors
     /// [`ReductionError::FewInterfaceModes`] for fewer than the rigid motions, or none.
-    pub fn kept(&self, size: InterfaceSize) -> Result<usize, ReductionError> {
+    pub(crate) fn kept(&self, size: InterfaceSize) -> Result<usize, ReductionError> {
         let asked = match size {
             InterfaceSize::Count(count) => count.min(self.count()),
             InterfaceSize::UpTo(hz) => {
@@ -125,7 +125,7 @@ impl CharacteristicModes {
 
     /// What the first `kept` modes lack of the interface's flexibility under a unit load on each coordinate, rigid motions
     /// taken out of all: `1 - sum_kept (r_j^2 / lambda) / sum_all (r_j^2 / lambda)`.
-    pub fn lost_flexibility(&self, kept: usize) -> LostFlexibility {
+    pub(crate) fn lost_flexibility(&self, kept: usize) -> LostFlexibility {
         let interface = self.vectors.nrows();
         let (mut of_kept, mut of_all) = (vec![0.0; interface], vec![0.0; interface]);
         for mode in self.rigid..self.count() {

@@ -69,7 +69,7 @@ impl CraigBampton {
 
     /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
     /// the mesh stays the weight of the mesh, whatever the basis keeps.
-    pub fn project(&self, load: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn project(&self, load: &DenseMatrix) -> DenseMatrix {
         let partition = self.substructure.partition();
         let pick =
             |dofs: &[usize]| DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| load[(dofs[row], column)]);
@@ -85,7 +85,7 @@ impl CraigBampton {
     }
 
     /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
-    pub fn condensed(&self, matrix: &SparseMatrix) -> DenseMatrix {
+    pub(crate) fn condensed(&self, matrix: &SparseMatrix) -> DenseMatrix {
         let order = self.superelement.order();
         let mut condensed = DenseMatrix::zeros(order, order);
         for first in (0..order).step_by(BLOCK) {
@@ -126,13 +126,17 @@ impl CraigBampton {
     ///
     /// # Errors
     /// As [`ErrorEstimate::of`].
-    pub fn estimate(&self, attached: Option<Attached<'_>>, band_hz: f64) -> Result<ErrorEstimate, ReductionError> {
+    pub(crate) fn estimate(
+        &self,
+        attached: Option<Attached<'_>>,
+        band_hz: f64,
+    ) -> Result<ErrorEstimate, ReductionError> {
         ErrorEstimate::of(&self.substructure, &self.basis, attached, band_hz)
     }
 
     /// Data recovery: the row that gives a degree of freedom of the housing from the coordinates
     /// \[order\]; `None` for one that is fixed.
-    pub fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
+    pub(crate) fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
         let partition = self.substructure.partition();
         let interface = self.superelement.interface_dof;
         if let Ok(place) = partition.interior.binary_search(&dof) {
@@ -152,7 +156,7 @@ impl CraigBampton {
 
     /// Whole-field recovery: displacements over all degrees of freedom of the housing [dof x k] for coordinates
     /// [order x k]; fixed ones are zero.
-    pub fn field(&self, coordinates: &DenseMatrix, dof: usize) -> DenseMatrix {
+    pub(crate) fn field(&self, coordinates: &DenseMatrix, dof: usize) -> DenseMatrix {
         let partition = self.substructure.partition();
         let interface = self.superelement.interface_dof;
         let boundary = coordinates.subrows(0, interface);

@@ -57,7 +57,7 @@ pub struct ErrorEstimate {
 
 impl ErrorEstimate {
     /// The largest error in the band; 0 without modes.
-    pub fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.modes.iter().map(|mode| mode.relative_error).fold(0.0, f64::max)
     }
 

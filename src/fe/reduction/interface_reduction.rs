@@ -70,7 +70,7 @@ impl InterfaceReduction {
     }
 
     /// Number of modes kept.
-    pub fn kept(&self) -> usize {
+    pub(crate) fn kept(&self) -> usize {
         self.values.len()
     }
 
@@ -80,7 +80,7 @@ impl InterfaceReduction {
     }
 
     /// Squared frequency of the first mode left out, 1/s^2; `None` if all are kept.
-    pub fn next(&self) -> Option<f64> {
+    pub(crate) fn next(&self) -> Option<f64> {
         self.next
     }
 
@@ -93,18 +93,18 @@ impl InterfaceReduction {
 
     /// Coordinates [order x k] of the superelement with the whole interface for those of the reduced one
     /// [reduced order x k].
-    pub fn expanded(&self, coordinates: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn expanded(&self, coordinates: &DenseMatrix) -> DenseMatrix {
         &self.transform * coordinates
     }
 
     /// Rows over the coordinates [order x k], as columns, over the reduced ones [reduced order x k].
-    pub fn rows(&self, rows: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn rows(&self, rows: &DenseMatrix) -> DenseMatrix {
         self.transform.transpose() * rows
     }
 
     /// Reduced coordinates [reduced order x k] that are nearest to motions of the interface [interface x k] in the norm of
     /// its mass: `p = R^T (m_bb + m_a) d`, no amplitudes of the interior.
-    pub fn nearest(&self, motions: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn nearest(&self, motions: &DenseMatrix) -> DenseMatrix {
         let amplitudes = self.inertia.transpose() * motions;
         DenseMatrix::from_fn(self.superelement.order(), motions.ncols(), |row, column| match row < self.kept() {
             true => amplitudes[(row, column)],
@@ -116,7 +116,7 @@ impl InterfaceReduction {
     ///
     /// # Errors
     /// What the dense eigenvalue solver reports.
-    pub fn coupled_values(&self, attached: Option<Attached<'_>>) -> Result<Vec<f64>, ReductionError> {
+    pub(crate) fn coupled_values(&self, attached: Option<Attached<'_>>) -> Result<Vec<f64>, ReductionError> {
         let (mut k, mut m) = (self.superelement.stiffness.clone(), self.superelement.mass.clone());
         if let Some(part) = attached {
             let modes = self.modes();
@@ -137,7 +137,7 @@ impl InterfaceReduction {
     ///
     /// # Errors
     /// As [`coupled_values`](Self::coupled_values).
-    pub fn estimate(
+    pub(crate) fn estimate(
         &self,
         condensed: &CraigBampton,
         attached: Option<Attached<'_>>,

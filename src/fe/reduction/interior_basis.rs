@@ -53,7 +53,7 @@ impl InteriorBasis {
     }
 
     /// How many of them are residual vectors.
-    pub fn residual_vectors(&self) -> usize {
+    pub(crate) fn residual_vectors(&self) -> usize {
         self.residual_vectors
     }
 
@@ -63,17 +63,17 @@ impl InteriorBasis {
     }
 
     /// The vectors Q [interior x q].
-    pub fn vectors(&self) -> &DenseMatrix {
+    pub(crate) fn vectors(&self) -> &DenseMatrix {
         &self.vectors
     }
 
     /// `Q^T A` [q x interface]: how the interface's accelerations drive them, kg^(1/2).
-    pub fn participation(&self) -> &DenseMatrix {
+    pub(crate) fn participation(&self) -> &DenseMatrix {
         &self.participation
     }
 
     /// Eigenvalue of the lowest fixed-interface mode that is left out, 1/s^2; infinite if none is.
-    pub fn complete_below(&self) -> f64 {
+    pub(crate) fn complete_below(&self) -> f64 {
         self.complete_below
     }
 

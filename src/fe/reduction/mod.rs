@@ -24,7 +24,8 @@ mod superelement;
 
 pub use basis_vectors::{BasisChoice, BasisSize};
 pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
-pub use checks::{Bound, Check, RigidMotions, check_craig_bampton, check_interface_reduction, check_matrices};
+pub use checks::{Bound, Check, RigidMotions};
+pub(crate) use checks::{check_craig_bampton, check_interface_reduction, check_matrices};
 pub use coupled_modes::Attached;
 pub use craig_bampton::{CraigBampton, craig_bampton};
 pub use error::ReductionError;
@@ -35,6 +36,7 @@ pub use residual_flexibility::ResidualFlexibility;
 pub(crate) use response_estimate::UNCOUPLED;
 pub use response_estimate::{InteriorDamping, ResponseEstimate};
 pub use selection::choose_basis;
-pub use size_study::{ReducedSize, SizeErrors, size_study};
+pub(crate) use size_study::size_study;
+pub use size_study::{ReducedSize, SizeErrors};
 pub use substructure::Substructure;
 pub use superelement::Superelement;

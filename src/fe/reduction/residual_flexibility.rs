@@ -56,7 +56,7 @@ impl ResidualFlexibility {
     ///
     /// with `G_0 = W^T K_ii W`, `G_1 = W^T M_ii W` and `lambda_cut` that of the first fixed-interface mode left out: a
     /// geometric series from its second term on. Damping of what is left out is neglected.
-    pub fn missing(&self, squared: f64, load: &[c64], sensor: &[c64]) -> c64 {
+    pub(crate) fn missing(&self, squared: f64, load: &[c64], sensor: &[c64]) -> c64 {
         let ratio = (squared / self.complete_below).min(NEAREST);
         let further = squared / (1.0 - ratio);
         let mut sum = c64::new(0.0, 0.0);

@@ -141,23 +141,23 @@ impl ResponseEstimate {
     }
 
     /// The largest of all, and where; none without a response.
-    pub fn largest(&self) -> Option<(f64, f64)> {
+    pub(crate) fn largest(&self) -> Option<(f64, f64)> {
         let worst = self.worst?;
         Some((self.frequencies_hz[worst], self.relative_errors[worst]))
     }
 
     /// The largest part of an error that more vectors take away: all but what ratios of modes do above the interior's complete ones.
-    pub fn lacking(&self) -> f64 {
+    pub(crate) fn lacking(&self) -> f64 {
         self.lacking
     }
 
     /// The largest response at the ends of a path, sensor and load, that carries nothing; `None` for one that does.
-    pub fn closed(&self, path: (usize, usize)) -> Option<f64> {
+    pub(crate) fn closed(&self, path: (usize, usize)) -> Option<f64> {
         Some(self.closed[path]).filter(|ends| *ends > 0.0)
     }
 
     /// The estimate at one of its frequencies.
-    pub fn at(&self, hz: f64) -> Option<f64> {
+    pub(crate) fn at(&self, hz: f64) -> Option<f64> {
         let frequencies = self.frequencies_hz.iter();
         let place = frequencies.map(|own| own.to_bits()).position(|own| own == hz.to_bits())?;
         self.relative_errors.get(place).copied()
@@ -166,7 +166,7 @@ impl ResponseEstimate {
     /// What the interior needs beyond the reduced model where it lacks most [interior x k]: inertia, and losses if
     /// there are any, of the responses to the load and to a unit force at the sensor. With its static response in the basis
     /// the error there is squared away.
-    pub fn forces(&self) -> &DenseMatrix {
+    pub(crate) fn forces(&self) -> &DenseMatrix {
         &self.forces
     }
 }

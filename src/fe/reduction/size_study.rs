@@ -46,7 +46,7 @@ pub struct ReducedSize {
 ///
 /// # Errors
 /// What the eigenvalue solvers report.
-pub fn size_study(
+pub(crate) fn size_study(
     substructure: &Substructure,
     interface: &CharacteristicModes,
     full_hz: &[f64],

@@ -118,7 +118,7 @@ impl Substructure {
     }
 
     /// How the degrees of freedom were split.
-    pub fn partition(&self) -> &HousingPartition {
+    pub(crate) fn partition(&self) -> &HousingPartition {
         &self.partition
     }
 
@@ -128,12 +128,12 @@ impl Substructure {
     }
 
     /// Number of interior degrees of freedom.
-    pub fn interior_dof(&self) -> usize {
+    pub(crate) fn interior_dof(&self) -> usize {
         self.partition.interior.len()
     }
 
     /// Constraint modes Psi [interior x interface].
-    pub fn constraint_modes(&self) -> &DenseMatrix {
+    pub(crate) fn constraint_modes(&self) -> &DenseMatrix {
         &self.constraint_modes
     }
 
@@ -143,7 +143,7 @@ impl Substructure {
     }
 
     /// m_bb [interface x interface], kg.
-    pub fn mass(&self) -> &DenseMatrix {
+    pub(crate) fn mass(&self) -> &DenseMatrix {
         &self.mass
     }
 
@@ -167,7 +167,7 @@ impl Substructure {
     }
 
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
-    pub fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
+    pub(crate) fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
         let interior = &self.constraint_modes * u;
         self.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
     }

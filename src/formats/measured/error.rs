@@ -154,7 +154,7 @@ fn quoted(names: &[String]) -> String {
 impl MeasuredError {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::NoTime { .. } => Some("give the sampling rate with --rate HZ".to_owned()),
             Self::TwoRates { .. } => {

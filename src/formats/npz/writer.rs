@@ -90,7 +90,7 @@ impl NpzWriter {
     /// # Errors
     /// [`FormatError::ArrayName`], [`FormatError::DuplicateArray`], [`FormatError::Incomplete`] if an earlier array is,
     /// [`FormatError::File`].
-    pub fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
+    pub(crate) fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
         self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
         Ok(NpzArray {
@@ -107,7 +107,7 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn texts(&mut self, name: &str, values: &[&str]) -> Result<(), FormatError> {
+    pub(crate) fn texts(&mut self, name: &str, values: &[&str]) -> Result<(), FormatError> {
         let lengths = values.iter().map(|text| text.chars().count());
         // NumPy has no text of length 0
         let length = lengths.max().unwrap_or(0).max(1);
@@ -126,7 +126,7 @@ impl NpzWriter {
     ///
     /// # Errors
     /// As [`begin`](Self::begin).
-    pub fn bytes(&mut self, name: &str, value: &[u8]) -> Result<(), FormatError> {
+    pub(crate) fn bytes(&mut self, name: &str, value: &[u8]) -> Result<(), FormatError> {
         // NumPy has no string of length 0
         let length = value.len().max(1);
         self.start(name, &header(&format!("|S{length}"), &[]), length)?;
@@ -207,7 +207,7 @@ impl<T: NpzElement> NpzArray<'_, T> {
     ///
     /// # Errors
     /// [`FormatError::Count`] if there are more than the shape holds, [`FormatError::File`].
-    pub fn extend(&mut self, values: &[T]) -> Result<(), FormatError> {
+    pub(crate) fn extend(&mut self, values: &[T]) -> Result<(), FormatError> {
         self.written += values.len();
         if self.written > self.expected {
             return Err(self.shape_error());
@@ -227,7 +227,7 @@ impl<T: NpzElement> NpzArray<'_, T> {
     ///
     /// # Errors
     /// [`FormatError::Count`] if values are missing.
-    pub fn end(self) -> Result<(), FormatError> {
+    pub(crate) fn end(self) -> Result<(), FormatError> {
         if self.written == self.expected {
             self.writer.incomplete = None;
             Ok(())

@@ -59,12 +59,12 @@ impl SparseCholesky {
 
     /// Relative error that round-off leaves in a solution, estimated: the factor by which iterative refinement would reduce
     /// it. The lowest eigenvalues are right to as much, frequencies to half of it.
-    pub fn contraction(&self) -> f64 {
+    pub(crate) fn contraction(&self) -> f64 {
         self.factor.contraction
     }
 
     /// Row of the matrix in which round-off is felt most.
-    pub fn weakest_row(&self) -> usize {
+    pub(crate) fn weakest_row(&self) -> usize {
         let place = self.ordering.old.get(self.factor.weakest);
         place.map_or(0, |&row| row as usize)
     }

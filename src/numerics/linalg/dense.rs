@@ -45,7 +45,7 @@ impl DenseCholesky {
 
     /// Smallest over largest pivot of the factor scaled to a unit diagonal, squared: about the
     /// reciprocal condition number; round-off (1e-15) for a singular matrix.
-    pub fn reciprocal_condition(&self) -> f64 {
+    pub(crate) fn reciprocal_condition(&self) -> f64 {
         let lower = self.factor.L();
         (0..lower.nrows())
             .map(|i| {

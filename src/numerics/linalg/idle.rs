@@ -74,7 +74,7 @@ pub(crate) fn acting_generalised_eigen(k: &DenseMatrix, m: &DenseMatrix) -> Resu
 }
 
 /// `B^T A B`, exactly symmetric.
-pub fn congruent(a: &DenseMatrix, basis: &DenseMatrix) -> DenseMatrix {
+pub(crate) fn congruent(a: &DenseMatrix, basis: &DenseMatrix) -> DenseMatrix {
     let product = basis.transpose() * (a * basis);
     DenseMatrix::from_fn(product.nrows(), product.ncols(), |row, column| {
         0.5 * (product[(row, column)] + product[(column, row)])

@@ -43,13 +43,12 @@ pub use eigen::{EigenPairs, EigenProblem, EigenTimes};
 pub use error::{FactorLimit, LinalgError};
 pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes};
 pub(crate) use harmonic::{complex_columns, complex_solve};
-pub use idle::congruent;
+pub(crate) use idle::congruent;
 pub(crate) use idle::{acting_generalised_eigen, acting_motions};
 pub(crate) use lu::SmallLu;
 pub(crate) use sparse::scattered_rows;
-pub use sparse::{
-    SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, submatrix, transpose_times_dense,
-};
+pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
+pub(crate) use sparse::{congruence, placed};
 
 /// Dense column-major matrix of `f64`.
 pub type DenseMatrix = faer::Mat<f64>;

@@ -35,7 +35,7 @@ impl TripletBuilder {
 }
 
 /// `T^T A T` for a sparse `A` [n x n] and `T` [n x m].
-pub fn congruence(a: &SparseMatrix, t: &SparseMatrix) -> SparseMatrix {
+pub(crate) fn congruence(a: &SparseMatrix, t: &SparseMatrix) -> SparseMatrix {
     let at: SparseMatrix = a * t;
     let transposed: SparseMatrix = t.transpose_view().to_csc();
     (&transposed * &at).to_csc()
@@ -70,7 +70,7 @@ pub fn submatrix(a: &SparseMatrix, rows: &[usize], columns: &[usize]) -> SparseM
 }
 
 /// A square dense matrix at a place on the diagonal of an empty one [order x order]; zeros are left out.
-pub fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
+pub(crate) fn placed(part: &DenseMatrix, first: usize, order: usize) -> SparseMatrix {
     let mut whole = TripletBuilder::new(order, order);
     for column in 0..part.ncols() {
         for (row, &value) in part.col_as_slice(column).iter().enumerate() {

@@ -42,7 +42,7 @@ pub struct Growth {
 impl Growth {
     /// Whether it is more than [`UNSTABLE`].
     #[must_use]
-    pub fn is_unstable(&self) -> bool {
+    pub(crate) fn is_unstable(&self) -> bool {
         self.per_step > UNSTABLE
     }
 }
@@ -79,7 +79,7 @@ impl PartsOfRun {
 /// How the largest small motion of `system` grows in a step of length `h` (s), from so many `steps`; `fastest` (1/s) is the
 /// order of its fastest motion. `ExponentialAdams` with a tolerance takes steps of that length too: what is small is below it.
 #[must_use]
-pub fn growth(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u32) -> Growth {
+pub(crate) fn growth(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u32) -> Growth {
     let infinite = Growth { per_step: f64::INFINITY, motion: Vec::new() };
     take(system, method, h, fastest, steps).unwrap_or(infinite)
 }

@@ -66,7 +66,7 @@ pub struct BlowUp {
 impl BlowUp {
     /// Whether the step was beyond the method's limit in the last good states; none if it has
     /// no limit there.
-    pub fn beyond_the_limit(&self) -> Option<bool> {
+    pub(crate) fn beyond_the_limit(&self) -> Option<bool> {
         self.limit.map(|limit| self.step_s > limit.step_s)
     }
 }

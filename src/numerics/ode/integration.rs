@@ -79,7 +79,7 @@ impl<S: SecondOrderSystem> Integration<S> {
     ///
     /// # Errors
     /// [`TransientError::Unstable`] and [`TransientError::Schedule`].
-    pub fn begin(
+    pub(crate) fn begin(
         system: &mut S,
         method: Method,
         schedule: Schedule,
@@ -99,7 +99,7 @@ impl<S: SecondOrderSystem> Integration<S> {
     /// # Errors
     /// [`TransientError::Unstable`], [`TransientError::Schedule`], and [`TransientError::Snapshot`] for a snapshot of
     /// something else.
-    pub fn resume(
+    pub(crate) fn resume(
         system: &S,
         method: Method,
         schedule: Schedule,
@@ -137,7 +137,7 @@ impl<S: SecondOrderSystem> Integration<S> {
     }
 
     /// Writes all that the rest depends on, between two intervals.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(crate) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.number(self.state.t);
         for numbers in [&self.state.y, &self.state.v, &self.force] {
             snapshot.numbers(numbers);
@@ -149,27 +149,27 @@ impl<S: SecondOrderSystem> Integration<S> {
     }
 
     /// When the first step began, s.
-    pub fn start(&self) -> f64 {
+    pub(crate) fn start(&self) -> f64 {
         self.start
     }
 
     /// Whether all intervals are done.
-    pub fn is_complete(&self) -> bool {
+    pub(crate) fn is_complete(&self) -> bool {
         self.intervals >= self.schedule.intervals
     }
 
     /// Intervals done.
-    pub fn intervals(&self) -> u64 {
+    pub(crate) fn intervals(&self) -> u64 {
         self.intervals
     }
 
     /// Where it is, after a blow-up the last good state.
-    pub fn state(&self) -> &State {
+    pub(crate) fn state(&self) -> &State {
         &self.state
     }
 
     /// What it took so far.
-    pub fn statistics(&self) -> Statistics {
+    pub(crate) fn statistics(&self) -> Statistics {
         self.stepper.statistics()
     }
 
@@ -177,7 +177,7 @@ impl<S: SecondOrderSystem> Integration<S> {
     ///
     /// # Errors
     /// [`TransientError::BlewUp`]; the state is then the last good one, which lies in this interval or at its start.
-    pub fn advance(&mut self, system: &mut S, observer: &mut impl Observer<S>) -> Result<(), TransientError> {
+    pub(crate) fn advance(&mut self, system: &mut S, observer: &mut impl Observer<S>) -> Result<(), TransientError> {
         for place in 1..=self.schedule.steps_per_interval {
             let t = self.schedule.instant(self.start, self.intervals, place);
             if let Err(cause) = self.step(system, t, place) {

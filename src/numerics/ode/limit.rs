@@ -30,7 +30,7 @@ impl Resonance {
     /// The resonance that a growth of a system in steps of `h` (s) is, if it is one: what grows has most of its kinetic energy in
     /// a mode whose phase is near a multiple of pi.
     #[must_use]
-    pub fn of(found: &Growth, system: &Linearised, h: f64) -> Option<Self> {
+    pub(crate) fn of(found: &Growth, system: &Linearised, h: f64) -> Option<Self> {
         if !found.is_unstable() {
             return None;
         }
@@ -53,12 +53,12 @@ impl Method {
     /// grow until they are of the tolerance's size, and stay there.
     ///
     /// What the system leaves out of its tangent is not seen.
-    pub fn step_limit<S: SecondOrderSystem>(self, system: &mut S, state: &State) -> Option<StepLimit> {
+    pub(crate) fn step_limit<S: SecondOrderSystem>(self, system: &mut S, state: &State) -> Option<StepLimit> {
         self.limit_of(&mut Linearised::new(system, state))
     }
 
     /// The resonance of a step of length `h` (s) at a state, if small motions there grow by one.
-    pub fn resonance<S: SecondOrderSystem>(self, system: &mut S, state: &State, h: f64) -> Option<Resonance> {
+    pub(crate) fn resonance<S: SecondOrderSystem>(self, system: &mut S, state: &State, h: f64) -> Option<Resonance> {
         if self.chooses_its_steps() {
             return None;
         }
@@ -123,7 +123,7 @@ impl Method {
 /// The order of the fastest motion that the force alone makes, 1/s: its frequency, or the rate of its damping where that is
 /// larger. None where it makes none.
 #[must_use]
-pub fn fastest(system: &Linearised) -> Option<f64> {
+pub(crate) fn fastest(system: &Linearised) -> Option<f64> {
     let tangent = system.tangent();
     let frequency = largest_real_part(&of_terms(tangent, Tangent::position))?.sqrt();
     let rate = largest_real_part(&of_terms(tangent, Tangent::velocity))?;

@@ -38,12 +38,12 @@ impl Linearised {
 
     /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
     /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
-    pub fn masses(&self) -> &[f64] {
+    pub(crate) fn masses(&self) -> &[f64] {
         &self.masses
     }
 
     /// What the force is by the tangent.
-    pub fn tangent(&self) -> &Tangent {
+    pub(crate) fn tangent(&self) -> &Tangent {
         &self.tangent
     }
 }

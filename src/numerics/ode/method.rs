@@ -55,12 +55,12 @@ pub struct Resonance {
 
 impl Method {
     /// Whether steps follow from a tolerance instead of the schedule.
-    pub fn chooses_its_steps(self) -> bool {
+    pub(crate) fn chooses_its_steps(self) -> bool {
         matches!(self, Self::Dop853 { .. } | Self::ExponentialAdams { tolerance: Some(_) })
     }
 
     /// Whether a step is solved for: no step is too long for a linear system.
-    pub fn is_implicit(self) -> bool {
+    pub(crate) fn is_implicit(self) -> bool {
         matches!(self, Self::Newmark | Self::GeneralizedAlpha { .. })
     }
 

@@ -42,10 +42,11 @@ mod system;
 mod tangent;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
-pub use amplification::{Growth, UNSTABLE, growth};
+pub(crate) use amplification::growth;
+pub use amplification::{Growth, UNSTABLE};
 pub use error::{BlowUp, TransientError};
 pub use integration::{Integration, Stepping, integrate};
-pub use limit::fastest;
+pub(crate) use limit::fastest;
 pub use linearised::Linearised;
 pub use method::{LEAST_TOLERANCE, Method, Resonance, StepLimit};
 pub use schedule::{MOST_STEPS_PER_INTERVAL, Schedule};

@@ -41,29 +41,29 @@ pub enum SnapshotError {
 impl Snapshot {
     /// A snapshot of words that [`words`](Self::words) gave.
     #[must_use]
-    pub fn from_words(words: Vec<u64>) -> Self {
+    pub(crate) fn from_words(words: Vec<u64>) -> Self {
         Self { words }
     }
 
     /// The words.
     #[must_use]
-    pub fn words(&self) -> &[u64] {
+    pub(crate) fn words(&self) -> &[u64] {
         &self.words
     }
 
     /// Reads from the start.
     #[must_use]
-    pub fn reader(&self) -> SnapshotReader<'_> {
+    pub(crate) fn reader(&self) -> SnapshotReader<'_> {
         SnapshotReader { words: &self.words }
     }
 
     /// Writes a whole number.
-    pub fn count(&mut self, value: u64) {
+    pub(crate) fn count(&mut self, value: u64) {
         self.words.push(value);
     }
 
     /// Writes whether something holds.
-    pub fn flag(&mut self, value: bool) {
+    pub(crate) fn flag(&mut self, value: bool) {
         self.count(u64::from(value));
     }
 
@@ -73,13 +73,13 @@ impl Snapshot {
     }
 
     /// Writes a number that may be missing.
-    pub fn option(&mut self, value: Option<f64>) {
+    pub(crate) fn option(&mut self, value: Option<f64>) {
         self.flag(value.is_some());
         self.number(value.unwrap_or(0.0));
     }
 
     /// Writes numbers and how many they are.
-    pub fn numbers(&mut self, values: &[f64]) {
+    pub(crate) fn numbers(&mut self, values: &[f64]) {
         self.count(values.len() as u64);
         self.words.extend(values.iter().map(|value| value.to_bits()));
     }
@@ -90,7 +90,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Short`].
-    pub fn count(&mut self) -> Result<u64, SnapshotError> {
+    pub(crate) fn count(&mut self) -> Result<u64, SnapshotError> {
         let (first, rest) = self.words.split_first().ok_or(SnapshotError::Short)?;
         self.words = rest;
         Ok(*first)
@@ -100,7 +100,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Short`], [`SnapshotError::Other`].
-    pub fn expect(&mut self, what: &'static str, expected: u64) -> Result<(), SnapshotError> {
+    pub(crate) fn expect(&mut self, what: &'static str, expected: u64) -> Result<(), SnapshotError> {
         match self.count()? {
             found if found == expected => Ok(()),
             found => Err(SnapshotError::Other { what, expected, found }),
@@ -111,7 +111,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// As [`expect`](Self::expect).
-    pub fn flag(&mut self) -> Result<bool, SnapshotError> {
+    pub(crate) fn flag(&mut self) -> Result<bool, SnapshotError> {
         match self.count()? {
             found @ 0..=1 => Ok(found == 1),
             found => Err(SnapshotError::Other { what: "flag", expected: 1, found }),
@@ -130,7 +130,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// As [`flag`](Self::flag).
-    pub fn option(&mut self) -> Result<Option<f64>, SnapshotError> {
+    pub(crate) fn option(&mut self) -> Result<Option<f64>, SnapshotError> {
         let there = self.flag()?;
         let value = self.number()?;
         Ok(there.then_some(value))
@@ -140,7 +140,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Short`].
-    pub fn numbers(&mut self) -> Result<Vec<f64>, SnapshotError> {
+    pub(crate) fn numbers(&mut self) -> Result<Vec<f64>, SnapshotError> {
         let length = usize::try_from(self.count()?).map_err(|_| SnapshotError::Short)?;
         let (values, rest) = self.words.split_at_checked(length).ok_or(SnapshotError::Short)?;
         self.words = rest;
@@ -164,7 +164,7 @@ impl SnapshotReader<'_> {
     ///
     /// # Errors
     /// [`SnapshotError::Long`].
-    pub fn end(self) -> Result<(), SnapshotError> {
+    pub(crate) fn end(self) -> Result<(), SnapshotError> {
         match self.words.len() {
             0 => Ok(()),
             left => Err(SnapshotError::Long { left }),

@@ -32,24 +32,24 @@ impl Tangent {
     }
 
     /// Takes all terms out; the memory stays.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.terms = 0;
     }
 
     /// Number of terms.
     #[must_use]
-    pub fn terms(&self) -> usize {
+    pub(crate) fn terms(&self) -> usize {
         self.terms
     }
 
     /// Number of coordinates.
     #[must_use]
-    pub fn dof(&self) -> usize {
+    pub(crate) fn dof(&self) -> usize {
         self.dof
     }
 
     /// Adds a term of zeros, to be filled.
-    pub fn add(&mut self) -> TangentTerm<'_> {
+    pub(crate) fn add(&mut self) -> TangentTerm<'_> {
         let size = 3 * self.dof;
         let start = self.terms * size;
         self.terms += 1;
@@ -63,19 +63,19 @@ impl Tangent {
 
     /// Row `left` of a term.
     #[must_use]
-    pub fn left(&self, term: usize) -> &[f64] {
+    pub(crate) fn left(&self, term: usize) -> &[f64] {
         self.row(3 * term)
     }
 
     /// Row `position` of a term.
     #[must_use]
-    pub fn position(&self, term: usize) -> &[f64] {
+    pub(crate) fn position(&self, term: usize) -> &[f64] {
         self.row(3 * term + 1)
     }
 
     /// Row `velocity` of a term.
     #[must_use]
-    pub fn velocity(&self, term: usize) -> &[f64] {
+    pub(crate) fn velocity(&self, term: usize) -> &[f64] {
         self.row(3 * term + 2)
     }
 
@@ -84,7 +84,7 @@ impl Tangent {
     }
 
     /// Adds the change of force for a change of the state to `dg`, all \[dof\].
-    pub fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
+    pub(crate) fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         for term in 0..self.terms {
             let factor = dot(self.position(term), dy) + dot(self.velocity(term), dv);

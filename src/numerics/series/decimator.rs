@@ -104,7 +104,7 @@ impl Decimator {
     ///
     /// # Errors
     /// [`SeriesError::Ratio`] for a ratio of zero, [`SeriesError::Step`] unless `dt` is positive and finite.
-    pub fn second_derivative(ratio: usize, dt: f64) -> Result<Self, SeriesError> {
+    pub(crate) fn second_derivative(ratio: usize, dt: f64) -> Result<Self, SeriesError> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SeriesError::Step { step_s: dt });
         }
@@ -130,13 +130,13 @@ impl Decimator {
     }
 
     /// Ratio M: inputs per output.
-    pub fn ratio(&self) -> usize {
+    pub(crate) fn ratio(&self) -> usize {
         self.taps.len()
     }
 
     /// Output intervals past the last wanted output that must be pushed before it is complete: with outputs wanted
     /// up to K, push inputs 0 .. (K + this) M - 1.
-    pub fn half_length_outputs(&self) -> usize {
+    pub(crate) fn half_length_outputs(&self) -> usize {
         HALF_LENGTH_OUTPUTS
     }
 
@@ -164,7 +164,7 @@ impl Decimator {
     }
 
     /// What the decimator remembers, for a checkpoint.
-    pub fn state(&self) -> DecimatorState {
+    pub(crate) fn state(&self) -> DecimatorState {
         DecimatorState {
             phase: self.phase,
             intervals: self.intervals,

@@ -9,7 +9,7 @@ impl TimeSeries {
     /// Share of the samples, 0 to 1, at the largest or the smallest value, where three in a row lie at one of them: a converter's range
     /// ends there. 0 for a constant signal.
     #[must_use]
-    pub fn clipped_share(&self) -> f64 {
+    pub(crate) fn clipped_share(&self) -> f64 {
         let values = self.values();
         let ends = values
             .iter()
@@ -28,7 +28,7 @@ impl TimeSeries {
 
     /// The longest stretch of equal samples, s; as long as a sample where no two are equal.
     #[must_use]
-    pub fn longest_still(&self) -> TimeWindow {
+    pub(crate) fn longest_still(&self) -> TimeWindow {
         let (mut begin, mut longest) = (0, (0, 1));
         for run in runs(self.values()) {
             if run.len() > longest.1 {

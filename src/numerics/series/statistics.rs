@@ -5,7 +5,7 @@ use super::TimeSeries;
 impl TimeSeries {
     /// Mean value, in the series' unit; the mean of what a first pass left is added, so that the rounding of a long
     /// sum (1e-11 of the mean for 3e5 samples) does not show.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         let samples = self.values().len() as f64;
         let first = self.values().iter().sum::<f64>() / samples;
         first + self.values().iter().map(|v| v - first).sum::<f64>() / samples
@@ -17,7 +17,7 @@ impl TimeSeries {
     }
 
     /// Largest absolute value, the mean NOT removed, in the series' unit.
-    pub fn peak(&self) -> f64 {
+    pub(crate) fn peak(&self) -> f64 {
         self.values().iter().fold(0.0, |peak, v| v.abs().max(peak))
     }
 
@@ -27,7 +27,7 @@ impl TimeSeries {
     /// `scipy.stats.kurtosis(x, fisher=False)`.
     ///
     /// `None` for a constant signal, whose scatter is zero within rounding.
-    pub fn kurtosis(&self) -> Option<f64> {
+    pub(crate) fn kurtosis(&self) -> Option<f64> {
         let mean = self.mean();
         let samples = self.values().len() as f64;
         let moment = |power: i32| self.values().iter().map(|v| (v - mean).powi(power)).sum::<f64>() / samples;

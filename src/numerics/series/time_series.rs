@@ -85,37 +85,37 @@ impl TimeSeries {
     }
 
     /// Instant of the first sample, s.
-    pub fn start_s(&self) -> f64 {
+    pub(crate) fn start_s(&self) -> f64 {
         self.start_s
     }
 
     /// Sampling step, s.
-    pub fn step_s(&self) -> f64 {
+    pub(crate) fn step_s(&self) -> f64 {
         self.step_s
     }
 
     /// Sampling rate, Hz: 1 / step.
-    pub fn rate_hz(&self) -> f64 {
+    pub(crate) fn rate_hz(&self) -> f64 {
         1.0 / self.step_s
     }
 
     /// One step after the last sample, s: start + n step.
-    pub fn end_s(&self) -> f64 {
+    pub(crate) fn end_s(&self) -> f64 {
         self.time_s(self.values.len())
     }
 
     /// Length in time, s: n step.
-    pub fn duration_s(&self) -> f64 {
+    pub(crate) fn duration_s(&self) -> f64 {
         self.values.len() as f64 * self.step_s
     }
 
     /// Instant of sample `index`, s: start + index step (any index; not checked against the length).
-    pub fn time_s(&self, index: usize) -> f64 {
+    pub(crate) fn time_s(&self, index: usize) -> f64 {
         self.start_s + index as f64 * self.step_s
     }
 
     /// Unit of the values, as a label ("m/s^2").
-    pub fn unit(&self) -> &str {
+    pub(crate) fn unit(&self) -> &str {
         &self.unit
     }
 
@@ -125,7 +125,7 @@ impl TimeSeries {
     }
 
     /// The samples, taken out of the series.
-    pub fn into_values(self) -> Vec<f64> {
+    pub(crate) fn into_values(self) -> Vec<f64> {
         self.values
     }
 

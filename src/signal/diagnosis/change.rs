@@ -52,7 +52,10 @@ impl Side<'_> {
 ///
 /// # Errors
 /// [`DiagnosisError`]: a shaft that rests or turns back in one of them.
-pub fn line_changes(now: &ComparedSignal<'_>, earlier: &ComparedSignal<'_>) -> Result<Vec<LineChange>, DiagnosisError> {
+pub(crate) fn line_changes(
+    now: &ComparedSignal<'_>,
+    earlier: &ComparedSignal<'_>,
+) -> Result<Vec<LineChange>, DiagnosisError> {
     let parts = now.diagnosis.faults.iter();
     let parts = parts.map(|verdict| Compared::part(verdict, now, earlier));
     let others = now.diagnosis.unexplained.iter();

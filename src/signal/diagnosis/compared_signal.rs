@@ -29,7 +29,7 @@ impl<'a> ComparedSignal<'a> {
 
     /// What was found in it.
     #[must_use]
-    pub fn diagnosis(&self) -> &Diagnosis {
+    pub(crate) fn diagnosis(&self) -> &Diagnosis {
         self.diagnosis
     }
 
@@ -46,7 +46,11 @@ impl<'a> ComparedSignal<'a> {
     ///
     /// # Errors
     /// As [`EnvelopeOrderSpectrum::new`].
-    pub fn order_spectrum(&self, band_hz: [f64; 2], highest: f64) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
+    pub(crate) fn order_spectrum(
+        &self,
+        band_hz: [f64; 2],
+        highest: f64,
+    ) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
         let envelope = RawSpectrum::of(self.signal)?.envelope(band_hz);
         let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
         let shown = TimeSeries::new(envelope.start_s, envelope.step_s, self.signal.unit(), magnitude)?;

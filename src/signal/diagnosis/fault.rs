@@ -45,7 +45,7 @@ impl Fault {
 
     /// What the field calls its line. BSF is the spin of a ball, and a flaw meets both races once a spin.
     #[must_use]
-    pub fn line(self) -> &'static str {
+    pub(crate) fn line(self) -> &'static str {
         match self {
             Self::OuterRace => "BPFO",
             Self::InnerRace => "BPFI",
@@ -104,7 +104,7 @@ impl FaultOrders {
 
     /// Relative error of a fault's order.
     #[must_use]
-    pub fn error(&self, fault: Fault) -> f64 {
+    pub(crate) fn error(&self, fault: Fault) -> f64 {
         match fault {
             Fault::Ball => self.ball * self.error,
             Fault::OuterRace | Fault::InnerRace | Fault::Cage => self.error,
@@ -113,13 +113,13 @@ impl FaultOrders {
 
     /// Whether orders and speed are those of a simulation, known exactly.
     #[must_use]
-    pub fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         self.error <= 0.0
     }
 
     /// The highest order that is known, at least 1.
     #[must_use]
-    pub fn highest(&self) -> f64 {
+    pub(crate) fn highest(&self) -> f64 {
         self.orders.iter().flatten().fold(1.0, |most, &o| most.max(o))
     }
 }

@@ -46,7 +46,7 @@ const SAME_RATE: f64 = 1e-3;
 ///
 /// # Errors
 /// A window outside its series, or without samples.
-pub fn level_changes(
+pub(crate) fn level_changes(
     (now, now_window): (&TimeSeries, TimeWindow),
     (earlier, earlier_window): (&TimeSeries, TimeWindow),
 ) -> Result<Vec<LevelChange>, DiagnosisError> {

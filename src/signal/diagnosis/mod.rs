@@ -70,19 +70,21 @@ mod window;
 /// Harmonics of a part's line that are shown, the line itself included.
 pub const JUDGED_HARMONICS: u32 = comb::SHOWN_HARMONICS;
 
-pub use change::line_changes;
+pub(crate) use change::line_changes;
 pub use compared_signal::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders};
 pub use kinematics::Kinematics;
-pub use level_change::{LevelChange, level_changes};
+pub use level_change::LevelChange;
+pub(crate) use level_change::level_changes;
 pub(crate) use line_change::change_words;
 pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
+pub(crate) use verdict::probability;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB, LEAST_CAGE_STRENGTH_DB,
     LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS, LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB,
-    LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts, probability,
+    LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts,
 };
 pub use window::Diagnosis;

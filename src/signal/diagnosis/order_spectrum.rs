@@ -70,7 +70,7 @@ impl EnvelopeOrderSpectrum {
 
     /// Amplitude at an order between its bins; 0 beyond the spectrum.
     #[must_use]
-    pub fn at(&self, order: f64) -> f64 {
+    pub(crate) fn at(&self, order: f64) -> f64 {
         let Some(&step) = self.order.get(1) else {
             return 0.0;
         };

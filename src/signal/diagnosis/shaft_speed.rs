@@ -70,7 +70,7 @@ pub enum SpeedSource {
 impl SpeedSource {
     /// In words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Exact => "exact",
             Self::Given => "as given: the signal's lines do not confirm it",

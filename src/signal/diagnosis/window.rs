@@ -51,7 +51,7 @@ impl Diagnosis {
     ///
     /// # Errors
     /// [`DiagnosisError`]: a shaft that rests or turns back, a window outside the signal or without samples.
-    pub fn of(
+    pub(crate) fn of(
         signal: &TimeSeries,
         asked_hz: Option<[f64; 2]>,
         window: TimeWindow,
@@ -126,7 +126,7 @@ impl Diagnosis {
     }
 
     /// Takes the indication of a fault back, for a reason that the signal does not know.
-    pub fn doubt(&mut self, fault: Fault, reason: &str) {
+    pub(crate) fn doubt(&mut self, fault: Fault, reason: &str) {
         let indicated = |verdict: &&mut FaultVerdict| verdict.fault == fault && verdict.conclusion == Conclusion::Named;
         if let Some(verdict) = self.faults.iter_mut().find(indicated) {
             verdict.conclusion = Conclusion::NotEnough;
@@ -136,14 +136,14 @@ impl Diagnosis {
     }
 
     /// Parts on which nothing can be said: the window is too short, or lines that have another reason hide theirs.
-    pub fn not_judged(&self) -> impl Iterator<Item = &FaultVerdict> {
+    pub(crate) fn not_judged(&self) -> impl Iterator<Item = &FaultVerdict> {
         let faults = self.faults.iter();
         faults.filter(|verdict| verdict.false_alarm.is_none())
     }
 
     /// Whether any part was judged: the window is long enough, and lines are free.
     #[must_use]
-    pub fn is_judged(&self) -> bool {
+    pub(crate) fn is_judged(&self) -> bool {
         let mut faults = self.faults.iter();
         faults.any(|verdict| verdict.false_alarm.is_some())
     }
@@ -151,7 +151,7 @@ impl Diagnosis {
     /// Why a verdict is right at the given speed alone: no line shows that this speed is right. At a wrong one faults are hidden, and one part's
     /// lines are another's.
     #[must_use]
-    pub fn speed_doubt(&self) -> Option<String> {
+    pub(crate) fn speed_doubt(&self) -> Option<String> {
         let consequence = match (self.named().next(), self.unexplained.as_slice()) {
             (Some(_), _) => "at another the same lines are another part's",
             (None, []) if self.is_judged() => "a wrong one hides faults",
@@ -174,7 +174,7 @@ impl Diagnosis {
 
     /// What is to be checked where the speed that is used is more than 1 % from the given one.
     #[must_use]
-    pub fn speed_change(&self) -> Option<String> {
+    pub(crate) fn speed_change(&self) -> Option<String> {
         let change = self.speed_hz / self.given_speed_hz - 1.0;
         (change.abs() > SAID_CHANGE).then(|| {
             format!(

@@ -24,7 +24,7 @@ pub(super) struct Integral {
 
 impl Integral {
     /// Takes the next values.
-    pub fn add(&mut self, values: &[f64; FLOWS]) {
+    pub(crate) fn add(&mut self, values: &[f64; FLOWS]) {
         for (sum, value) in self.sums.iter_mut().zip(values) {
             *sum += value;
             self.magnitude += value.abs();
@@ -39,7 +39,7 @@ impl Integral {
     }
 
     /// Integrals with so much between two values.
-    pub fn of(&self, step: f64) -> [f64; FLOWS] {
+    pub(crate) fn of(&self, step: f64) -> [f64; FLOWS] {
         std::array::from_fn(|flow| {
             let first: Vec<f64> = self.first.iter().map(|values| values[flow]).collect();
             let last: Vec<f64> = self.last.iter().rev().map(|values| values[flow]).collect();
@@ -48,11 +48,11 @@ impl Integral {
     }
 
     /// Sum of all magnitudes.
-    pub fn magnitude(&self) -> f64 {
+    pub(crate) fn magnitude(&self) -> f64 {
         self.magnitude
     }
 
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(crate) fn remember(&self, snapshot: &mut Snapshot) {
         snapshot.numbers(&self.sums);
         snapshot.number(self.magnitude);
         snapshot.numbers(self.first.as_flattened());
@@ -61,7 +61,7 @@ impl Integral {
 
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(crate) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         snapshot.numbers_into("sums of powers", &mut self.sums)?;
         self.magnitude = snapshot.number()?;
         self.first = snapshot.numbers()?.as_chunks().0.to_vec();

@@ -51,12 +51,12 @@ pub struct EnergyBalance {
 
 impl EnergyBalance {
     /// Work done on the system, what contacts got by blending with it, J.
-    pub fn input_j(&self) -> f64 {
+    pub(crate) fn input_j(&self) -> f64 {
         self.loads_j + self.rotation_j + self.blending_j
     }
 
     /// Taken out by damping, J.
-    pub fn dissipated_j(&self) -> f64 {
+    pub(crate) fn dissipated_j(&self) -> f64 {
         self.modal_damping_j + self.contact_damping_j
     }
 
@@ -97,7 +97,7 @@ impl EnergyMeter {
     }
 
     /// The balance of what was observed up to a state, the last that was; none before the first.
-    pub fn balance(&self, system: &mut CoupledSystem, end: &State) -> Option<EnergyBalance> {
+    pub(crate) fn balance(&self, system: &mut CoupledSystem, end: &State) -> Option<EnergyBalance> {
         let mut force = vec![0.0; end.y.len()];
         system.force_into(end.t, &end.y, &end.v, &mut force);
         let now = Instant { step: 0, t: end.t, y: &end.y, v: &end.v };
@@ -115,7 +115,7 @@ impl EnergyMeter {
     }
 
     /// Writes all that the rest of the balance depends on.
-    pub fn remember(&self, snapshot: &mut Snapshot) {
+    pub(crate) fn remember(&self, snapshot: &mut Snapshot) {
         self.integral.remember(snapshot);
         snapshot.number(self.yielded);
         snapshot.numbers(self.yielding_before.as_flattened());
@@ -126,7 +126,7 @@ impl EnergyMeter {
     ///
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    pub(crate) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
         self.integral.recall(snapshot)?;
         self.yielded = snapshot.number()?;
         let numbers = snapshot.numbers()?;

@@ -29,7 +29,7 @@ impl StaticCondition {
 
     /// The same with the cage turned on by `angle` (rad), and the shaft as pure rolling has it.
     #[must_use]
-    pub fn turned_by(self, setup: &BearingSetup, angle: f64) -> Self {
+    pub(crate) fn turned_by(self, setup: &BearingSetup, angle: f64) -> Self {
         Self {
             cage_angle: self.cage_angle + angle,
             shaft_angle: self.shaft_angle + angle / setup.geometry.orders().cage,

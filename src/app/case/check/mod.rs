@@ -18,7 +18,7 @@ impl Case {
     ///
     /// # Errors
     /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
-    pub fn validate(&self) -> Result<(), BrokenRule> {
+    pub(crate) fn validate(&self) -> Result<(), BrokenRule> {
         if self.housing.is_none() && self.ring.is_none() {
             return Err(Rule::NothingToModel.at("housing"));
         }

@@ -80,7 +80,7 @@ pub enum AnalyzeError {
 impl AnalyzeError {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Missing { missing, .. } => {
                 let lines: Vec<String> = missing.iter().map(Missing::help).collect();

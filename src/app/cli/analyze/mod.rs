@@ -37,7 +37,7 @@ const RESULT: &str = "analysis";
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong or a file cannot be written.
-pub fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Outcome, CliError> {
+pub(crate) fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Outcome, CliError> {
     warn(&asked.doubts(), options);
     let folder = folder(asked, options);
     match asked.inputs.as_slice() {

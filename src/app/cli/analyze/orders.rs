@@ -62,7 +62,7 @@ impl GivenOrders {
     /// what strikes, or the other way round. With gamma = (inner - outer) / (inner + outer) it is (1 - gamma^2) / gamma, times the
     /// cosine of the contact angle.
     #[must_use]
-    pub fn doubt(&self) -> Option<String> {
+    pub(crate) fn doubt(&self) -> Option<String> {
         if let Some([first, second]) = nearest(&self.0, NEAR) {
             return Some(format!(
                 "the orders of {} and {} differ by less than {} %: their lines can hardly be told apart",

@@ -55,7 +55,7 @@ impl GivenSpeed {
 
     /// What is to be said of a number without a unit that is more likely meant in revolutions per minute.
     #[must_use]
-    pub fn doubt(&self) -> Option<String> {
+    pub(crate) fn doubt(&self) -> Option<String> {
         let hz = self.unitless_hz.filter(|&hz| hz > DOUBTFUL_HZ)?;
         let text = self.text.trim();
         let over_time = text.contains(':');

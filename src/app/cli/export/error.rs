@@ -67,7 +67,7 @@ pub enum ExportError {
 impl ExportError {
     /// Whether the input is wrong, rather than writing failed.
     #[must_use]
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         !matches!(
             self,
             Self::File(_)
@@ -78,7 +78,7 @@ impl ExportError {
 
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         let text = match self {
             Self::SetForResults { .. } => "name the case file to compute it again".to_owned(),
             Self::DoesNotFit { .. } | Self::Read(_) => {

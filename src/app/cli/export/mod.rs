@@ -35,7 +35,7 @@ struct Export {
 /// # Errors
 /// [`CliError`] when the input is wrong, an earlier file would be replaced, the computation fails or a file cannot be
 /// written.
-pub fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcome, CliError> {
+pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let source = Source::open(from, options)?;
     let case = source.case();

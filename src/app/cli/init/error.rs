@@ -46,7 +46,7 @@ pub enum InitError {
 impl InitError {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Draft(error) => error.help(),
             Self::Mesh { help, .. } => help.clone(),

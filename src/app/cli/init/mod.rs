@@ -24,7 +24,7 @@ use crate::bearing::catalogue::CatalogueBearing;
 ///
 /// # Errors
 /// [`CliError`] when the mesh cannot be read, makes no case or has elements that no command takes, the bearing is not known, or the file exists or cannot be written.
-pub fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliError> {
+pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliError> {
     let Some(mesh) = &asked.mesh else {
         return list::list();
     };

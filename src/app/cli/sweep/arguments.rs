@@ -48,7 +48,7 @@ impl Share {
 
     /// Whether a point belongs to it.
     #[must_use]
-    pub fn has(self, point: usize) -> bool {
+    pub(crate) fn has(self, point: usize) -> bool {
         point % self.of == self.number % self.of
     }
 }

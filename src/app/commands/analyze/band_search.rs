@@ -40,7 +40,7 @@ pub enum AskedBand {
 impl AskedBand {
     /// What a case asks for; `None`: the signal as it is.
     #[must_use]
-    pub fn of(case: &Case) -> Option<Self> {
+    pub(crate) fn of(case: &Case) -> Option<Self> {
         let corner = case.analysis.high_pass_hz.map(Self::HighPass);
         corner.or(case.analysis.band_hz.map(Self::from))
     }
@@ -48,7 +48,7 @@ impl AskedBand {
     /// Corner of the high-pass that is nearest to it, Hz, for figures that have to be of one band in all runs; of a kurtogram
     /// the usual one at that sampling rate.
     #[must_use]
-    pub fn corner_hz(self, rate_hz: f64) -> f64 {
+    pub(crate) fn corner_hz(self, rate_hz: f64) -> f64 {
         match self {
             Self::HighPass(corner) | Self::Between([corner, _]) => corner,
             Self::Kurtogram => usual_high_pass_hz(rate_hz),
@@ -124,7 +124,7 @@ impl UsedBand {
 
     /// The band that a search found or that was asked for, Hz; `None` where there is a corner at most.
     #[must_use]
-    pub fn band_hz(&self) -> Option<[f64; 2]> {
+    pub(crate) fn band_hz(&self) -> Option<[f64; 2]> {
         let found = self.found().and_then(BandSearch::chosen);
         let asked = self.high_pass_hz.zip(self.low_pass_hz);
         found.map(KurtogramBand::edges_hz).or(asked.map(<[f64; 2]>::from))
@@ -133,7 +133,7 @@ impl UsedBand {
     /// The band that a verdict is sought in, Hz: what was asked for and found, of a simulated signal no higher than `good_to_hz`, where it
     /// is accurate, unless that end was asked for. `None`: all.
     #[must_use]
-    pub fn judged_hz(&self, asked: Option<AskedBand>, good_to_hz: Option<f64>) -> Option<[f64; 2]> {
+    pub(crate) fn judged_hz(&self, asked: Option<AskedBand>, good_to_hz: Option<f64>) -> Option<[f64; 2]> {
         let end_hz = good_to_hz.unwrap_or(f64::INFINITY);
         match asked {
             None => good_to_hz.map(|end_hz| [0.0, end_hz]),
@@ -148,7 +148,7 @@ impl UsedBand {
 
     /// The search, if there was one.
     #[must_use]
-    pub fn found(&self) -> Option<&BandSearch> {
+    pub(crate) fn found(&self) -> Option<&BandSearch> {
         self.search.as_ref()?.as_ref().ok()
     }
 }
@@ -238,7 +238,7 @@ pub struct BandSearch {
 impl BandSearch {
     /// The band to demodulate; `None`: no allowed band can be told from Gaussian noise.
     #[must_use]
-    pub fn chosen(&self) -> Option<&KurtogramBand> {
+    pub(crate) fn chosen(&self) -> Option<&KurtogramBand> {
         Some(&self.best).filter(|band| band.kurtosis > band.limit)
     }
 }

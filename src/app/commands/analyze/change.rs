@@ -33,7 +33,7 @@ pub struct EarlierSignal<'a> {
 
 impl WindowChange {
     /// Parts, and impacts of no part, of which this is said.
-    pub fn with(&self, conclusion: ChangeConclusion) -> impl Iterator<Item = &LineChange> {
+    pub(crate) fn with(&self, conclusion: ChangeConclusion) -> impl Iterator<Item = &LineChange> {
         let lines = self.lines.iter();
         lines.filter(move |line| line.conclusion == conclusion)
     }
@@ -68,7 +68,7 @@ impl WindowChange {
 ///
 /// # Errors
 /// [`ComputeError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
-pub fn compare_window(
+pub(crate) fn compare_window(
     window: &mut WindowAnalysis,
     within_hz: Option<[f64; 2]>,
     signal: &MeasuredSignal,

@@ -16,13 +16,16 @@ pub(crate) mod table;
 pub(crate) mod window;
 
 pub use band_search::{AskedBand, BandSearch, UsedBand};
-pub use change::{EarlierSignal, compare_window};
+pub use change::EarlierSignal;
+pub(crate) use change::compare_window;
 pub use compute::compute_analysis;
-pub use report::analysis_report;
+pub(crate) use report::analysis_report;
 pub use summary::{
     AnalysisResult, ChangeSummary, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary, OuterRaceLine,
     SurveyResult, VerdictSummary, WindowOfInput, WindowSummary,
 };
-pub use survey_report::{SHOWN_WINDOWS, survey_report, survey_section};
-pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures, analysis_table};
+pub use survey_report::SHOWN_WINDOWS;
+pub(crate) use survey_report::{survey_report, survey_section};
+pub(crate) use table::analysis_table;
+pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures};
 pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse};

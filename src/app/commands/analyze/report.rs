@@ -11,7 +11,12 @@ use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED
 
 /// Composes the report of signals from files; `source` is the file or folder, `command` the line that made it.
 #[must_use]
-pub fn analysis_report(source: &str, assumptions: &[String], windows: &[WindowAnalysis], command: &str) -> Report {
+pub(crate) fn analysis_report(
+    source: &str,
+    assumptions: &[String],
+    windows: &[WindowAnalysis],
+    command: &str,
+) -> Report {
     let mut report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
     report = verdict_headlines(report, windows);

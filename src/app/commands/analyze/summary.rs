@@ -201,7 +201,7 @@ pub struct ChangeSummary {
 impl OrdersSummary {
     /// Those of a bearing; without one none is known.
     #[must_use]
-    pub fn of(orders: Option<FaultOrders>) -> Self {
+    pub(crate) fn of(orders: Option<FaultOrders>) -> Self {
         let order = |fault| orders.and_then(|orders| orders.order(fault));
         Self {
             cage: order(Fault::Cage),
@@ -216,7 +216,7 @@ impl OrdersSummary {
 impl WindowAnalysis {
     /// What a result says of it.
     #[must_use]
-    pub fn summary(&self) -> WindowSummary {
+    pub(crate) fn summary(&self) -> WindowSummary {
         let search = self.band.found();
         let line = |(expected_hz, found): &(f64, Option<(f64, f64)>)| OuterRaceLine {
             expected_hz: *expected_hz,

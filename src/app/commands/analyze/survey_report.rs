@@ -10,7 +10,7 @@ pub const SHOWN_WINDOWS: usize = 12;
 
 /// A window's section in a report of many files.
 #[must_use]
-pub fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
+pub(crate) fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
     let mut section = window_section(window);
     section.title = format!("{input}: {}", section.title);
     section
@@ -19,7 +19,7 @@ pub fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
 /// Composes the report of `inputs` files: the table of their rows, then the sections of the windows, if they are at most
 /// [`SHOWN_WINDOWS`]; `command` is the line that made it.
 #[must_use]
-pub fn survey_report(
+pub(crate) fn survey_report(
     inputs: usize,
     rows: &[AnalysisRow],
     sections: Vec<Section>,

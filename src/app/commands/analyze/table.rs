@@ -88,7 +88,7 @@ pub struct PartFigures {
 impl AnalysisRow {
     /// Row of an analysed window.
     #[must_use]
-    pub fn of(input: &str, window: &WindowAnalysis) -> Self {
+    pub(crate) fn of(input: &str, window: &WindowAnalysis) -> Self {
         let diagnosis = window.diagnosis.as_ref();
         let parts = diagnosis.map_err(Clone::clone).map(|diagnosis| {
             let part = diagnosis.faults.iter().map(|verdict| PartFigures {
@@ -126,13 +126,13 @@ impl AnalysisRow {
 
     /// Row of a file, or of a channel of it, that was not analysed.
     #[must_use]
-    pub fn failed(input: &str, channel: &str, why: String) -> Self {
+    pub(crate) fn failed(input: &str, channel: &str, why: String) -> Self {
         Self { input: input.to_owned(), channel: channel.to_owned(), found: Err(why) }
     }
 
     /// What is indicated: parts, `none`, `no verdict` or `not analysed`.
     #[must_use]
-    pub fn indicated(&self) -> String {
+    pub(crate) fn indicated(&self) -> String {
         let Ok(figures) = &self.found else {
             return "not analysed".to_owned();
         };
@@ -146,7 +146,7 @@ impl AnalysisRow {
 
     /// Why there is no verdict, or none to rely on; empty where there is one.
     #[must_use]
-    pub fn remark(&self) -> &str {
+    pub(crate) fn remark(&self) -> &str {
         match &self.found {
             Ok(figures) => match &figures.parts {
                 Ok(_) if figures.is_judged() => figures.speed_doubt.as_deref().unwrap_or(""),
@@ -161,14 +161,14 @@ impl AnalysisRow {
 impl WindowFigures {
     /// Whether any part was judged.
     #[must_use]
-    pub fn is_judged(&self) -> bool {
+    pub(crate) fn is_judged(&self) -> bool {
         let parts = self.parts.iter().flatten();
         parts.into_iter().any(|part| part.probability.is_some())
     }
 
     /// Names of the parts of which this is said.
     #[must_use]
-    pub fn names(&self, conclusion: Conclusion) -> Vec<&'static str> {
+    pub(crate) fn names(&self, conclusion: Conclusion) -> Vec<&'static str> {
         let parts = self.parts.iter().flatten();
         let parts = parts.filter(|part| part.conclusion == conclusion);
         parts.map(|part| part.fault.name()).collect()
@@ -182,7 +182,7 @@ impl WindowFigures {
 
 /// The table of the rows, in their order; numbers whole in files. Where any has a change, columns of changes follow the others.
 #[must_use]
-pub fn analysis_table(rows: &[AnalysisRow]) -> Table {
+pub(crate) fn analysis_table(rows: &[AnalysisRow]) -> Table {
     let mut columns = vec![
         Column::text("File"),
         Column::text("Channel"),

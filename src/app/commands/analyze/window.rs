@@ -44,7 +44,7 @@ pub struct AnalysisSettings {
 impl AnalysisSettings {
     /// What a case asks for.
     #[must_use]
-    pub fn of(case: &Case) -> Self {
+    pub(crate) fn of(case: &Case) -> Self {
         Self {
             band: AskedBand::of(case),
             shown_band: None,

@@ -66,12 +66,12 @@ pub struct CondenseResult {
 
 impl CondenseResult {
     /// Whether every check passes.
-    pub fn passes(&self) -> bool {
+    pub(crate) fn passes(&self) -> bool {
         self.checks.iter().all(Check::ok)
     }
 
     /// The superelement that is handed on.
-    pub fn superelement(&self) -> &Superelement {
+    pub(crate) fn superelement(&self) -> &Superelement {
         match &self.interface {
             Some(interface) => &interface.reduction.superelement,
             None => &self.stage.condensed.superelement,

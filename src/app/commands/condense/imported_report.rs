@@ -6,7 +6,7 @@ use crate::app::scene::ImportedHousing;
 use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict};
 
 /// Composes the report; `command` is the line that made it.
-pub fn imported_report(case: &Case, imported: &ImportedHousing, command: &str) -> Report {
+pub(crate) fn imported_report(case: &Case, imported: &ImportedHousing, command: &str) -> Report {
     let document =
         Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let checks = &imported.checks;

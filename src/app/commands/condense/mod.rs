@@ -9,7 +9,8 @@ pub(crate) mod summary;
 pub(crate) mod superelement_record;
 
 pub use compute::{Comparison, CondenseResult, FullComparison, compute_condense};
-pub use imported_report::imported_report;
-pub use report::condense_report;
+pub(crate) use imported_report::imported_report;
+pub(crate) use report::condense_report;
 pub use summary::{CondenseSummary, EstimateSummary, ImportedSummary, InterfaceSummary};
-pub use superelement_record::{reduced_superelement_record, superelement_record};
+pub(crate) use superelement_record::reduced_superelement_record;
+pub use superelement_record::superelement_record;

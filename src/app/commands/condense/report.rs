@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 ///
 /// # Errors
 /// None yet.
-pub fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Result<Report, ComputeError> {
+pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Result<Report, ComputeError> {
     let document =
         Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let failed = result.checks.iter().filter(|check| !check.ok()).count();

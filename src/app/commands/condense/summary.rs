@@ -107,7 +107,7 @@ fn hz(value: f64) -> f64 {
 impl CondenseResult {
     /// What `condense.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> CondenseSummary<'_> {
+    pub(crate) fn summary(&self) -> CondenseSummary<'_> {
         let (condensed, estimate) = (&self.stage.condensed, &self.estimate);
         let (basis, modes) = (&condensed.basis, estimate.modes.iter());
         let (complete, full) = (basis.complete_below(), self.full.as_ref());
@@ -156,7 +156,7 @@ impl<'a> InterfaceSummary<'a> {
 impl ImportedHousing {
     /// What `condense.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> ImportedSummary<'_> {
+    pub(crate) fn summary(&self) -> ImportedSummary<'_> {
         ImportedSummary {
             superelement: &self.path,
             interface_dof: self.element.interface_dof,

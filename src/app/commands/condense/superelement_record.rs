@@ -28,7 +28,7 @@ pub fn superelement_record(case: &Case, stage: &CondensedHousing) -> Result<Supe
 ///
 /// # Errors
 /// As [`superelement_record`].
-pub fn reduced_superelement_record(
+pub(crate) fn reduced_superelement_record(
     case: &Case,
     stage: &CondensedHousing,
     reduction: &InterfaceReduction,

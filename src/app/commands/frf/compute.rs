@@ -18,7 +18,7 @@ impl TransferPath {
 
     /// Whether its responses are so small beside those at its ends that no mode is said to carry it.
     #[must_use]
-    pub fn is_closed(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         self.shares.modes.is_empty()
     }
 }
@@ -55,7 +55,7 @@ impl FrfResult {
     }
 
     /// Frequency and size of the largest difference from the full model; none where nothing was compared.
-    pub fn largest_difference(&self) -> Option<(f64, f64)> {
+    pub(crate) fn largest_difference(&self) -> Option<(f64, f64)> {
         self.compared
             .iter()
             .map(|compared| (compared.frequency_hz, compared.difference))

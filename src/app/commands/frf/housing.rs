@@ -33,7 +33,7 @@ impl FrfHousing {
     }
 
     /// Its matrices.
-    pub fn element(&self) -> &Superelement {
+    pub(crate) fn element(&self) -> &Superelement {
         match self {
             Self::Mesh(stage) => &stage.condensed.superelement,
             Self::File(imported) => &imported.0.element,
@@ -41,7 +41,7 @@ impl FrfHousing {
     }
 
     /// What sits on its interface.
-    pub fn attached(&self) -> Option<Attached<'_>> {
+    pub(crate) fn attached(&self) -> Option<Attached<'_>> {
         match self {
             Self::Mesh(stage) => stage.boundary.attached(),
             Self::File(imported) => Some(Attached { stiffness: imported.1.stiffness(), mass: imported.1.mass() }),

@@ -16,5 +16,5 @@ pub use compute::{FrfResult, compute_frf};
 pub use housing::FrfHousing;
 pub use path::{CarriedPart, TransferPath};
 pub use ranking::RankedPath;
-pub use report::frf_report;
+pub(crate) use report::frf_report;
 pub use summary::{FrfSummary, PathSummary};

@@ -70,7 +70,7 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
-    pub fn build(case: &'c Case, frf: &'c case::Frf, watch: &impl Watch) -> Result<Self, ComputeError> {
+    pub(crate) fn build(case: &'c Case, frf: &'c case::Frf, watch: &impl Watch) -> Result<Self, ComputeError> {
         let asked = Asked { case, frf };
         let choice = basis_choice(case);
         let band_hz = frf.band_hz.or(case.band_hz()).unwrap_or([0.0, choice.band_hz]);
@@ -141,7 +141,7 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// None that [`ReducedPaths::build`] did not have.
-    pub fn places(&self, stage: &CondensedHousing) -> Result<[Vec<Place>; 2], ComputeError> {
+    pub(crate) fn places(&self, stage: &CondensedHousing) -> Result<[Vec<Place>; 2], ComputeError> {
         let [from, to] = self.asked.ends();
         Ok([places(stage, from.into_iter())?, places(stage, to.into_iter())?])
     }
@@ -150,7 +150,7 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// [`ComputeError::Frf`].
-    pub fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, ComputeError> {
+    pub(crate) fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, ComputeError> {
         Ok(if self.superposition.coupling() <= UNCOUPLED {
             self.superposition.response(frequencies_hz)?
         } else {
@@ -162,7 +162,7 @@ impl<'c> ReducedPaths<'c> {
     ///
     /// # Errors
     /// [`ComputeError::Frf`].
-    pub fn transfer_paths(&self) -> Result<Vec<TransferPath>, ComputeError> {
+    pub(crate) fn transfer_paths(&self) -> Result<Vec<TransferPath>, ComputeError> {
         let [from, to] = self.asked.ends();
         let mut paths = Vec::with_capacity(from.len() * to.len());
         for (sensor, (to, ..)) in to.iter().enumerate() {

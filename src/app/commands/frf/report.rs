@@ -19,7 +19,7 @@ const LISTED: usize = 8;
 ///
 /// # Errors
 /// [`ComputeError::Frf`].
-pub fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
+pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
     let document =
         Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
     let mut report =

@@ -64,7 +64,7 @@ pub struct PathSummary<'a> {
 impl FrfResult {
     /// What `frf.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> FrfSummary<'_> {
+    pub(crate) fn summary(&self) -> FrfSummary<'_> {
         let (element, compared) = (self.housing.element(), self.compared.iter());
         let paths = self.paths.iter().enumerate().map(|(index, path)| {
             let reduced = || self.response.receptance().iter().map(|at| at[path.place]);

@@ -59,7 +59,7 @@ fn key(nodes: &[usize], corners: usize) -> Vec<usize> {
 
 impl Rim {
     /// The rim of the elements of the highest dimension.
-    pub fn of(mesh: &Mesh, dimension: usize) -> Self {
+    pub(crate) fn of(mesh: &Mesh, dimension: usize) -> Self {
         let faces = mesh.boundary_faces(mesh.element_ids(dimension));
         let keys = faces.iter().enumerate().map(|(place, face)| (key(&face.nodes, face.kind.corners()), place));
         let by_corners = keys.collect();
@@ -67,7 +67,7 @@ impl Rim {
     }
 
     /// Each face of the rim with the corners of its element's middle.
-    pub fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
+    pub(crate) fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
         self.faces.iter().map(move |face| {
             let corners = &face.nodes[..face.kind.corners()];
             Facet { corners: corners.iter().map(|&node| mesh.nodes[node]).collect(), inside: Some(middle(mesh, face)) }

@@ -49,7 +49,7 @@ impl Draft {
     ///
     /// # Errors
     /// [`DraftError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
-    pub fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), DraftError> {
+    pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), DraftError> {
         let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mesh, &inspection)?;

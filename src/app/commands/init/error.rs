@@ -56,7 +56,7 @@ pub enum DraftError {
 impl DraftError {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Mesh(_) => None,
             Self::NoPart { what, .. } => {

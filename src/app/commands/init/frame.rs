@@ -18,7 +18,7 @@ const SNAP: f64 = 1e-6;
 
 impl Directions {
     /// Up is the mesh's y, as gmsh's models have it, or its z for a shaft along y.
-    pub fn of(axis: [f64; 3]) -> Self {
+    pub(crate) fn of(axis: [f64; 3]) -> Self {
         let mut axis = Vector3::from(axis).normalize();
         for place in 0..3 {
             let mut unit = Vector3::zeros();

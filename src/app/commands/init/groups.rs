@@ -73,7 +73,7 @@ pub(crate) fn usable(mesh: &Mesh, group: &PhysicalGroup) -> bool {
 
 impl Groups {
     /// Looks at every group; `bore` is the one that the ring sits in.
-    pub fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
+    pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
         let mut found = Self::default();
         let counts = mesh.blocks.iter().map(|block| vec![false; block.len()]);
         let mut taken: Vec<Vec<bool>> = counts.collect();

@@ -17,7 +17,7 @@ impl Page {
     }
 
     /// A line as it is; commented out in a template.
-    pub fn line(&mut self, line: &str) {
+    pub(crate) fn line(&mut self, line: &str) {
         if self.template && !line.is_empty() {
             self.text.push('#');
         }
@@ -26,12 +26,12 @@ impl Page {
     }
 
     /// `key = value`.
-    pub fn value(&mut self, key: &str, value: impl AsRef<str>) {
+    pub(crate) fn value(&mut self, key: &str, value: impl AsRef<str>) {
         self.line(&format!("{key} = {}", value.as_ref()));
     }
 
     /// `key = value`, and where the value comes from.
-    pub fn value_from(&mut self, key: &str, value: impl AsRef<str>, origin: &str) {
+    pub(crate) fn value_from(&mut self, key: &str, value: impl AsRef<str>, origin: &str) {
         let pair = format!("{key} = {}", value.as_ref());
         if pair.chars().count() + origin.chars().count() + 44 - pair.len().min(42) > WIDTH {
             self.note(origin);
@@ -42,7 +42,7 @@ impl Page {
     }
 
     /// A comment over as many lines as it takes.
-    pub fn note(&mut self, words: &str) {
+    pub(crate) fn note(&mut self, words: &str) {
         let mut line = String::from("#");
         for word in words.split_whitespace() {
             if line.chars().count() + 1 + word.chars().count() > WIDTH {
@@ -58,13 +58,13 @@ impl Page {
     }
 
     /// An empty line and the header of a table.
-    pub fn table(&mut self, header: &str) {
+    pub(crate) fn table(&mut self, header: &str) {
         self.text.push('\n');
         self.line(header);
     }
 
     /// What `write` writes is commented out if `template`, by a mark without a blank, which notes have: a value to switch on.
-    pub fn template(&mut self, template: bool, write: impl FnOnce(&mut Self)) {
+    pub(crate) fn template(&mut self, template: bool, write: impl FnOnce(&mut Self)) {
         let before = std::mem::replace(&mut self.template, template);
         write(self);
         self.template = before;

@@ -27,7 +27,7 @@ pub(crate) struct BearingNumbers {
 }
 
 impl BearingNumbers {
-    pub fn of(bearing: &'static CatalogueBearing) -> Self {
+    pub(crate) fn of(bearing: &'static CatalogueBearing) -> Self {
         let [least, most] = normal_clearance(bearing.bore).unwrap_or_default();
         let [inner, outer] = GROOVES;
         Self {
@@ -52,12 +52,12 @@ pub(crate) struct RingNumbers {
 
 impl RingNumbers {
     /// Width of the bearing, scaled, m.
-    pub fn section_width(&self) -> f64 {
+    pub(crate) fn section_width(&self) -> f64 {
         self.of.width * self.scale
     }
 
     /// Lengths grow with the bore, areas with its square, second moments with its fourth power.
-    pub fn of(bearing: &'static CatalogueBearing, bore_diameter: f64) -> Self {
+    pub(crate) fn of(bearing: &'static CatalogueBearing, bore_diameter: f64) -> Self {
         let scale = bore_diameter / bearing.outer_diameter;
         let own = OuterRingSection::of(bearing);
         Self {

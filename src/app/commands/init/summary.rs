@@ -74,7 +74,7 @@ pub struct BearingSummary {
 impl BearingSummary {
     /// Of a bearing and its orders.
     #[must_use]
-    pub fn of(bearing: &CatalogueBearing, orders: Option<DefectOrders>) -> Self {
+    pub(crate) fn of(bearing: &CatalogueBearing, orders: Option<DefectOrders>) -> Self {
         Self {
             name: bearing.name,
             bore_m: bearing.bore,

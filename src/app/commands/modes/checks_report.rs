@@ -20,25 +20,25 @@ const MISSES: usize = 6;
 const REPEATED: f64 = 1e-4;
 
 /// A number with its sign, with so many significant digits.
-pub fn signed(value: f64, digits: usize) -> String {
+pub(crate) fn signed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     if value > 0.0 { format!("+{text}") } else { text }
 }
 
 /// A limit as it was given, without trailing zeros.
-pub fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Numbers of modes, counted from 1.
-pub fn mode_numbers(modes: &[usize]) -> String {
+pub(crate) fn mode_numbers(modes: &[usize]) -> String {
     let numbers: Vec<String> = modes.iter().map(|mode| (mode + 1).to_string()).collect();
     numbers.join(", ")
 }
 
 /// What a pair or a lone mode misses, in words; "ok" for nothing.
-pub fn misses_text(misses: &[Miss]) -> String {
+pub(crate) fn misses_text(misses: &[Miss]) -> String {
     let words: Vec<&str> = misses.iter().map(|miss| miss.describe()).collect();
     if words.is_empty() { "ok".to_owned() } else { words.join(", ") }
 }
@@ -80,7 +80,7 @@ pub(crate) fn headlines(result: &ModesResult) -> Vec<Headline> {
 }
 
 /// Estimated error of the case's own mesh with its uncertainty, or what is known instead.
-pub fn error_text(mode: &ModeOnMeshes) -> String {
+pub(crate) fn error_text(mode: &ModeOnMeshes) -> String {
     match (mode.mesh_error, mode.mesh_error_uncertainty) {
         (Some(error), Some(around)) => format!("{} % ± {} %", signed(100.0 * error, 2), significant(100.0 * around, 2)),
         (None, Some(range)) => format!("not known (range {} %)", significant(100.0 * range, 2)),

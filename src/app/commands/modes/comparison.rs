@@ -30,7 +30,7 @@ pub enum Miss {
 
 impl Miss {
     /// In a few words, for tables.
-    pub fn describe(self) -> &'static str {
+    pub(crate) fn describe(self) -> &'static str {
         match self {
             Self::Mac => "MAC",
             Self::Frequency => "frequency",
@@ -116,7 +116,7 @@ pub struct FileComparison {
 
 impl FileComparison {
     /// Modes of this case that agree, and those that were judged.
-    pub fn agreeing(&self) -> [usize; 2] {
+    pub(crate) fn agreeing(&self) -> [usize; 2] {
         let count =
             |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize { pairs.map(|pair| pair.here.len()).sum() };
         let passed = count(&mut self.pairs.iter().filter(|pair| pair.misses.is_empty()));
@@ -125,7 +125,7 @@ impl FileComparison {
     }
 
     /// Modes of the file that this case should have and has not.
-    pub fn missing_here(&self) -> usize {
+    pub(crate) fn missing_here(&self) -> usize {
         self.lone_there.iter().filter(|mode| mode.missing).count()
     }
 }
@@ -147,7 +147,7 @@ impl<'c> ComparedFile<'c> {
     ///
     /// # Errors
     /// [`ComputeError::ModeShapes`] with file and line.
-    pub fn read_all(case: &'c Case) -> Result<Vec<Self>, ComputeError> {
+    pub(crate) fn read_all(case: &'c Case) -> Result<Vec<Self>, ComputeError> {
         let read = |asked: &'c ComparedModes| {
             let modes = read_mode_shapes(&asked.file).map_err(ComputeError::ModeShapes)?;
             Ok(Self { asked, modes })
@@ -159,7 +159,7 @@ impl<'c> ComparedFile<'c> {
     ///
     /// # Errors
     /// [`ComputeError::PointsUnknown`], [`ComputeError::Compared`] for points that do not meet the model's.
-    pub fn compare(
+    pub(crate) fn compare(
         &self,
         survey: &ModalSurvey,
         housing: Option<(&Mesh, &HousingModel)>,

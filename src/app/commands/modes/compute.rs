@@ -69,26 +69,26 @@ pub struct ModesResult {
 
 impl ModesResult {
     /// Mesh and model of the housing, if there is one.
-    pub fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
+    pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
         let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
         let coupled = self.structure.as_ref().and_then(|stage| stage.housing.as_ref());
         alone.or(coupled.map(|housing| (&housing.mesh, &housing.model)))
     }
 
     /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
-    pub fn mode_shapes(&self) -> ModeShapes {
+    pub(crate) fn mode_shapes(&self) -> ModeShapes {
         mode_shapes(&self.survey, self.mesh_and_model())
     }
 
     /// Whether every expected frequency was found and every comparison passes.
-    pub fn passes(&self) -> bool {
+    pub(crate) fn passes(&self) -> bool {
         self.base.expected.iter().all(|expected| expected.ok) && self.comparisons.iter().all(|comparison| comparison.ok)
     }
 }
 
 impl Reading {
     /// Frequencies that the verification looks at: loaded ones if there are any.
-    pub fn frequencies_hz(&self) -> Vec<f64> {
+    pub(crate) fn frequencies_hz(&self) -> Vec<f64> {
         match &self.loaded {
             Some(loaded) => loaded.modes.iter().map(|mode| mode.frequency_hz).collect(),
             None => self.unloaded_hz.clone(),
@@ -96,7 +96,7 @@ impl Reading {
     }
 
     /// Nearest mode to a frequency among those that are not the balls' own, Hz.
-    pub fn nearest_hz(&self, hz: f64) -> Option<f64> {
+    pub(crate) fn nearest_hz(&self, hz: f64) -> Option<f64> {
         match &self.loaded {
             Some(loaded) => loaded.nearest(hz).map(|mode: &LoadedMode| mode.frequency_hz),
             None => self.unloaded_hz.iter().copied().min_by(|a, b| (a - hz).abs().total_cmp(&(b - hz).abs())),

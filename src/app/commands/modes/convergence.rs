@@ -77,7 +77,7 @@ pub struct MeshConvergence {
 
 impl MeshConvergence {
     /// The mode with the largest estimated error of the case's own mesh.
-    pub fn worst(&self) -> Option<&ModeOnMeshes> {
+    pub(crate) fn worst(&self) -> Option<&ModeOnMeshes> {
         let size = |mode: &&ModeOnMeshes| mode.mesh_error.map_or(-1.0, f64::abs);
         let known = self.modes.iter().filter(|mode| mode.mesh_error.is_some());
         // the first of equal ones
@@ -85,7 +85,7 @@ impl MeshConvergence {
     }
 
     /// Modes whose frequencies do not approach a limit, or that no other mesh has.
-    pub fn without_limit(&self) -> usize {
+    pub(crate) fn without_limit(&self) -> usize {
         let modes = self.modes.iter();
         modes.filter(|mode| mode.mesh_error.is_none()).count()
     }

@@ -47,7 +47,7 @@ impl MeshSequence {
     /// # Errors
     /// [`ComputeError::OtherMesh`] for one that cannot be read, lacks a group or is of another body;
     /// [`ComputeError::Sequence`] for sizes that are too near to each other.
-    pub fn read(case: &Case) -> Result<Option<Self>, ComputeError> {
+    pub(crate) fn read(case: &Case) -> Result<Option<Self>, ComputeError> {
         let (Some(asked), Some(housing)) = (&case.modes.convergence, case.meshed_housing()) else {
             return Ok(None);
         };
@@ -74,7 +74,7 @@ impl MeshSequence {
     }
 
     /// Meshes whose size differs from that of the case's own by more than most curved boundaries cut off.
-    pub fn doubts(&self) -> Vec<String> {
+    pub(crate) fn doubts(&self) -> Vec<String> {
         let own = self.levels[0].measure;
         let others = self.levels.iter().enumerate().skip(1);
         let told = others.filter_map(|(index, level)| {
@@ -93,12 +93,12 @@ impl MeshSequence {
     }
 
     /// Whether a mesh has the kinds of elements that the case's own has: unlike ones have unlike errors at one size.
-    pub fn is_alike(&self, level: usize) -> bool {
+    pub(crate) fn is_alike(&self, level: usize) -> bool {
         self.levels[level].kinds == self.levels[0].kinds
     }
 
     /// Sizes of some of the meshes, as an extrapolation takes them.
-    pub fn sizes(&self, levels: impl IntoIterator<Item = usize>) -> MeshLevels {
+    pub(crate) fn sizes(&self, levels: impl IntoIterator<Item = usize>) -> MeshLevels {
         MeshLevels {
             sizes: levels.into_iter().map(|level| self.levels[level].element_size).collect(),
             formal_order: self.formal_order,
@@ -139,7 +139,7 @@ impl Level {
     }
 
     /// Names of the kinds.
-    pub fn kind_names(&self) -> String {
+    pub(crate) fn kind_names(&self) -> String {
         let names: Vec<&str> = self.kinds.iter().map(|kind| kind.name()).collect();
         names.join(", ")
     }
@@ -166,7 +166,7 @@ impl ModesOnMesh {
     ///
     /// # Errors
     /// [`ComputeError`] of mesh, model and eigenvalues.
-    pub fn compute(case: &Case, path: PathBuf, extent: ModeRange) -> Result<Self, ComputeError> {
+    pub(crate) fn compute(case: &Case, path: PathBuf, extent: ModeRange) -> Result<Self, ComputeError> {
         let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
         let modes = match extent {
             // a coarse mesh may have fewer

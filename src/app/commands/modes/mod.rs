@@ -13,11 +13,11 @@ pub(crate) mod shapes;
 pub(crate) mod summary;
 pub(crate) mod tables;
 
-pub use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
+pub(crate) use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub use compute::{ModesResult, Reading, compute_modes};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
-pub use report::modes_report;
-pub use shapes::compute_mode_shapes;
+pub(crate) use report::modes_report;
+pub(crate) use shapes::compute_mode_shapes;
 pub use summary::{BallPassSummary, LoadedPointSummary, ModesSummary};
-pub use tables::free_motions;
+pub(crate) use tables::free_motions;

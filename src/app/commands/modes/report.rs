@@ -25,7 +25,7 @@ use crate::report::{
 ///
 /// # Errors
 /// [`ComputeError`] if the case's bearing cannot be built.
-pub fn modes_report(case: &Case, result: &ModesResult, command: &str) -> Result<Report, ComputeError> {
+pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> Result<Report, ComputeError> {
     let view = shape_view(result);
     let mut report = head(case, result, command);
     report = report.section(purpose(result)).section(model(case, result, &view)?);

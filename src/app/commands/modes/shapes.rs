@@ -40,7 +40,7 @@ pub(crate) fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &Housing
 ///
 /// # Errors
 /// [`ComputeError`] of the stages that it goes through.
-pub fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
+pub(crate) fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
     if let Some(stage) = CoupledStructure::build(case, watch)? {
         let survey = stage.survey(extent, watch)?;

@@ -91,7 +91,7 @@ pub struct LoadedPointSummary {
 impl ModesResult {
     /// What `modes.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> ModesSummary<'_> {
+    pub(crate) fn summary(&self) -> ModesSummary<'_> {
         let survey = &self.survey;
         let (basis, found) = (&survey.basis, survey.participation.as_ref());
         ModesSummary {

@@ -165,7 +165,7 @@ pub(crate) fn effective_mass_bars(survey: &ModalSurvey, found: &Participation) -
 }
 
 /// Why there are motions without strain, in sentences: a free housing, parts that are not connected, mechanisms.
-pub fn free_motions(result: &ModesResult) -> Vec<String> {
+pub(crate) fn free_motions(result: &ModesResult) -> Vec<String> {
     let survey = &result.survey;
     let Some(mechanisms) = &survey.mechanisms else {
         return Vec::new();

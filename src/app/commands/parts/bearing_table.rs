@@ -40,7 +40,7 @@ fn blank() -> Cell {
 }
 
 /// Geometry, orders and contacts; the patches under the largest forces at rest where there is an equilibrium.
-pub fn bearing_table(setup: &BearingSetup, contacts: &RaceContacts, equilibrium: Option<&Equilibrium>) -> Table {
+pub(crate) fn bearing_table(setup: &BearingSetup, contacts: &RaceContacts, equilibrium: Option<&Equilibrium>) -> Table {
     let columns = [
         Column::text("Quantity"),
         Column::number("Value", ""),

@@ -7,7 +7,7 @@ pub(crate) mod statics_report;
 pub(crate) mod summary;
 pub(crate) mod tables;
 
-pub use bearing_table::bearing_table;
+pub(crate) use bearing_table::bearing_table;
 pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;
 pub(crate) use tables::{assumptions, model_facts};

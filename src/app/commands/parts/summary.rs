@@ -22,7 +22,7 @@ pub struct SuperelementSummary<'a> {
 impl<'a> SuperelementSummary<'a> {
     /// That of a structure; `None` where its housing is of a mesh, or it has none.
     #[must_use]
-    pub fn of(structure: &'a CoupledStructure) -> Option<Self> {
+    pub(crate) fn of(structure: &'a CoupledStructure) -> Option<Self> {
         let imported = structure.imported.as_ref()?;
         Some(Self {
             path: &imported.path,
@@ -46,7 +46,7 @@ pub struct CheckSummary<'a> {
 impl<'a> CheckSummary<'a> {
     /// Those of a list.
     #[must_use]
-    pub fn of(checks: &'a [Check]) -> Vec<Self> {
+    pub(crate) fn of(checks: &'a [Check]) -> Vec<Self> {
         let checks = checks.iter();
         checks.map(|check| Self { check, ok: check.ok() }).collect()
     }

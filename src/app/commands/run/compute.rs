@@ -60,7 +60,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, Compute
 ///
 /// # Errors
 /// As [`compute_run`].
-pub fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<String>), ComputeError> {
+pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<String>), ComputeError> {
     let run = case.for_run()?;
     let scene = Scene::build(run, watch)?;
     let choice = ModelChoice::of_case(run, &scene)?;
@@ -72,7 +72,7 @@ pub fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<
 ///
 /// # Errors
 /// As [`compute_run`], [`ComputeError::Interrupted`] and what the keeper returns.
-pub fn compute_kept_run<K: Keeper>(
+pub(crate) fn compute_kept_run<K: Keeper>(
     case: &Case,
     watch: &impl Watch,
     keeper: &mut K,
@@ -137,13 +137,13 @@ fn energy_warning(energy: Option<&EnergyBalance>) -> Vec<String> {
 
 impl<R: Recording> RunResult<R> {
     /// Everything about the bearing in one table.
-    pub fn bearing_table(&self) -> Table {
+    pub(crate) fn bearing_table(&self) -> Table {
         let scene = &self.scene;
         bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
     }
 
     /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
-    pub fn distrust(&self) -> Option<&'static str> {
+    pub(crate) fn distrust(&self) -> Option<&'static str> {
         let gap = !energy_warning(self.simulation.energy.as_ref()).is_empty();
         let measured = self.choice.measured;
         let hopeless = measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST);
@@ -159,7 +159,7 @@ impl<R: Recording> RunResult<R> {
     }
 
     /// The estimated error of the signals, and for how long it holds.
-    pub fn estimate_sentence(&self) -> String {
+    pub(crate) fn estimate_sentence(&self) -> String {
         let (choice, horizon) = (&self.choice, self.horizon.map(|horizon| horizon.sentence()));
         let Some(error) = choice.estimated_error else {
             return "the error of the signals is not estimated".to_owned();

@@ -12,10 +12,11 @@ mod simulation_tests;
 pub(crate) mod summary;
 pub mod unfinished;
 
-pub use compute::{RunResult, compute_kept_run, compute_run, explain_run};
+pub use compute::{RunResult, compute_run};
+pub(crate) use compute::{compute_kept_run, explain_run};
 pub use keeper::{InMemory, Keeper, Wish};
 pub use recording::Recording;
-pub use report::run_report;
+pub(crate) use report::run_report;
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
 pub use summary::{

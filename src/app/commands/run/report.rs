@@ -24,7 +24,11 @@ const LISTED_MODES: usize = 20;
 ///
 /// # Errors
 /// [`ComputeError`] if a signal cannot be shown.
-pub fn run_report<R: Recording>(case: &Case, result: &RunResult<R>, command: &str) -> Result<Report, ComputeError> {
+pub(crate) fn run_report<R: Recording>(
+    case: &Case,
+    result: &RunResult<R>,
+    command: &str,
+) -> Result<Report, ComputeError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
     let windows = result.windows.iter();

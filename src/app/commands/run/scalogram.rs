@@ -39,7 +39,7 @@ impl SensorScalogram {
     /// # Errors
     /// [`ComputeError::Series`] for a window that is not in the record, [`ComputeError::Signal`] for a band that its length or its sampling
     /// rate does not hold, and what reading it returns.
-    pub fn of<R: Recording>(
+    pub(crate) fn of<R: Recording>(
         simulation: &Simulation<R>,
         index: usize,
         window: ScalogramWindow,

@@ -82,7 +82,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`from_rest`](Self::from_rest).
-    pub fn from_state(
+    pub(crate) fn from_state(
         system: CoupledSystem,
         state: State,
         model: &RunModel,
@@ -182,12 +182,12 @@ impl<R: Recording> Simulation<R> {
     }
 
     /// Simulated time over wall time of the stepping.
-    pub fn realtime_factor(&self) -> f64 {
+    pub(crate) fn realtime_factor(&self) -> f64 {
         self.simulated_s / self.stepping_s.max(f64::MIN_POSITIVE)
     }
 
     /// Length of a step, s; of a method with steps of its own their mean.
-    pub fn step_s(&self) -> f64 {
+    pub(crate) fn step_s(&self) -> f64 {
         if self.method.chooses_its_steps() {
             self.simulated_s / (self.statistics.steps.max(1) as f64)
         } else {
@@ -199,7 +199,7 @@ impl<R: Recording> Simulation<R> {
     ///
     /// # Errors
     /// [`ComputeError::Series`] for a window that is not in the record, and what reading it returns.
-    pub fn stretch(&self, sensor: usize, window: TimeWindow, margin_s: f64) -> Result<TimeSeries, ComputeError> {
+    pub(crate) fn stretch(&self, sensor: usize, window: TimeWindow, margin_s: f64) -> Result<TimeSeries, ComputeError> {
         let (rows, step) = (self.record.rows(), self.schedule.interval);
         if rows == 0 {
             return Err(SeriesError::Empty.into());

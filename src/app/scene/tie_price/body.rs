@@ -44,7 +44,12 @@ impl RingBody {
     ///
     /// # Errors
     /// [`NoTiePrice`] for a ring that one rectangle cannot stand for; [`ComputeError`] of its material.
-    pub fn of(case: &Case, asked: &case::Ring, tie: &case::Tie, housing: &AssembledHousing) -> Result<Self, Stop> {
+    pub(crate) fn of(
+        case: &Case,
+        asked: &case::Ring,
+        tie: &case::Tie,
+        housing: &AssembledHousing,
+    ) -> Result<Self, Stop> {
         let [section] = asked.sections.as_slice() else {
             return Err(NoTiePrice::SeveralSections { count: asked.sections.len() }.into());
         };
@@ -97,7 +102,7 @@ impl RingBody {
     ///
     /// # Errors
     /// [`ComputeError::Material`].
-    pub fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, ComputeError> {
+    pub(crate) fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, ComputeError> {
         let Some(plane) = plane else {
             return Ok(self.material);
         };

@@ -7,5 +7,6 @@ pub(crate) mod reason;
 #[cfg(test)]
 mod tests;
 
-pub use price::{BeamAndSolid, TIE_PRICE_MODES, TieComparison, TiePrice, tie_price};
+pub(crate) use price::tie_price;
+pub use price::{BeamAndSolid, TIE_PRICE_MODES, TieComparison, TiePrice};
 pub use reason::NoTiePrice;

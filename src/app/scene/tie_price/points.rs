@@ -32,7 +32,7 @@ impl Points {
     }
 
     /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
-    pub fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
+    pub(crate) fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
         DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
             true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
             false => 0.0,
@@ -40,7 +40,7 @@ impl Points {
     }
 
     /// Modes with their shapes at the nodes.
-    pub fn set(&self, modes: &FullModes, shapes: DenseMatrix) -> ModeSet {
+    pub(crate) fn set(&self, modes: &FullModes, shapes: DenseMatrix) -> ModeSet {
         ModeSet {
             frequencies_hz: modes.basis.frequencies_hz.clone(),
             points: self.places.clone(),

@@ -94,12 +94,12 @@ pub struct BeamAndSolid {
 
 impl TieComparison {
     /// Largest magnitude of the relative differences of housing and ring; `None` if no mode was recognised.
-    pub fn largest_difference(&self) -> Option<f64> {
+    pub(crate) fn largest_difference(&self) -> Option<f64> {
         largest(&self.modes)
     }
 
     /// The same of the ring alone: differences of this size say nothing of the tie.
-    pub fn floor(&self) -> Option<f64> {
+    pub(crate) fn floor(&self) -> Option<f64> {
         largest(&self.ring_alone)
     }
 }
@@ -113,7 +113,7 @@ pub(crate) fn largest(modes: &[BeamAndSolid]) -> Option<f64> {
 ///
 /// # Errors
 /// [`ComputeError`] of the ring, the tie and the eigenvalue computations.
-pub fn tie_price(
+pub(crate) fn tie_price(
     case: &Case,
     housing: &AssembledHousing,
     count: usize,

@@ -61,7 +61,7 @@ pub(crate) enum Stop {
 
 impl Stop {
     /// The housing itself is sound: what is wrong now is the ring's joint.
-    pub fn of_joint(error: ModelError) -> Self {
+    pub(crate) fn of_joint(error: ModelError) -> Self {
         Self::Reason(NoTiePrice::Joint { message: error.to_string() })
     }
 }

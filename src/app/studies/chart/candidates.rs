@@ -141,7 +141,7 @@ pub(super) fn model_name(model: &RunModel) -> String {
 }
 
 /// What of a model is refined, and how far: `step_s` (s), or `tolerance`.
-pub fn parameter_of(model: &RunModel) -> (&'static str, f64) {
+pub(crate) fn parameter_of(model: &RunModel) -> (&'static str, f64) {
     match model.method {
         Method::Dop853 { tolerance, .. } | Method::ExponentialAdams { tolerance: Some(tolerance) } => {
             ("tolerance", tolerance)

@@ -50,13 +50,13 @@ pub struct ModelStatistics {
 
 impl Chart {
     /// Points without an error, and why.
-    pub fn omissions(&self) -> impl Iterator<Item = (usize, &super::Failure)> {
+    pub(crate) fn omissions(&self) -> impl Iterator<Item = (usize, &super::Failure)> {
         let points = self.points.iter().enumerate();
         points.filter_map(|(place, point)| Some((place, point.error.as_ref().err()?)))
     }
 
     /// Whether a point's error is below what the reference can tell.
-    pub fn below_floor(&self, point: &Point) -> bool {
+    pub(crate) fn below_floor(&self, point: &Point) -> bool {
         let error = point.error.as_ref();
         error.is_ok_and(|error| error.mean < self.reference.disagreement)
     }
@@ -66,7 +66,11 @@ impl Chart {
 ///
 /// # Errors
 /// [`ChartError`]; a candidate that fails is no error but an omission.
-pub fn compute_chart(run: RunCase<'_>, effort: Effort, watch: &(impl Watch + Sync)) -> Result<Chart, ChartError> {
+pub(crate) fn compute_chart(
+    run: RunCase<'_>,
+    effort: Effort,
+    watch: &(impl Watch + Sync),
+) -> Result<Chart, ChartError> {
     let RunCase { case, transient: asked, .. } = run;
     let scene = Scene::with_all_modes(run, watch)?;
     let settings = Settings::of(run, effort)?;

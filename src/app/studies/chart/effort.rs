@@ -62,7 +62,7 @@ impl Settings {
     ///
     /// # Errors
     /// [`ChartError::TooShort`].
-    pub fn of(run: RunCase<'_>, effort: Effort) -> Result<Self, ChartError> {
+    pub(crate) fn of(run: RunCase<'_>, effort: Effort) -> Result<Self, ChartError> {
         let RunCase { case, transient: asked, .. } = run;
         let band_hz = case.band_hz().map_or(0.5 * asked.output_hz, |band| band[1]);
         let output_hz = SAMPLES_A_PERIOD * band_hz;
@@ -93,17 +93,17 @@ impl Settings {
     }
 
     /// Every how many starts a candidate is computed.
-    pub fn point_stride(&self) -> usize {
+    pub(crate) fn point_stride(&self) -> usize {
         self.ensemble.runs.div_ceil(POINT_STARTS)
     }
 
     /// Time between two samples of the compared signals, s.
-    pub fn interval(&self) -> f64 {
+    pub(crate) fn interval(&self) -> f64 {
         1.0 / self.output_hz
     }
 
     /// What is to be simulated for `seconds` of compared signals.
-    pub fn simulated(&self, seconds: f64) -> Span {
+    pub(crate) fn simulated(&self, seconds: f64) -> Span {
         Span { duration: seconds + self.edge_s, output_hz: self.output_hz }
     }
 }

@@ -72,7 +72,7 @@ impl From<SeriesError> for ChartError {
 
 impl ChartError {
     /// Whether the input is to blame.
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         match self {
             Self::Stage(error) => error.is_input(),
             Self::TooShort { .. } => true,
@@ -81,7 +81,7 @@ impl ChartError {
     }
 
     /// What to do about it.
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Stage(error) => error.help(),
             Self::TooShort { needed, .. } => Some(format!(

@@ -2,7 +2,7 @@
 
 /// Places of the points (cost, error) that none other beats: no other costs at most as much and errs at most as much, one
 /// of the two less. In order of cost; of equal points the first.
-pub fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
+pub(crate) fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let key = |place: usize| points[place];
     order.sort_by(|&a, &b| {

@@ -23,7 +23,7 @@ impl Growth {
     ///
     /// # Errors
     /// [`SignalError`] if they do not have the same instants or the reference is zero throughout.
-    pub fn between(other: &Trace, reference: &Trace, span_s: f64, window_s: f64) -> Result<Self, SignalError> {
+    pub(crate) fn between(other: &Trace, reference: &Trace, span_s: f64, window_s: f64) -> Result<Self, SignalError> {
         let size = reference.rms(0.0, span_s)?;
         // a whole number of windows, up to round-off
         let count = (span_s / window_s * (1.0 + 1e-9)).floor() as usize;
@@ -35,29 +35,29 @@ impl Growth {
     }
 
     /// Ends of the windows since the start, s.
-    pub fn times_s(&self) -> Vec<f64> {
+    pub(crate) fn times_s(&self) -> Vec<f64> {
         (1..=self.distances.len()).map(|window| window as f64 * self.window_s).collect()
     }
 
     /// Distance in each window, in units of the reference's root mean square over the span.
-    pub fn distances(&self) -> &[f64] {
+    pub(crate) fn distances(&self) -> &[f64] {
         &self.distances
     }
 
     /// Distance at the start: that of the first window in which there is one. `None`: the two are the same throughout.
-    pub fn initial(&self) -> Option<f64> {
+    pub(crate) fn initial(&self) -> Option<f64> {
         self.distances.iter().copied().find(|&d| d > 0.0)
     }
 
     /// Growth G of the distance: that in each window over that at the start.
-    pub fn growth(&self) -> Vec<f64> {
+    pub(crate) fn growth(&self) -> Vec<f64> {
         let initial = self.initial().unwrap_or(1.0);
         self.distances.iter().map(|d| d / initial).collect()
     }
 
     /// Time since the start over which nearby solutions stay together, s: up to the begin of the first window in which the
     /// distance has grown by more than `factor`; the whole span if there is none.
-    pub fn horizon_s(&self, factor: f64) -> f64 {
+    pub(crate) fn horizon_s(&self, factor: f64) -> f64 {
         let growth = self.growth();
         let windows = growth.iter().position(|&g| g > factor);
         windows.unwrap_or(growth.len()) as f64 * self.window_s
@@ -65,7 +65,7 @@ impl Growth {
 
     /// Rate at which the distance grows, 1/s: slope of the straight line through its logarithm over the span, by least
     /// squares. `None` with fewer than two windows that have a distance.
-    pub fn rate_per_s(&self) -> Option<f64> {
+    pub(crate) fn rate_per_s(&self) -> Option<f64> {
         let times = self.times_s();
         let points = times.iter().zip(&self.distances);
         let points: Vec<(f64, f64)> = points.filter(|(_, d)| **d > 0.0).map(|(t, d)| (*t, d.ln())).collect();

@@ -30,24 +30,26 @@ mod summary;
 mod systems;
 mod trace;
 
-pub use candidates::parameter_of;
-pub use compute::{Chart, ModelStatistics, compute_chart};
+pub(crate) use candidates::parameter_of;
+pub(crate) use compute::compute_chart;
+pub use compute::{Chart, ModelStatistics};
 pub use effort::{Effort, Settings};
 pub use error::ChartError;
-pub use front::pareto_front;
+pub(crate) use front::pareto_front;
 pub use growth::Growth;
-pub use perturbation::perturb;
-pub use plots::{between_methods, growth, work_precision};
+pub(crate) use perturbation::perturb;
+pub(crate) use plots::{between_methods, growth, work_precision};
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
-pub use report::chart_report;
+pub(crate) use report::chart_report;
 pub use stability::{
     Condition, ConditionStability, ConditionSummary, MethodStability, MethodSummary, Stability, StabilityModel,
-    StabilitySummary, StepRecord, Window, compute_stability, resonance_plot, stability_map, stability_report,
-    stability_section,
+    StabilitySummary, StepRecord, Window,
 };
+pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
 pub use starts::{Start, Starts};
-pub use statistics::{ComparedFigure, Estimate, Figure, compare, figures};
+pub use statistics::{ComparedFigure, Estimate, Figure};
+pub(crate) use statistics::{compare, figures};
 pub use summary::{
     ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, FigureSummary, MethodParameter, ModelStatisticsSummary,
     OmissionSummary, OverAllStarts, Parameter, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,

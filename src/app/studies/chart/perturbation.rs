@@ -4,7 +4,7 @@ use crate::numerics::ode::State;
 
 /// Changes every coordinate and velocity by a part of itself: `y (1 + size u)`, u evenly distributed in -1 to 1 and
 /// independent, from a generator begun with `seed` and the number of the run.
-pub fn perturb(state: &mut State, size: f64, seed: u64, run: usize) {
+pub(crate) fn perturb(state: &mut State, size: f64, seed: u64, run: usize) {
     let mut random = Random::new(seed, run as u64);
     for value in state.y.iter_mut().chain(&mut state.v) {
         *value *= 1.0 + size * random.between_minus_one_and_one();

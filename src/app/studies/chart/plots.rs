@@ -19,7 +19,7 @@ const METHODS: [(&str, usize, Symbol); 7] = [
 const MARK: usize = 5;
 
 /// Error against wall time of all points.
-pub fn work_precision(chart: &Chart) -> Plot {
+pub(crate) fn work_precision(chart: &Chart) -> Plot {
     let reference = &chart.reference;
     let mut plot = Plot::new(
         "Speed against accuracy",
@@ -90,7 +90,7 @@ pub(super) fn label(point: &Point) -> String {
 }
 
 /// Distance of nearby solutions over time, by start.
-pub fn growth(chart: &Chart) -> Plot {
+pub(crate) fn growth(chart: &Chart) -> Plot {
     let starts = &chart.reference.starts;
     let plot = Plot::new(
         "Growth of a small perturbation",
@@ -124,7 +124,7 @@ pub fn growth(chart: &Chart) -> Plot {
 }
 
 /// Distance of the two reference methods over time: the mean of the starts and the largest.
-pub fn between_methods(chart: &Chart) -> Plot {
+pub(crate) fn between_methods(chart: &Chart) -> Plot {
     let starts = &chart.reference.starts;
     let growths: Vec<&Growth> = starts.iter().map(|start| &start.between).collect();
     let times = growths.first().map(|growth| growth.times_s());

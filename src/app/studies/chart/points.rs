@@ -67,22 +67,22 @@ pub struct Point {
 
 impl Point {
     /// The method's name.
-    pub fn method(&self) -> &'static str {
+    pub(crate) fn method(&self) -> &'static str {
         self.model.method.name()
     }
 
     /// The model in words.
-    pub fn model_name(&self) -> String {
+    pub(crate) fn model_name(&self) -> String {
         model_name(&self.model)
     }
 
     /// "step_s" or "tolerance", and its value.
-    pub fn parameter(&self) -> (&'static str, f64) {
+    pub(crate) fn parameter(&self) -> (&'static str, f64) {
         parameter_of(&self.model)
     }
 
     /// Cost and mean error of a point that has both.
-    pub fn measured(&self) -> Option<(f64, f64)> {
+    pub(crate) fn measured(&self) -> Option<(f64, f64)> {
         Some((self.wall_s?, self.error.as_ref().ok()?.mean))
     }
 }

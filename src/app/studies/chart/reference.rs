@@ -86,19 +86,19 @@ impl Reference {
     }
 
     /// Mean of the starts' horizons, s.
-    pub fn mean_horizon_s(&self) -> f64 {
+    pub(crate) fn mean_horizon_s(&self) -> f64 {
         let sum: f64 = self.starts.iter().map(|start| start.horizon_s).sum();
         sum / self.starts.len() as f64
     }
 
     /// Least of the starts' horizons, s.
-    pub fn least_horizon_s(&self) -> f64 {
+    pub(crate) fn least_horizon_s(&self) -> f64 {
         let horizons = self.starts.iter().map(|start| start.horizon_s);
         horizons.fold(f64::INFINITY, f64::min)
     }
 
     /// Mean rate of growth, 1/s, over the starts that have one.
-    pub fn growth_rate_per_s(&self) -> Option<f64> {
+    pub(crate) fn growth_rate_per_s(&self) -> Option<f64> {
         let rates = self.starts.iter().filter_map(|s| s.growth.rate_per_s());
         let rates: Vec<f64> = rates.collect();
         (!rates.is_empty()).then(|| rates.iter().sum::<f64>() / rates.len() as f64)

@@ -8,7 +8,7 @@ use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
 
 /// Composes the report; `command` is the line that made it.
-pub fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report {
+pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Speed against accuracy of the simulation");
     report = headlines(report, chart);

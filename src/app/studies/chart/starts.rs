@@ -37,7 +37,7 @@ impl Starts {
     ///
     /// # Errors
     /// [`ChartError::NoStarts`] if fewer than two have an equilibrium.
-    pub fn over_ball_pass(scene: &Scene, settings: &Settings, length: f64) -> Result<Self, ChartError> {
+    pub(crate) fn over_ball_pass(scene: &Scene, settings: &Settings, length: f64) -> Result<Self, ChartError> {
         let wanted = settings.ensemble.runs;
         let spread_s = ball_pass(scene, length);
         let found: Vec<_> = (0..wanted)
@@ -70,7 +70,7 @@ impl Starts {
 
 impl Start {
     /// At rest there, in a system's coordinates.
-    pub fn state(&self, scene: &Scene, system: &CoupledSystem) -> State {
+    pub(crate) fn state(&self, scene: &Scene, system: &CoupledSystem) -> State {
         system.state_at(self.time_s, &self.equilibrium, &scene.stage.modes)
     }
 }

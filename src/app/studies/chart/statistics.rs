@@ -56,13 +56,13 @@ pub struct ComparedFigure {
 
 impl ComparedFigure {
     /// Mean difference in its standard errors; zero where there is no difference at all.
-    pub fn standard_errors(&self) -> f64 {
+    pub(crate) fn standard_errors(&self) -> f64 {
         if self.difference.standard_error > 0.0 { self.difference.mean / self.difference.standard_error } else { 0.0 }
     }
 
     /// Whether the model's figure differs by more than chance (three standard errors) and by more than a relative
     /// `target`; levels by as many decibels as that makes.
-    pub fn differs(&self, target: f64) -> bool {
+    pub(crate) fn differs(&self, target: f64) -> bool {
         let limit = match self.unit {
             "dB" => 20.0 * (1.0 + target).log10(),
             _ => target * self.reference.mean.abs(),
@@ -73,7 +73,7 @@ impl ComparedFigure {
 
 impl Estimate {
     /// Mean and scatter of values that are independent of each other, at least two.
-    pub fn of(values: &[f64]) -> Self {
+    pub(crate) fn of(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let squares = values.iter().map(|value| (value - mean).powi(2));
@@ -87,7 +87,11 @@ impl Estimate {
 ///
 /// # Errors
 /// [`SignalError`] for a filter that does not fit the sampling.
-pub fn figures(signal: &TimeSeries, band_hz: [f64; 2], high_pass_hz: Option<f64>) -> Result<Vec<Figure>, SignalError> {
+pub(crate) fn figures(
+    signal: &TimeSeries,
+    band_hz: [f64; 2],
+    high_pass_hz: Option<f64>,
+) -> Result<Vec<Figure>, SignalError> {
     let figure = |name: &str, unit, value| Figure { name: name.to_owned(), unit, value };
     let settings = EnvelopeAnalysis { high_pass_hz, ..EnvelopeAnalysis::default() };
     let envelope = settings.envelope(signal)?;
@@ -160,7 +164,7 @@ pub(super) struct FigureSettings {
 }
 
 /// Figures of an ensemble against those of the reference from the same starts.
-pub fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>]) -> Vec<ComparedFigure> {
+pub(crate) fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>]) -> Vec<ComparedFigure> {
     let Some(first) = reference.first() else {
         return Vec::new();
     };

@@ -230,7 +230,7 @@ pub struct FigureSummary<'a> {
 impl Chart {
     /// What `chart.json` says of it; `case` is the case that it was computed of.
     #[must_use]
-    pub fn summary<'a>(&'a self, case: &'a Case) -> ChartSummary<'a> {
+    pub(crate) fn summary<'a>(&'a self, case: &'a Case) -> ChartSummary<'a> {
         let (reference, settings) = (&self.reference, &self.settings);
         let starts = reference.starts.iter();
         let [chosen, source] = &self.over_all_starts;

@@ -42,7 +42,7 @@ pub struct Failure {
 
 impl FailureKind {
     /// In results and reports.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Refused => "refused",
             Self::Unstable => "unstable",
@@ -79,7 +79,7 @@ impl Trace {
     ///
     /// # Errors
     /// [`Failure`]: what happened instead.
-    pub fn simulate(
+    pub(crate) fn simulate(
         system: CoupledSystem,
         state: State,
         model: &RunModel,
@@ -96,7 +96,7 @@ impl Trace {
     }
 
     /// The signals, one a sensor.
-    pub fn signals(&self) -> &[TimeSeries] {
+    pub(crate) fn signals(&self) -> &[TimeSeries] {
         &self.signals
     }
 
@@ -104,7 +104,7 @@ impl Trace {
     ///
     /// # Errors
     /// [`SignalError`] if the signals do not reach so far.
-    pub fn rms(&self, from: f64, to: f64) -> Result<f64, SignalError> {
+    pub(crate) fn rms(&self, from: f64, to: f64) -> Result<f64, SignalError> {
         let mut squares = 0.0;
         for signal in &self.signals {
             squares += part(signal, from, to)?.rms().powi(2);
@@ -116,7 +116,7 @@ impl Trace {
     ///
     /// # Errors
     /// [`SignalError`] if the signals do not reach so far or have other instants.
-    pub fn difference(&self, reference: &Self, from: f64, to: f64) -> Result<f64, SignalError> {
+    pub(crate) fn difference(&self, reference: &Self, from: f64, to: f64) -> Result<f64, SignalError> {
         let mut squares = 0.0;
         for (own, other) in self.signals.iter().zip(&reference.signals) {
             let (own, other) = (part(own, from, to)?, part(other, from, to)?);

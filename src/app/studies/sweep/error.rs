@@ -124,7 +124,7 @@ impl From<ComputeError> for SweepError {
 impl SweepError {
     /// Whether the input is to blame.
     #[must_use]
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         match self {
             Self::Stage(error) => error.is_input(),
             Self::Io { .. } | Self::Npz(_) => false,
@@ -134,7 +134,7 @@ impl SweepError {
 
     /// Returns what to do about it.
     #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::NothingVaried | Self::Axis { .. } => Some(
                 "for example: --vary bearing.radial_play=1e-6,2e-6, --vary 'bearing.defects[0].depth=5e-6:20e-6:4' or --vary ring.supports.0.spring.y=1e4:1e7:4:log"

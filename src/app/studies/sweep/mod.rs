@@ -21,11 +21,13 @@ mod summary;
 
 pub use axis::{Axis, AxisProblem};
 pub use error::SweepError;
-pub use npz::write_sweep_npz;
-pub use outputs::{Output, OutputValue, outputs_of};
+pub(crate) use npz::write_sweep_npz;
+pub(crate) use outputs::outputs_of;
+pub use outputs::{Output, OutputValue};
 pub use plan::{Plan, SweepPoint, SweptCommand};
 pub use record::{PointRecord, PointState};
-pub use report::sweep_report;
+pub(crate) use report::sweep_report;
 pub use result::{PointResult, PointWarning, SweepResult};
-pub use slurm::{SlurmScripts, slurm_scripts};
+pub use slurm::SlurmScripts;
+pub(crate) use slurm::slurm_scripts;
 pub use summary::{PointSummary, ScriptsSummary, SweepSummary, TaskSummary};

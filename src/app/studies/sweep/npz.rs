@@ -12,7 +12,7 @@ use crate::formats::{FormatError, NpzWriter};
 ///
 /// # Errors
 /// [`FormatError`] when the file cannot be written; an earlier one is then as it was.
-pub fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), FormatError> {
+pub(crate) fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), FormatError> {
     let mut archive = NpzWriter::create(path)?;
     let whole = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
     let axes = result.plan.axes.iter();

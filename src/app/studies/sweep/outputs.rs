@@ -35,7 +35,7 @@ pub enum OutputValue {
 /// are called damaged), the estimated error, the equilibrium's shaft position and largest force, times. Of modes: mass,
 /// frequencies `frequency.k`, and `loaded.k` where contacts are linearised.
 #[must_use]
-pub fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
+pub(crate) fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
     match command {
         SweptCommand::Run => of_run(result),
         SweptCommand::Modes => of_modes(result),

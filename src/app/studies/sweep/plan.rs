@@ -26,7 +26,7 @@ pub enum SweptCommand {
 impl SweptCommand {
     /// The command's name on the command line; its result file is `NAME.json`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
             Self::Modes => "modes",
@@ -35,7 +35,7 @@ impl SweptCommand {
 
     /// What a case is to be used for at each point.
     #[must_use]
-    pub fn purpose(self) -> Purpose {
+    pub(crate) fn purpose(self) -> Purpose {
         match self {
             Self::Run => Purpose::Run,
             Self::Modes => Purpose::Modes,
@@ -108,13 +108,13 @@ impl Plan {
 
     /// Number of points: the product of the axes' lengths.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
     /// A point by its number, 1 to [`Plan::count`].
     #[must_use]
-    pub fn point(&self, number: usize) -> SweepPoint {
+    pub(crate) fn point(&self, number: usize) -> SweepPoint {
         let mut rest = number.saturating_sub(1);
         let mut places = vec![0; self.axes.len()];
         for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
@@ -129,7 +129,7 @@ impl Plan {
     }
 
     /// All points in the order of their numbers.
-    pub fn points(&self) -> impl Iterator<Item = SweepPoint> + '_ {
+    pub(crate) fn points(&self) -> impl Iterator<Item = SweepPoint> + '_ {
         (1..=self.count()).map(|number| self.point(number))
     }
 
@@ -137,7 +137,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`crate::app::case::CaseError`] when the point's values make no valid case, or none for the command.
-    pub fn case_at(&self, point: &SweepPoint, text: &str) -> Result<Case, crate::app::case::CaseError> {
+    pub(crate) fn case_at(&self, point: &SweepPoint, text: &str) -> Result<Case, crate::app::case::CaseError> {
         let case = Case::from_source(crate::app::case::Source {
             path: self.case.clone(),
             text: text.to_owned(),
@@ -183,7 +183,7 @@ impl Plan {
 
     /// The folder of a point in that of the sweep.
     #[must_use]
-    pub fn folder(&self, sweep: &Path, number: usize) -> PathBuf {
+    pub(crate) fn folder(&self, sweep: &Path, number: usize) -> PathBuf {
         // as many digits as the last one has, so that lists of files are in order
         let digits = self.count().to_string().len();
         sweep.join(format!("{number:0digits$}"))
@@ -191,7 +191,7 @@ impl Plan {
 
     /// What is not the same in another plan, in words.
     #[must_use]
-    pub fn changes(&self, now: &Self) -> Vec<String> {
+    pub(crate) fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = self.identity.changes(&now.identity);
         if self.command != now.command {
             let (then, now) = (self.command.name(), now.command.name());

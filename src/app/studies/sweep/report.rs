@@ -11,7 +11,7 @@ const MOST_CURVES: usize = 12;
 ///
 /// `command` is the command line that computes it again.
 #[must_use]
-pub fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report {
+pub(crate) fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report {
     let done = result.count(PointState::Done);
     let all = result.points.len();
     let missing = result.count(PointState::Missing);

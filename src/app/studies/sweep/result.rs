@@ -108,20 +108,20 @@ impl SweepResult {
 
     /// Number of points in a state.
     #[must_use]
-    pub fn count(&self, state: PointState) -> usize {
+    pub(crate) fn count(&self, state: PointState) -> usize {
         let points = self.points.iter();
         points.filter(|point| point.state == state).count()
     }
 
     /// Points whose answer is bad, that failed or are not there.
-    pub fn not_done(&self) -> impl Iterator<Item = &PointResult> {
+    pub(crate) fn not_done(&self) -> impl Iterator<Item = &PointResult> {
         let points = self.points.iter();
         points.filter(|point| point.state != PointState::Done)
     }
 
     /// What the points' results warn of, in the order in which it first occurs.
     #[must_use]
-    pub fn warnings(&self) -> Vec<PointWarning> {
+    pub(crate) fn warnings(&self) -> Vec<PointWarning> {
         let mut all: Vec<PointWarning> = Vec::new();
         for point in &self.points {
             for text in &point.warnings {
@@ -197,7 +197,7 @@ impl SweepResult {
 
     /// The table: a row a point.
     #[must_use]
-    pub fn table(&self) -> Table {
+    pub(crate) fn table(&self) -> Table {
         let columns = self.columns();
         let mut heads = vec![Column::number("point", "")];
         heads.extend(columns.iter().map(|column| match column.values {

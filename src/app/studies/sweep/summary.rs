@@ -72,7 +72,7 @@ pub struct ScriptsSummary<'a> {
 impl SweepResult {
     /// What `sweep.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> SweepSummary<'_> {
+    pub(crate) fn summary(&self) -> SweepSummary<'_> {
         SweepSummary {
             of: self.plan.command.name(),
             axes: &self.plan.axes,

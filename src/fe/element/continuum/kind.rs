@@ -161,7 +161,7 @@ impl ContinuumKind {
     }
 
     /// Number of degrees of freedom: [`ContinuumKind::dimension`] a node.
-    pub fn dof(self) -> usize {
+    pub(crate) fn dof(self) -> usize {
         self.dimension() * self.nodes()
     }
 

@@ -24,7 +24,7 @@ const BLOCK: usize = 8;
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
 /// coordinates that are not finite, or an element that is inverted, degenerate or folded.
-pub fn nodal_mass_into(
+pub(crate) fn nodal_mass_into(
     kind: ContinuumKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,

@@ -66,7 +66,7 @@ impl ContinuumProperties {
     /// # Errors
     /// [`ElementError::Thickness`] if it is not positive and finite; [`ElementError::MaterialAxis`] if the
     /// z axis of an orthotropic material is not the normal of the plane.
-    pub fn plane(
+    pub(crate) fn plane(
         material: &ElasticMaterial,
         assumption: PlaneAssumption,
         thickness: f64,
@@ -88,17 +88,17 @@ impl ContinuumProperties {
     }
 
     /// Density rho, kg/m^3.
-    pub fn density(&self) -> f64 {
+    pub(crate) fn density(&self) -> f64 {
         self.density
     }
 
     /// Thickness t of a plane part, m; 1 (no unit) for a solid one, so that `t` may stand before any integral.
-    pub fn thickness(&self) -> f64 {
+    pub(crate) fn thickness(&self) -> f64 {
         self.thickness
     }
 
     /// 2 for a plane part, 3 for a solid one.
-    pub fn dimension(&self) -> usize {
+    pub(crate) fn dimension(&self) -> usize {
         self.dimension
     }
 

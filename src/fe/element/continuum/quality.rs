@@ -25,7 +25,7 @@ pub struct ShapeQuality {
 ///
 /// # Errors
 /// [`ElementError::NodeCount`], [`ElementError::NotFinite`] and [`ElementError::TooLarge`] alone.
-pub fn quality(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<ShapeQuality, ElementError> {
+pub(crate) fn quality(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<ShapeQuality, ElementError> {
     for_kind!(kind, sample(kind, coords))
 }
 

@@ -63,7 +63,7 @@ impl ContinuumKind {
     /// 27 points of a conical product (degree 5) are no better than 14. An element with a radial edge of 0.3 of
     /// the arc has 9.1e-7 at 10 degrees and 1.2e-4 at 20 with 24 points. Of the others, at 10 degrees: Tri6
     /// 3.1e-6, Quad8 2.9e-4, Hex20 2.6e-4, Wedge15 9.4e-5.
-    pub fn stiffness_rule(self) -> QuadratureRule {
+    pub(crate) fn stiffness_rule(self) -> QuadratureRule {
         match self {
             Self::Tri3 => QuadratureRule::TRIANGLE_1,
             Self::Tri6 => QuadratureRule::TRIANGLE_6,
@@ -81,7 +81,7 @@ impl ContinuumKind {
     /// The rule that is exact for the stiffness if all edges are straight with their nodes in the middle:
     /// degree 2 for Tri6 and Tet10, whose Jacobian is then constant; for all others that of
     /// [`ContinuumKind::stiffness_rule`].
-    pub fn straight_stiffness_rule(self) -> QuadratureRule {
+    pub(crate) fn straight_stiffness_rule(self) -> QuadratureRule {
         match self {
             Self::Tri6 => QuadratureRule::TRIANGLE_3,
             Self::Tet10 => QuadratureRule::TETRAHEDRON_4,
@@ -93,7 +93,7 @@ impl ContinuumKind {
     /// `N_i N_j det J` is a polynomial of degree
     /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20);
     /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
-    pub fn mass_rule(self) -> QuadratureRule {
+    pub(crate) fn mass_rule(self) -> QuadratureRule {
         match self {
             Self::Tri3 => QuadratureRule::TRIANGLE_3,
             Self::Tri6 => QuadratureRule::TRIANGLE_12,
@@ -111,7 +111,7 @@ impl ContinuumKind {
     /// The rule that is exact for the mass if all edges are straight with their nodes in the middle: the
     /// Jacobian has then the degree of the linear element's, which leaves 6 in each direction (Hex20), 5 in the
     /// triangle and 6 along zeta (Wedge15); for all others that of [`ContinuumKind::mass_rule`].
-    pub fn straight_mass_rule(self) -> QuadratureRule {
+    pub(crate) fn straight_mass_rule(self) -> QuadratureRule {
         match self {
             Self::Hex20 => QuadratureRule::CUBE_4X4X4,
             Self::Wedge15 => QuadratureRule::WEDGE_12X4,

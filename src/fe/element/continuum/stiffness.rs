@@ -22,7 +22,7 @@ use crate::fe::element::ElementError;
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
 /// coordinates that are not finite, or an element that is inverted, degenerate or folded.
-pub fn stiffness_into(
+pub(crate) fn stiffness_into(
     kind: ContinuumKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,

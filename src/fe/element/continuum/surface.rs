@@ -43,7 +43,7 @@ impl SurfaceKind {
     pub const ALL: [Self; 6] = [Self::Line2, Self::Line3, Self::Tri3, Self::Tri6, Self::Quad4, Self::Quad8];
 
     /// Name as in reports and errors.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Line2 => "Line2",
             Self::Line3 => "Line3",
@@ -52,7 +52,7 @@ impl SurfaceKind {
     }
 
     /// Number of nodes.
-    pub fn nodes(self) -> usize {
+    pub(crate) fn nodes(self) -> usize {
         match self {
             Self::Line2 => 2,
             Self::Line3 => 3,
@@ -64,7 +64,7 @@ impl SurfaceKind {
     }
 
     /// 1 for edges, 2 for faces.
-    pub fn dimension(self) -> usize {
+    pub(crate) fn dimension(self) -> usize {
         match self {
             Self::Line2 | Self::Line3 => 1,
             _ => 2,
@@ -73,7 +73,7 @@ impl SurfaceKind {
 
     /// The rule of [`surface_weights`]: exact for straight edges and for flat faces with straight edges; curved
     /// and warped ones have square roots to integrate, for which no rule is exact.
-    pub fn rule(self) -> QuadratureRule {
+    pub(crate) fn rule(self) -> QuadratureRule {
         match self {
             Self::Line2 | Self::Line3 => QuadratureRule::LINE_4,
             Self::Tri3 => QuadratureRule::TRIANGLE_3,
@@ -125,7 +125,7 @@ pub(crate) fn surface_shape(kind: SurfaceKind, [xi, eta]: [f64; 2]) -> (SurfaceV
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an edge or face
 /// without size.
-pub fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
+pub(crate) fn surface_weights(kind: SurfaceKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
     if coords.len() != kind.nodes() {
         return Err(ElementError::NodeCount { kind: kind.name(), expected: kind.nodes(), found: coords.len() });
     }

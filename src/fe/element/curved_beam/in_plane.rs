@@ -57,12 +57,12 @@ impl CurvedBeam {
     }
 
     /// Half the included angle, rad.
-    pub fn half_angle(&self) -> f64 {
+    pub(crate) fn half_angle(&self) -> f64 {
         self.half_angle
     }
 
     /// Whether a rigid motion of both nodes strains nothing; that of the polynomial element does.
-    pub fn is_exact_for_rigid_motions(&self) -> bool {
+    pub(crate) fn is_exact_for_rigid_motions(&self) -> bool {
         matches!(self.field, Field::ExactArc(_))
     }
 
@@ -72,13 +72,13 @@ impl CurvedBeam {
     }
 
     /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
-    pub fn mass(&self) -> &Matrix6<f64> {
+    pub(crate) fn mass(&self) -> &Matrix6<f64> {
         &self.mass
     }
 
     /// Interpolation (u, w, theta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
     /// |phi| <= half_angle.
-    pub fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
+    pub(crate) fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
         match &self.field {
             Field::ExactArc(arc) => arc.interpolation(phi),
             Field::Polynomial(polynomial) => polynomial.interpolation(phi),

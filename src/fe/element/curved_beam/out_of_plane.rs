@@ -77,7 +77,7 @@ impl OutOfPlaneArc {
     }
 
     /// Half the included angle, rad.
-    pub fn half_angle(&self) -> f64 {
+    pub(crate) fn half_angle(&self) -> f64 {
         self.half_angle
     }
 
@@ -87,13 +87,13 @@ impl OutOfPlaneArc {
     }
 
     /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
-    pub fn mass(&self) -> &Matrix6<f64> {
+    pub(crate) fn mass(&self) -> &Matrix6<f64> {
         &self.mass
     }
 
     /// Interpolation (v, alpha, beta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
     /// |phi| <= half_angle.
-    pub fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
+    pub(crate) fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
         self.solved.interpolation(phi)
     }
 

@@ -52,7 +52,7 @@ impl RingLayer {
     /// ```text
     /// I_a = h b^3 / 12
     /// ```
-    pub fn out_of_plane_inertia(&self) -> f64 {
+    pub(crate) fn out_of_plane_inertia(&self) -> f64 {
         self.axial_inertia.unwrap_or_else(|| {
             let [radial, axial] = self.rectangle();
             radial * axial.powi(3) / 12.0
@@ -60,12 +60,12 @@ impl RingLayer {
     }
 
     /// Torsion constant J, m^4: as given, or that of the same rectangle by its series.
-    pub fn torsion_constant(&self) -> f64 {
+    pub(crate) fn torsion_constant(&self) -> f64 {
         self.torsion.unwrap_or_else(|| rectangle_torsion(self.rectangle()))
     }
 
     /// Sides (radial h, axial b), m, of the rectangle with this area and second moment: `h = sqrt(12 I / A)`, `b = A / h`.
-    pub fn rectangle(&self) -> [f64; 2] {
+    pub(crate) fn rectangle(&self) -> [f64; 2] {
         let radial = (12.0 * self.inertia / self.area).sqrt();
         [radial, self.area / radial]
     }

@@ -35,7 +35,7 @@ impl BoundingBox {
     }
 
     /// Length of the diagonal, m, >= 0.
-    pub fn diagonal(&self) -> f64 {
+    pub(crate) fn diagonal(&self) -> f64 {
         let [x, y, z] = self.extent();
         x.hypot(y).hypot(z)
     }

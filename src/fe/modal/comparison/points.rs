@@ -65,7 +65,7 @@ impl ModeSet {
     }
 
     /// Diagonal of the box round the points, m.
-    pub fn diagonal(&self) -> f64 {
+    pub(crate) fn diagonal(&self) -> f64 {
         let side = |axis: usize| {
             let along = self.points.iter().map(|point| point[axis]);
             let (low, high) =

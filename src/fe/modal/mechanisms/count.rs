@@ -100,7 +100,12 @@ impl Mechanisms {
     ///
     /// # Errors
     /// As [`Mechanisms::find`].
-    pub fn find_with_ring(mesh: &Mesh, model: &HousingModel, tie: &RingTie, ring: &Ring) -> Result<Self, ModalError> {
+    pub(crate) fn find_with_ring(
+        mesh: &Mesh,
+        model: &HousingModel,
+        tie: &RingTie,
+        ring: &Ring,
+    ) -> Result<Self, ModalError> {
         Self::of_bodies(mesh, model, &Bore::Ring(tie, ring))
     }
 
@@ -110,7 +115,7 @@ impl Mechanisms {
     ///
     /// # Errors
     /// As [`Mechanisms::find`].
-    pub fn find_with_held(
+    pub(crate) fn find_with_held(
         mesh: &Mesh,
         model: &HousingModel,
         dofs: &[usize],
@@ -120,7 +125,7 @@ impl Mechanisms {
     }
 
     /// The motions of a ring alone that its springs leave, in its own axes.
-    pub fn of_ring(ring: &Ring) -> Self {
+    pub(crate) fn of_ring(ring: &Ring) -> Self {
         let dimension = if ring.is_in_space() { 3 } else { 2 };
         let full = rigid_count(dimension);
         let rows = ring_spring_rows(ring, &RingFrame::default());

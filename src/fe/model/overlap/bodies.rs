@@ -37,7 +37,7 @@ pub struct Bodies<'m> {
 
 impl<'m> Bodies<'m> {
     /// The elements of a mesh; the part of each is the first group of its dimension that holds it.
-    pub fn of_mesh(mesh: &'m Mesh) -> Self {
+    pub(crate) fn of_mesh(mesh: &'m Mesh) -> Self {
         let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max();
         let groups = mesh.groups.iter();
         let groups: Vec<_> = groups.filter(|group| Some(group.dimension) == dimension).collect();

@@ -48,7 +48,7 @@ impl Crossing {
 impl Bodies<'_> {
     /// What is not connected by nodes and has nodes that are not `linked`: faces on each other, and bodies that reach into one another by more
     /// than what flat faces miss, known `overlaps` left out.
-    pub fn unconnected(
+    pub(crate) fn unconnected(
         &self,
         linked: impl Fn(usize) -> bool + Sync,
         overlaps: &[Overlap],

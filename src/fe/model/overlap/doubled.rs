@@ -52,7 +52,7 @@ pub(super) fn sorted_corners(solid: &Solid) -> Corners {
 impl Bodies<'_> {
     /// The elements on the corners of one before them; `None` if there are none. Order and kind do not matter: Hex8 and
     /// Hex20 on the same corners fill the same space.
-    pub fn doubled(&self) -> Option<Doubled> {
+    pub(crate) fn doubled(&self) -> Option<Doubled> {
         let solids = self.solids.par_iter().enumerate();
         let mut keys: Vec<(Corners, u32)> =
             solids.map(|(index, solid)| (sorted_corners(solid), index as u32)).collect();

@@ -69,7 +69,7 @@ struct Sum {
 impl Bodies<'_> {
     /// Parts that lie in one another, by pairs in the order of the parts. Elements on the same corners are left to
     /// [`Bodies::doubled`], elements without valid shape to the assembly.
-    pub fn overlaps(&self) -> Vec<Overlap> {
+    pub(crate) fn overlaps(&self) -> Vec<Overlap> {
         if !self.is_flat_or_solid() {
             return Vec::new();
         }

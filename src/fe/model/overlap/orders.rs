@@ -54,7 +54,7 @@ impl Bodies<'_> {
     }
 
     /// The edges on which elements do not have the same middle node; `None` if there are none.
-    pub fn mixed_orders(&self) -> Option<MixedOrders> {
+    pub(crate) fn mixed_orders(&self) -> Option<MixedOrders> {
         if !self.has_middle_nodes() {
             return None;
         }

@@ -84,7 +84,7 @@ impl Bodies<'_> {
     ///
     /// Faces of one body lie on each other if they do so within round-off. Those of two may be apart by as much as flat
     /// facets miss a curved surface, and one may have sunk into the outermost element of the other.
-    pub fn touching(&self, linked: impl Fn(usize) -> bool) -> Vec<Touching> {
+    pub(crate) fn touching(&self, linked: impl Fn(usize) -> bool) -> Vec<Touching> {
         if !self.is_flat_or_solid() {
             return Vec::new();
         }

@@ -32,7 +32,7 @@ impl RingSpring {
 
 impl Ring {
     /// Whether springs hold the ring.
-    pub fn has_springs(&self) -> bool {
+    pub(crate) fn has_springs(&self) -> bool {
         !self.springs.is_empty()
     }
 

@@ -124,7 +124,7 @@ impl Ring {
     }
 
     /// Whether the ring has displacements out of its plane.
-    pub fn is_in_space(&self) -> bool {
+    pub(crate) fn is_in_space(&self) -> bool {
         self.out_of_plane.is_some()
     }
 

@@ -82,7 +82,7 @@ impl Ring {
 
 impl RingRows {
     /// Value of one component for the ring displacements `d`.
-    pub fn apply(&self, row: &[f64; 6], d: &[f64]) -> f64 {
+    pub(crate) fn apply(&self, row: &[f64; 6], d: &[f64]) -> f64 {
         self.dofs.iter().zip(row).map(|(&dof, factor)| factor * d[dof]).sum()
     }
 

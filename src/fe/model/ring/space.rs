@@ -95,7 +95,7 @@ impl Ring {
 
 impl RingSpaceRows {
     /// Value of one component for the ring displacements `d`.
-    pub fn apply(&self, row: &[f64; 12], d: &[f64]) -> f64 {
+    pub(crate) fn apply(&self, row: &[f64; 12], d: &[f64]) -> f64 {
         self.dofs.iter().zip(row).map(|(&dof, factor)| factor * d[dof]).sum()
     }
 

@@ -63,7 +63,7 @@ impl Check {
 ///
 /// # Errors
 /// What the dense eigenvalue solver reports.
-pub fn check_matrices(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
+pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
     matrices::checks(element)
 }
 
@@ -71,7 +71,7 @@ pub fn check_matrices(element: &Superelement) -> Result<Vec<Check>, ReductionErr
 ///
 /// # Errors
 /// What the dense eigenvalue solver reports.
-pub fn check_craig_bampton(
+pub(crate) fn check_craig_bampton(
     condensed: &CraigBampton,
     matrices: &SystemMatrices,
     rigid: &RigidMotions,
@@ -88,7 +88,7 @@ pub fn check_craig_bampton(
 ///
 /// # Errors
 /// What the dense eigenvalue solver reports.
-pub fn check_interface_reduction(
+pub(crate) fn check_interface_reduction(
     condensed: &CraigBampton,
     reduction: &InterfaceReduction,
     matrices: &SystemMatrices,

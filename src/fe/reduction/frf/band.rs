@@ -80,7 +80,7 @@ pub struct RankedVariant {
 ///
 /// # Errors
 /// [`FrfError::Shape`], [`FrfError::Band`], [`FrfError::Frequency`], [`FrfError::Order`], [`FrfError::NotCovered`].
-pub fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [f64; 2]) -> Result<f64, FrfError> {
+pub(crate) fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [f64; 2]) -> Result<f64, FrfError> {
     same("number of magnitudes", frequencies_hz.len(), magnitudes.len())?;
     let window = Window::new(frequencies_hz, band_hz)?;
     Ok(window.integral(|place| magnitudes[place] * magnitudes[place]) / window.width)
@@ -91,7 +91,7 @@ pub fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [f64; 2]
 ///
 /// # Errors
 /// As [`energy_mean`]; [`FrfError::Grid`] for the reference.
-pub fn rank_in_band(
+pub(crate) fn rank_in_band(
     variants: &[BandVariant<'_>],
     band_hz: [f64; 2],
     reference: f64,

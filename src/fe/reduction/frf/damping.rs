@@ -29,7 +29,7 @@ impl ModalDamping {
     /// # Errors
     /// [`FrfError::Ratio`], [`FrfError::Coefficient`], [`FrfError::NoPoints`], [`FrfError::Frequency`],
     /// [`FrfError::Order`]; [`FrfError::Shape`] for another number of ratios than modes.
-    pub fn rates(&self, omegas: &[f64]) -> Result<Vec<f64>, FrfError> {
+    pub(crate) fn rates(&self, omegas: &[f64]) -> Result<Vec<f64>, FrfError> {
         let of_ratio = |ratio: f64, omega: f64| 2.0 * ratio * omega;
         match self {
             Self::Uniform(ratio) => {

@@ -33,7 +33,7 @@ const SAME: f64 = 1e-9;
 ///
 /// # Errors
 /// [`FrfError::Band`], [`FrfError::Grid`], [`FrfError::Frequency`] and [`FrfError::Coefficient`] of a resonance.
-pub fn frequency_list(grid: &FrequencyGrid, resonances: &[Resonance]) -> Result<Vec<f64>, FrfError> {
+pub(crate) fn frequency_list(grid: &FrequencyGrid, resonances: &[Resonance]) -> Result<Vec<f64>, FrfError> {
     let [low, high] = check_band(grid.band_hz)?;
     for (what, value) in
         [("the number of intervals", grid.intervals), ("the number of points in a bandwidth", grid.points_a_bandwidth)]

@@ -18,11 +18,13 @@ mod response;
 mod share;
 mod system;
 
-pub use band::{BandVariant, RankedVariant, energy_mean, rank_in_band};
+pub use band::{BandVariant, RankedVariant};
+pub(crate) use band::{energy_mean, rank_in_band};
 pub use damping::ModalDamping;
 pub use direct::direct_response;
 pub use error::FrfError;
-pub use list::{FrequencyGrid, Resonance, frequency_list};
+pub(crate) use list::frequency_list;
+pub use list::{FrequencyGrid, Resonance};
 pub use modal::{ModalBasis, ModalSuperposition};
 pub use response::{FrequencyResponse, FrfQuantity};
 pub use share::{ModeShare, PathShares};

@@ -75,7 +75,7 @@ impl ModalBasis {
     }
 
     /// Mode shapes [n x modes], `phi^T m phi = 1`.
-    pub fn shapes(&self) -> &DenseMatrix {
+    pub(crate) fn shapes(&self) -> &DenseMatrix {
         &self.shapes
     }
 
@@ -84,7 +84,11 @@ impl ModalBasis {
     ///
     /// # Errors
     /// As [`ModalDamping::rates`].
-    pub fn viscous_matrix(&self, system: &ReducedSystem, damping: &ModalDamping) -> Result<DenseMatrix, FrfError> {
+    pub(crate) fn viscous_matrix(
+        &self,
+        system: &ReducedSystem,
+        damping: &ModalDamping,
+    ) -> Result<DenseMatrix, FrfError> {
         let rates = damping.rates(&self.omegas)?;
         let heavy = system.mass() * &self.shapes;
         let scaled = DenseMatrix::from_fn(heavy.nrows(), heavy.ncols(), |row, mode| heavy[(row, mode)] * rates[mode]);
@@ -158,7 +162,7 @@ impl ModalSuperposition {
 
     /// Damping of a mode as a ratio of viscous damping at its own frequency, `(w_r c_r + s_r) / (2 w_r^2)`; none for a
     /// rigid mode.
-    pub fn ratio(&self, mode: usize) -> Option<f64> {
+    pub(crate) fn ratio(&self, mode: usize) -> Option<f64> {
         let omega = *self.omegas.get(mode)?;
         let loss = omega * self.rates[mode] + self.losses[mode];
         (omega > 0.0).then(|| loss / (2.0 * omega * omega))
@@ -166,12 +170,12 @@ impl ModalSuperposition {
 
     /// Largest `|c_rs| / sqrt(c_rr c_ss)` between kept modes, of viscous or structural damping: what the sum of modes
     /// neglects. Round-off for proportional damping; at most 1 for a damping matrix that is positive semidefinite.
-    pub fn coupling(&self) -> f64 {
+    pub(crate) fn coupling(&self) -> f64 {
         self.coupling
     }
 
     /// Statics of the modes left out [s x p], m/N.
-    pub fn residual(&self) -> &DenseMatrix {
+    pub(crate) fn residual(&self) -> &DenseMatrix {
         &self.residual
     }
 
@@ -220,7 +224,12 @@ impl ModalSuperposition {
     ///
     /// # Errors
     /// [`FrfError::NoSuchPath`], and as [`ModalSuperposition::response`].
-    pub fn contributions(&self, sensor: usize, load: usize, frequencies_hz: &[f64]) -> Result<ComplexMatrix, FrfError> {
+    pub(crate) fn contributions(
+        &self,
+        sensor: usize,
+        load: usize,
+        frequencies_hz: &[f64],
+    ) -> Result<ComplexMatrix, FrfError> {
         check_path("sensor", sensor, self.seen.nrows())?;
         check_path("load", load, self.driven.ncols())?;
         check_frequencies(frequencies_hz)?;

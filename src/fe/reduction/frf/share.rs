@@ -39,7 +39,7 @@ impl ModalSuperposition {
     ///
     /// # Errors
     /// [`FrfError::Band`], [`FrfError::NotCovered`], and as [`ModalSuperposition::contributions`].
-    pub fn shares(
+    pub(crate) fn shares(
         &self,
         sensor: usize,
         load: usize,

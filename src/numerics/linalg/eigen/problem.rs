@@ -72,7 +72,11 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
-    pub fn with_factor(k: &SparseMatrix, m: &SparseMatrix, factor: &SparseCholesky) -> Result<Self, LinalgError> {
+    pub(crate) fn with_factor(
+        k: &SparseMatrix,
+        m: &SparseMatrix,
+        factor: &SparseCholesky,
+    ) -> Result<Self, LinalgError> {
         if factor.order() != k.rows() {
             return Err(LinalgError::Shape {
                 what: "factor of the stiffness",
@@ -99,7 +103,7 @@ impl EigenProblem {
 
     /// Round-off of `x^T K x` where zero should be, 1/s^2: that of the motion in which all unknowns are equal, of unit mass, as far as there
     /// is mass. Motions of a rigid body have as much to an order of magnitude.
-    pub fn rounding_of_zero(&self) -> f64 {
+    pub(crate) fn rounding_of_zero(&self) -> f64 {
         let n = self.order();
         let ones = DenseMatrix::from_fn(n, 1, |_, _| 1.0);
         let mass: f64 = self.mass.times(ones.as_ref()).col_as_slice(0).iter().sum();

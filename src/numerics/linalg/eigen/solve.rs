@@ -68,7 +68,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::lowest`].
-    pub fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
+    pub(crate) fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
         let (below, count) = self.count_near(limit, Side::Above)?;
         let elapsed = started.elapsed().as_secs_f64();
@@ -88,7 +88,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::lowest`].
-    pub fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
+    pub(crate) fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
         let low = self.count_near(low, Side::Below)?;
         let high = self.count_near(high, Side::Above)?;

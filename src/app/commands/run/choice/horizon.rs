@@ -72,7 +72,7 @@ impl Horizon {
     }
 
     /// Whether the error was seen to pass the estimate.
-    pub fn passed(&self) -> bool {
+    pub(crate) fn passed(&self) -> bool {
         self.held_s < self.looked_s
     }
 

@@ -44,7 +44,7 @@ pub struct ChosenPart {
 
 impl ModelChoice {
     /// That the case's step is beyond the stable one, and that the model errs by more than the target, with its largest part and what helps: a sentence each.
-    pub fn warnings(&self) -> Vec<String> {
+    pub(crate) fn warnings(&self) -> Vec<String> {
         let unstable = self.stable_s.map(|stable_s| {
             format!(
                 "transient.step makes steps of {} s, longer than the {} s up to which {} keeps small motions at rest from growing: what they grow to, contacts may hold without a blow-up, and the signals cannot be trusted. Shorten it, or leave it to the program.",

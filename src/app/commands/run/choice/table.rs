@@ -5,7 +5,7 @@ use crate::report::{Cell, Column, Table, significant};
 
 impl ModelChoice {
     /// The model's parts with reasons and estimated errors.
-    pub fn table(&self) -> Table {
+    pub(crate) fn table(&self) -> Table {
         let mut table = Table::new(
             "The model, and why it is this one",
             [

@@ -77,7 +77,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// [`UnfinishedError::File`], [`UnfinishedError::Damaged`].
-    pub fn read(path: &Path) -> Result<Self, UnfinishedError> {
+    pub(crate) fn read(path: &Path) -> Result<Self, UnfinishedError> {
         let bytes = fs::read(path).map_err(FileError::read(path))?;
         Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged { path: path.to_owned(), what })
     }

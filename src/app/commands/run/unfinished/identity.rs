@@ -48,7 +48,7 @@ impl RunIdentity {
 
     /// What is not the same now, in words.
     #[must_use]
-    pub fn changes(&self, now: &Self) -> Vec<String> {
+    pub(crate) fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = Vec::new();
         if self.plummer != now.plummer {
             changes.push(format!("plummer {}, now plummer {}", self.plummer, now.plummer));

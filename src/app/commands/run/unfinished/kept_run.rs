@@ -52,7 +52,7 @@ pub struct UnfinishedRun {
 
 impl UnfinishedRun {
     /// Whether a folder holds a checkpoint.
-    pub fn is_in(folder: &Path) -> bool {
+    pub(crate) fn is_in(folder: &Path) -> bool {
         folder.join(FILE).exists()
     }
 
@@ -67,7 +67,7 @@ impl UnfinishedRun {
     /// # Errors
     /// [`UnfinishedError::Nothing`], [`UnfinishedError::Changed`] if what it was begun with is not what it would go on
     /// with, [`UnfinishedError::Damaged`].
-    pub fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
+    pub(crate) fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
         files::no_link(folder).map_err(|source| UnfinishedError::Folder { path: folder.to_owned(), source })?;
         if !Self::is_in(folder) {
             return Err(UnfinishedError::Nothing { path: folder.to_owned() });
@@ -94,20 +94,20 @@ impl UnfinishedRun {
 
     /// The run with checkpoints so far apart in wall time, if they do not take too much of it.
     #[must_use]
-    pub fn every(mut self, pause: Duration) -> Self {
+    pub(crate) fn every(mut self, pause: Duration) -> Self {
         self.every = pause;
         self
     }
 
     /// The run that stops when it is asked to.
     #[must_use]
-    pub fn stopped_by(mut self, stop: StopRequest) -> Self {
+    pub(crate) fn stopped_by(mut self, stop: StopRequest) -> Self {
         self.stop = stop;
         self
     }
 
     /// Where it is.
-    pub fn folder(&self) -> &Path {
+    pub(crate) fn folder(&self) -> &Path {
         &self.folder
     }
 
@@ -115,7 +115,7 @@ impl UnfinishedRun {
     ///
     /// # Errors
     /// [`UnfinishedError::Folder`].
-    pub fn remove(self) -> Result<(), UnfinishedError> {
+    pub(crate) fn remove(self) -> Result<(), UnfinishedError> {
         remove(&self.folder)
     }
 }

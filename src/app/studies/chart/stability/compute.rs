@@ -86,7 +86,7 @@ struct Prepared {
 ///
 /// # Errors
 /// [`ChartError`]; a condition that the bearing cannot be in is no error.
-pub fn compute_stability(
+pub(crate) fn compute_stability(
     run: RunCase<'_>,
     scene: &Scene,
     conditions: Vec<Condition>,

@@ -56,7 +56,7 @@ pub(super) struct Variant {
 
 impl Condition {
     /// All that fit a case; a quick map has the ends of each range.
-    pub fn all(case: &Case, effort: Effort) -> Vec<Self> {
+    pub(crate) fn all(case: &Case, effort: Effort) -> Vec<Self> {
         let defects = case.bearing.as_ref().map_or(0, |of| of.defects.len());
         let radius = case.bearing.as_ref().map_or(0.0, |of| of.ball_radius);
         let ends = |values: &[f64]| -> Vec<f64> {
@@ -83,7 +83,7 @@ impl Condition {
     }
 
     /// What is varied.
-    pub fn axis(self) -> &'static str {
+    pub(crate) fn axis(self) -> &'static str {
         match self {
             Self::AsGiven => "as given",
             Self::Load(_) => "load",
@@ -99,7 +99,7 @@ impl Condition {
     }
 
     /// Its value, and the unit: "" for a ratio, "x" for a multiple of what is given.
-    pub fn value(self) -> Option<(f64, &'static str)> {
+    pub(crate) fn value(self) -> Option<(f64, &'static str)> {
         match self {
             Self::AsGiven | Self::AllModes | Self::AllModesUndamped => None,
             Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => Some((x, "x")),
@@ -110,7 +110,7 @@ impl Condition {
     }
 
     /// In a few words.
-    pub fn label(self) -> String {
+    pub(crate) fn label(self) -> String {
         match self {
             Self::AsGiven | Self::AllModes | Self::AllModesUndamped => self.axis().to_owned(),
             Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => {

@@ -17,8 +17,9 @@ mod section;
 mod summary;
 
 pub use cell::{MethodStability, StepRecord, Window};
-pub use compute::{ConditionStability, Stability, compute_stability};
+pub(crate) use compute::compute_stability;
+pub use compute::{ConditionStability, Stability};
 pub use condition::Condition;
-pub use plots::{resonance_plot, stability_map};
-pub use section::{stability_report, stability_section};
+pub(crate) use plots::{resonance_plot, stability_map};
+pub(crate) use section::{stability_report, stability_section};
 pub use summary::{ConditionSummary, MethodSummary, StabilityModel, StabilitySummary};

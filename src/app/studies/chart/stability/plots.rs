@@ -18,7 +18,7 @@ const STEPS: u32 = 400;
 
 /// States of all steps, conditions and methods, as they were measured.
 #[must_use]
-pub fn stability_map(stability: &Stability) -> StepMap {
+pub(crate) fn stability_map(stability: &Stability) -> StepMap {
     let conditions = || {
         let good = stability.conditions.iter();
         good.filter_map(|of| Some((of.condition, of.methods.as_ref().ok()?)))
@@ -59,7 +59,7 @@ pub fn stability_map(stability: &Stability) -> StepMap {
 
 /// Growth of an oscillator with a contact on it, over the phase that it makes in a step.
 #[must_use]
-pub fn resonance_plot() -> Plot {
+pub(crate) fn resonance_plot() -> Plot {
     let [first, last] = PHASES;
     let phases: Vec<f64> = (0..POINTS).map(|k| first + (last - first) * k as f64 / (POINTS - 1) as f64).collect();
     let curve = |method: Method, colour: usize| {

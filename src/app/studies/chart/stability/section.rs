@@ -6,7 +6,7 @@ use crate::report::{Cell, Column, Report, Section, Table, significant};
 
 /// A report of the map alone; `command` is the line that made it.
 #[must_use]
-pub fn stability_report(case: &Case, stability: &Stability, command: &str) -> Report {
+pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str) -> Report {
     Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Stability of the integration methods")
         .section(stability_section(stability))
@@ -14,7 +14,7 @@ pub fn stability_report(case: &Case, stability: &Stability, command: &str) -> Re
 
 /// Picture, resonance and tables.
 #[must_use]
-pub fn stability_section(stability: &Stability) -> Section {
+pub(crate) fn stability_section(stability: &Stability) -> Section {
     let [kept, all] = stability.modes;
     Section::new("Stability map")
         .paragraph(format!(

@@ -71,7 +71,7 @@ pub struct MethodSummary<'a> {
 impl Stability {
     /// What `stability.json` says of it.
     #[must_use]
-    pub fn summary(&self) -> StabilitySummary<'_> {
+    pub(crate) fn summary(&self) -> StabilitySummary<'_> {
         let [modes, of_modes] = self.modes;
         StabilitySummary {
             model: StabilityModel { modes, of_modes, residual: self.model.residual },
