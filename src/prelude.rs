@@ -1,8 +1,7 @@
 //! What most programs on this library need: `use plummer::prelude::*;`.
 
 pub use crate::app::case::Case;
-pub use crate::app::commands::analyze::WindowAnalysis;
-pub(crate) use crate::app::commands::analyze::compute_analysis;
+pub use crate::app::commands::analyze::{WindowAnalysis, compute_analysis};
 pub use crate::app::commands::condense::{Comparison, compute_condense, superelement_record};
 pub use crate::app::commands::frf::compute_frf;
 pub use crate::app::commands::modes::compute_modes;
