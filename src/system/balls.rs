@@ -44,12 +44,17 @@ pub(super) struct BallGroup {
     pub own: Lanes,
     pub damping: Lanes,
     pub law: [Lanes; 2],
-    /// With it and contact damping: velocity towards the race of the kept modes, and of the race by the changing forces, m/s.
+    /// With it and contact damping: velocity towards the race of the kept modes, and of the race by the changing forces, m/s; rate of
+    /// the force by the motion along waves or damage, N/s.
     pub approach: Lanes,
     pub yielding: Lanes,
-    /// Velocity towards the outer race and along it, m/s.
+    pub growth: Lanes,
+    /// Velocity towards the outer race, m/s.
     pub rate: Lanes,
-    pub along: Lanes,
+    /// Displacement of the outer race along increasing angle under a ball on waves or damage, m, and its rate as the ball moves
+    /// along, m/s; of other balls stale.
+    pub shift: Lanes,
+    pub shift_rate: Lanes,
     /// Force on the outer race, N.
     pub outer_radial: Lanes,
     pub outer_tangential: Lanes,

@@ -115,8 +115,9 @@ pub(super) struct Work {
     pub modal_force: Vec<Lanes>,
     /// Scratch: the tangential row or the slopes of one ball.
     pub scratch_row: Vec<Lanes>,
-    /// Of the first ball, rad.
+    /// Angle of the cage, rad, and its speed, rad/s.
     pub cage_angle: f64,
+    pub cage_speed: f64,
     /// Cosine and sine of the shaft's angle.
     pub shaft_direction: [f64; 2],
     /// Angle of each ball's flat from its radius vector, rad, and its speed in the fixed frame, rad/s.
@@ -124,7 +125,8 @@ pub(super) struct Work {
     /// What each ball may feel at the outer race, and which of them feel anything.
     pub damage: Vec<Damage>,
     pub damaged: Vec<usize>,
-    /// With a static residual: balls on waves or damage, and the displacement and rate of each one's last evaluation and its force.
+    /// Balls on waves or damage of the outer race; with a static residual the displacement and rate of each one's last evaluation
+    /// and its force.
     pub uneven: Vec<usize>,
     pub known: Vec<(f64, f64, RaceForce)>,
     /// Of all balls, N.
@@ -273,6 +275,7 @@ impl Work {
             modal_force: of_modes(),
             scratch_row: of_modes(),
             cage_angle: 0.0,
+            cage_speed: 0.0,
             shaft_direction: [1.0, 0.0],
             spin: vec![[0.0; 2]; balls],
             damage: vec![Damage::None; balls],

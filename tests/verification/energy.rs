@@ -48,6 +48,7 @@ impl Stretch {
         let chosen = [flows[0], flows[1], flows[2], false, false];
         for (set, limit, needed) in [(&PRECISE[..], self.precise, flows), (&[], self.chosen, chosen)] {
             let energy = self.balance(set);
+            println!("{path} {set:?}: {:.1e}", energy.error());
             assert!(energy.error().abs() < limit, "{path} {set:?}: {energy:?}");
             let parts = [
                 energy.loads_j,
@@ -80,14 +81,14 @@ fn it_closes_without_defects() {
     }
 }
 
-// A force on damage of the outer race is taken at a displacement that may be wrong by 1e-5 of itself (SAME_PLACE), a ball's
-// tangential force with it.
+// A force on damage of the outer race is continued over up to 1e-6 of a displacement (SAME_PLACE), without how the profile turns the
+// normals there: found 4e-7. A rate of the damping without the race's own tangential velocity leaves 2e-4 open.
 #[test]
 fn it_closes_over_a_dent_of_the_outer_race() {
     for (path, start, with_blending) in
         [("scenes/impact.toml", 0.0, false), ("tadina2011/outer-dent.toml", 2.3075, true)]
     {
-        let (seconds, precise, chosen) = (1e-3, 2e-4, 1e-3);
+        let (seconds, precise, chosen) = (1e-3, 2e-6, 1e-3);
         Stretch { path, start, seconds, precise, chosen }.check([true, true, true, true, with_blending]);
     }
 }
@@ -103,6 +104,6 @@ fn it_closes_over_a_dent_of_the_inner_race_and_a_flat() {
 // What the modes damp here in so short a time is 5e-6 of what is exchanged.
 #[test]
 fn it_closes_in_a_solid_housing() {
-    Stretch { path: "scenes/pedestal.toml", start: 0.0, seconds: 3e-4, precise: 5e-5, chosen: 1e-4 }
+    Stretch { path: "scenes/pedestal.toml", start: 0.0, seconds: 3e-4, precise: 1e-8, chosen: 1e-4 }
         .check([true, true, false, true, false]);
 }

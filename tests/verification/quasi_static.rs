@@ -145,8 +145,8 @@ fn every_ball_stands_where_it_would_not_accelerate() {
                 moving.force_into(t, &y, &v, &mut g);
                 // the displacement from the recorded radius is good to 1e-18 m, a contact to 3e7 N/m, its force to 3e-11 N
                 let size = g[modes..modes + 2].iter().map(|g| 0.15 * g.abs()).sum::<f64>();
-                // with residual flexibility balls that move are taken where they were found to 1e-7 of their displacement,
-                // and their tangential forces are not continued from there
+                // with residual flexibility forces of balls that move are continued over 1e-6 of a displacement, without how a
+                // profile turns the normals there
                 let digits = if residual { 1e-7 } else { 1e-9 };
                 let tolerance = digits * size.max(0.1);
                 for (ball, g) in g[modes + 2..].iter().enumerate() {

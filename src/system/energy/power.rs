@@ -1,7 +1,7 @@
 //! Powers at one instant, where the force was evaluated last.
 
 use super::super::coupled::CoupledSystem;
-use super::super::race::{Damage, RaceEnergy, RacePlace};
+use super::super::race::RaceEnergy;
 use super::integral::FLOWS;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes};
@@ -77,22 +77,22 @@ impl Powers {
         if group.penetration[lane] <= -system.inner.rise() {
             return;
         }
-        let (n, e) = (group.inner_normal.map(|n| n[lane]), system.balls.direction_of(j));
+        let (gap, e) = (system.balls.inner_gap(j), system.balls.direction_of(j));
+        let n = gap.normal;
         let turn = system.radius(j) * motion.cage.speed;
-        let moving = [rate * e[0] - turn * e[1] - motion.centre[0], rate * e[1] + turn * e[0] - motion.centre[1]];
-        let rates = [-(n[0] * moving[0] + n[1] * moving[1]), n[0] * moving[1] - n[1] * moving[0]];
+        let rates = system.velocity_on_inner(j, &gap, rate, motion.centre);
         let on_race = group.on_inner.map(|force| force[lane]);
         let tangential = n[0] * on_race[1] - n[1] * on_race[0];
-        let (damage, place) = system.inner_place(j, rates, &motion.shaft);
-        let carrier = match damage {
-            Damage::Flat(_) => place.spin[1],
-            _ => place.turning,
-        };
-        self.flows[1] +=
-            turn * (on_race[1] * e[0] - on_race[0] * e[1]) - tangential * group.inner_distance[lane] * carrier;
-        self.flows[3] += system.inner.energy(damage, &place, rates).dissipated;
-        let around = rates[1] / group.inner_distance[lane];
-        self.flows[4] += system.inner.blending(damage, &place, rates, around);
+        let (damage, place) = system.inner_place(j, &gap, rates, &motion.shaft);
+        let oversize = system.balls.get(j, |ball| &ball.oversize);
+        let turning = (gap.distance - oversize) * place.turning;
+        let energy = system.inner.energy(damage, &place, rates[0]);
+        // what the contact takes less what ball and shaft give
+        self.flows[1] += turn * (on_race[1] * e[0] - on_race[0] * e[1])
+            - tangential * (turning + (rates[1] - place.along))
+            - energy.carried;
+        self.flows[3] += energy.dissipated;
+        self.flows[4] += system.inner.blending(damage, &place, rates[0]);
     }
 
     fn outer(&mut self, system: &CoupledSystem, j: usize, rate: f64, motion: &Motion) {
@@ -109,26 +109,20 @@ impl Powers {
         let climbed = lanes::dot(self.row.iter(), amplitudes);
         let rows = group.rows.iter().map(|rows| &rows[lane]);
         let towards = rate - climbed - lanes::dot(rows, &self.velocities);
-        let mut along = system.radius(j) * speed;
         let tangential = group.outer_tangential[lane];
-        let (damage, place) = system.outer_place(j, displaced, &mut self.row);
-        if system.outer.is_irregular() {
+        let (damage, place) = system.outer_place(j, group.gap[lane] - displaced);
+        if tangential != 0.0 {
+            let (at, row) = (system.tangential_place(j), self.row.iter_mut());
+            system.tangential.values_into(at, amplitudes, row);
             let moved = lanes::dot(self.row.iter(), &self.velocities);
-            let at = system.tangential_place(j);
-            system.tangential.slopes_into(at, speed / TAU, &mut self.row);
-            let carried = lanes::dot(self.row.iter(), amplitudes);
-            let carrier = match damage {
-                Damage::Flat(_) => system.radius(j) * place.spin[1],
-                _ => 0.0,
-            };
-            self.flows[1] += tangential * (along - carried - carrier);
-            along -= carried + moved;
+            // what the contact takes less what the modes give
+            self.flows[1] += tangential * (place.along + moved);
         }
         self.flows[1] -= group.outer_radial[lane] * climbed;
-        let RaceEnergy { dissipated, damping, .. } = system.outer.energy(damage, &place, [towards, along]);
+        let RaceEnergy { dissipated, damping, carried, .. } = system.outer.energy(damage, &place, towards);
+        self.flows[1] -= carried;
         self.flows[3] += dissipated;
-        let around = along / system.radius(j);
-        self.flows[4] += system.outer.blending(damage, &place, [towards, along], around);
+        self.flows[4] += system.outer.blending(damage, &place, towards);
         if let Some(coupling) = &system.residual {
             let weight = coupling.weight::<0>().as_flattened()[j];
             self.yielding[j] = [damping, displaced + weight];
@@ -156,51 +150,5 @@ impl CoupledSystem {
             Some(_) => self.balls.get(j, |ball| &ball.displaced),
             None => 0.0,
         }
-    }
-
-    /// What ball `j` feels at the inner race, and its place there at rates towards and along the race, m/s.
-    pub(super) fn inner_place(&self, j: usize, [rate, along]: [f64; 2], shaft: &RotationState) -> (Damage, RacePlace) {
-        let gap = self.balls.inner_gap(j);
-        let mut place =
-            RacePlace { penetration: gap.penetration, rate, along, turning: shaft.speed, ..RacePlace::default() };
-        if !self.inner.is_irregular() {
-            return (Damage::None, place);
-        }
-        let (e, n) = (self.balls.direction_of(j), gap.normal);
-        let [cos, sin] = self.work.shaft_direction;
-        let in_the_race = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
-        let turned = (e[0] * n[1] - e[1] * n[0]).atan2(e[0] * n[0] + e[1] * n[1]);
-        let [spin, speed] = self.work.spin[j];
-        place.angle = self.ball_angle(j) + turned - shaft.angle;
-        place.spin = [spin - turned, speed];
-        let flat = self.balls.flat[j].filter(|&flat| self.inner.feels(flat, spin - turned));
-        let damage = match (self.inner.defect_at(in_the_race), flat) {
-            (Some(defect), _) => Damage::Race(defect),
-            (None, Some(flat)) => Damage::Flat(flat),
-            (None, None) => Damage::None,
-        };
-        (damage, place)
-    }
-
-    /// What ball `j` feels at the outer race, and its place there at the rates of the last evaluation; on an irregular race
-    /// `row` becomes that of the tangential displacement.
-    pub(super) fn outer_place(&self, j: usize, displaced: f64, row: &mut [Lanes]) -> (Damage, RacePlace) {
-        let mut place = RacePlace {
-            penetration: self.balls.get(j, |ball| &ball.gap) - displaced,
-            rate: self.balls.get(j, |ball| &ball.rate),
-            along: self.balls.get(j, |ball| &ball.along),
-            ..RacePlace::default()
-        };
-        if !self.outer.is_irregular() {
-            return (Damage::None, place);
-        }
-        let at = self.tangential_place(j);
-        let amplitudes = &self.work.amplitudes;
-        let along = self.tangential.values_into(at, amplitudes, row.iter_mut());
-        let shift = along / self.radius(j);
-        let [spin, speed] = self.work.spin[j];
-        place.angle = self.ball_angle(j) - shift;
-        place.spin = [spin + shift, speed];
-        (self.work.damage[j], place)
     }
 }

@@ -2,7 +2,6 @@
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
-use crate::numerics::lanes;
 use crate::numerics::ode::Instant;
 
 impl CoupledSystem {
@@ -27,14 +26,15 @@ impl CoupledSystem {
         let mut energy = 0.0;
         if self.balls.get(j, |ball| &ball.penetration) > -self.inner.rise() {
             let shaft = self.setup.cage.shaft().motion(t);
-            let (damage, place) = self.inner_place(j, [0.0; 2], &shaft);
-            energy += self.inner.energy(damage, &place, [0.0; 2]).elastic;
+            let gap = self.balls.inner_gap(j);
+            let (damage, place) = self.inner_place(j, &gap, [0.0; 2], &shaft);
+            energy += self.inner.energy(damage, &place, 0.0).elastic;
         }
         let displaced = self.race_displacement(j);
-        if self.balls.get(j, |ball| &ball.gap) - displaced > -self.outer.rise() {
-            let mut row = lanes::column(self.modes, 0.0);
-            let (damage, place) = self.outer_place(j, displaced, &mut row);
-            energy += self.outer.energy(damage, &place, [0.0; 2]).elastic;
+        let overlap = self.balls.get(j, |ball| &ball.gap) - displaced;
+        if overlap > -self.outer.rise() {
+            let (damage, place) = self.outer_place(j, overlap);
+            energy += self.outer.energy(damage, &place, 0.0).elastic;
             energy += 0.5 * displaced * self.balls.get(j, |ball| &ball.outer_radial);
         }
         energy

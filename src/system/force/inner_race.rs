@@ -59,7 +59,7 @@ impl CoupledSystem {
             group.inner_force = force;
         }
         if self.inner.is_irregular() {
-            self.irregular_inner_forces(velocity, shaft, cage);
+            self.irregular_inner_forces(velocity, shaft);
         }
         let mut sums = [[0.0; LANES]; 2];
         for group in lanes::first::<B, _>(&self.balls.groups) {
@@ -70,20 +70,17 @@ impl CoupledSystem {
     }
 
     /// The same for balls near a race that carries waves or defects, or that may meet a ball's flat.
-    fn irregular_inner_forces(&mut self, velocity: [f64; 2], shaft: &RotationState, cage: &RotationState) {
+    fn irregular_inner_forces(&mut self, velocity: [f64; 2], shaft: &RotationState) {
         let rise = self.inner.rise();
         for j in 0..self.balls.count {
             let gap = self.balls.inner_gap(j);
             if gap.penetration <= -rise {
                 continue;
             }
-            let (n, e) = (gap.normal, self.balls.direction_of(j));
             let rate = self.balls.get(j, |ball| &ball.displacement_rate);
-            let turn = self.radius(j) * cage.speed;
-            let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
-            let approach = -(n[0] * moving[0] + n[1] * moving[1]);
-            let across = n[0] * moving[1] - n[1] * moving[0];
-            let force = self.irregular_inner_force(j, &gap, [approach, across], shaft);
+            let moving = self.velocity_on_inner(j, &gap, rate, velocity);
+            let force = self.irregular_inner_force(j, &gap, moving, shaft);
+            let n = gap.normal;
             let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
             group.inner_force[lane] = force.magnitude;
             group.on_inner[0][lane] = force.radial * n[0] - force.tangential * n[1];
@@ -91,21 +88,58 @@ impl CoupledSystem {
         }
     }
 
-    /// Force of ball `j` on such a race, for rates of the ball towards the race and along it, m/s.
+    /// Velocities of the centre of ball `j` towards the inner race's centre and across, m/s; of the ball along its radius vector
+    /// `rate`, of the race `velocity`.
+    pub(in super::super) fn velocity_on_inner(
+        &self,
+        j: usize,
+        gap: &InnerGap,
+        rate: f64,
+        velocity: [f64; 2],
+    ) -> [f64; 2] {
+        let (n, e) = (gap.normal, self.balls.direction_of(j));
+        let turn = self.radius(j) * self.work.cage_speed;
+        let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
+        [-(n[0] * moving[0] + n[1] * moving[1]), n[0] * moving[1] - n[1] * moving[0]]
+    }
+
+    /// Force of ball `j` on such a race, for velocities of the ball's centre towards the race's and across, m/s.
     pub(super) fn irregular_inner_force(
         &self,
         j: usize,
         gap: &InnerGap,
-        [rate, along]: [f64; 2],
+        velocity: [f64; 2],
         shaft: &RotationState,
     ) -> RaceForce {
+        let (damage, place) = self.inner_place(j, gap, velocity, shaft);
+        self.inner.force(damage, &place)
+    }
+
+    /// What ball `j` feels at the inner race, and its place there, for velocities of the ball's centre towards the race's and
+    /// across, m/s.
+    pub(in super::super) fn inner_place(
+        &self,
+        j: usize,
+        gap: &InnerGap,
+        [rate, across]: [f64; 2],
+        shaft: &RotationState,
+    ) -> (Damage, RacePlace) {
+        // a larger ball's centre is farther away than its penetration says
+        let oversize = self.balls.get(j, |ball| &ball.oversize);
+        let mut place = RacePlace {
+            penetration: gap.penetration,
+            rate,
+            along: across * (1.0 - oversize / gap.distance),
+            turning: shaft.speed,
+            ..RacePlace::default()
+        };
         let (e, n) = (self.balls.direction_of(j), gap.normal);
         let [cos, sin] = self.work.shaft_direction;
         let in_the_race = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
         let defect = self.inner.defect_at(in_the_race);
         let flat = self.balls.flat[j];
         if defect.is_none() && flat.is_none() && !self.inner.is_wavy() {
-            return self.inner.plain_force(gap.penetration, rate);
+            return (Damage::None, place);
         }
         // from the radius vector about the bearing's centre to that about the shaft's
         let turned = (e[0] * n[1] - e[1] * n[0]).atan2(e[0] * n[0] + e[1] * n[1]);
@@ -116,14 +150,8 @@ impl CoupledSystem {
             (None, Some(flat)) => Damage::Flat(flat),
             (None, None) => Damage::None,
         };
-        let place = RacePlace {
-            angle: self.ball_angle(j) + turned - shaft.angle,
-            penetration: gap.penetration,
-            rate,
-            along,
-            spin: [spin - turned, speed],
-            turning: shaft.speed,
-        };
-        self.inner.force(damage, &place)
+        place.angle = self.ball_angle(j) + turned - shaft.angle;
+        place.spin = [spin - turned, speed];
+        (damage, place)
     }
 }

@@ -10,6 +10,8 @@ mod inner_race;
 mod outer_race;
 mod placing;
 mod quasi_static;
+#[cfg(test)]
+mod rate_tests;
 mod tangent;
 #[cfg(test)]
 pub(super) mod tangent_tests;

@@ -1,6 +1,6 @@
 //! Contacts of the balls with the outer race that the kept modes and the weight move.
 
-use super::super::bearing_setup::BallsInertia;
+use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::{CoupledSystem, Work};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::super::raceway::{Place, RacewayTable};
@@ -26,6 +26,34 @@ impl CoupledSystem {
         }
         if self.outer.is_irregular() {
             self.find_damage();
+            self.find_shifts(cage);
+        }
+    }
+
+    /// Finds the balls on waves or damage, and how far and how fast the race under them moves along increasing angle: with it they
+    /// move along the profile.
+    fn find_shifts(&mut self, cage: &RotationState) {
+        self.work.uneven.clear();
+        if self.outer.is_wavy() {
+            for j in 0..self.balls.count {
+                if self.is_near(j) {
+                    self.work.uneven.push(j);
+                }
+            }
+        } else {
+            self.work.uneven.extend_from_slice(&self.work.damaged);
+        }
+        for place in 0..self.work.uneven.len() {
+            let j = self.work.uneven[place];
+            let at = self.tangential_place(j);
+            let (work, table) = (&mut self.work, &self.tangential);
+            let row = &mut work.scratch_row;
+            let shift = table.values_into(at, &work.amplitudes, row.iter_mut());
+            let moved = lanes::dot(row.iter(), &work.velocities);
+            table.slopes_into(at, cage.speed / TAU, row);
+            let carried = lanes::dot(row.iter(), &work.amplitudes);
+            self.balls.set(j, |ball| &mut ball.shift, shift);
+            self.balls.set(j, |ball| &mut ball.shift_rate, moved + carried);
         }
     }
 
@@ -128,8 +156,6 @@ impl CoupledSystem {
                 let race = lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
                 group.rate[l] = group.displacement_rate[l] - race;
             }
-            let touching = self.inner_race.touching_radius;
-            group.along = lanes::each(|l| (touching + group.displacement[l]) * cage.speed);
         }
     }
 
@@ -151,47 +177,47 @@ impl CoupledSystem {
             group.outer_magnitude = group.outer_radial;
             group.outer_tangential = [0.0; LANES];
         }
-        if self.outer.is_wavy() {
-            for j in 0..self.balls.count {
-                if self.is_near(j) {
-                    self.irregular_outer_force(j);
-                }
-            }
-        } else {
-            for place in 0..self.work.damaged.len() {
-                self.irregular_outer_force(self.work.damaged[place]);
-            }
+        for place in 0..self.work.uneven.len() {
+            let j = self.work.uneven[place];
+            let force = self.outer_force(j, self.balls.get(j, |ball| &ball.gap));
+            self.keep_outer(j, &force);
         }
-    }
-
-    /// The same for a ball on waves or damage.
-    fn irregular_outer_force(&mut self, j: usize) {
-        let force = self.outer_force(j, self.balls.get(j, |ball| &ball.gap));
-        self.keep_outer(j, &force);
     }
 
     /// Outer force of ball `j` at the displacement `s` relative to the race.
     #[inline]
-    pub(super) fn outer_force(&mut self, j: usize, s: f64) -> RaceForce {
-        let damage = self.work.damage[j];
-        let rate = self.balls.get(j, |ball| &ball.rate);
-        if damage == Damage::None && !self.outer.is_wavy() {
-            return self.outer.plain_force(s, rate);
-        }
-        let at = self.tangential_place(j);
-        let work = &mut self.work;
-        let along = self.tangential.values_into(at, &work.amplitudes, work.scratch_row.iter_mut());
-        let shift = along / self.radius(j);
-        let [spin, speed] = self.work.spin[j];
-        let place = RacePlace {
-            angle: self.ball_angle(j) - shift,
-            penetration: s,
-            rate,
-            along: self.balls.get(j, |ball| &ball.along),
-            spin: [spin + shift, speed],
-            turning: 0.0,
-        };
+    pub(super) fn outer_force(&self, j: usize, s: f64) -> RaceForce {
+        let (damage, place) = self.outer_place(j, s);
         self.outer.force(damage, &place)
+    }
+
+    /// What ball `j` feels at the outer race at the displacement `s` (m) relative to it, and its place there.
+    ///
+    /// With the race's displacement u along increasing angle the ball at θ is at `θ - u / ρ` on the race, and moves along it
+    /// at `(R + s) d/dt (θ - u / ρ)`, R the distance at which it touches. `printed` leaves u out of that.
+    #[inline]
+    pub(in super::super) fn outer_place(&self, j: usize, s: f64) -> (Damage, RacePlace) {
+        let damage = self.work.damage[j];
+        let mut place =
+            RacePlace { penetration: s, rate: self.balls.get(j, |ball| &ball.rate), ..RacePlace::default() };
+        if damage == Damage::None && !self.outer.is_wavy() {
+            return (damage, place);
+        }
+        let radius = self.radius(j);
+        let shift = self.balls.get(j, |ball| &ball.shift) / radius;
+        let [spin, spin_speed] = self.work.spin[j];
+        place.angle = self.ball_angle(j) - shift;
+        place.spin = [spin + shift, spin_speed];
+        let speed = self.work.cage_speed;
+        place.along = match self.setup.formulation {
+            Formulation::Consistent => {
+                let [shift_rate, rate] =
+                    [self.balls.get(j, |ball| &ball.shift_rate), self.balls.get(j, |ball| &ball.displacement_rate)];
+                self.outer.radius(s) * (speed - (shift_rate - shift * rate) / radius)
+            }
+            Formulation::Printed => radius * speed,
+        };
+        (damage, place)
     }
 
     /// Where ball `j` is in the table of tangential displacements.

@@ -22,7 +22,8 @@ impl CoupledSystem {
     pub(super) fn take<const B: usize, const M: usize>(&mut self, y: &[f64], v: &[f64]) {
         let (modes, work) = (self.modes, &mut self.work);
         lanes::set(lanes::first_mut::<M, _>(&mut work.amplitudes), &y[..modes]);
-        if self.setup.contact_damping > 0.0 {
+        let moving = self.setup.contact_damping > 0.0 || self.outer.is_irregular();
+        if moving {
             lanes::set(lanes::first_mut::<M, _>(&mut work.velocities), &v[..modes]);
         }
         let groups = lanes::first_mut::<B, _>(&mut self.balls.groups);
@@ -36,7 +37,7 @@ impl CoupledSystem {
         for (group, displacements) in groups.iter_mut().zip(displacements) {
             group.displacement = lanes::from(displacements);
         }
-        if self.setup.contact_damping > 0.0 {
+        if moving {
             for (group, rates) in groups.iter_mut().zip(v[modes + 2..].chunks(LANES)) {
                 group.displacement_rate = lanes::from(rates);
             }
@@ -74,6 +75,7 @@ impl CoupledSystem {
     #[inline(always)]
     pub(super) fn place_balls<const B: usize>(&mut self, shaft: &RotationState, cage: &RotationState) {
         self.work.cage_angle = cage.angle;
+        self.work.cage_speed = cage.speed;
         let turn = reduced_turn(self.setup.cage.ball_angle(cage.angle, 0));
         let [[cos, sin], shaft] = directions([turn, reduced_turn(shaft.angle)]);
         self.work.shaft_direction = shaft;

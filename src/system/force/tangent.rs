@@ -4,20 +4,23 @@
 //! centre to the ball and across, and c the place of that centre,
 //!
 //! ```text
-//! outer   d F = rr (ds - w dq) - rt u dq + b (ds' - w dq' - w' theta' dq)      on modes w, on the ball -1 / m_b
-//!         d T = rt (ds - w dq) - tt u dq                                       on modes u
-//! inner   d F = rr' dr + rt' da + b (n . d moving + (t . moving) da / chi)     on the shaft n / m_s, on the ball -n.e / m_b
-//!         d T = rt' dr + tt' da                                                on the shaft t / m_s, on the ball -t.e / m_b
+//! outer   d F = rr (ds - w dq) - rt u dq + b_rr dr' + b_rt da'                 on modes w, on the ball -1 / m_b
+//!         d T = rt (ds - w dq) - tt u dq + b_rt dr' + b_tt da'                 on modes u
+//!         dr' = ds' - w dq' - w' theta' dq
+//!         da' = -u dq' - u' theta' dq + (theta' - turning) (ds - w dq)         `printed`: without u
+//! inner   d F = rr' dr + rt' da + b_rr dr' + b_rt da'                          on the shaft n / m_s, on the ball -n.e / m_b
+//!         d T = rt' dr + tt' da + b_rt dr' + b_tt da'                          on the shaft t / m_s, on the ball -t.e / m_b
 //!         dr = n . (e ds - dc), da = t . (e ds - dc)
+//!         dr' = n . d moving + (t . moving) da / chi, da' = t . d moving - turning dr
 //! ```
 //!
-//! with b the derivative by the rate and, across the normal, what comes from the force turning with it, `F / chi`.
+//! with b the derivatives by the velocities relative to what turns with the damage and, across the normal, what comes from the
+//! force turning with it, `F / chi`.
 //!
 //! Exact on circles. Left out, so that a method that solves with it needs an iteration more where they count: the centrifugal
-//! force's growth with s (1e4 1/s^2 beside 1e11 of a contact); on damage the profile's turning of the normals and the rate's
-//! part across them; of the static residual what one ball's force moves under
-//! the others; without the balls' inertia all but
-//! both contacts in series along one normal.
+//! force's growth with s (1e4 1/s^2 beside 1e11 of a contact); on damage how the profile turns the normals; of the velocity along
+//! it the parts by u / rho and by the radial velocity over chi; of the static residual what one ball's force moves under the
+//! others; without the balls' inertia all but both contacts in series along one normal.
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::CoupledSystem;
@@ -28,12 +31,23 @@ use crate::numerics::lanes::LANES;
 use crate::numerics::ode::{Tangent, TangentTerm};
 use std::f64::consts::TAU;
 
+/// Contact of a ball with the outer race.
+struct OuterContact {
+    /// On the race, with its derivatives.
+    force: RaceForce,
+    /// How far the race gives way to it, m/N.
+    own: f64,
+    /// Displacement into the race, m.
+    overlap: f64,
+    /// Angular speed of what carries the damage, rad/s.
+    carrier: f64,
+}
+
 impl CoupledSystem {
     /// Adds the tangent at the state that was evaluated last, whose force is `g`.
     pub(super) fn add_tangent(&mut self, t: f64, [y, v, g]: [&[f64]; 3], tangent: &mut Tangent) {
         let shaft = self.setup.cage.shaft();
         let shaft = shaft.motion_from(&mut self.cursors[0], t);
-        let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
         if self.setup.balls_inertia == BallsInertia::QuasiStatic {
             for j in 0..self.balls.count {
                 self.add_in_series(j, &shaft, tangent);
@@ -43,8 +57,8 @@ impl CoupledSystem {
         let centre = self.centre_motion(y, v, g);
         let velocity = [0, 1].map(|k| v[self.modes + k] - centre.velocity[k]);
         for j in 0..self.balls.count {
-            self.add_outer(j, cage.speed, tangent);
-            self.add_inner(j, velocity, [&shaft, &cage], tangent);
+            self.add_outer(j, tangent);
+            self.add_inner(j, velocity, &shaft, tangent);
         }
         if self.setup.formulation == Formulation::Printed {
             self.add_frame(tangent);
@@ -52,14 +66,14 @@ impl CoupledSystem {
     }
 
     /// Outer contact of a ball.
-    fn add_outer(&mut self, j: usize, speed: f64, tangent: &mut Tangent) {
-        let Some((force, own, overlap)) = self.outer_contact(j) else {
+    fn add_outer(&mut self, j: usize, tangent: &mut Tangent) {
+        let Some(OuterContact { force, own, overlap, carrier }) = self.outer_contact(j) else {
             return;
         };
         let uneven = self.work.damage[j] != Damage::None || self.outer.is_wavy();
         let [mut rr, rt, tt] = force.tangent;
         // on a race that gives way by `own`, the rate r shrinks by 1 + own f', and the more the stiffer the contact becomes
-        let mut by_rate = force.by_rate;
+        let [mut by_rate, mixed, across] = force.by_rate;
         if own > 0.0 && by_rate > 0.0 {
             let rate = match uneven {
                 true => 0.0,
@@ -70,82 +84,122 @@ impl CoupledSystem {
             rr -= 0.5 * by_rate * rate * rr;
         }
         let share = 1.0 / (1.0 + own * rr);
+        // by which the race gives way for a motion along it
+        let aside = own * rt * share;
+        let across = across - aside * (2.0 * mixed - aside * force.by_rate[0]);
+        let mixed = (mixed - aside * force.by_rate[0]) * share;
         let (rr, rt, tt) = (rr * share, rt * share, tt - own * rt * rt * share);
         by_rate *= share;
-        let (modes, ball) = (self.modes, self.modes + 2 + j);
+        let (modes, sliding) = (self.modes, self.work.cage_speed - carrier);
         if uneven {
-            // the row across is still there from the force
             let mut term = tangent.add();
+            let by = [[rt + across * sliding, tt], [mixed, across]];
+            self.by_motion_on_outer(j, by, &mut term);
+            self.find_row_across(j);
             for i in 0..modes {
-                let (w, u) = (self.radial_row(j, i), self.scratch(i));
-                term.left[i] = u;
-                term.position[i] = -(rt * w + tt * u);
+                term.left[i] = self.scratch(i);
             }
-            term.position[ball] = rt;
             self.follow_centre(&mut term);
         }
         let mut term = tangent.add();
+        let by = [[rr + mixed * sliding, rt], [by_rate, mixed]];
+        self.by_motion_on_outer(j, by, &mut term);
         for i in 0..modes {
-            let w = self.radial_row(j, i);
-            term.left[i] = w;
-            term.position[i] = -rr * w;
-            term.velocity[i] = -by_rate * w;
-            if uneven {
-                term.position[i] -= rt * self.scratch(i);
-            }
+            term.left[i] = self.radial_row(j, i);
         }
-        term.left[ball] = -self.ball_mobility;
-        term.position[ball] = rr;
-        term.velocity[ball] = by_rate;
-        if by_rate > 0.0 {
-            let at = self.radial.locate(&self.balls.groups[j / LANES].turn);
-            let (place, scale) = (at.get(j % LANES), speed / TAU);
-            self.radial.slopes_into(place, scale, &mut self.work.scratch_row);
-            for i in 0..modes {
-                term.position[i] -= by_rate * self.scratch(i);
-            }
-        }
+        term.left[modes + 2 + j] = -self.ball_mobility;
         self.follow_centre(&mut term);
     }
 
+    /// Sets by which motion a force changes that changes by the displacement of ball `j` and its rate, each towards the outer race
+    /// and along it.
+    fn by_motion_on_outer(
+        &mut self,
+        j: usize,
+        [[towards, along], [rate, rate_along]]: [[f64; 2]; 2],
+        term: &mut TangentTerm<'_>,
+    ) {
+        let (modes, ball) = (self.modes, self.modes + 2 + j);
+        for i in 0..modes {
+            let w = self.radial_row(j, i);
+            term.position[i] = -towards * w;
+            term.velocity[i] = -rate * w;
+        }
+        term.position[ball] = towards;
+        term.velocity[ball] = rate;
+        let scale = self.work.cage_speed / TAU;
+        if rate != 0.0 {
+            let at = self.radial.locate(&self.balls.groups[j / LANES].turn);
+            let place = at.get(j % LANES);
+            self.radial.slopes_into(place, scale, &mut self.work.scratch_row);
+            for i in 0..modes {
+                term.position[i] -= rate * self.scratch(i);
+            }
+        }
+        if along != 0.0 {
+            self.find_row_across(j);
+            for i in 0..modes {
+                term.position[i] -= along * self.scratch(i);
+            }
+        }
+        if rate_along != 0.0 && self.setup.formulation == Formulation::Consistent {
+            self.find_row_across(j);
+            for i in 0..modes {
+                term.velocity[i] -= rate_along * self.scratch(i);
+            }
+            let place = self.tangential_place(j);
+            self.tangential.slopes_into(place, scale, &mut self.work.scratch_row);
+            for i in 0..modes {
+                term.position[i] -= rate_along * self.scratch(i);
+            }
+        }
+    }
+
+    /// Sets the scratch row to the race's displacement along increasing angle under ball `j`.
+    fn find_row_across(&mut self, j: usize) {
+        let at = self.tangential_place(j);
+        let (work, table) = (&mut self.work, &self.tangential);
+        table.values_into(at, &work.amplitudes, work.scratch_row.iter_mut());
+    }
+
     /// Inner contact of a ball, for a `velocity` of the race's centre.
-    fn add_inner(&self, j: usize, velocity: [f64; 2], [shaft, cage]: [&RotationState; 2], tangent: &mut Tangent) {
+    fn add_inner(&self, j: usize, velocity: [f64; 2], shaft: &RotationState, tangent: &mut Tangent) {
         if self.balls.get(j, |ball| &ball.inner_force) <= 0.0 {
             return;
         }
         let (gap, e) = (self.balls.inner_gap(j), self.balls.direction_of(j));
         let (n, t) = (gap.normal, [-gap.normal[1], gap.normal[0]]);
         let rate = self.balls.get(j, |ball| &ball.displacement_rate);
-        let turn = self.radius(j) * cage.speed;
-        let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
-        let (apart, across) = (product(n, moving), product(t, moving));
-        let force = if self.inner.is_irregular() {
-            self.irregular_inner_force(j, &gap, [-apart, across], shaft)
-        } else {
-            self.inner.plain_force(gap.penetration, -apart)
-        };
+        let moving = self.velocity_on_inner(j, &gap, rate, velocity);
+        let (damage, place) = self.inner_place(j, &gap, moving, shaft);
+        let force = self.inner.force(damage, &place);
         let [rr, rt, tt] = in_the_plane(&force, gap.distance);
-        let (by_rate, turning) = (force.by_rate, across / gap.distance);
+        let ([by_rate, mixed, by_across], turning) = (force.by_rate, moving[1] / gap.distance);
         let (along, aside) = (product(n, e), product(t, e));
+        let (speed, carrier) = (self.work.cage_speed, place.carrier(damage));
         let (first, ball) = (self.modes, self.modes + 2 + j);
         let mut term = tangent.add();
         for k in 0..2 {
             term.left[first + k] = self.shaft_mobility * n[k];
-            term.position[first + k] = -(rr * n[k] + (rt + by_rate * turning) * t[k]);
-            term.velocity[first + k] = -by_rate * n[k];
+            term.position[first + k] = -((rr - mixed * carrier) * n[k] + (rt + by_rate * turning) * t[k]);
+            term.velocity[first + k] = -(by_rate * n[k] + mixed * t[k]);
         }
         term.left[ball] = -self.ball_mobility * along;
         // a ball farther out goes round faster: cage speed times e turned by a right angle
-        term.position[ball] = rr * along + rt * aside + by_rate * (turning * aside - cage.speed * aside);
-        term.velocity[ball] = by_rate * along;
+        term.position[ball] =
+            rr * along + rt * aside + by_rate * (turning * aside - speed * aside) + mixed * (speed - carrier) * along;
+        term.velocity[ball] = by_rate * along + mixed * aside;
         self.follow_centre(&mut term);
         let mut term = tangent.add();
         for k in 0..2 {
             term.left[first + k] = self.shaft_mobility * t[k];
-            term.position[first + k] = -(rt * n[k] + tt * t[k]);
+            term.position[first + k] = -((rt - by_across * carrier) * n[k] + (tt + mixed * turning) * t[k]);
+            term.velocity[first + k] = -(mixed * n[k] + by_across * t[k]);
         }
         term.left[ball] = -self.ball_mobility * aside;
-        term.position[ball] = rt * along + tt * aside;
+        term.position[ball] =
+            rt * along + tt * aside + mixed * (turning * aside - speed * aside) + by_across * (speed - carrier) * along;
+        term.velocity[ball] = mixed * along + by_across * aside;
         self.follow_centre(&mut term);
     }
 
@@ -154,12 +208,12 @@ impl CoupledSystem {
         if self.balls.get(j, |ball| &ball.inner_force) <= 0.0 {
             return;
         }
-        let Some((outer, own, _)) = self.outer_contact(j) else {
+        let Some(OuterContact { force, own, .. }) = self.outer_contact(j) else {
             return;
         };
         let gap = self.balls.inner_gap(j);
         let inner = self.inner_force_at(j, &gap, shaft).tangent[0];
-        let outer = outer.tangent[0] / (1.0 + own * outer.tangent[0]);
+        let outer = force.tangent[0] / (1.0 + own * force.tangent[0]);
         let both = inner + outer;
         if inner <= 0.0 || outer <= 0.0 {
             return;
@@ -177,9 +231,8 @@ impl CoupledSystem {
         }
     }
 
-    /// Force on the outer race with its derivatives, how far the race gives way to it (m/N), and the displacement into the race (m);
-    /// none without contact.
-    fn outer_contact(&mut self, j: usize) -> Option<(RaceForce, f64, f64)> {
+    /// None without contact.
+    fn outer_contact(&self, j: usize) -> Option<OuterContact> {
         if self.balls.get(j, |ball| &ball.outer_magnitude) <= 0.0 {
             return None;
         }
@@ -190,8 +243,10 @@ impl CoupledSystem {
             // what is kept there is the overlap
             BallsInertia::QuasiStatic => 0.0,
         };
-        let force = self.outer_force(j, gap - given);
-        (force.magnitude > 0.0).then_some((force, own, gap - given))
+        let overlap = gap - given;
+        let (damage, place) = self.outer_place(j, overlap);
+        let force = self.outer.force(damage, &place);
+        (force.magnitude > 0.0).then_some(OuterContact { force, own, overlap, carrier: place.carrier(damage) })
     }
 
     /// In `printed` the inner race is where the shaft is less the ring's mean, and the balls' frame accelerates with it.

@@ -18,8 +18,8 @@ pub(super) const MAX_SWEEPS: usize = 1000;
 pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
 
 /// Relative change of a displacement and its rate over which the force on waves or damage is continued by its tangent; the error
-/// is its square.
-const SAME_PLACE: f64 = 1e-5;
+/// is that times what the tangent leaves out, the profile's turning of the normals.
+const SAME_PLACE: f64 = 1e-6;
 
 impl CoupledSystem {
     /// Outer forces that deform the race through the residual flexibility `G`, `F_j = f(gap_j - sum G_jk F_k)`: all balls at
@@ -28,8 +28,8 @@ impl CoupledSystem {
     /// `G` is soft beside the contacts (a few percent, and less from ball to ball), so each sweep gains nearly two digits; the
     /// start does not depend on the history.
     ///
-    /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j`: they are
-    /// found in the first of the same sweeps.
+    /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j` and, on waves
+    /// and damage, what changes as the ball moves along: they are found in the first of the same sweeps.
     #[inline(always)]
     pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
         let damped = self.setup.contact_damping > 0.0;
@@ -68,9 +68,12 @@ impl CoupledSystem {
         }
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            let force = self.work.known[j].2;
-            self.balls.set(j, |ball| &mut ball.outer_magnitude, force.magnitude);
-            self.balls.set(j, |ball| &mut ball.outer_tangential, force.tangential);
+            let (at, at_rate, force) = self.work.known[j];
+            let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
+            let s = group.gap[lane] - group.displaced[lane];
+            group.outer_magnitude[lane] = force.magnitude;
+            group.outer_tangential[lane] =
+                force.tangential + force.tangent[1] * (s - at) + force.by_rate[1] * (group.rate[lane] - at_rate);
         }
     }
 
@@ -83,6 +86,7 @@ impl CoupledSystem {
         for &j in &near {
             self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
             self.balls.set(j, |ball| &mut ball.law[1], 0.0);
+            self.balls.set(j, |ball| &mut ball.growth, 0.0);
             self.work.known[j].0 = f64::NAN;
         }
         for _ in 0..MAX_SWEEPS {
@@ -113,13 +117,14 @@ impl CoupledSystem {
             let (other, lane) = (&self.balls.groups[k / LANES], k % LANES);
             let flexibility = coupling.between(j, k);
             displaced += flexibility * other.outer_radial[lane];
-            yielding += flexibility * other.law[1][lane] * other.rate[lane];
+            yielding += flexibility * (other.law[1][lane] * other.rate[lane] + other.growth[lane]);
         }
         let plain = self.outer.plain();
         let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
         let before = group.outer_radial[lane];
         group.displaced[lane] = displaced + own * before;
         if damped {
+            let yielding = yielding + own * group.growth[lane];
             let rate = (group.approach[lane] - yielding) / (1.0 + own * group.law[1][lane]);
             group.rate[lane] = rate;
             group.damping[lane] = f64::max(1.0 + plain.damping * rate, 0.0);
@@ -140,33 +145,23 @@ impl CoupledSystem {
         [before, after]
     }
 
-    /// Forces on a race that gives way by each ball's own share alone, of balls on waves and damage none; and the rates.
+    /// Forces on a race that gives way by each ball's own share alone, and the rates.
     #[inline(always)]
     fn start_sweeps<const B: usize>(&mut self, cage: &RotationState) {
-        self.work.uneven.clear();
-        if self.outer.is_wavy() {
-            for j in 0..self.balls.count {
-                if self.is_near(j) {
-                    self.work.uneven.push(j);
-                }
-            }
-        } else {
-            self.work.uneven.extend_from_slice(&self.work.damaged);
-        }
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             group.displaced = [0.0; LANES];
+            group.growth = [0.0; LANES];
         }
         self.damping_factors::<B>();
         self.laws::<B>();
+        for place in 0..self.work.uneven.len() {
+            let j = self.work.uneven[place];
+            self.work.known[j].0 = f64::NAN;
+            self.uneven_law(j);
+        }
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             let (own, [law, tangent]) = (&group.own, &group.law);
             group.outer_radial = each(|l| law[l] / (1.0 + own[l] * tangent[l]));
-        }
-        for place in 0..self.work.uneven.len() {
-            let j = self.work.uneven[place];
-            self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
-            self.balls.set(j, |ball| &mut ball.law[1], 0.0);
-            self.work.known[j].0 = f64::NAN;
         }
         if self.setup.contact_damping > 0.0 {
             self.rates_by_turning::<B>(cage);
@@ -234,8 +229,9 @@ impl CoupledSystem {
         }
         let (at, at_rate, force) = &self.work.known[j];
         let [law, tangent] = &mut self.balls.groups[group].law;
-        law[lane] = force.radial + force.tangent[0] * (s - at) + force.by_rate * (rate - at_rate);
+        law[lane] = force.radial + force.tangent[0] * (s - at) + force.by_rate[0] * (rate - at_rate);
         tangent[lane] = force.tangent[0];
+        self.balls.groups[group].growth[lane] = force.growth;
     }
 
     pub(super) fn clear_outer_radial(&mut self) {
@@ -271,11 +267,12 @@ impl CoupledSystem {
         }
         for group in groups {
             let (approach, own, tangent) = (&group.approach, &group.own, &group.law[1]);
-            group.rate = each(|l| approach[l] / (1.0 + own[l] * tangent[l]));
+            let growth = &group.growth;
+            group.rate = each(|l| (approach[l] - own[l] * growth[l]) / (1.0 + own[l] * tangent[l]));
         }
     }
 
-    /// A Jacobi sweep of `r_i = v_i - sum G_ij f'_j r_j` with the laws of the last sweep.
+    /// A Jacobi sweep of `r_i = v_i - sum G_ij (f'_j r_j + g_j)` with the laws of the last sweep, g what grows along waves or damage.
     #[inline(always)]
     fn rates_on_moving_race<const B: usize>(&mut self) {
         let Some(coupling) = &self.residual else {
@@ -287,7 +284,8 @@ impl CoupledSystem {
         }
         for number in 0..groups.len() {
             let (rate, tangent) = (&groups[number].rate, &groups[number].law[1]);
-            let growing = each(|l| tangent[l] * rate[l]);
+            let growth = &groups[number].growth;
+            let growing = each(|l| tangent[l] * rate[l] + growth[l]);
             for (lane, growing) in growing.into_iter().enumerate() {
                 if growing == 0.0 {
                     continue;

@@ -17,8 +17,10 @@ pub(in crate::system) struct RaceForce {
     /// Derivatives by the ball's radial and tangential position relative to the race, N/m:
     /// (radial by radial, radial by tangential = tangential by radial, tangential by tangential).
     pub tangent: [f64; 3],
-    /// Derivative of the radial force by the ball's radial velocity relative to the race, N s/m.
-    pub by_rate: f64,
+    /// Derivatives by the ball's radial and tangential velocity relative to the race, N s/m, in the same order.
+    pub by_rate: [f64; 3],
+    /// Rate of the radial force by the ball's motion along the race at its velocity there, N/s.
+    pub growth: f64,
     /// Sum of the contact forces' magnitudes, N.
     pub magnitude: f64,
 }
@@ -32,7 +34,8 @@ pub(in crate::system) struct RacePlace {
     pub penetration: f64,
     /// Rate of that, m/s.
     pub rate: f64,
-    /// Velocity of the ball's centre along increasing angle, in the fixed frame, m/s.
+    /// Velocity of the ball's centre along increasing angle about the race's centre, m/s: the distance from there that
+    /// `penetration` says times the rate of `angle` and `turning`.
     pub along: f64,
     /// Angle and speed of the ball's flat, if it has one: from its radius vector, rad, and in the fixed frame, rad/s.
     pub spin: [f64; 2],
@@ -80,6 +83,16 @@ struct DefectArc {
 /// Added to half the arc, rad: the race's own tangential displacement (1e-6 m on 4e-3 m) must not
 /// carry a ball out of the arc. Beyond the rims a defect's contact is that of the plain race.
 const ARC_MARGIN: f64 = 2e-3;
+
+impl RacePlace {
+    /// Angular speed of what carries the damage, rad/s: of the race, or of the ball.
+    pub(crate) fn carrier(&self, damage: Damage) -> f64 {
+        match damage {
+            Damage::Flat(_) => self.spin[1],
+            Damage::None | Damage::Race(_) => self.turning,
+        }
+    }
+}
 
 impl RaceContact {
     /// The race of a bearing.
@@ -195,7 +208,8 @@ impl RaceContact {
             radial: self.sign * force.force,
             tangential: 0.0,
             tangent: [force.by_penetration, 0.0, 0.0],
-            by_rate: force.by_rate,
+            by_rate: [force.by_rate, 0.0, 0.0],
+            growth: 0.0,
             magnitude: force.force,
         }
     }
@@ -214,12 +228,11 @@ impl RaceContact {
         let mut force = self.force_on_circle(damage, &self.on_waves(at));
         let (lean, normal) = (self.sign * slope / radius, force.radial);
         force.tangential -= lean * normal;
-        let [rr, rt, tt] = force.tangent;
-        force.tangent = [
-            rr,
-            rt - lean * rr,
-            tt - 2.0 * lean * rt + lean * lean * rr - self.sign * bend / (radius * radius) * normal,
-        ];
+        force.growth -= lean * force.tangent[0] * (at.along - radius * at.turning);
+        let leaning = |[rr, rt, tt]: [f64; 3]| [rr, rt - lean * rr, tt - 2.0 * lean * rt + lean * lean * rr];
+        force.tangent = leaning(force.tangent);
+        force.tangent[2] -= self.sign * bend / (radius * radius) * normal;
+        force.by_rate = leaning(force.by_rate);
         force
     }
 
@@ -230,8 +243,14 @@ impl RaceContact {
             return *at;
         }
         let [height, slope, _] = self.waviness.at(at.angle).map(|part| self.sign * part);
-        let moving = at.along / self.radius(at.penetration) - at.turning;
-        RacePlace { penetration: at.penetration - height, rate: at.rate - slope * moving, ..*at }
+        let turn = at.along / self.radius(at.penetration);
+        let penetration = at.penetration - height;
+        RacePlace {
+            penetration,
+            rate: at.rate - slope * (turn - at.turning),
+            along: turn * self.radius(penetration),
+            ..*at
+        }
     }
 
     /// The same without waves.
@@ -247,22 +266,32 @@ impl RaceContact {
     #[inline]
     pub(super) fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
         let radius = self.radius(at.penetration);
+        let mut contacts = DefectContacts::none();
         match damage {
-            Damage::None => None,
+            Damage::None => return None,
             Damage::Race(defect) => {
                 let place = PolarPosition { radius, angle: at.angle };
-                let mut contacts = DefectContacts::none();
                 let defect = &self.defects[defect].defect;
                 defect.contacts_into(place, &mut contacts);
-                Some((contacts, at.along - radius * at.turning))
             }
             Damage::Flat(flat) => {
-                let mut contacts = DefectContacts::none();
                 let flat = &self.flats[flat];
                 flat.contacts_into(self.race, at.spin[0], radius, &mut contacts);
-                Some((contacts, at.along - radius * at.spin[1]))
             }
         }
+        Some((contacts, at.along - radius * at.carrier(damage)))
+    }
+
+    /// Overlaps of all contacts that press at a place, m, and the rates of these by which damping goes, m/s.
+    #[cfg(test)]
+    pub(crate) fn overlaps(&self, damage: Damage, at: &RacePlace) -> Vec<[f64; 2]> {
+        let at = self.on_waves(at);
+        let Some((contacts, along)) = self.contacts(damage, &at) else {
+            return vec![[at.penetration, at.rate]];
+        };
+        let radial = self.sign * at.rate;
+        let pressing = contacts.pressing();
+        pressing.map(|contact| [contact.delta, contact.rate(radial, along)]).collect()
     }
 
     fn sum(&self, contacts: &DefectContacts, rate: f64, along: f64) -> RaceForce {
@@ -274,11 +303,12 @@ impl RaceContact {
             sum.radial += force.force * n_r;
             sum.tangential += force.force * n_t;
             sum.magnitude += force.force;
-            sum.by_rate += force.by_rate * n_r * n_r;
-            sum.tangent[0] += force.by_penetration * n_r * n_r;
-            sum.tangent[1] += force.by_penetration * n_r * n_t;
-            sum.tangent[2] += force.by_penetration * n_t * n_t;
+            for (place, [a, b]) in [[n_r, n_r], [n_r, n_t], [n_t, n_t]].into_iter().enumerate() {
+                sum.tangent[place] += force.by_penetration * a * b;
+                sum.by_rate[place] += force.by_rate * a * b;
+            }
         }
+        sum.growth = sum.tangent[1] * along;
         sum
     }
 }

@@ -17,51 +17,56 @@ pub(in crate::system) struct RaceEnergy {
     pub dissipated: f64,
     /// What damping adds to the radial force on the race, N.
     pub damping: f64,
+    /// Power of their tangential forces at the velocity of what carries the damage against the race, W: that of the ball's turning
+    /// on a flat.
+    pub carried: f64,
 }
 
 impl RaceContact {
-    /// Energy of a ball at a place, its damping forces those of the place's rates; they work at the rates `moving`: of the
-    /// penetration, and of the ball's centre along increasing angle, m/s.
-    pub(crate) fn energy(&self, damage: Damage, at: &RacePlace, moving: [f64; 2]) -> RaceEnergy {
-        let moving = RacePlace { rate: moving[0], along: moving[1], ..*at };
-        let (at, moving) = (self.on_waves(at), self.on_waves(&moving));
+    /// Energy of a ball at a place, its damping forces those of the place's rates; they work where the penetration's rate is
+    /// `moving`, m/s, which a race that gives way to the forces may make another.
+    pub(crate) fn energy(&self, damage: Damage, at: &RacePlace, moving: f64) -> RaceEnergy {
+        let (rate, against) = (at.rate, at.along - self.radius(at.penetration) * at.turning);
+        let at = self.on_waves(at);
+        let moving = moving + (at.rate - rate);
         let Some((contacts, along)) = self.contacts(damage, &at) else {
             let law = self.plain;
             let damping = law.force(at.penetration, at.rate) - law.force(at.penetration, 0.0);
             return RaceEnergy {
                 elastic: law.energy(at.penetration),
-                pressed: law.force(at.penetration, 0.0) * moving.rate,
-                dissipated: damping * moving.rate,
+                pressed: law.force(at.penetration, 0.0) * moving,
+                dissipated: damping * moving,
                 damping: self.sign * damping,
+                carried: 0.0,
             };
         };
-        let moved = moving.along - at.along;
         let mut sum = RaceEnergy::default();
         for contact in contacts.pressing() {
             let law = HertzContact { stiffness: contact.stiffness, damping: self.plain.damping };
             let evaluated = contact.rate(self.sign * at.rate, along);
-            let rate = contact.rate(self.sign * moving.rate, along + moved);
+            let rate = contact.rate(self.sign * moving, along);
             let elastic = law.force(contact.delta, 0.0);
             let damping = law.force(contact.delta, evaluated) - elastic;
             sum.elastic += law.energy(contact.delta);
             sum.pressed += elastic * rate;
             sum.dissipated += damping * rate;
             sum.damping += damping * contact.normal_radial;
+            sum.carried += (elastic + damping) * contact.normal_tangential * (against - along);
         }
         sum
     }
 
     /// Power that a ball's contacts get without being pressed, W: what their stiffness changes by as they move along a profile,
-    /// `(2/5) delta^(5/2) dk/dt`; from a difference of their energy along the motion. `turn` is the angular speed of the ball's
-    /// radius vector about the race's centre, rad/s.
-    pub(crate) fn blending(&self, damage: Damage, at: &RacePlace, moving: [f64; 2], turn: f64) -> f64 {
+    /// `(2/5) delta^(5/2) dk/dt`; from a difference of their energy along the motion.
+    pub(crate) fn blending(&self, damage: Damage, at: &RacePlace, moving: f64) -> f64 {
         if damage == Damage::None {
             return 0.0;
         }
+        let turn = at.along / self.radius(at.penetration);
         let elastic = |time: f64| {
             let [spin, speed] = at.spin;
             let place = RacePlace {
-                penetration: at.penetration + time * moving[0],
+                penetration: at.penetration + time * moving,
                 angle: at.angle + time * (turn - at.turning),
                 spin: [spin + time * (speed - turn), speed],
                 ..*at
