@@ -1,14 +1,12 @@
 //! `plummer sweep` from outside: the table of many runs, points that fail, going on, and shares of a job array.
 
-mod program;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use program::{errors, plummer, scratch};
+use super::common::{errors, plummer, scratch};
 use serde_json::Value;
 
 /// A folder of a test's own, spaces and other letters in its name, with a ring on springs in it that has no checks of its own.
