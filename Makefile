@@ -5,11 +5,12 @@ CASE := examples/tadina2011/outer-dent.toml
 WINDOWS := analysis.envelope=[{from=1.0,to=2.6},{from=2.3,to=2.4}]
 REPORT := out/outer-dent/report.html
 MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
-.PHONY: help setup demo test figures meshes book docs bench bench-peers clean
+.PHONY: help setup demo test nightly figures meshes book docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
 	@echo "make test    all tests, documentation tests and examples"
+	@echo "make nightly  the tests that take hours, and the readers under libFuzzer"
 	@echo "make setup   install the system libraries that are missing"
 	@echo "make figures the figures of the documents"
 	@echo "make meshes  make the example meshes again (needs gmsh)"
@@ -27,17 +28,22 @@ demo: setup
 	target/release/plummer run $(CASE) --set '$(WINDOWS)' --force
 	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
 
-# cargo-nextest where it is installed; it leaves out documentation tests.
+# cargo-nextest where it is installed; it leaves out documentation tests. The profile `release` takes over what `make demo` has built, `ci` checks
+# sums for overflow too.
+PROFILE := release
 test: setup
 	@if cargo nextest --version >/dev/null 2>&1; then \
-		echo "cargo nextest run && cargo test --doc"; \
-		cargo nextest run && cargo test --doc; \
+		echo "cargo nextest run --cargo-profile $(PROFILE) && cargo test --profile $(PROFILE) --doc"; \
+		cargo nextest run --cargo-profile $(PROFILE) && cargo test --profile $(PROFILE) --doc; \
 	else \
-		echo "cargo test"; \
-		cargo test; \
+		echo "cargo test --profile $(PROFILE)"; \
+		cargo test --profile $(PROFILE); \
 	fi
-	cargo run --example compare_integrators
-	cargo run --example bending_lock
+	cargo run --profile $(PROFILE) --example compare_integrators
+	cargo run --profile $(PROFILE) --example bending_lock
+
+nightly: setup
+	sh scripts/nightly.sh
 
 figures: setup
 	cargo build --release

@@ -20,7 +20,7 @@ mod mode_counts;
 mod mutations;
 mod neighbours;
 mod orders;
-#[path = "../program/mod.rs"]
+#[path = "../program/common.rs"]
 mod program;
 mod relations;
 mod relations_run;

@@ -36,7 +36,7 @@ const PUSHING: usize = 8;
 const SLOPES: usize = 3;
 
 /// How much larger than the first order a response's error is taken. Runs of `examples/scenes/smooth` with 13 to 60 modes and a preload of
-/// 10 um err by 0.5 to 0.9 times as much; forces of another slope than the assumed one may do more. `tests/estimates.rs` draws scenes for it.
+/// 10 um err by 0.5 to 0.9 times as much; forces of another slope than the assumed one may do more. `tests/program/estimates.rs` draws scenes for it.
 pub(crate) const RESPONSE_SAFETY: f64 = 3.0;
 
 /// Estimated errors of a loaded system without some inertia, relative.

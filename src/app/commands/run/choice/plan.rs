@@ -18,7 +18,7 @@ use crate::report::significant;
 use crate::system::{BallsInertia, Equilibrium, Formulation};
 
 /// What errors grow to where balls strike, while the solution can be predicted: the largest ratio of the error to the linear
-/// estimate in scenes with play or damage (`cargo test --test estimates`).
+/// estimate in scenes with play or damage (`cargo test --test program estimates`).
 const IMPACTS_GROWTH: f64 = 6.0;
 
 /// A model, and why its method and its step.

@@ -176,9 +176,9 @@ fn messages_name_the_file() {
         message("tests/data/missing.msh"),
         format!("cannot read the mesh {}: No such file or directory (os error 2)", missing.display())
     );
-    let rust = file("tests/mesh_import.rs");
+    let rust = file("tests/mesh/import.rs");
     assert_eq!(
-        message("tests/mesh_import.rs"),
+        message("tests/mesh/import.rs"),
         format!(
             "{}: not a gmsh mesh: expected $MeshFormat at the start, found \"//! Meshes as gmsh writes them: \
              counts a\"",

@@ -8,8 +8,8 @@
 //! Parameters: see [`draw`].
 //!
 //! ```text
-//! cargo test --release --test estimates -- --ignored --nocapture
-//! PLUMMER_SEED=7 PLUMMER_KIND=smooth cargo test --release --test estimates -- --ignored --nocapture
+//! cargo test --release --test program estimates -- --ignored --nocapture
+//! PLUMMER_SEED=7 PLUMMER_KIND=smooth cargo test --release --test program estimates -- --ignored --nocapture
 //! ```
 //!
 //! Where balls strike, references take most of the time: `PLUMMER_KIND=smooth` leaves these scenes out.

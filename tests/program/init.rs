@@ -2,17 +2,14 @@
 //!
 //! Goal: the file loads, says the right bore and bearing, and `plummer modes` runs on it; what is in the way or wrong is exit code 2.
 
-mod program;
-mod tube;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use plummer::app::case::{Case, Purpose, Source};
 use serde_json::Value;
 
-use program::{errors, plummer, scratch};
-use tube::Tube;
+use super::common::{errors, plummer, scratch};
+use super::tube::Tube;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

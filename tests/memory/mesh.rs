@@ -1,29 +1,17 @@
 //! Memory of an import: never more than ten times the file and a fixed allowance, whatever is in it.
 //!
-//! One test in a file of its own: the allocator counts for the whole process.
+//! One test at a time: the allocator counts for the whole process.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use peak_alloc::PeakAlloc;
 use plummer::fe::mesh::Mesh;
 use plummer::numerics::units::LengthUnit;
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use super::{alone, peak};
 
 /// For any file, however small: messages, paths, the system's buffers.
 const ALLOWANCE: usize = 64 * 1024;
-
-/// Highest number of bytes held while a file is read, over what was held before.
-fn peak(path: &Path) -> usize {
-    let before = ALLOCATOR.current_usage();
-    ALLOCATOR.reset_peak_usage();
-    let mesh = Mesh::read_gmsh(path, LengthUnit::Metre);
-    let peak = ALLOCATOR.peak_usage();
-    drop(mesh);
-    peak - before
-}
 
 fn ascii(version: &str, sections: &str) -> String {
     format!("$MeshFormat\n{version} 0 8\n$EndMeshFormat\n{sections}")
@@ -87,6 +75,7 @@ fn greedy() -> Vec<(&'static str, String)> {
 
 #[test]
 fn no_file_takes_more_than_ten_times_its_length() -> Result<(), std::io::Error> {
+    let _alone = alone();
     let mut paths: Vec<PathBuf> = Vec::new();
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     for folder in [data.join("damaged"), data] {
@@ -106,7 +95,7 @@ fn no_file_takes_more_than_ten_times_its_length() -> Result<(), std::io::Error> 
     let mut failures = Vec::new();
     for path in paths {
         let length = std::fs::metadata(&path)?.len() as usize;
-        let peak = peak(&path);
+        let peak = peak(|| drop(Mesh::read_gmsh(&path, LengthUnit::Metre)));
         let factor = peak.saturating_sub(ALLOWANCE) as f64 / length.max(1) as f64;
         if length > 50_000 {
             println!("{}: {factor:.1} times {length} bytes", path.display());

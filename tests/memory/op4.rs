@@ -4,42 +4,38 @@
 //! Goal: a damaged or malicious file cannot exhaust memory.
 //! Sketch: the files of tests/data with bytes changed at random are read under an allocator that counts, and files that
 //!   claim more rows, columns and numbers than they have.
-//! Conditions: one test in this file, so that nothing else allocates.
+//! Conditions: one test at a time, so that nothing else allocates.
 //! Parameters: 16 times the file and 1 MiB for buffers; a dense matrix may take 8 MiB more, or 8000 bytes a number.
-
-mod memory;
 
 use std::fs;
 use std::path::Path;
 
-use memory::{Random, peak};
-use peak_alloc::PeakAlloc;
 use plummer::formats::uff::responses_from_bytes;
 use plummer::formats::{Op4Format, op4_from_bytes, write_op4};
 use plummer::numerics::linalg::DenseMatrix;
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use super::{Random, alone, peak};
 
 fn check(bytes: &[u8], what: &str) -> usize {
     let path = Path::new("a.op4");
     let limit = 16 * bytes.len() + (1 << 20);
-    let found = peak(&ALLOCATOR, || drop(op4_from_bytes(bytes, path)));
+    let found = peak(|| drop(op4_from_bytes(bytes, path)));
     assert!(found <= limit, "{what}: {found} B for a file of {} B", bytes.len());
-    let dense = peak(&ALLOCATOR, || {
+    let dense = peak(|| {
         for matrix in op4_from_bytes(bytes, path).unwrap_or_default() {
             let _ = matrix.dense();
         }
     });
     let limit = limit + (8 << 20).max(8000 * bytes.len() / 8);
     assert!(dense <= limit, "{what}, dense: {dense} B for a file of {} B", bytes.len());
-    let functions = peak(&ALLOCATOR, || drop(responses_from_bytes(bytes, path)));
+    let functions = peak(|| drop(responses_from_bytes(bytes, path)));
     assert!(functions <= limit, "{what}: {functions} B for a file of {} B", bytes.len());
     found
 }
 
 #[test]
 fn memory_is_bounded_by_the_size_of_the_file() {
+    let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.op4");
     // an honest matrix is really read: more than its own size is allocated

@@ -1,19 +1,17 @@
 //! `plummer analyze` from outside, and the verdicts on the example cases.
 
-mod program;
-
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
 use std::process::Output;
 
+use super::common::{errors, plummer, scratch};
 use plummer::app::case::Case;
 use plummer::app::commands::analyze::WindowAnalysis;
 use plummer::app::commands::run::compute_run;
 use plummer::formats::NpzWriter;
 use plummer::numerics::Unwatched;
 use plummer::signal::diagnosis::Fault;
-use program::{errors, plummer, scratch};
 use serde_json::Value;
 
 fn json(output: &Output) -> Value {

@@ -1,14 +1,12 @@
 //! The documents hang together: every link and every anchor leads somewhere, `SUMMARY.md` lists every page, no picture comes from
 //! a network, and the page of the case file names every key.
 
-mod markdown;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
-use markdown::{root, split};
+use super::markdown::{root, split};
 
 /// A link of a page, or a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]

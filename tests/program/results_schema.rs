@@ -4,15 +4,12 @@
 //!   value of another kind, it is not; every key says what it is.
 //! Conditions: examples that take a second, one of each form of a result.
 
-mod program;
-mod validator;
-
 use std::path::Path;
 
 use serde_json::{Value, json};
 
-use program::{errors, plummer, scratch};
-use validator::Validator;
+use super::common::{errors, plummer, scratch};
+use super::validator::Validator;
 
 const ALL: [&str; 13] = [
     "modes",

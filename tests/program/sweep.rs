@@ -1,14 +1,12 @@
 //! `plummer sweep` from outside: the table of many runs, points that fail, going on, and shares of a job array.
 
-mod program;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use program::{errors, plummer, scratch};
+use super::common::{errors, plummer, scratch};
 use serde_json::Value;
 
 /// A folder of a test's own, spaces and other letters in its name, with a ring on springs in it that has no checks of its own.
@@ -181,7 +179,7 @@ fn interrupted_runs_go_on() {
             .args(["sweep"])
             .arg(&case)
             .args(["--vary", "shaft.mass=0.15,0.2", "--threads", "2", "--out", out])
-            .args(["--set", "transient.step=2.5e-7", "--set", "transient.end=0.8"])
+            .args(["--set", "transient.step=2.5e-7", "--set", "transient.end=0.4"])
             .args(["--set", "analysis.envelope=[{from=0.05,to=0.2}]"])
             .args(more)
             .stdout(Stdio::null())

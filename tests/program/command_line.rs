@@ -1,16 +1,14 @@
 //! The program from outside: exit codes, where text goes, and that nothing is overwritten.
 
-mod program;
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use program::{errors, plummer};
+use super::common::{errors, plummer};
 
 /// A folder of this test's own with a small case file in it.
 fn scratch(name: &str) -> PathBuf {
-    let folder = program::scratch(name);
+    let folder = super::common::scratch(name);
     let ring = "title = \"ring\"\n\n[ring]\nsections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n";
     fs::write(folder.join("ring.toml"), ring).unwrap();
     folder

@@ -4,24 +4,19 @@
 //! Goal: a damaged or malicious archive cannot exhaust memory.
 //! Sketch: archives whose headers claim more values than there are, and archives with bytes changed at random, are read
 //!   under an allocator that counts.
-//! Conditions: one test in this file, so that nothing else allocates.
+//! Conditions: one test at a time, so that nothing else allocates.
 //! Parameters: 8 times the file where stored, 4200 times where deflated, and 1 MiB for buffers; twice that for numbers of
 //!   4 bytes, 20 and 20000 times for text.
-
-mod memory;
 
 use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use memory::{Random, peak};
-use peak_alloc::PeakAlloc;
 use plummer::formats::{NpzReader, read_modes_npz, read_superelement_npz};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use super::{Random, alone, peak};
 
 fn archive(shape: &str, count: usize, method: CompressionMethod) -> Vec<u8> {
     archive_of(&["frequencies_hz", "shapes"], "<f8", shape, 8 * count, method)
@@ -44,7 +39,7 @@ fn archive_of(names: &[&str], descr: &str, shape: &str, bytes: usize, method: Co
 
 /// Reads everything that can be read.
 fn peak_of_all(path: &Path) -> usize {
-    peak(&ALLOCATOR, || {
+    peak(|| {
         let _ = read_modes_npz(path);
         if let Ok(mut npz) = NpzReader::open(path) {
             for name in npz.names() {
@@ -60,7 +55,7 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
     let path = folder.join("other.npz");
     let read = |bytes: &[u8], factor: usize, read: &dyn Fn(&mut NpzReader)| {
         fs::write(&path, bytes).unwrap();
-        let found = peak(&ALLOCATOR, || {
+        let found = peak(|| {
             if let Ok(mut npz) = NpzReader::open(&path) {
                 read(&mut npz);
             }
@@ -95,6 +90,7 @@ fn check_other_readers(folder: &Path, method: CompressionMethod, factor: usize) 
 
 #[test]
 fn memory_is_bounded_by_the_size_of_the_file() {
+    let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.npz");
     let mut random = Random(7);

@@ -1,13 +1,11 @@
 //! `plummer verify` from outside: it needs no file, and says what it compared with what.
 
-mod program;
-
 use std::fs;
 use std::path::Path;
 use std::process::Output;
 
+use super::common::{errors, plummer, scratch};
 use plummer::app::verification::BEAM_CASE;
-use program::{errors, plummer, scratch};
 use serde_json::Value;
 
 fn verify(folder: &Path, words: &[&str]) -> Output {

@@ -4,10 +4,8 @@
 //! Goal: a damaged or malicious file cannot exhaust memory.
 //! Sketch: files that pack long constant arrays, many arrays, fields and names, and the files of tests/data with bytes
 //!   changed at random, are read under an allocator that counts.
-//! Conditions: one test in this file, so that nothing else allocates.
+//! Conditions: one test at a time, so that nothing else allocates.
 //! Parameters: 20 times the file, 20 000 times where variables are packed, and 16 MiB.
-
-mod memory;
 
 use std::fs;
 use std::io::Read;
@@ -15,13 +13,10 @@ use std::path::Path;
 
 use flate2::Compression;
 use flate2::read::ZlibEncoder;
-use memory::{Random, peak};
-use peak_alloc::PeakAlloc;
 use plummer::formats::measured::signals_from_mat;
 use plummer::formats::{MeasuredError, SignalRequest};
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use super::{Random, alone, peak};
 
 fn words(words: &[usize]) -> Vec<u8> {
     words.iter().flat_map(|&word| (word as u32).to_le_bytes()).collect()
@@ -73,7 +68,7 @@ fn file(variables: &[u8], is_packed: bool) -> Vec<u8> {
 fn check(bytes: &[u8], factor: usize, what: &str) -> usize {
     let path = Path::new("a.mat");
     let mut request = SignalRequest::default();
-    let found = peak(&ALLOCATOR, || {
+    let found = peak(|| {
         if let Err(MeasuredError::Choose { known, .. }) = signals_from_mat(bytes, path, &request) {
             request.channels = known;
             request.channels.truncate(100);
@@ -91,6 +86,7 @@ fn check(bytes: &[u8], factor: usize, what: &str) -> usize {
 
 #[test]
 fn memory_is_bounded_by_the_size_of_the_file() {
+    let _alone = alone();
     let long = 8_000_000;
     let constant = bytes_of("x", [long, 1]);
     // honest numbers are really read: eight bytes of one
@@ -126,7 +122,7 @@ fn memory_is_bounded_by_the_size_of_the_file() {
             let bytes = random.damaged(&whole, [0, 0xff], |random| random.next() % whole.len());
             let path = Path::new("a.mat");
             let any = SignalRequest::default();
-            let found = peak(&ALLOCATOR, || drop(signals_from_mat(&bytes, path, &any)));
+            let found = peak(|| drop(signals_from_mat(&bytes, path, &any)));
             assert!(found <= 20_000 * whole.len() + (16 << 20), "{name}: {found} B");
         }
     }

@@ -1,12 +1,10 @@
 //! `plummer report` from outside: the pages of earlier results drawn again from their content, the same to the byte by the same version.
 
-mod program;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use program::{errors, plummer, scratch};
+use super::common::{errors, plummer, scratch};
 use serde_json::Value;
 
 const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\

@@ -4,19 +4,16 @@
 //!   names the keys that the reader knows, each of them and no others.
 //! Sketch: a validator of the keywords that the schema uses (draft 07); a keyword that it does not know fails the test.
 
-mod program;
-mod validator;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use plummer::app::case::{Case, CaseError, Source};
 use serde_json::{Value, json};
 
-use program::{errors, plummer};
-use validator::Validator;
+use super::common::{errors, plummer, scratch};
+use super::validator::Validator;
 
-const FULL: &str = include_str!("../src/app/case/full.toml");
+const FULL: &str = include_str!("../../src/app/case/full.toml");
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -338,7 +335,7 @@ fn keys_have_descriptions() {
 
 #[test]
 fn the_program_prints_the_schema_and_nothing_else() {
-    let folder = program::scratch("schema");
+    let folder = scratch("schema");
     let first = plummer(&folder, &["schema"]);
     assert_eq!(first.status.code(), Some(0), "{}", errors(&first));
     assert_eq!(errors(&first), "");

@@ -1,8 +1,6 @@
 //! Each tutorial runs as it is written: its `sh` blocks in order, in one empty folder with `examples`, `meshes` and `docs`,
 //! and what stands in the `text` block below one is in what it prints.
 
-mod markdown;
-
 use std::env;
 use std::ffi::OsStr;
 use std::fs;
@@ -10,7 +8,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use markdown::{Block, root, split};
+use super::markdown::{Block, root, split};
 
 /// A block of commands, and what it is to print.
 #[derive(Debug)]

@@ -1,0 +1,21 @@
+//! The program from outside: its commands, the case files and results it reads and writes, and the pages it makes.
+
+mod analyze;
+mod case_schema;
+mod command_line;
+mod common;
+mod condense_scenes;
+mod estimates;
+mod examples;
+mod export;
+mod init;
+mod long_run;
+mod modes;
+mod report;
+mod report_browser;
+mod report_shapes;
+mod results_schema;
+mod sweep;
+mod tube;
+mod validator;
+mod verify;
