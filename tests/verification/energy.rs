@@ -82,7 +82,7 @@ fn it_closes_without_defects() {
 }
 
 // A force on damage of the outer race is continued over up to 1e-6 of a displacement (SAME_PLACE), without how the profile turns the
-// normals there: found 4e-7. A rate of the damping without the race's own tangential velocity leaves 2e-4 open.
+// normals there: found 4e-7. Without the race's own tangential velocity in the damping's rate 2e-4 of the energy is missing.
 #[test]
 fn it_closes_over_a_dent_of_the_outer_race() {
     for (path, start, with_blending) in
