@@ -179,7 +179,7 @@ fn interrupted_runs_go_on() {
             .args(["sweep"])
             .arg(&case)
             .args(["--vary", "shaft.mass=0.15,0.2", "--threads", "2", "--out", out])
-            .args(["--set", "transient.step=2.5e-7", "--set", "transient.end=0.8"])
+            .args(["--set", "transient.step=2.5e-7", "--set", "transient.end=0.4"])
             .args(["--set", "analysis.envelope=[{from=0.05,to=0.2}]"])
             .args(more)
             .stdout(Stdio::null())
