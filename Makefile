@@ -28,17 +28,19 @@ demo: setup
 	target/release/plummer run $(CASE) --set '$(WINDOWS)' --force
 	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
 
-# cargo-nextest where it is installed; it leaves out documentation tests.
+# cargo-nextest where it is installed; it leaves out documentation tests. The profile `release` takes over what `make demo` has built, `ci` checks
+# sums for overflow too.
+PROFILE := release
 test: setup
 	@if cargo nextest --version >/dev/null 2>&1; then \
-		echo "cargo nextest run && cargo test --doc"; \
-		cargo nextest run && cargo test --doc; \
+		echo "cargo nextest run --cargo-profile $(PROFILE) && cargo test --profile $(PROFILE) --doc"; \
+		cargo nextest run --cargo-profile $(PROFILE) && cargo test --profile $(PROFILE) --doc; \
 	else \
-		echo "cargo test"; \
-		cargo test; \
+		echo "cargo test --profile $(PROFILE)"; \
+		cargo test --profile $(PROFILE); \
 	fi
-	cargo run --example compare_integrators
-	cargo run --example bending_lock
+	cargo run --profile $(PROFILE) --example compare_integrators
+	cargo run --profile $(PROFILE) --example bending_lock
 
 nightly: setup
 	sh scripts/nightly.sh
