@@ -2,10 +2,8 @@
 
 use super::bearing::race_contacts;
 use super::contact_limits::contact_doubts;
-use super::housing::description;
-use super::mesh_digest::read_mesh;
-use super::ring::layer;
-use super::seat::Seat;
+use super::housing::{description, read_mesh};
+use super::ring::{Seat, layer};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;

@@ -1,7 +1,7 @@
 //! What of a housing can still move, in the mesh's words: a condensation that cannot be made names the part.
 
-use super::boundary::Boundary;
 use super::housing::AssembledHousing;
+use super::ring::Boundary;
 use crate::app::error::ComputeError;
 use crate::fe::modal::unless_too_many_bodies;
 use crate::fe::modal::{Mechanisms, ModalError};

@@ -1,8 +1,6 @@
 //! The full model's responses beside those of the reduced one.
 
-use super::housing::FrfHousing;
-use super::path::TransferPath;
-use super::reduced::ReducedPaths;
+use super::reduced::{FrfHousing, ReducedPaths, TransferPath, places};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::damping::modal_damping;
@@ -64,7 +62,7 @@ pub(crate) fn compare(
     if chosen.is_empty() {
         return Ok((Vec::new(), Some("no frequency was asked for".to_owned())));
     }
-    let places = reduced.places(stage)?;
+    let places = [places(stage, &reduced.ends[0])?, places(stage, &reduced.ends[1])?];
     watch.stage("full model");
     let coupled = stage.full_matrices();
     let structural = StructuralStiffness::assemble(&stage.housing.model)?;
@@ -72,11 +70,11 @@ pub(crate) fn compare(
     let damping = HarmonicDamping { alpha, beta, viscous: None, structural: structural.as_ref() };
     let free = &coupled.free_dofs;
     let problem = HarmonicProblem::restricted(&coupled.stiffness, &coupled.mass, &damping, free)?;
-    let rows = |places: &[Place]| -> Vec<Vec<f64>> {
+    let rows = |places: Vec<Place>| -> Vec<Vec<f64>> {
         let whole = places.iter().map(|place| place.full(&stage.boundary, &coupled));
         whole.map(|row| free.iter().map(|&dof| row[dof]).collect()).collect()
     };
-    let (from, to) = (rows(&places[0]), rows(&places[1]));
+    let [from, to] = places.map(rows);
     let loads = DenseMatrix::from_fn(free.len(), from.len(), |row, load| from[load][row]);
     let loads = complex_columns(&loads);
     let own = reduced.response(&chosen)?;

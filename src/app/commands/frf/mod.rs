@@ -2,9 +2,6 @@
 
 pub(crate) mod compared;
 pub(crate) mod compute;
-pub(crate) mod housing;
-pub(crate) mod path;
-pub(crate) mod ranking;
 pub(crate) mod reduced;
 pub(crate) mod report;
 pub(crate) mod summary;
@@ -12,9 +9,7 @@ pub(crate) mod summary;
 mod tests;
 
 pub use compared::ComparedResponse;
-pub use compute::{FrfResult, compute_frf};
-pub use housing::FrfHousing;
-pub use path::{CarriedPart, TransferPath};
-pub use ranking::RankedPath;
+pub use compute::{FrfResult, RankedPath, compute_frf};
+pub use reduced::{CarriedPart, FrfHousing, TransferPath};
 pub(crate) use report::frf_report;
 pub use summary::{FrfSummary, PathSummary};

@@ -1,8 +1,7 @@
 //! The report of `plummer frf`.
 
 use super::compute::FrfResult;
-use super::housing::FrfHousing;
-use super::path::TransferPath;
+use super::reduced::{FrfHousing, TransferPath};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;

@@ -3,7 +3,7 @@
 use crate::app::case::{Case, HousingSource};
 use crate::app::commands::inspect::{elements_of, size};
 use crate::app::error::ComputeError;
-use crate::app::scene::bodies::Bodies;
+use crate::app::scene::free_system::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::modal::{MeshLevels, ModeSet};
