@@ -65,11 +65,6 @@ pub struct CondenseResult {
 }
 
 impl CondenseResult {
-    /// Whether every check passes.
-    pub(crate) fn passes(&self) -> bool {
-        self.checks.iter().all(Check::ok)
-    }
-
     /// The superelement that is handed on.
     pub(crate) fn superelement(&self) -> &Superelement {
         match &self.interface {

@@ -100,7 +100,7 @@ pub struct ImportedSummary<'a> {
 }
 
 /// Frequency of an eigenvalue in 1/s^2, Hz.
-fn hz(value: f64) -> f64 {
+pub(crate) fn hz(value: f64) -> f64 {
     value.max(0.0).sqrt() / TAU
 }
 

@@ -152,23 +152,9 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
 fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let modes = &result.scene.stage.modes;
     let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES)).map(|mode| modes.frequency_hz(mode)).collect();
-    let expected: Vec<ExpectedMode> = case
-        .modes
-        .expected
-        .iter()
-        .map(|expected| {
-            let found_hz = result.loaded.nearest(expected.hz).map(|mode| mode.frequency_hz);
-            let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
-            ExpectedMode {
-                hz: expected.hz,
-                what: expected.what.clone(),
-                found_hz,
-                relative_error,
-                within: expected.within,
-                ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
-            }
-        })
-        .collect();
+    let nearest_hz = |hz| result.loaded.nearest(hz).map(|mode| mode.frequency_hz);
+    let expected = case.modes.expected.iter().map(|expected| ExpectedMode::of(expected, nearest_hz(expected.hz)));
+    let expected: Vec<ExpectedMode> = expected.collect();
     let mut section = Section::new("Eigenfrequencies");
     if !expected.is_empty() {
         section = section.table(expected_table(&expected));
