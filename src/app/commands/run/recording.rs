@@ -1,7 +1,8 @@
-//! Where the rows of a run go, and how they are read back.
+//! Where the rows of a run go, how they are read back, and who keeps its checkpoints.
 
 use crate::app::error::ComputeError;
 use crate::formats::ColumnFiles;
+use crate::numerics::ode::Snapshot;
 use crate::system::{Column, RunRecord};
 use std::ops::Range;
 
@@ -87,5 +88,60 @@ impl Recording for ColumnFiles {
         take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
     ) -> Result<(), ComputeError> {
         self.read(column, rows, take)
+    }
+}
+
+/// What is asked of a run between two output intervals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RunRequest {
+    /// Nothing.
+    GoOn,
+    /// A checkpoint.
+    Checkpoint,
+    /// A checkpoint and an end.
+    Stop,
+}
+
+/// Keeps the rows of a simulation, and its checkpoints if it keeps any.
+pub trait Checkpoints {
+    /// Where the rows go.
+    type Record: Recording;
+
+    /// The record to fill, and what the simulation remembered if it goes on.
+    ///
+    /// # Errors
+    /// [`ComputeError`] if it cannot be opened.
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
+
+    /// Called after every output interval.
+    fn request(&mut self) -> RunRequest;
+
+    /// Keeps a checkpoint of a simulation that has come to `t` (s); all rows before it are in the record.
+    ///
+    /// # Errors
+    /// [`ComputeError`] if it cannot be written.
+    fn save(&mut self, record: &Self::Record, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError>;
+
+    /// The stepping has ended.
+    fn close(&mut self) {}
+}
+
+/// Keeps the rows in memory, and no checkpoint.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct InMemory;
+
+impl Checkpoints for InMemory {
+    type Record = RunRecord;
+
+    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+        Ok((RunRecord::blank(sensors, balls), None))
+    }
+
+    fn request(&mut self) -> RunRequest {
+        RunRequest::GoOn
+    }
+
+    fn save(&mut self, _: &RunRecord, _: f64, _: &Snapshot) -> Result<(), ComputeError> {
+        Ok(())
     }
 }

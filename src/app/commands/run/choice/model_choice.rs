@@ -1,7 +1,7 @@
 //! A run's model and why it is this one, with the warnings that follow from it.
 
 use crate::app::scene::RunModel;
-use crate::report::significant;
+use crate::report::{Cell, Column, Table, significant};
 use crate::system::ModeSelection;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -54,6 +54,23 @@ impl ModelChoice {
             )
         });
         unstable.into_iter().chain(self.missed()).collect()
+    }
+
+    /// The model's parts with reasons and estimated errors.
+    pub(crate) fn table(&self) -> Table {
+        let columns = ["Part", "Chosen", "Why, and what is left out", "Estimated error"].map(Column::text);
+        let row = |what: &str, chosen: &str, why: &str, error: Option<f64>| {
+            let error = error.map_or_else(|| "not estimated".to_owned(), |error| significant(error, 2));
+            [Cell::text(what), Cell::text(chosen), Cell::text(why), Cell::text(error)]
+        };
+        let parts = self.parts.iter().map(|part| row(part.what, &part.chosen, &part.why, part.estimated_error));
+        let together = "root of the sum of squares, relative, in the band, while nearby solutions stay together";
+        Table::new("The model, and why it is this one", columns).rows(parts).row(row(
+            "together",
+            "",
+            together,
+            self.estimated_error,
+        ))
     }
 
     fn missed(&self) -> Vec<String> {

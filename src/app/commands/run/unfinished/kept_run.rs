@@ -4,12 +4,9 @@
 //! ([`ColumnFiles`]) belong to it. The rows reach the disk before the checkpoint that counts them takes the place of the one
 //! before: whenever the program ends, the checkpoint that is there and the rows that it counts are whole.
 
-use super::checkpoint;
-use super::checkpoint::Checkpoint;
-use super::identity::RunIdentity;
-use crate::app::commands::run::{Keeper, Wish};
-use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
+use super::checkpoint::{self, Checkpoint, RunIdentity};
+use crate::app::commands::run::{Checkpoints, RunRequest};
+use crate::app::error::{ComputeError, UnfinishedError};
 use crate::files;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
@@ -40,10 +37,13 @@ pub struct StopRequest {
 /// The folder of an unfinished run.
 #[derive(Debug)]
 pub struct UnfinishedRun {
-    folder: PathBuf,
+    /// Where it is.
+    pub(crate) folder: PathBuf,
     identity: RunIdentity,
-    every: Duration,
-    stop: StopRequest,
+    /// Wall time between checkpoints, if they do not take too much of it.
+    pub(crate) every: Duration,
+    /// What is asked of it from outside.
+    pub(crate) stop: StopRequest,
     /// To go on from.
     resumed: Option<Checkpoint>,
     last: Instant,
@@ -92,25 +92,6 @@ impl UnfinishedRun {
         }
     }
 
-    /// The run with checkpoints so far apart in wall time, if they do not take too much of it.
-    #[must_use]
-    pub(crate) fn every(mut self, pause: Duration) -> Self {
-        self.every = pause;
-        self
-    }
-
-    /// The run that stops when it is asked to.
-    #[must_use]
-    pub(crate) fn stopped_by(mut self, stop: StopRequest) -> Self {
-        self.stop = stop;
-        self
-    }
-
-    /// Where it is.
-    pub(crate) fn folder(&self) -> &Path {
-        &self.folder
-    }
-
     /// Removes the folder: the run has ended and its results are written.
     ///
     /// # Errors
@@ -133,7 +114,7 @@ pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
     Ok(())
 }
 
-impl Keeper for UnfinishedRun {
+impl Checkpoints for UnfinishedRun {
     type Record = ColumnFiles;
 
     fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
@@ -161,17 +142,17 @@ impl Keeper for UnfinishedRun {
         })
     }
 
-    fn wish(&mut self) -> Wish {
+    fn request(&mut self) -> RunRequest {
         if self.stop.asked.load(Ordering::Relaxed) {
-            Wish::Stop
+            RunRequest::Stop
         } else if self.last.elapsed() >= self.every.max(LEAST_PAUSE * self.cost) {
-            Wish::Checkpoint
+            RunRequest::Checkpoint
         } else {
-            Wish::GoOn
+            RunRequest::GoOn
         }
     }
 
-    fn keep(&mut self, record: &ColumnFiles, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
+    fn save(&mut self, record: &ColumnFiles, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         let began = Instant::now();
         record.sync()?;
         let path = self.folder.join(FILE);
