@@ -2,12 +2,11 @@
 
 use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::CondensedHousing;
-use crate::app::scene::ReducedInterface;
 use crate::app::scene::loose::name_mechanisms;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, doubts};
+use crate::app::scene::{CondensedHousing, ReducedInterface};
 use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction, size_study,

@@ -41,26 +41,25 @@ pub(crate) fn compare(
     paths: &[TransferPath],
     watch: &impl Watch,
 ) -> Result<(Vec<ComparedResponse>, Option<String>), ComputeError> {
+    let nothing = |why: &str| Ok((Vec::new(), Some(why.to_owned())));
     let FrfHousing::Mesh(stage) = &reduced.housing else {
-        let why = "the housing is a superelement from a file, of which no mesh is known";
-        return Ok((Vec::new(), Some(why.to_owned())));
+        return nothing("the housing is a superelement from a file, of which no mesh is known");
     };
     let (alpha, beta) = match modal_damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => (alpha, beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => (0.0, 0.0),
         _ => {
-            let why = "modal damping has no matrix in the full model; give [damping] as ratios at two frequencies or as alpha and beta to compare";
-            return Ok((Vec::new(), Some(why.to_owned())));
+            return nothing(
+                "modal damping has no matrix in the full model; give [damping] as ratios at two frequencies or as alpha and beta to compare",
+            );
         }
     };
-    let mut chosen = match &asked.check_hz {
-        Some(given) => given.clone(),
-        None => checked_frequencies(reduced, response, paths),
-    };
+    let automatic = || checked_frequencies(reduced, response, paths);
+    let mut chosen = asked.check_hz.clone().unwrap_or_else(automatic);
     chosen.sort_by(f64::total_cmp);
     chosen.dedup();
     if chosen.is_empty() {
-        return Ok((Vec::new(), Some("no frequency was asked for".to_owned())));
+        return nothing("no frequency was asked for");
     }
     let places = [places(stage, &reduced.ends[0])?, places(stage, &reduced.ends[1])?];
     watch.stage("full model");

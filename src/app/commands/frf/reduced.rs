@@ -128,7 +128,6 @@ impl TransferPath {
     pub const CLOSED: &str = "carries less than 1e-7 of the responses at its ends, by symmetry or between bodies that hardly touch; no error is estimated there";
 
     /// Whether its responses are so small beside those at its ends that no mode is said to carry it.
-    #[must_use]
     pub(crate) fn is_closed(&self) -> bool {
         self.shares.modes.is_empty()
     }
