@@ -3,8 +3,7 @@
 use super::housing::AssembledHousing;
 use super::ring::Boundary;
 use crate::app::error::ComputeError;
-use crate::fe::modal::unless_too_many_bodies;
-use crate::fe::modal::{Mechanisms, ModalError};
+use crate::fe::modal::{Mechanisms, ModalError, unless_too_many_bodies};
 use crate::fe::model::HousingModel;
 use crate::fe::reduction::{Check, ReductionError};
 

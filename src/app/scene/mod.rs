@@ -1,4 +1,8 @@
 //! A checked case as domain objects: bearing, housing, ring, structure, modes.
+//!
+//! A case comes in, with the files that it names; objects of `fe`, `bearing` and `system` go out. A [`Scene`] is all that a run simulates
+//! and where it starts, a [`CoupledStructure`] ring and housing alone, a [`CondensedHousing`] a superelement and what it was made from.
+//! Read `at_rest.rs` first, then `structure.rs`.
 
 pub(crate) mod at_rest;
 pub(crate) mod bearing;

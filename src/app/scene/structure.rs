@@ -64,19 +64,11 @@ impl CoupledStructure {
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
-        Self::with_modes(case, needed_modes(case), watch)
-    }
-
-    /// The same with at least so many modes, if it has them.
-    ///
-    /// # Errors
-    /// As [`build`](Self::build).
-    pub(crate) fn with_modes(case: &Case, count: usize, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         let ring = case.ring.as_ref();
-        ring.map(|asked| Self::around_ring(case, asked, count, watch)).transpose()
+        ring.map(|asked| Self::around_ring(case, asked, needed_modes(case), watch)).transpose()
     }
 
-    /// The same around the ring that is asked for.
+    /// The same around the ring that is asked for, with at least so many modes, if it has them.
     ///
     /// # Errors
     /// As [`build`](Self::build).

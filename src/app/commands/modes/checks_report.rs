@@ -4,8 +4,7 @@ use super::comparison::{ComparedPair, FileComparison, LoneMode, Miss};
 use super::compute::ModesResult;
 use super::convergence::{MeshConvergence, ModeOnMeshes};
 use super::shape_view::shown_places;
-use crate::fe::modal::MatchedBy;
-use crate::fe::modal::ModalSurvey;
+use crate::fe::modal::{MatchedBy, ModalSurvey};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, Headline, Matrix, Plot, Section, Table, Verdict, significant,
 };

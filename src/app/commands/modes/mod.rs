@@ -1,4 +1,8 @@
 //! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded.
+//!
+//! A case comes in; a [`ModesResult`] goes out: modes with the proof that none is missing, beside expected frequencies, beside modes of
+//! files (`comparison.rs`) and beside other meshes (`convergence.rs`). Read `compute.rs` first. `summary.rs` is `modes.json`, `report.rs`
+//! the page with tables of `tables.rs` and `checks_report.rs`.
 
 pub(crate) mod checks_report;
 pub(crate) mod comparison;

@@ -3,8 +3,7 @@
 use super::compute::ModesResult;
 use super::shape_view::shown_places;
 use crate::app::case::{Case, Material};
-use crate::fe::modal::ModalSurvey;
-use crate::fe::modal::{MassDistribution, MassProperties, Participation};
+use crate::fe::modal::{MassDistribution, MassProperties, ModalSurvey, Participation};
 use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, fixed, significant};
 
 /// Direction of a column of a participation, by the number of columns.
