@@ -265,11 +265,9 @@ fn race_in_ring(case: &Case) -> Result<Option<String>, ComputeError> {
     let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
         return Ok(None);
     };
-    let mut sections = ring.sections.iter();
-    let Some(first) = sections.next() else {
+    let Some(innermost) = ring.sections.iter().min_by(|a, b| a.radius.total_cmp(&b.radius)) else {
         return Ok(None);
     };
-    let innermost = sections.fold(first, |least, next| if next.radius < least.radius { next } else { least });
     let layer = layer(case, innermost)?;
     let [height, _] = layer.rectangle();
     let (race, half) = (bearing.outer_race_radius, 0.5 * height);

@@ -42,9 +42,7 @@ impl AssembledHousing {
         let matrices = SystemMatrices::assemble(&model)?;
         Ok(Some(Self { mesh, model, matrices }))
     }
-}
 
-impl AssembledHousing {
     /// The housing of a case without a ring.
     ///
     /// # Errors

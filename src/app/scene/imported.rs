@@ -192,26 +192,25 @@ fn last_mode_hz(modal_hz: &[f64]) -> f64 {
 fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> {
     let fits = |count: usize| count == 3 * nodes || count == 6 * nodes;
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    match ending.to_str() {
+    let (record, found) = match ending.to_str() {
         Some("npz") => {
             let record = read_superelement_npz(path)?;
             let found = record.interface.len();
             if let Some(recovery) = &record.interface_recovery {
                 return Err(ImportError::InterfaceModes { modes: found, coordinates: recovery.labels.len() });
             }
-            match fits(found) {
-                true => Ok(record),
-                false => Err(ImportError::Count { nodes, found }),
-            }
+            (record, found)
         }
         Some("op4") => {
             let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes])?;
-            match fits(record.interface.len()) {
-                true => Ok(record),
-                false => Err(ImportError::Count { nodes, found: record.order() }),
-            }
+            let order = record.order();
+            (record, order)
         }
-        _ => Err(ImportError::Format),
+        _ => return Err(ImportError::Format),
+    };
+    match fits(record.interface.len()) {
+        true => Ok(record),
+        false => Err(ImportError::Count { nodes, found }),
     }
 }
 

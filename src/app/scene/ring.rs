@@ -106,10 +106,7 @@ impl Boundary {
 
     /// What sits on the interface.
     pub fn attached(&self) -> Option<Attached<'_>> {
-        match self {
-            Self::Ring(bodies) => Some(Attached { stiffness: bodies.0.stiffness(), mass: bodies.0.mass() }),
-            Self::Nodes(_) => None,
-        }
+        self.ring().map(|(ring, _)| Attached { stiffness: ring.stiffness(), mass: ring.mass() })
     }
 
     /// Ring and tie, if that is what it is.

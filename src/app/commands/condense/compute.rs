@@ -138,15 +138,12 @@ pub fn compute_condense(
 }
 
 fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {
-    let largest = match estimate.converged {
-        true => estimate.largest(),
-        false => f64::INFINITY,
-    };
-    let what = match estimate.converged {
-        true => format!("largest estimated relative error of the {} frequencies in the band", estimate.modes.len()),
-        false => "the basis is too poor for an estimate: too many modes below the band's top are left out".to_owned(),
-    };
-    Check::at_most("estimated error", what, largest, target)
+    if !estimate.converged {
+        let what = "the basis is too poor for an estimate: too many modes below the band's top are left out";
+        return Check::at_most("estimated error", what, f64::INFINITY, target);
+    }
+    let what = format!("largest estimated relative error of the {} frequencies in the band", estimate.modes.len());
+    Check::at_most("estimated error", what, estimate.largest(), target)
 }
 
 fn compare(

@@ -6,6 +6,9 @@ use crate::numerics::ode::Snapshot;
 use crate::system::{Column, RunRecord};
 use std::ops::Range;
 
+/// Takes the numbers of a column, piece by piece.
+pub type TakePiece<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ComputeError>;
+
 /// Rows of a run, in memory or on disk.
 pub trait Recording {
     /// Names of the sensors.
@@ -27,12 +30,7 @@ pub trait Recording {
     ///
     /// # Errors
     /// [`ComputeError::Columns`] and what `take` returns.
-    fn read(
-        &self,
-        column: Column,
-        rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
-    ) -> Result<(), ComputeError>;
+    fn read(&self, column: Column, rows: Range<usize>, take: TakePiece<'_>) -> Result<(), ComputeError>;
 }
 
 impl Recording for RunRecord {
@@ -53,12 +51,7 @@ impl Recording for RunRecord {
         Ok(())
     }
 
-    fn read(
-        &self,
-        column: Column,
-        rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
-    ) -> Result<(), ComputeError> {
+    fn read(&self, column: Column, rows: Range<usize>, take: TakePiece<'_>) -> Result<(), ComputeError> {
         let rows = rows.start.min(self.rows())..rows.end.min(self.rows());
         take(&self.column(column)[column.places(&rows, self.balls)])
     }
@@ -81,12 +74,7 @@ impl Recording for ColumnFiles {
         Ok(self.append(rows)?)
     }
 
-    fn read(
-        &self,
-        column: Column,
-        rows: Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), ComputeError>,
-    ) -> Result<(), ComputeError> {
+    fn read(&self, column: Column, rows: Range<usize>, take: TakePiece<'_>) -> Result<(), ComputeError> {
         self.read(column, rows, take)
     }
 }

@@ -73,20 +73,20 @@ impl ModelChoice {
         ))
     }
 
-    fn missed(&self) -> Vec<String> {
+    fn missed(&self) -> Option<String> {
         let target = self.target;
         let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
         let largest = parts.max_by(|(_, a), (_, b)| a.total_cmp(b));
         let Some(together) = self.estimated_error else {
-            let unknown = self.parts.iter().find(|part| part.estimated_error.is_none());
-            return unknown.into_iter().map(|part| self.unknown(part)).collect();
+            let ChosenPart { what, chosen, why, .. } = self.parts.iter().find(|part| part.estimated_error.is_none())?;
+            return Some(format!(
+                "the error of the signals is not estimated: that of the {what} ({chosen}; {why}) is not known"
+            ));
         };
-        let Some((part, error)) = largest else {
-            return Vec::new();
-        };
+        let (part, error) = largest?;
         if together <= target {
-            return Vec::new();
+            return None;
         }
         let given = |what: &str| {
             let mut parts = self.parts.iter().filter(|part| part.what == what);
@@ -116,22 +116,14 @@ impl ModelChoice {
                 "a smaller accuracy.target shortens the steps; an error near 1 says that such a motion cannot be predicted for so long"
             }
         };
-        vec![format!(
+        Some(format!(
             "the estimated error is {} where accuracy.target is {}, most of it of the {} ({}; {}): {help}",
             significant(together, 2),
             significant(target, 2),
             part.what,
             part.chosen,
             significant(error, 2),
-        )]
-    }
-
-    /// That the error of a part is not known.
-    fn unknown(&self, part: &ChosenPart) -> String {
-        format!(
-            "the error of the signals is not estimated: that of the {} ({}; {}) is not known",
-            part.what, part.chosen, part.why
-        )
+        ))
     }
 }
 

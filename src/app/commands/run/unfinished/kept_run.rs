@@ -59,7 +59,15 @@ impl UnfinishedRun {
     /// A run that begins: the folder is made when it comes to stepping, and an earlier run in it given up then.
     #[must_use]
     pub fn begin(folder: &Path, identity: RunIdentity) -> Self {
-        Self::with(folder, identity, None)
+        Self {
+            folder: folder.to_owned(),
+            identity,
+            every: Duration::from_secs_f64(CHECKPOINT_S),
+            stop: StopRequest::default(),
+            resumed: None,
+            last: Instant::now(),
+            cost: Duration::ZERO,
+        }
     }
 
     /// The run in a folder, to go on.
@@ -77,41 +85,25 @@ impl UnfinishedRun {
         if !changes.is_empty() {
             return Err(UnfinishedError::Changed { path: folder.to_owned(), changes });
         }
-        Ok(Self::with(folder, identity, Some(checkpoint)))
+        Ok(Self { resumed: Some(checkpoint), ..Self::begin(folder, identity) })
     }
 
-    fn with(folder: &Path, identity: RunIdentity, resumed: Option<Checkpoint>) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            identity,
-            every: Duration::from_secs_f64(CHECKPOINT_S),
-            stop: StopRequest::default(),
-            resumed,
-            last: Instant::now(),
-            cost: Duration::ZERO,
-        }
-    }
-
-    /// Removes the folder: the run has ended and its results are written.
+    /// Removes what the folder has, the checkpoint first: the run has ended and its results are written, or another begins.
     ///
     /// # Errors
     /// [`UnfinishedError::Folder`].
-    pub(crate) fn remove(self) -> Result<(), UnfinishedError> {
-        remove(&self.folder)
+    pub(crate) fn remove(&self) -> Result<(), UnfinishedError> {
+        let folder = &self.folder;
+        let failed = |source| UnfinishedError::Folder { path: folder.clone(), source };
+        files::no_link(folder).map_err(failed)?;
+        if Self::is_in(folder) {
+            fs::remove_file(folder.join(FILE)).map_err(failed)?;
+        }
+        if folder.exists() {
+            fs::remove_dir_all(folder).map_err(failed)?;
+        }
+        Ok(())
     }
-}
-
-/// Removes what an unfinished run left, the checkpoint first.
-pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
-    let failed = |source| UnfinishedError::Folder { path: folder.to_owned(), source };
-    files::no_link(folder).map_err(failed)?;
-    if UnfinishedRun::is_in(folder) {
-        fs::remove_file(folder.join(FILE)).map_err(failed)?;
-    }
-    if folder.exists() {
-        fs::remove_dir_all(folder).map_err(failed)?;
-    }
-    Ok(())
 }
 
 impl Checkpoints for UnfinishedRun {
@@ -122,14 +114,13 @@ impl Checkpoints for UnfinishedRun {
         self.last = Instant::now();
         Ok(match self.resumed.take() {
             None => {
-                remove(&self.folder)?;
+                self.remove()?;
                 fs::create_dir_all(&self.folder)
                     .map_err(|source| UnfinishedError::Folder { path: self.folder.clone(), source })?;
                 (ColumnFiles::create(&self.folder, sensors, balls)?, None)
             }
             Some(checkpoint) => {
-                let rows = checkpoint.rows;
-                let record = ColumnFiles::resume(&self.folder, sensors, balls, rows)?;
+                let record = ColumnFiles::resume(&self.folder, sensors, balls, checkpoint.rows)?;
                 if record.digest() != checkpoint.columns_sha256 {
                     return Err(UnfinishedError::Damaged {
                         path: self.folder.clone(),
