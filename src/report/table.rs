@@ -120,6 +120,11 @@ impl Cell {
         Self::text(significant(value, digits)).value(value)
     }
 
+    /// The same, or a text where there is no number.
+    pub(crate) fn number_or(value: Option<f64>, digits: usize, otherwise: &str) -> Self {
+        value.map_or_else(|| Self::text(otherwise), |value| Self::number(value, digits))
+    }
+
     /// A badge: "pass", "fail", or a dash where nothing was judged.
     pub fn badge(verdict: Verdict) -> Self {
         let text = match verdict {
@@ -175,6 +180,12 @@ impl Table {
     pub fn row(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
         self.rows.push(cells.into_iter().collect());
         self
+    }
+
+    /// The table with rows more.
+    #[must_use]
+    pub(crate) fn rows<R: IntoIterator<Item = Cell>>(self, rows: impl IntoIterator<Item = R>) -> Self {
+        rows.into_iter().fold(self, Self::row)
     }
 
     /// The table with a footnote more.

@@ -37,7 +37,7 @@ pub(crate) fn condense(case: &Case, arguments: &Arguments, progress: &Progress) 
     if comparison == Comparison::Full {
         command.push_str(" --compare-full");
     }
-    let report = condense_report(case, &result, &command)?;
+    let report = condense_report(case, &result, &command);
     let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let element = folder.path().join("superelement.npz");
     let record = match &result.interface {

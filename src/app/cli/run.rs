@@ -64,7 +64,7 @@ pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Re
         ComputeError::Interrupted { .. } => CliError::Interrupted {
             what: error.to_string(),
             kept: "the signals so far and a checkpoint are",
-            folder: unfinished.folder().to_owned(),
+            folder: unfinished.folder.clone(),
             command: again(case, arguments),
         },
         error => error.into(),
@@ -100,13 +100,14 @@ fn unfinished(case: &Case, arguments: &Arguments, folder: &OutputFolder) -> Resu
         return Err(ComputeError::from(UnfinishedError::InTheWay { path: partial }).into());
     }
     let identity = RunIdentity::of(case)?;
-    let run = if resume {
+    let mut run = if resume {
         UnfinishedRun::resume(&partial, identity).map_err(ComputeError::from)?
     } else {
         UnfinishedRun::begin(&partial, identity)
     };
     let stop = interrupt::stop_request().map_err(CliError::Signals)?;
-    Ok(run.every(Duration::from_secs_f64(pause)).stopped_by(stop))
+    (run.every, run.stop) = (Duration::from_secs_f64(pause), stop);
+    Ok(run)
 }
 
 /// The command line that goes on with a run.

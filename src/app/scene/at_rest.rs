@@ -1,17 +1,18 @@
-//! What is simulated: structure and bearing of a case, at rest where they start.
+//! What is simulated: structure and bearing of a case, at rest where they start, and what of them a run models.
 
 use super::bearing::{contacts_of, setup_of};
 use super::contact_limits::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
-use super::run_model::RunModel;
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
 use crate::bearing::{Race, RaceContacts};
 use crate::numerics::Watch;
-use crate::numerics::ode::State;
-use crate::system::{BearingSetup, CoupledSystem, Equilibrium, ModeDamping, StaticCondition};
+use crate::numerics::ode::{Method, State};
+use crate::system::{
+    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
+};
 
 /// Structure and bearing of a case and the equilibrium that a simulation starts from.
 #[derive(Debug)]
@@ -30,6 +31,21 @@ pub struct Scene {
     pub equilibrium: Equilibrium,
     /// What of the model may be meant otherwise, a sentence each.
     pub doubts: Vec<String>,
+}
+
+/// What of a scene is modelled, and how it is stepped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunModel {
+    /// Kept modes of ring and housing.
+    pub modes: ModeSelection,
+    /// Whether the static flexibility of the others acts in contacts and sensors.
+    pub residual: bool,
+    /// Whether the balls have inertia.
+    pub balls_inertia: BallsInertia,
+    /// Integration method.
+    pub method: Method,
+    /// Largest step, or time between samples of a method that chooses its steps, s.
+    pub step: f64,
 }
 
 impl Scene {
@@ -72,10 +88,8 @@ impl Scene {
         let condition = StaticCondition::at(&setup, start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         accept_contacts(&setup, &contacts, &equilibrium)?;
-        let housing = stage.housing.as_ref();
-        let housing = housing.map(|housing| (&housing.mesh, &housing.model));
         Ok(Self {
-            doubts: doubts(case, housing, Some((&setup, &equilibrium)))?,
+            doubts: doubts(case, stage.mesh_and_model(), Some((&setup, &equilibrium)))?,
             stage,
             setup,
             contacts,

@@ -1,12 +1,11 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
-use super::boundary::Boundary;
 use super::dof_labels::{of_housing, of_ring};
 use super::housing::AssembledHousing;
 use super::loose::{check_interior, located};
-use super::places::{Named, Place, PlaceBodies};
-use super::ring::ring_and_tie;
-use crate::app::case::{Case, FixedInterfaceModes, Interface, Sensor};
+use super::places::PlaceBodies;
+use super::ring::{Boundary, ring_and_tie};
+use crate::app::case::{Case, FixedInterfaceModes, Interface};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{rigid_motions, ring_motions};
@@ -56,18 +55,9 @@ impl CondensedHousing {
         choice: BasisChoice,
         watch: &impl Watch,
     ) -> Result<Option<Self>, ComputeError> {
-        match AssembledHousing::build(case, watch)? {
-            Some(housing) => Self::of(case, housing, choice, watch),
-            None => Ok(None),
-        }
-    }
-
-    fn of(
-        case: &Case,
-        housing: AssembledHousing,
-        choice: BasisChoice,
-        watch: &impl Watch,
-    ) -> Result<Option<Self>, ComputeError> {
+        let Some(housing) = AssembledHousing::build(case, watch)? else {
+            return Ok(None);
+        };
         let boundary = match (&case.condense.interface, &case.ring) {
             (Interface::Ring, Some(asked)) => match ring_and_tie(case, asked, Some(&housing))? {
                 (ring, Some(tie)) => Boundary::Ring(Box::new((ring, tie))),
@@ -146,15 +136,6 @@ impl CondensedHousing {
             tie: ring.map(|(_, tie)| tie),
             frame: *self.housing.model.frame(),
         }
-    }
-
-    /// Where a sensor is.
-    ///
-    /// # Errors
-    /// As [`Place::new`].
-    pub(crate) fn place_of(&self, sensor: &Sensor) -> Result<Place, ComputeError> {
-        let name = Named::Sensor(&sensor.name);
-        Place::new(self.bodies(), name, &sensor.spot, sensor.direction)
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.

@@ -2,10 +2,8 @@
 
 use super::bearing::race_contacts;
 use super::contact_limits::contact_doubts;
-use super::housing::description;
-use super::mesh_digest::read_mesh;
-use super::ring::layer;
-use super::seat::Seat;
+use super::housing::{description, read_mesh};
+use super::ring::{Seat, layer};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
@@ -267,11 +265,9 @@ fn race_in_ring(case: &Case) -> Result<Option<String>, ComputeError> {
     let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
         return Ok(None);
     };
-    let mut sections = ring.sections.iter();
-    let Some(first) = sections.next() else {
+    let Some(innermost) = ring.sections.iter().min_by(|a, b| a.radius.total_cmp(&b.radius)) else {
         return Ok(None);
     };
-    let innermost = sections.fold(first, |least, next| if next.radius < least.radius { next } else { least });
     let layer = layer(case, innermost)?;
     let [height, _] = layer.rectangle();
     let (race, half) = (bearing.outer_race_radius, 0.5 * height);

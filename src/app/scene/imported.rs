@@ -1,11 +1,10 @@
 //! A superelement from a file in the housing's place.
 
 use super::dof_labels::of_ring;
-use super::places::{Named, Place, PlaceBodies};
+use super::places::{Place, PlaceBodies, Spot};
 use super::ring::ring;
 use crate::app::case::{self, Case, SensorSpot};
-use crate::app::error::ComputeError;
-use crate::app::error::ImportError;
+use crate::app::error::{ComputeError, ImportError};
 use crate::fe::model::{Ring, RingFrame};
 use crate::fe::reduction::{Check, Superelement, check_matrices};
 use crate::formats::{DofBody, DofLabel, SuperelementRecord, read_superelement_npz, read_superelement_op4};
@@ -140,11 +139,6 @@ impl ImportedHousing {
         )
     }
 
-    /// That the case's damping takes the place of the file's, where that has one.
-    pub(crate) fn unused_damping(&self) -> Option<String> {
-        unused_damping(&self.path, &self.record)
-    }
-
     /// Refuses structural damping, which a simulation over time cannot have.
     ///
     /// # Errors
@@ -156,50 +150,23 @@ impl ImportedHousing {
         }
     }
 
-    /// Rows of the case's sensors over the coordinates, one \[order\] for each.
-    ///
-    /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring.
-    pub(crate) fn sensor_rows(&self, case: &Case, ring: &Ring) -> Result<Vec<Vec<f64>>, ComputeError> {
-        let sensors = case.sensors.iter();
-        sensors
-            .map(|sensor| {
-                let name = Named::Sensor(&sensor.name);
-                self.row(name, &sensor.spot, sensor.direction, ring)
-            })
-            .collect()
-    }
-
     /// The row of a place over the coordinates \[order\].
     ///
     /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring; each names `name`.
-    pub(crate) fn row(
-        &self,
-        name: Named<'_>,
-        spot: &SensorSpot,
-        direction: [f64; 3],
-        ring: &Ring,
-    ) -> Result<Vec<f64>, ComputeError> {
-        let bodies = PlaceBodies { housing: None, ring: Some(ring), tie: None, frame: self.frame };
-        match spot {
-            SensorSpot::Recovered(row) => self.recovered(name, row),
-            spot => {
-                let place = Place::new(bodies, name, spot, direction)?;
-                Ok(place.on_ring(self.element.order()))
-            }
-        }
-    }
-
-    fn recovered(&self, name: Named<'_>, row: &str) -> Result<Vec<f64>, ComputeError> {
+    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring; each names the sensor or force.
+    pub(crate) fn row(&self, spot: Spot<'_>, ring: &Ring) -> Result<Vec<f64>, ComputeError> {
+        let SensorSpot::Recovered(row) = spot.at else {
+            let place = Place::new(PlaceBodies::of_ring(ring, self.frame), spot)?;
+            return Ok(place.on_ring(self.element.order()));
+        };
         let sensors = &self.record.sensors;
-        if let Some(found) = sensors.iter().find(|sensor| sensor.name == row) {
+        if let Some(found) = sensors.iter().find(|sensor| sensor.name == *row) {
             return Ok(found.row.clone());
         }
         let names: Vec<String> = sensors.iter().map(|s| format!("\"{}\"", s.name)).collect();
         Err(self.fault(ImportError::Sensor {
-            name: name.to_string(),
-            row: row.to_owned(),
+            name: spot.to_string(),
+            row: row.clone(),
             known: match names.is_empty() {
                 true => "of array \"sensors\", which the file lacks".to_owned(),
                 false => names.join(", "),
@@ -225,26 +192,25 @@ fn last_mode_hz(modal_hz: &[f64]) -> f64 {
 fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> {
     let fits = |count: usize| count == 3 * nodes || count == 6 * nodes;
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    match ending.to_str() {
+    let (record, found) = match ending.to_str() {
         Some("npz") => {
             let record = read_superelement_npz(path)?;
             let found = record.interface.len();
             if let Some(recovery) = &record.interface_recovery {
                 return Err(ImportError::InterfaceModes { modes: found, coordinates: recovery.labels.len() });
             }
-            match fits(found) {
-                true => Ok(record),
-                false => Err(ImportError::Count { nodes, found }),
-            }
+            (record, found)
         }
         Some("op4") => {
             let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes])?;
-            match fits(record.interface.len()) {
-                true => Ok(record),
-                false => Err(ImportError::Count { nodes, found: record.order() }),
-            }
+            let order = record.order();
+            (record, order)
         }
-        _ => Err(ImportError::Format),
+        _ => return Err(ImportError::Format),
+    };
+    match fits(record.interface.len()) {
+        true => Ok(record),
+        false => Err(ImportError::Count { nodes, found }),
     }
 }
 
@@ -310,12 +276,10 @@ fn weight(record: &SuperelementRecord, frame: &RingFrame) -> DenseMatrix {
     })
 }
 
-/// That the case's damping takes the place of the file's.
-fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option<String> {
-    record
-        .damping
-        .as_ref()
-        .map(|_| format!("The viscous damping in {} is not used: [damping] of the case counts.", path.display()))
+/// That the case's damping takes the place of the file's, where that has one.
+pub(crate) fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option<String> {
+    let damping = record.damping.as_ref();
+    damping.map(|_| format!("The viscous damping in {} is not used: [damping] of the case counts.", path.display()))
 }
 
 fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {

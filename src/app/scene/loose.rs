@@ -1,10 +1,9 @@
 //! What of a housing can still move, in the mesh's words: a condensation that cannot be made names the part.
 
-use super::boundary::Boundary;
 use super::housing::AssembledHousing;
+use super::ring::Boundary;
 use crate::app::error::ComputeError;
-use crate::fe::modal::unless_too_many_bodies;
-use crate::fe::modal::{Mechanisms, ModalError};
+use crate::fe::modal::{Mechanisms, unless_too_many_bodies};
 use crate::fe::model::HousingModel;
 use crate::fe::reduction::{Check, ReductionError};
 
@@ -55,7 +54,7 @@ pub(crate) fn name_mechanisms(
         return Ok(());
     };
     let (mesh, model) = (&housing.mesh, &housing.model);
-    let found: Result<Mechanisms, ModalError> = match boundary.ring() {
+    let found = match boundary.ring() {
         Some((ring, tie)) => Mechanisms::find_with_ring(mesh, model, tie, ring),
         None => Mechanisms::find(mesh, model),
     };

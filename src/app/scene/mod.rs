@@ -1,11 +1,13 @@
 //! A checked case as domain objects: bearing, housing, ring, structure, modes.
+//!
+//! A case comes in, with the files that it names; objects of `fe`, `bearing` and `system` go out. A [`Scene`] is all that a run simulates
+//! and where it starts, a [`CoupledStructure`] ring and housing alone, a [`CondensedHousing`] a superelement and what it was made from.
+//! Read `at_rest.rs` first, then `structure.rs`.
 
 pub(crate) mod at_rest;
 pub(crate) mod bearing;
 pub(crate) mod bearing_defects;
 pub(crate) mod bearing_motion;
-pub(crate) mod bodies;
-pub(crate) mod boundary;
 pub(crate) mod condensed;
 pub(crate) mod contact_limits;
 pub(crate) mod damping;
@@ -19,26 +21,21 @@ pub(crate) mod imported;
 #[cfg(test)]
 mod imported_tests;
 pub(crate) mod loose;
-pub(crate) mod mesh_digest;
 pub(crate) mod places;
 pub(crate) mod reduced_interface;
 pub(crate) mod ring;
-pub(crate) mod run_model;
-pub(crate) mod seat;
 pub(crate) mod structure;
-pub(crate) mod structure_modes;
 pub mod tie_price;
 
-pub use at_rest::Scene;
+pub use at_rest::{RunModel, Scene};
 pub use bearing::bearing_setup;
 pub(crate) use bearing::{bearing_geometry, race_contacts};
-pub use boundary::Boundary;
 pub use condensed::CondensedHousing;
 pub(crate) use doubts::{doubts, doubts_of_case};
 pub use free_system::FreeSystem;
 pub use housing::AssembledHousing;
+pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
-pub(crate) use mesh_digest::mesh_digests;
 pub use reduced_interface::ReducedInterface;
-pub use run_model::RunModel;
+pub use ring::Boundary;
 pub use structure::CoupledStructure;

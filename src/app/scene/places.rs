@@ -1,8 +1,8 @@
 //! Places on housing and ring where something is measured or pushed, as rows over the coordinates of either.
 
-use super::boundary::Boundary;
 use super::housing::AssembledHousing;
-use crate::app::case::SensorSpot;
+use super::ring::Boundary;
+use crate::app::case::{Push, Sensor, SensorSpot};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::BoundingBox;
@@ -19,30 +19,32 @@ const NOTHING: f64 = 1e-12;
 /// Part of a unit vector across a plane that numbers with six digits may leave.
 const ACROSS: f64 = 1e-6;
 
-/// What stands at a place, as messages call it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Named<'a> {
-    /// A sensor.
-    Sensor(&'a str),
-    /// A force.
-    Force(&'a str),
+/// A sensor or a force of a case: its name, where it is, and its direction in the axes of the mesh, of any length.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spot<'a> {
+    /// "sensor" or "force".
+    kind: &'static str,
+    pub name: &'a str,
+    pub at: &'a SensorSpot,
+    direction: [f64; 3],
 }
 
-impl<'a> Named<'a> {
-    /// The name alone.
-    pub(crate) fn name(self) -> &'a str {
-        match self {
-            Self::Sensor(name) | Self::Force(name) => name,
-        }
+impl<'a> From<&'a Sensor> for Spot<'a> {
+    fn from(Sensor { name, spot, direction, .. }: &'a Sensor) -> Self {
+        Self { kind: "sensor", name, at: spot, direction: *direction }
     }
 }
 
-impl fmt::Display for Named<'_> {
+impl<'a> From<&'a Push> for Spot<'a> {
+    fn from(Push { name, spot, direction }: &'a Push) -> Self {
+        Self { kind: "force", name, at: spot, direction: *direction }
+    }
+}
+
+/// As messages call it.
+impl fmt::Display for Spot<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sensor(name) => write!(f, "sensor \"{name}\""),
-            Self::Force(name) => write!(f, "force \"{name}\""),
-        }
+        write!(f, "{} \"{}\"", self.kind, self.name)
     }
 }
 
@@ -65,44 +67,39 @@ pub(crate) struct PlaceBodies<'a> {
     pub frame: RingFrame,
 }
 
+impl<'a> PlaceBodies<'a> {
+    /// A ring in a frame, and nothing else.
+    pub(crate) fn of_ring(ring: &'a Ring, frame: RingFrame) -> Self {
+        Self { housing: None, ring: Some(ring), tie: None, frame }
+    }
+}
+
 impl Place {
     /// A place: the mean of a group, the node nearest to a point, a node, or an angle on the ring, along a direction.
     ///
     /// # Errors
-    /// [`ComputeError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names `name`.
-    pub fn new(
-        bodies: PlaceBodies<'_>,
-        name: Named<'_>,
-        spot: &SensorSpot,
-        direction: [f64; 3],
-    ) -> Result<Self, ComputeError> {
-        let needs_housing = |place: String| ComputeError::SensorNeedsHousing { name: name.to_string(), place };
-        let (nodes, housing) = match (spot, bodies.housing) {
+    /// [`ComputeError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names the
+    /// sensor or force.
+    pub(crate) fn new(bodies: PlaceBodies<'_>, spot: Spot<'_>) -> Result<Self, ComputeError> {
+        let needs_housing = |place: String| ComputeError::SensorNeedsHousing { name: spot.to_string(), place };
+        let (nodes, housing) = match (spot.at, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
-                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing { name: name.to_string() })?;
-                let direction = unit(bodies.frame.vector(direction));
+                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing { name: spot.to_string() })?;
+                let direction = unit(bodies.frame.vector(spot.direction));
                 if !ring.is_in_space() {
-                    in_plane(name, direction)?;
+                    in_plane(spot, direction)?;
                 }
                 return Ok(Self::Ring(ring.displacement_row(degrees.to_radians(), direction)));
             }
-            (SensorSpot::Recovered(row), _) => {
-                return Err(needs_housing(format!("row \"{row}\" of a superelement")));
-            }
-            (spot, Some(housing)) => (nodes_at(housing, name, spot)?, housing),
-            (SensorSpot::Group(group), None) => {
-                return Err(needs_housing(format!("group \"{group}\"")));
-            }
-            (SensorSpot::Point(_), None) => {
-                return Err(needs_housing("a point of the mesh".to_owned()));
-            }
-            (SensorSpot::Node(tag), None) => {
-                return Err(needs_housing(format!("node {tag} of the mesh")));
-            }
+            (SensorSpot::Recovered(row), _) => return Err(needs_housing(format!("row \"{row}\" of a superelement"))),
+            (_, Some(housing)) => (nodes_at(housing, spot)?, housing),
+            (SensorSpot::Group(group), None) => return Err(needs_housing(format!("group \"{group}\""))),
+            (SensorSpot::Point(_), None) => return Err(needs_housing("a point of the mesh".to_owned())),
+            (SensorSpot::Node(tag), None) => return Err(needs_housing(format!("node {tag} of the mesh"))),
         };
         let direction = match housing.model.dimension() {
-            2 => in_plane(name, unit(direction))?,
-            _ => unit(direction),
+            2 => in_plane(spot, unit(spot.direction))?,
+            _ => unit(spot.direction),
         };
         let share = 1.0 / nodes.len() as f64;
         let entries = nodes
@@ -113,7 +110,7 @@ impl Place {
             })
             .map(|(dof, factor)| (dof, share * factor));
         let entries: Vec<(usize, f64)> = entries.collect();
-        check_moves(housing, name, &entries)?;
+        check_moves(housing, spot, &entries)?;
         Ok(Self::Housing(entries))
     }
 
@@ -138,13 +135,10 @@ impl Place {
 
     /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
     pub(crate) fn on_housing(&self, dof: usize) -> Vec<f64> {
-        let mut row = vec![0.0; dof];
-        if let Self::Housing(entries) = self {
-            for &(at, factor) in entries {
-                row[at] += factor;
-            }
+        match self {
+            Self::Housing(entries) => row(dof, entries),
+            Self::Ring(_) => vec![0.0; dof],
         }
-        row
     }
 
     /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
@@ -179,14 +173,20 @@ impl Place {
 
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
     pub(crate) fn on_ring(&self, order: usize) -> Vec<f64> {
-        let mut row = vec![0.0; order];
-        if let Self::Ring(entries) = self {
-            for &(dof, factor) in entries {
-                row[dof] += factor;
-            }
+        match self {
+            Self::Ring(entries) => row(order, entries),
+            Self::Housing(_) => vec![0.0; order],
         }
-        row
     }
+}
+
+/// Sums of pairs (place, factor) over so many places.
+fn row(length: usize, entries: &[(usize, f64)]) -> Vec<f64> {
+    let mut row = vec![0.0; length];
+    for &(place, factor) in entries {
+        row[place] += factor;
+    }
+    row
 }
 
 fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
@@ -195,16 +195,15 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// A unit vector that lies in the plane.
-fn in_plane(name: Named<'_>, direction: [f64; 3]) -> Result<[f64; 3], ComputeError> {
-    let [x, y, across] = direction;
+fn in_plane(spot: Spot<'_>, [x, y, across]: [f64; 3]) -> Result<[f64; 3], ComputeError> {
     if across.abs() > ACROSS {
-        return Err(ComputeError::SensorDirection { name: name.to_string(), across: (across * 1e6).round() / 1e6 });
+        return Err(ComputeError::SensorDirection { name: spot.to_string(), across: (across * 1e6).round() / 1e6 });
     }
     Ok([x, y, 0.0])
 }
 
 /// Something in a place's row can move.
-fn check_moves(housing: &AssembledHousing, name: Named<'_>, entries: &[(usize, f64)]) -> Result<(), ComputeError> {
+fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f64)]) -> Result<(), ComputeError> {
     let model = &housing.model;
     let d = model.dimension();
     let mut holder = None;
@@ -216,7 +215,7 @@ fn check_moves(housing: &AssembledHousing, name: Named<'_>, entries: &[(usize, f
     }
     match holder {
         None => Ok(()),
-        Some(support) => Err(ComputeError::SensorHeld { name: name.to_string(), support: support.clone() }),
+        Some(support) => Err(ComputeError::SensorHeld { name: spot.to_string(), support: support.clone() }),
     }
 }
 
@@ -224,35 +223,25 @@ fn check_moves(housing: &AssembledHousing, name: Named<'_>, entries: &[(usize, f
 ///
 /// # Errors
 /// [`ComputeError`] for a place that is not there.
-pub(crate) fn nodes_at(
-    housing: &AssembledHousing,
-    name: Named<'_>,
-    spot: &SensorSpot,
-) -> Result<Vec<usize>, ComputeError> {
-    match spot {
-        SensorSpot::Group(group) => of_group(housing, group),
-        SensorSpot::Point(point) => Ok(vec![nearest_node(housing, name, point)?]),
-        SensorSpot::Node(tag) => Ok(vec![tagged_node(housing, name, *tag)?]),
+pub(crate) fn nodes_at(housing: &AssembledHousing, spot: Spot<'_>) -> Result<Vec<usize>, ComputeError> {
+    let model = &housing.model;
+    let used = |node: &usize| model.is_used(*node);
+    match spot.at {
+        SensorSpot::Group(group) => {
+            let group = model.group_on_housing(&housing.mesh, group, "the sensor")?;
+            Ok(group.nodes.iter().copied().filter(used).collect())
+        }
+        SensorSpot::Point(point) => Ok(vec![nearest_node(housing, spot, point)?]),
+        SensorSpot::Node(tag) => {
+            let place = model.node_tags.iter().position(|found| found == tag);
+            let missing = || ComputeError::SensorNode { name: spot.to_string(), tag: *tag, in_mesh: place.is_some() };
+            Ok(vec![place.filter(used).ok_or_else(missing)?])
+        }
         SensorSpot::RingDeg(_) | SensorSpot::Recovered(_) => Ok(Vec::new()),
     }
 }
 
-fn of_group(housing: &AssembledHousing, group: &str) -> Result<Vec<usize>, ComputeError> {
-    let group = housing.model.group_on_housing(&housing.mesh, group, "the sensor")?;
-    let used = |node: &usize| housing.model.is_used(*node);
-    Ok(group.nodes.iter().copied().filter(used).collect())
-}
-
-fn tagged_node(housing: &AssembledHousing, name: Named<'_>, tag: u64) -> Result<usize, ComputeError> {
-    let place = housing.model.node_tags.iter().position(|&found| found == tag);
-    place.filter(|&node| housing.model.is_used(node)).ok_or_else(|| ComputeError::SensorNode {
-        name: name.to_string(),
-        tag,
-        in_mesh: place.is_some(),
-    })
-}
-
-fn nearest_node(housing: &AssembledHousing, name: Named<'_>, point: &[f64; 3]) -> Result<usize, ComputeError> {
+fn nearest_node(housing: &AssembledHousing, spot: Spot<'_>, point: &[f64; 3]) -> Result<usize, ComputeError> {
     let across = housing.model.dimension() == 3;
     let distance = |node: &[f64; 3]| {
         let plane = (node[0] - point[0]).hypot(node[1] - point[1]);
@@ -271,7 +260,7 @@ fn nearest_node(housing: &AssembledHousing, name: Named<'_>, point: &[f64; 3]) -
             }
         }
     }
-    let missed = |distance| ComputeError::SensorPlace { name: name.to_string(), point: *point, distance };
+    let missed = |distance| ComputeError::SensorPlace { name: spot.to_string(), point: *point, distance };
     let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;
     if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) { Ok(index) } else { Err(missed(away)) }
 }

@@ -1,10 +1,15 @@
-//! The ring of a case: its section, supports and tie to the bore.
+//! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
 use super::housing::{AssembledHousing, material};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
+use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{BeamSection, Bond, RingLayer};
-use crate::fe::model::{Ring, RingSupport, RingTie};
+use crate::fe::mesh::Mesh;
+use crate::fe::model::{HousingModel, HousingPartition, NodeInterface, Ring, RingSupport, RingTie};
+use crate::fe::reduction::Attached;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
 
 /// The ring of a case, and how it sits in its housing if it does.
 ///
@@ -72,4 +77,87 @@ pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ri
         })?;
     }
     Ok(ring)
+}
+
+/// What a housing is attached by.
+#[derive(Debug, Clone)]
+pub enum Boundary {
+    /// A ring through its tie.
+    Ring(Box<(Ring, RingTie)>),
+    /// Nodes of the mesh themselves.
+    Nodes(NodeInterface),
+}
+
+impl Boundary {
+    /// How the housing's degrees of freedom are split.
+    pub(crate) fn partition(&self) -> &HousingPartition {
+        match self {
+            Self::Ring(bodies) => bodies.1.partition(),
+            Self::Nodes(nodes) => &nodes.partition,
+        }
+    }
+
+    pub(crate) fn matrices<'h>(&self, housing: &'h AssembledHousing) -> Cow<'h, SystemMatrices> {
+        match self.ring() {
+            Some((_, tie)) if tie.rotation().is_some() => Cow::Owned(housing.matrices.clone().for_tie(tie)),
+            _ => Cow::Borrowed(&housing.matrices),
+        }
+    }
+
+    /// What sits on the interface.
+    pub fn attached(&self) -> Option<Attached<'_>> {
+        self.ring().map(|(ring, _)| Attached { stiffness: ring.stiffness(), mass: ring.mass() })
+    }
+
+    /// Ring and tie, if that is what it is.
+    pub(crate) fn ring(&self) -> Option<(&Ring, &RingTie)> {
+        match self {
+            Self::Ring(bodies) => Some((&bodies.0, &bodies.1)),
+            Self::Nodes(_) => None,
+        }
+    }
+}
+
+/// The bore in the ring's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Seat {
+    /// Number of its nodes.
+    pub nodes: usize,
+    /// First place along the axis, m.
+    pub from: f64,
+    /// Last place along the axis, m.
+    pub to: f64,
+    /// Largest angle round the axis without a node of the bore, radians.
+    pub free_turn: f64,
+}
+
+impl Seat {
+    /// The bore of a tie.
+    ///
+    /// # Errors
+    /// [`ComputeError::Model`] if the mesh lacks it.
+    pub(crate) fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
+        let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
+        let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
+        let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();
+        let along: Vec<f64> = places.iter().map(|place| place[2]).collect();
+        let mut angles: Vec<f64> = places.iter().map(|[x, y, _]| y.atan2(*x)).collect();
+        angles.sort_unstable_by(f64::total_cmp);
+        let next = angles.iter().skip(1).copied();
+        let next = next.chain(angles.first().map(|first| first + TAU));
+        let gaps = angles.iter().zip(next).map(|(angle, next)| next - angle);
+        Ok(Self {
+            free_turn: gaps.fold(0.0, f64::max),
+            nodes: along.len(),
+            from: along.iter().copied().fold(f64::INFINITY, f64::min),
+            to: along.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        })
+    }
+
+    /// Share, 0 to 1, of a ring of this width (m) about the ring's plane that lies beyond the bore's ends.
+    pub(crate) fn share_outside(&self, width: f64) -> f64 {
+        let half = 0.5 * width;
+        let inside = self.to.min(half) - self.from.max(-half);
+        1.0 - inside.max(0.0) / width
+    }
 }

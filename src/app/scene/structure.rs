@@ -1,14 +1,16 @@
-//! Ring and condensed housing of a case in one structure, with its sensors and modes.
+//! Ring and condensed housing of a case in one structure, with its sensors, its modes, and its modes in full.
 
-use super::boundary::Boundary;
 use super::condensed::{CondensedHousing, basis_choice};
 use super::housing::AssembledHousing;
 use super::imported::ImportedHousing;
-use super::places::{Named, Place, PlaceBodies};
-use super::ring::ring;
+use super::places::{Place, PlaceBodies, Spot};
+use super::ring::{Boundary, ring};
 use crate::app::case::{self, Case, Interface, ModesKept};
 use crate::app::error::ComputeError;
-use crate::fe::model::{RingFrame, RingTie};
+use crate::fe::assembly::CoupledMatrices;
+use crate::fe::mesh::Mesh;
+use crate::fe::modal::{FullModes, ModalSurvey, ModeRange, RingShapes};
+use crate::fe::model::{HousingModel, RingFrame, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize};
 use crate::numerics::Watch;
 use crate::system::{Formulation, Sensor, Structure, StructureModes};
@@ -62,19 +64,11 @@ impl CoupledStructure {
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
-        Self::with_modes(case, needed_modes(case), watch)
-    }
-
-    /// The same with at least so many modes, if it has them.
-    ///
-    /// # Errors
-    /// As [`build`](Self::build).
-    pub(crate) fn with_modes(case: &Case, count: usize, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         let ring = case.ring.as_ref();
-        ring.map(|asked| Self::around_ring(case, asked, count, watch)).transpose()
+        ring.map(|asked| Self::around_ring(case, asked, needed_modes(case), watch)).transpose()
     }
 
-    /// The same around the ring that is asked for.
+    /// The same around the ring that is asked for, with at least so many modes, if it has them.
     ///
     /// # Errors
     /// As [`build`](Self::build).
@@ -92,11 +86,15 @@ impl CoupledStructure {
             watch.stage("read");
             let (imported, ring) = ImportedHousing::read(case, asked, path)?;
             imported.accept()?;
-            let mut structure = Structure::with_housing(ring, &imported.element, gravity)?;
-            let rows = imported.sensor_rows(case, structure.ring())?;
-            add_sensors(&mut structure, &case.sensors, rows)?;
-            let around = Around::Imported(Box::new(imported));
-            return Self::solved(structure, around, count, watch);
+            let structure = Structure::with_housing(ring, &imported.element, gravity)?;
+            let row = |spot| imported.row(spot, structure.ring());
+            let rows = sensor_rows(case, row)?;
+            return Ok(Self {
+                fixed_interface_modes: imported.element.modal_dof(),
+                complete_hz: imported.complete_hz().max(f64::MIN_POSITIVE),
+                imported: Some(Box::new(imported)),
+                ..Self::solved(structure, case, rows, count, watch)?
+            });
         }
         let asked_basis = basis_choice(case);
         let choice = BasisChoice {
@@ -111,39 +109,40 @@ impl CoupledStructure {
             ..asked_basis
         };
         let Some(stage) = CondensedHousing::with_basis(case, choice, watch)? else {
-            let ring = ring(case, asked, false)?;
-            let mut structure = Structure::ring_alone(ring, gravity);
-            let bodies =
-                PlaceBodies { housing: None, ring: Some(structure.ring()), tie: None, frame: RingFrame::default() };
-            let mut rows = Vec::with_capacity(case.sensors.len());
-            for sensor in &case.sensors {
-                let name = Named::Sensor(&sensor.name);
-                let place = Place::new(bodies, name, &sensor.spot, sensor.direction)?;
-                rows.push(place.on_ring(structure.dof()));
-            }
-            add_sensors(&mut structure, &case.sensors, rows)?;
-            return Self::solved(structure, Around::Nothing, count, watch);
+            let structure = Structure::ring_alone(ring(case, asked, false)?, gravity);
+            let bodies = PlaceBodies::of_ring(structure.ring(), RingFrame::default());
+            let rows = sensor_rows(case, |spot| Ok(Place::new(bodies, spot)?.on_ring(structure.dof())))?;
+            return Self::solved(structure, case, rows, count, watch);
         };
-        let mut rows = Vec::with_capacity(case.sensors.len());
-        for sensor in &case.sensors {
-            rows.push(stage.place_of(sensor)?.reduced(&stage.condensed));
-        }
-        let complete_hz = stage.condensed.basis.complete_below().sqrt() / TAU;
+        let rows = sensor_rows(case, |spot| Ok(Place::new(stage.bodies(), spot)?.reduced(&stage.condensed)))?;
         let CondensedHousing { housing, boundary, condensed, .. } = stage;
         let Boundary::Ring(bodies) = boundary else {
             return Err(ComputeError::InterfaceOfRing);
         };
         let (ring, tie) = *bodies;
-        let mut structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
-        add_sensors(&mut structure, &case.sensors, rows)?;
-        let around = Around::Housing(Box::new((housing, tie, condensed.basis.count())));
-        let solved = Self::solved(structure, around, count, watch)?;
-        Ok(Self { complete_hz, ..solved })
+        let structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
+        Ok(Self {
+            housing: Some(housing),
+            tie: Some(tie),
+            fixed_interface_modes: condensed.basis.count(),
+            complete_hz: condensed.basis.complete_below().sqrt() / TAU,
+            ..Self::solved(structure, case, rows, count, watch)?
+        })
     }
 
-    fn solved(structure: Structure, around: Around, modes: usize, watch: &impl Watch) -> Result<Self, ComputeError> {
+    /// A structure with its sensors' rows and so many modes, nothing said of its housing.
+    fn solved(
+        mut structure: Structure,
+        case: &Case,
+        rows: Vec<Vec<f64>>,
+        modes: usize,
+        watch: &impl Watch,
+    ) -> Result<Self, ComputeError> {
+        for (sensor, row) in case.sensors.iter().zip(rows) {
+            structure.add_sensor(Sensor { name: sensor.name.clone(), row })?;
+        }
         watch.stage("eigen");
-        let mut stage = Self {
+        Ok(Self {
             modes: structure.lowest_modes(modes)?,
             housing: None,
             imported: None,
@@ -151,21 +150,58 @@ impl CoupledStructure {
             fixed_interface_modes: 0,
             complete_hz: f64::INFINITY,
             structure,
-        };
-        match around {
-            Around::Nothing => {}
-            Around::Imported(imported) => {
-                stage.fixed_interface_modes = imported.element.modal_dof();
-                stage.complete_hz = imported.complete_hz().max(f64::MIN_POSITIVE);
-                stage.imported = Some(imported);
+        })
+    }
+
+    /// Mesh and model of the housing, if it is of a mesh.
+    pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
+        self.housing.as_ref().map(|housing| (&housing.mesh, &housing.model))
+    }
+
+    /// Modes of a ring, in a housing if the case has one.
+    ///
+    /// # Errors
+    /// [`ComputeError`] of eigenvalue computation and analysis.
+    pub(crate) fn survey(&self, extent: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
+        let ring = self.structure.ring();
+        Ok(match (&self.housing, &self.tie) {
+            (Some(AssembledHousing { mesh, model, matrices }), Some(tie)) => {
+                ModalSurvey::of_coupled((mesh, model, matrices), tie, ring, extent, watch)?
             }
-            Around::Housing(parts) => {
-                let (housing, tie, count) = *parts;
-                (stage.housing, stage.tie) = (Some(housing), Some(tie));
-                stage.fixed_interface_modes = count;
+            _ if self.imported.is_some() => self.survey_of_imported(extent, watch)?,
+            _ => ModalSurvey::of_ring(ring, extent, watch)?,
+        })
+    }
+
+    /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
+    fn survey_of_imported(&self, range: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
+        let ring = self.structure.ring();
+        let modes = FullModes::of(self.full_matrices(), range, watch)?;
+        let of_ring = modes.motions().ring(&modes.over_all_rows());
+        Ok(ModalSurvey {
+            dof: self.structure.dof(),
+            free_dof: modes.free_dof(),
+            basis: modes.basis,
+            mass: None,
+            participation: None,
+            shares: None,
+            mechanisms: None,
+            housing: None,
+            ring: Some(RingShapes::new(ring, &self.frame(), &of_ring)),
+        })
+    }
+
+    /// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
+    pub(crate) fn full_matrices(&self) -> CoupledMatrices {
+        let structure = &self.structure;
+        let ring = structure.ring();
+        match (&self.housing, &self.tie) {
+            (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
+            _ if self.imported.is_some() => {
+                CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
             }
+            _ => CoupledMatrices::of_ring(ring),
         }
-        Ok(stage)
     }
 
     /// Where the bearing sits in the mesh's axes; a ring alone has none but its own.
@@ -193,17 +229,10 @@ pub(crate) fn needed_modes(case: &Case) -> usize {
     }
 }
 
-/// What is around a ring.
-enum Around {
-    Nothing,
-    /// A housing, the tie to it, and the number of vectors of its interior.
-    Housing(Box<(AssembledHousing, RingTie, usize)>),
-    Imported(Box<ImportedHousing>),
-}
-
-fn add_sensors(structure: &mut Structure, sensors: &[case::Sensor], rows: Vec<Vec<f64>>) -> Result<(), ComputeError> {
-    for (sensor, row) in sensors.iter().zip(rows) {
-        structure.add_sensor(Sensor { name: sensor.name.clone(), row })?;
-    }
-    Ok(())
+/// Rows of the case's sensors over the coordinates of a structure, each by `row`.
+fn sensor_rows<'c>(
+    case: &'c Case,
+    row: impl Fn(Spot<'c>) -> Result<Vec<f64>, ComputeError>,
+) -> Result<Vec<Vec<f64>>, ComputeError> {
+    case.sensors.iter().map(|sensor| row(sensor.into())).collect()
 }

@@ -2,12 +2,11 @@
 
 use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::CondensedHousing;
-use crate::app::scene::ReducedInterface;
 use crate::app::scene::loose::name_mechanisms;
 use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, doubts};
+use crate::app::scene::{CondensedHousing, ReducedInterface};
 use crate::fe::modal::{FullModes, ModeRange};
 use crate::fe::reduction::{
     Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction, size_study,
@@ -65,11 +64,6 @@ pub struct CondenseResult {
 }
 
 impl CondenseResult {
-    /// Whether every check passes.
-    pub(crate) fn passes(&self) -> bool {
-        self.checks.iter().all(Check::ok)
-    }
-
     /// The superelement that is handed on.
     pub(crate) fn superelement(&self) -> &Superelement {
         match &self.interface {
@@ -144,15 +138,12 @@ pub fn compute_condense(
 }
 
 fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {
-    let largest = match estimate.converged {
-        true => estimate.largest(),
-        false => f64::INFINITY,
-    };
-    let what = match estimate.converged {
-        true => format!("largest estimated relative error of the {} frequencies in the band", estimate.modes.len()),
-        false => "the basis is too poor for an estimate: too many modes below the band's top are left out".to_owned(),
-    };
-    Check::at_most("estimated error", what, largest, target)
+    if !estimate.converged {
+        let what = "the basis is too poor for an estimate: too many modes below the band's top are left out";
+        return Check::at_most("estimated error", what, f64::INFINITY, target);
+    }
+    let what = format!("largest estimated relative error of the {} frequencies in the band", estimate.modes.len());
+    Check::at_most("estimated error", what, estimate.largest(), target)
 }
 
 fn compare(

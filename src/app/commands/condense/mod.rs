@@ -1,16 +1,16 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
+//!
+//! A case comes in; a [`CondenseResult`] goes out, and [`superelement_record`] makes the file of it. Read `compute.rs` first. `summary.rs`
+//! is `condense.json`, `report.rs` the page with sections of `cost_sections.rs`.
 
 pub(crate) mod compute;
-pub(crate) mod imported_report;
-pub(crate) mod reduced_interface_report;
+pub(crate) mod cost_sections;
 pub(crate) mod report;
-pub(crate) mod size_chart;
 pub(crate) mod summary;
 pub(crate) mod superelement_record;
 
 pub use compute::{Comparison, CondenseResult, FullComparison, compute_condense};
-pub(crate) use imported_report::imported_report;
-pub(crate) use report::condense_report;
+pub(crate) use report::{condense_report, imported_report};
 pub use summary::{CondenseSummary, EstimateSummary, ImportedSummary, InterfaceSummary};
 pub(crate) use superelement_record::reduced_superelement_record;
 pub use superelement_record::superelement_record;

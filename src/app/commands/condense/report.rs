@@ -1,42 +1,25 @@
-//! The report of `plummer condense`: the certificate of a superelement.
+//! The reports of `plummer condense`: the certificate of a superelement, and the checks of one from a file.
 
 use super::compute::{CondenseResult, FullComparison};
-use super::{reduced_interface_report, size_chart};
+use super::cost_sections::{error_by_size, reduced_interface};
 use crate::app::case::Case;
-use crate::app::error::ComputeError;
-use crate::app::scene::Boundary;
+use crate::app::commands::parts::signed_report;
 use crate::app::scene::tie_price::{BeamAndSolid, TiePrice};
+use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{BasisSize, Bound, Check};
-use crate::report::{Cell, Column, Document, Fact, Report, Section, Table, Verdict, significant};
+use crate::report::{Block, Cell, Column, Fact, Report, Section, Table, Verdict, significant};
 use std::f64::consts::TAU;
 
 /// Composes the report; `command` is the line that made it.
-///
-/// # Errors
-/// None yet.
-pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Result<Report, ComputeError> {
-    let document =
-        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
-    let failed = result.checks.iter().filter(|check| !check.ok()).count();
-    let report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle("Certificate of a condensed housing")
-        .document(document)
-        .headline(
-            "Checks passed",
-            format!("{} of {}", result.checks.len() - failed, result.checks.len()),
-            Verdict::of(failed == 0),
-        )
+pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Report {
+    let (estimate, interface_dof) = (&result.estimate, result.superelement().interface_dof);
+    let mut report = checks_passed(signed_report(case, command, "Certificate of a condensed housing"), &result.checks)
         .headline(
             "Largest estimated error of a frequency in the band",
-            significant(result.estimate.largest(), 2),
-            Verdict::of(result.estimate.converged && result.estimate.largest() <= case.target()),
+            significant(estimate.largest(), 2),
+            Verdict::of(estimate.converged && estimate.largest() <= case.target()),
         )
-        .headline(
-            "Coordinates",
-            format!("{} + {}", result.superelement().interface_dof, result.stage.condensed.basis.count()),
-            Verdict::None,
-        );
-    let mut report = report
+        .headline("Coordinates", format!("{interface_dof} + {}", result.stage.condensed.basis.count()), Verdict::None)
         .section(what(result))
         .section(
             Section::new("Checks")
@@ -44,22 +27,53 @@ pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &st
                 .table(check_table(&result.checks)),
         )
         .section(errors(result));
-    if let Some(interface) = &result.interface {
-        report = report.section(reduced_interface_report::section(result, interface));
-    }
+    report.sections.extend(result.interface.as_ref().map(|interface| reduced_interface(result, interface)));
     report = report.section(vectors(result));
     let interface_dof = result.stage.condensed.superelement.interface_dof;
-    let full = result.full.as_ref();
-    if let Some(chart) = full.and_then(|f| size_chart::section(f, interface_dof, case.target())) {
-        report = report.section(chart);
-    }
-    if let Some(price) = &result.tie_price {
-        report = report.section(tie(price));
-    }
-    for text in &result.doubts {
-        report = report.warning(text);
-    }
-    Ok(report)
+    let sizes = result.full.as_ref().and_then(|full| error_by_size(full, interface_dof, case.target()));
+    report.sections.extend(sizes);
+    report.sections.extend(result.tie_price.as_ref().map(tie));
+    report.warnings.extend_from_slice(&result.doubts);
+    report
+}
+
+/// Composes the report on a superelement from a file; `command` is the line that made it.
+pub(crate) fn imported_report(case: &Case, imported: &ImportedHousing, command: &str) -> Report {
+    let (checks, element, record) = (&imported.checks, &imported.element, &imported.record);
+    let columns = [Column::number("Mode", ""), Column::number("Frequency", "Hz")];
+    let modes = (1..).zip(&record.modal_hz);
+    let modes = modes.map(|(mode, &hz)| [Cell::text(mode.to_string()), Cell::number(hz, 7)]);
+    let has = |given: bool| if given { "yes" } else { "no" };
+    let sensors: Vec<&str> = record.sensors.iter().map(|s| s.name.as_str()).collect();
+    let facts = [
+        Fact::new("File", imported.path.display().to_string()),
+        Fact::new("Interface coordinates", element.interface_dof.to_string()),
+        Fact::new("Modes", element.modal_dof().to_string()),
+        Fact::new("Weight", has(record.weight.is_some())),
+        Fact::new("Viscous damping", has(record.damping.is_some())),
+        Fact::new("Structural damping", has(record.structural.is_some())),
+        Fact::new("Sensors", sensors.join(", ")),
+    ];
+    let mut report = checks_passed(signed_report(case, command, "Checks of a superelement from a file"), checks)
+        .headline("Coordinates", format!("{} + {}", element.interface_dof, element.modal_dof()), Verdict::None)
+        .section(
+            Section::new("What the file has")
+                .facts(facts)
+                .table(Table::new("Modes with the interface held", columns).rows(modes)),
+        )
+        .section(
+            Section::new("Checks")
+                .paragraph("Nothing was condensed here: these are properties that the matrices of any condensed housing have. Every limit is relative.")
+                .table(check_table(checks)),
+        );
+    report.warnings.extend_from_slice(&imported.notes);
+    report
+}
+
+fn checks_passed(report: Report, checks: &[Check]) -> Report {
+    let passed = checks.iter().filter(|check| check.ok()).count();
+    let text = format!("{passed} of {}", checks.len());
+    report.headline("Checks passed", text, Verdict::of(passed == checks.len()))
 }
 
 fn what(result: &CondenseResult) -> Section {
@@ -103,31 +117,27 @@ fn what(result: &CondenseResult) -> Section {
     Section::new("What was condensed").facts(facts)
 }
 
-pub(crate) fn check_table(checks: &[Check]) -> Table {
-    let mut table = Table::new(
-        "Certificate",
-        [
-            Column::text("Check"),
-            Column::text("What"),
-            Column::number("Found", ""),
-            Column::text("Limit"),
-            Column::text("Verdict"),
-        ],
-    );
-    for check in checks {
+fn check_table(checks: &[Check]) -> Table {
+    let columns = [
+        Column::text("Check"),
+        Column::text("What"),
+        Column::number("Found", ""),
+        Column::text("Limit"),
+        Column::text("Verdict"),
+    ];
+    Table::new("Certificate", columns).rows(checks.iter().map(|check| {
         let sign = match check.bound {
             Bound::AtMost => "at most",
             Bound::AtLeast => "at least",
         };
-        table = table.row([
+        [
             Cell::text(check.name),
             Cell::text(&check.what),
             Cell::number(check.value, 3),
             Cell::text(format!("{sign} {}", significant(check.limit, 3))),
             Cell::badge(Verdict::of(check.ok())),
-        ]);
-    }
-    table
+        ]
+    }))
 }
 
 fn errors(result: &CondenseResult) -> Section {
@@ -138,11 +148,9 @@ fn errors(result: &CondenseResult) -> Section {
         Column::number("Estimated error", ""),
     ];
     if result.full.is_some() {
-        columns.push(Column::number("Frequency, full", "Hz"));
-        columns.push(Column::number("Error", ""));
+        columns.extend([Column::number("Frequency, full", "Hz"), Column::number("Error", "")]);
     }
-    let mut table = Table::new("Frequencies in the band", columns);
-    for (place, mode) in estimate.modes.iter().enumerate() {
+    let rows = estimate.modes.iter().enumerate().map(|(place, mode)| {
         let mut cells = vec![
             Cell::text((place + 1).to_string()),
             Cell::number(mode.frequency_hz, 7),
@@ -150,13 +158,11 @@ fn errors(result: &CondenseResult) -> Section {
         ];
         if let Some(full) = &result.full {
             cells.push(Cell::number(full.frequencies_hz[place], 7));
-            cells.push(match full.relative_errors[place] {
-                Some(error) => Cell::number(error, 2),
-                None => Cell::text("rigid"),
-            });
+            cells.push(Cell::number_or(full.relative_errors[place], 2, "rigid"));
         }
-        table = table.row(cells);
-    }
+        cells
+    });
+    let table = Table::new("Frequencies in the band", columns).rows(rows);
     let mut section = Section::new("Error of the reduction")
         .paragraph("The residual of each mode in the interior's equations, solved with the factor of the interior, says what the basis lacks. The modes are computed once more with these vectors; what the frequencies fall by is their error. The full model is not needed for it.");
     if estimate.out_of_band > 0 {
@@ -164,28 +170,21 @@ fn errors(result: &CondenseResult) -> Section {
             section.paragraph(format!("The reduced model has {} of these modes above the band.", estimate.out_of_band));
     }
     if let Some(FullComparison { effectivity: Some([low, high]), .. }) = &result.full {
-        section = section.paragraph(format!(
-            "Estimated / true error: {} to {}.",
-            significant(*low, 3),
-            significant(*high, 3)
-        ));
+        let [low, high] = [low, high].map(|factor| significant(*factor, 3));
+        section = section.paragraph(format!("Estimated / true error: {low} to {high}."));
     }
     section.table(table)
 }
 
 fn vectors(result: &CondenseResult) -> Section {
     let basis = &result.stage.condensed.basis;
-    let mut table = Table::new(
-        "Vectors of the interior",
-        [Column::number("Vector", ""), Column::number("Frequency with the interface held", "Hz")],
-    );
-    for (place, value) in basis.values().iter().enumerate() {
-        table = table.row([Cell::text((place + 1).to_string()), Cell::number(value.sqrt() / TAU, 7)]);
-    }
-    let complete = basis.complete_below().sqrt() / TAU;
-    Section::new("What the interior may do").table(table.footnote(format!(
+    let columns = [Column::number("Vector", ""), Column::number("Frequency with the interface held", "Hz")];
+    let vectors = (1..).zip(basis.values());
+    let rows = vectors.map(|(vector, value)| [Cell::text(vector.to_string()), Cell::number(value.sqrt() / TAU, 7)]);
+    Section::new("What the interior may do")
+        .table(Table::new("Vectors of the interior", columns).rows(rows).footnote(format!(
         "Below {} Hz these are the fixed-interface modes, all of them; above, combinations with the residual vectors.",
-        significant(complete, 6)
+        significant(basis.complete_below().sqrt() / TAU, 6)
     )))
 }
 
@@ -198,30 +197,24 @@ fn tie(price: &TiePrice) -> Section {
         }
         TiePrice::Computed(found) => found,
     };
-    let table = |caption: &str, modes: &[BeamAndSolid]| {
-        let mut table = Table::new(
-            caption,
-            [
-                Column::number("Mode", ""),
-                Column::number("Beams", "Hz"),
-                Column::number("Solid", "Hz"),
-                Column::number("Difference", "%"),
-                Column::number("MAC", ""),
-            ],
-        );
-        let number =
-            |value: Option<f64>, digits| value.map_or_else(|| Cell::text("none"), |value| Cell::number(value, digits));
-        for mode in modes {
-            table = table.row([
-                Cell::text((mode.mode + 1).to_string()),
-                Cell::number(mode.beams_hz, 6),
-                number(mode.solid_hz, 6),
-                number(mode.relative_difference.map(|x| 100.0 * x), 3),
-                number(mode.mac, 3),
-            ]);
-        }
-        table
+    let columns = [
+        Column::number("Mode", ""),
+        Column::number("Beams", "Hz"),
+        Column::number("Solid", "Hz"),
+        Column::number("Difference", "%"),
+        Column::number("MAC", ""),
+    ];
+    let row = |mode: &BeamAndSolid| {
+        [
+            Cell::text((mode.mode + 1).to_string()),
+            Cell::number(mode.beams_hz, 6),
+            Cell::number_or(mode.solid_hz, 6, "none"),
+            Cell::number_or(mode.relative_difference.map(|x| 100.0 * x), 3, "none"),
+            Cell::number_or(mode.mac, 3, "none"),
+        ]
     };
+    let table =
+        |caption: &str, modes: &[BeamAndSolid]| Table::new(caption, columns.clone()).rows(modes.iter().map(row));
     let mut section = section
         .paragraph(format!(
             "The solid ring: {} elements, {:.4} mm high, {:.4} mm wide, centroid radius {:.4} mm.",
@@ -232,8 +225,6 @@ fn tie(price: &TiePrice) -> Section {
         ))
         .table(table("Housing and ring", &found.modes))
         .table(table("The ring alone: what the beams themselves cost", &found.ring_alone));
-    for note in &found.notes {
-        section = section.paragraph(note);
-    }
+    section.blocks.extend(found.notes.iter().cloned().map(Block::Paragraph));
     section
 }

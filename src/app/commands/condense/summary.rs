@@ -100,13 +100,12 @@ pub struct ImportedSummary<'a> {
 }
 
 /// Frequency of an eigenvalue in 1/s^2, Hz.
-fn hz(value: f64) -> f64 {
+pub(crate) fn hz(value: f64) -> f64 {
     value.max(0.0).sqrt() / TAU
 }
 
 impl CondenseResult {
     /// What `condense.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> CondenseSummary<'_> {
         let (condensed, estimate) = (&self.stage.condensed, &self.estimate);
         let (basis, modes) = (&condensed.basis, estimate.modes.iter());
@@ -155,7 +154,6 @@ impl<'a> InterfaceSummary<'a> {
 
 impl ImportedHousing {
     /// What `condense.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> ImportedSummary<'_> {
         ImportedSummary {
             superelement: &self.path,

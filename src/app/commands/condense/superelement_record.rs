@@ -1,10 +1,10 @@
 //! A condensed housing as files carry it.
 
-use crate::app::case::Case;
+use crate::app::case::{Case, Sensor};
 use crate::app::error::ComputeError;
 use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::viscous_matrix;
-use crate::app::scene::places::{Named, Place, nodes_at};
+use crate::app::scene::places::{Place, nodes_at};
 use crate::app::scene::{Boundary, CondensedHousing};
 use crate::fe::reduction::{InterfaceReduction, InteriorBasis, Superelement};
 use crate::formats::{DofLabel, FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
@@ -20,8 +20,7 @@ const FIELD: usize = 1 << 20;
 /// # Errors
 /// [`ComputeError`] of sensors and damping.
 pub fn superelement_record(case: &Case, stage: &CondensedHousing) -> Result<SuperelementRecord, ComputeError> {
-    let coordinates = Coordinates { stage, reduction: None };
-    coordinates.record(case)
+    Coordinates { stage, reduction: None }.record(case)
 }
 
 /// The same on modes of its interface, with the way back to that.
@@ -33,8 +32,7 @@ pub(crate) fn reduced_superelement_record(
     stage: &CondensedHousing,
     reduction: &InterfaceReduction,
 ) -> Result<SuperelementRecord, ComputeError> {
-    let coordinates = Coordinates { stage, reduction: Some(reduction) };
-    coordinates.record(case)
+    Coordinates { stage, reduction: Some(reduction) }.record(case)
 }
 
 /// What the coordinates of a record are.
@@ -68,14 +66,11 @@ impl Coordinates<'_> {
 
     fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
         let (stage, element) = (self.stage, self.element());
-        let sensors = case
-            .sensors
-            .iter()
-            .map(|sensor| {
-                let place = stage.place_of(sensor)?;
-                Ok(SensorRow { name: sensor.name.clone(), row: self.row(&place) })
-            })
-            .collect::<Result<_, ComputeError>>()?;
+        let row = |sensor: &Sensor| {
+            let row = self.row(&Place::new(stage.bodies(), sensor.into())?);
+            Ok(SensorRow { name: sensor.name.clone(), row })
+        };
+        let sensors = case.sensors.iter().map(row).collect::<Result<_, ComputeError>>()?;
         let damping = viscous_matrix(case, &element.stiffness, &element.mass)?;
         let values = stage.condensed.basis.values();
         let labels = stage.interface_labels();
@@ -116,7 +111,7 @@ impl Coordinates<'_> {
         let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
         let mut of_sensors = BTreeSet::new();
         for sensor in &case.sensors {
-            of_sensors.extend(nodes_at(housing, Named::Sensor(&sensor.name), &sensor.spot)?);
+            of_sensors.extend(nodes_at(housing, sensor.into())?);
         }
         let driven = stage.boundary.partition().driven.iter();
         let with_bore: BTreeSet<usize> = driven.map(|dof| dof / d).chain(of_sensors.clone()).collect();

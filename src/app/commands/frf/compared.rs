@@ -1,8 +1,6 @@
 //! The full model's responses beside those of the reduced one.
 
-use super::housing::FrfHousing;
-use super::path::TransferPath;
-use super::reduced::ReducedPaths;
+use super::reduced::{FrfHousing, ReducedPaths, TransferPath, places};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::damping::modal_damping;
@@ -43,28 +41,27 @@ pub(crate) fn compare(
     paths: &[TransferPath],
     watch: &impl Watch,
 ) -> Result<(Vec<ComparedResponse>, Option<String>), ComputeError> {
+    let nothing = |why: &str| Ok((Vec::new(), Some(why.to_owned())));
     let FrfHousing::Mesh(stage) = &reduced.housing else {
-        let why = "the housing is a superelement from a file, of which no mesh is known";
-        return Ok((Vec::new(), Some(why.to_owned())));
+        return nothing("the housing is a superelement from a file, of which no mesh is known");
     };
     let (alpha, beta) = match modal_damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => (alpha, beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => (0.0, 0.0),
         _ => {
-            let why = "modal damping has no matrix in the full model; give [damping] as ratios at two frequencies or as alpha and beta to compare";
-            return Ok((Vec::new(), Some(why.to_owned())));
+            return nothing(
+                "modal damping has no matrix in the full model; give [damping] as ratios at two frequencies or as alpha and beta to compare",
+            );
         }
     };
-    let mut chosen = match &asked.check_hz {
-        Some(given) => given.clone(),
-        None => checked_frequencies(reduced, response, paths),
-    };
+    let automatic = || checked_frequencies(reduced, response, paths);
+    let mut chosen = asked.check_hz.clone().unwrap_or_else(automatic);
     chosen.sort_by(f64::total_cmp);
     chosen.dedup();
     if chosen.is_empty() {
-        return Ok((Vec::new(), Some("no frequency was asked for".to_owned())));
+        return nothing("no frequency was asked for");
     }
-    let places = reduced.places(stage)?;
+    let places = [places(stage, &reduced.ends[0])?, places(stage, &reduced.ends[1])?];
     watch.stage("full model");
     let coupled = stage.full_matrices();
     let structural = StructuralStiffness::assemble(&stage.housing.model)?;
@@ -72,11 +69,11 @@ pub(crate) fn compare(
     let damping = HarmonicDamping { alpha, beta, viscous: None, structural: structural.as_ref() };
     let free = &coupled.free_dofs;
     let problem = HarmonicProblem::restricted(&coupled.stiffness, &coupled.mass, &damping, free)?;
-    let rows = |places: &[Place]| -> Vec<Vec<f64>> {
+    let rows = |places: Vec<Place>| -> Vec<Vec<f64>> {
         let whole = places.iter().map(|place| place.full(&stage.boundary, &coupled));
         whole.map(|row| free.iter().map(|&dof| row[dof]).collect()).collect()
     };
-    let (from, to) = (rows(&places[0]), rows(&places[1]));
+    let [from, to] = places.map(rows);
     let loads = DenseMatrix::from_fn(free.len(), from.len(), |row, load| from[load][row]);
     let loads = complex_columns(&loads);
     let own = reduced.response(&chosen)?;

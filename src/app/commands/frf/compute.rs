@@ -1,26 +1,25 @@
 //! `plummer frf`: transfer paths of a housing, reduced, against the full model at chosen frequencies.
 
 use super::compared::{self, ComparedResponse};
-use super::housing::FrfHousing;
-use super::path::TransferPath;
-use super::ranking::{self, RankedPath};
-use super::reduced::ReducedPaths;
+use super::reduced::{FrfHousing, ReducedPaths, TransferPath};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::doubts;
+use crate::app::scene::imported::unused_damping;
 use crate::fe::reduction::ResponseEstimate;
-use crate::fe::reduction::frf::FrequencyResponse;
+use crate::fe::reduction::frf::{BandVariant, FrequencyResponse, FrfError, RankedVariant, rank_in_band};
 use crate::numerics::{Unwatched, Watch};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::f64::consts::TAU;
 
-impl TransferPath {
-    /// What is said of a path that carries next to nothing.
-    pub const CLOSED: &str = "carries less than 1e-7 of the responses at its ends, by symmetry or between bodies that hardly touch; no error is estimated there";
-
-    /// Whether its responses are so small beside those at its ends that no mode is said to carry it.
-    #[must_use]
-    pub(crate) fn is_closed(&self) -> bool {
-        self.shares.modes.is_empty()
-    }
+/// Variants of the case by what one path transmits.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RankedPath {
+    /// Which path.
+    pub path: usize,
+    /// The case itself and its variants, the quietest first; energy mean of the accelerance, dB over 1 /kg.
+    pub variants: Vec<RankedVariant>,
 }
 
 /// Result of the command.
@@ -83,7 +82,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
     let paths = reduced.transfer_paths()?;
     let (compared, not_compared) = compared::compare(case, asked, &reduced, &response, &paths, watch)?;
     let others = variants(case, watch)?;
-    let ranking = ranking::rank(&response, &others, &paths, reduced.band_hz)?;
+    let ranking = rank(&response, &others, &paths, reduced.band_hz)?;
     let of_mesh = match &reduced.housing {
         FrfHousing::Mesh(stage) => Some((&stage.housing.mesh, &stage.housing.model)),
         FrfHousing::File(_) => None,
@@ -92,7 +91,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
     if let FrfHousing::File(file) = &reduced.housing {
         doubts.extend(file.0.doubt(reduced.band_hz[1]));
         doubts.push(file.0.unknown_error());
-        doubts.extend(file.0.unused_damping());
+        doubts.extend(unused_damping(&file.0.path, &file.0.record));
     }
     Ok(FrfResult {
         doubts,
@@ -109,7 +108,7 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
 }
 
 /// Responses of the case's variants, by what they differ in.
-pub(crate) fn variants(case: &Case, watch: &impl Watch) -> Result<Vec<(String, FrequencyResponse)>, ComputeError> {
+fn variants(case: &Case, watch: &impl Watch) -> Result<Vec<(String, FrequencyResponse)>, ComputeError> {
     let cases = case.frf_variants()?;
     let mut others = Vec::with_capacity(cases.len());
     if !cases.is_empty() {
@@ -123,4 +122,39 @@ pub(crate) fn variants(case: &Case, watch: &impl Watch) -> Result<Vec<(String, F
         others.push((variant.what.clone(), response));
     }
     Ok(others)
+}
+
+/// Ranks the case itself and its variants by the energy mean of each path's accelerance.
+///
+/// # Errors
+/// [`FrfError`] of a band that the responses do not cover.
+fn rank(
+    own: &FrequencyResponse,
+    others: &[(String, FrequencyResponse)],
+    paths: &[TransferPath],
+    band_hz: [f64; 2],
+) -> Result<Vec<RankedPath>, FrfError> {
+    if others.is_empty() {
+        return Ok(Vec::new());
+    }
+    let accelerance = |response: &FrequencyResponse, place: (usize, usize)| -> Vec<f64> {
+        let values = response.frequencies_hz().iter().zip(response.receptance());
+        values.map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm()).collect()
+    };
+    let all =
+        || std::iter::once(("as given", own)).chain(others.iter().map(|(what, response)| (what.as_str(), response)));
+    let mut ranking = Vec::with_capacity(paths.len());
+    for (path, transfer) in paths.iter().enumerate() {
+        let magnitudes: Vec<Vec<f64>> = all().map(|(_, response)| accelerance(response, transfer.place)).collect();
+        let variants: Vec<BandVariant<'_>> = all()
+            .zip(&magnitudes)
+            .map(|((name, response), magnitudes)| BandVariant {
+                name,
+                frequencies_hz: response.frequencies_hz(),
+                magnitudes,
+            })
+            .collect();
+        ranking.push(RankedPath { path, variants: rank_in_band(&variants, band_hz, 1.0)? });
+    }
+    Ok(ranking)
 }

@@ -1,10 +1,10 @@
 //! `plummer frf`: transfer paths from forces to sensors, reduced against full.
+//!
+//! A case comes in; an [`FrfResult`] goes out: responses of the reduced model (`reduced.rs`) with their estimated errors, beside those of
+//! the full model (`compared.rs`). Read `compute.rs` first. `summary.rs` is `frf.json`, `report.rs` the page.
 
 pub(crate) mod compared;
 pub(crate) mod compute;
-pub(crate) mod housing;
-pub(crate) mod path;
-pub(crate) mod ranking;
 pub(crate) mod reduced;
 pub(crate) mod report;
 pub(crate) mod summary;
@@ -12,9 +12,7 @@ pub(crate) mod summary;
 mod tests;
 
 pub use compared::ComparedResponse;
-pub use compute::{FrfResult, compute_frf};
-pub use housing::FrfHousing;
-pub use path::{CarriedPart, TransferPath};
-pub use ranking::RankedPath;
+pub use compute::{FrfResult, RankedPath, compute_frf};
+pub use reduced::{CarriedPart, FrfHousing, TransferPath};
 pub(crate) use report::frf_report;
 pub use summary::{FrfSummary, PathSummary};

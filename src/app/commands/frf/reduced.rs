@@ -1,20 +1,22 @@
 //! The reduced model on the paths of a case, with as many residual vectors as its responses need.
 
-use super::housing::{FrfHousing, Spot, places};
-use super::path::{CarriedPart, TransferPath};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
-use crate::app::scene::CondensedHousing;
 use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::{mass_damping, modal_damping, viscous_matrix};
-use crate::app::scene::places::{Named, Place};
+use crate::app::scene::places::{Place, Spot};
+use crate::app::scene::{CondensedHousing, ImportedHousing};
+use crate::fe::model::Ring;
 use crate::fe::reduction::frf::{
-    FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem, Resonance,
-    direct_response, frequency_list,
+    FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, PathShares,
+    ReducedSystem, Resonance, direct_response, frequency_list,
 };
-use crate::fe::reduction::{BasisChoice, BasisSize, InteriorDamping, ResponseEstimate, UNCOUPLED};
+use crate::fe::reduction::{
+    Attached, BasisChoice, BasisSize, InteriorDamping, ResponseEstimate, Superelement, UNCOUPLED,
+};
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
+use faer::c64;
 
 /// Equal intervals of the band in which the response is computed, beside its resonances.
 const INTERVALS: usize = 400;
@@ -31,9 +33,62 @@ const CARRIED: usize = 4;
 /// The case's damping is in the system's matrices already.
 const NO_MORE: ModalDamping = ModalDamping::Uniform(0.0);
 
+/// A housing and the ring in it.
+#[derive(Debug, Clone)]
+pub enum FrfHousing {
+    /// Condensed from a mesh.
+    Mesh(Box<CondensedHousing>),
+    /// From a file, with the ring that fits it. What it lacks is not known.
+    File(Box<(ImportedHousing, Ring)>),
+}
+
+impl FrfHousing {
+    /// Its matrices.
+    pub(crate) fn element(&self) -> &Superelement {
+        match self {
+            Self::Mesh(stage) => &stage.condensed.superelement,
+            Self::File(imported) => &imported.0.element,
+        }
+    }
+
+    /// What sits on its interface.
+    fn attached(&self) -> Option<Attached<'_>> {
+        match self {
+            Self::Mesh(stage) => stage.boundary.attached(),
+            Self::File(imported) => Some(Attached { stiffness: imported.1.stiffness(), mass: imported.1.mass() }),
+        }
+    }
+
+    /// Rows of some places over its coordinates, one \[order\] for each.
+    ///
+    /// # Errors
+    /// [`ComputeError`] for a place that is not there.
+    fn rows(&self, spots: &[Spot<'_>]) -> Result<Vec<Vec<f64>>, ComputeError> {
+        match self {
+            Self::Mesh(stage) => Ok(places(stage, spots)?.iter().map(|at| at.reduced(&stage.condensed)).collect()),
+            Self::File(imported) => spots.iter().map(|&spot| imported.0.row(spot, &imported.1)).collect(),
+        }
+    }
+}
+
+/// Places on housing and ring.
+///
+/// # Errors
+/// [`ComputeError`] for a place that is not there.
+pub(crate) fn places(stage: &CondensedHousing, spots: &[Spot<'_>]) -> Result<Vec<Place>, ComputeError> {
+    spots.iter().map(|&spot| Place::new(stage.bodies(), spot)).collect()
+}
+
+/// The forces of a case, then its sensors: those named, or all.
+fn ends<'c>(case: &'c Case, frf: &'c case::Frf) -> [Vec<Spot<'c>>; 2] {
+    let named = |sensor: &&case::Sensor| frf.to.is_empty() || frf.to.contains(&sensor.name);
+    [frf.from.iter().map(Spot::from).collect(), case.sensors.iter().filter(named).map(Spot::from).collect()]
+}
+
 /// A condensed housing, with its ring, on the paths of a case.
 pub(crate) struct ReducedPaths<'c> {
-    asked: Asked<'c>,
+    /// The forces, then the sensors.
+    pub ends: [Vec<Spot<'c>>; 2],
     pub housing: FrfHousing,
     pub band_hz: [f64; 2],
     pub frequencies_hz: Vec<f64>,
@@ -44,24 +99,37 @@ pub(crate) struct ReducedPaths<'c> {
     superposition: ModalSuperposition,
 }
 
-/// What a case asks for.
-#[derive(Clone, Copy)]
-struct Asked<'c> {
-    case: &'c Case,
-    frf: &'c case::Frf,
+/// What one mode carries of a path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CarriedPart {
+    /// Its natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Its part of the receptance over the frequencies of the response, m/N.
+    pub receptance: Vec<c64>,
 }
 
-impl<'c> Asked<'c> {
-    /// The forces, then the sensors: those named, or all.
-    fn ends(self) -> [Vec<Spot<'c>>; 2] {
-        let Self { case, frf } = self;
-        let named = |sensor: &&case::Sensor| frf.to.is_empty() || frf.to.contains(&sensor.name);
-        let sensors = case.sensors.iter().filter(named);
-        let from = frf.from.iter();
-        [
-            from.map(|push| (Named::Force(&push.name), &push.spot, push.direction)).collect(),
-            sensors.map(|sensor| (Named::Sensor(&sensor.name), &sensor.spot, sensor.direction)).collect(),
-        ]
+/// A path from a force to a sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransferPath {
+    /// Name of the force.
+    pub from: String,
+    /// Name of the sensor.
+    pub to: String,
+    /// Which sensor and which load of the response.
+    pub place: (usize, usize),
+    /// What carries it in the band.
+    pub shares: PathShares,
+    /// The few modes with the largest shares, over frequency.
+    pub carried: Vec<CarriedPart>,
+}
+
+impl TransferPath {
+    /// What is said of a path that carries next to nothing.
+    pub const CLOSED: &str = "carries less than 1e-7 of the responses at its ends, by symmetry or between bodies that hardly touch; no error is estimated there";
+
+    /// Whether its responses are so small beside those at its ends that no mode is said to carry it.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.shares.modes.is_empty()
     }
 }
 
@@ -71,29 +139,31 @@ impl<'c> ReducedPaths<'c> {
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
     pub(crate) fn build(case: &'c Case, frf: &'c case::Frf, watch: &impl Watch) -> Result<Self, ComputeError> {
-        let asked = Asked { case, frf };
         let choice = basis_choice(case);
         let band_hz = frf.band_hz.or(case.band_hz()).unwrap_or([0.0, choice.band_hz]);
         if let Some(path) = case.superelement() {
             watch.stage("read");
-            return Self::of(asked, FrfHousing::read(case, path)?, band_hz);
+            let ring = case.ring.as_ref().ok_or(ComputeError::NothingToCondense)?;
+            let file = ImportedHousing::read(case, ring, path)?;
+            file.0.accept()?;
+            return Self::of(case, frf, FrfHousing::File(Box::new(file)), band_hz);
         }
         let stage = CondensedHousing::with_basis(case, first_choice(choice, band_hz[1]), watch)?
             .ok_or(ComputeError::NothingToCondense)?;
         // static response to every force and, as the path back is the same, to a force at every sensor
-        let ends = places(&stage, asked.ends().into_iter().flatten())?;
+        let places = places(&stage, &ends(case, frf).concat())?;
         let dof = stage.housing.model.dof();
-        let all: Vec<Vec<f64>> = ends.iter().map(|at| at.on_housing(dof)).collect();
+        let all: Vec<Vec<f64>> = places.iter().map(|at| at.on_housing(dof)).collect();
         let loads = DenseMatrix::from_fn(dof, all.len(), |row, column| all[column][row]);
         let meshed = |stage| FrfHousing::Mesh(Box::new(stage));
-        let mut reduced = Self::of(asked, meshed(stage.with_loads(&loads)?), band_hz)?;
+        let mut reduced = Self::of(case, frf, meshed(stage.with_loads(&loads)?), band_hz)?;
         if let BasisSize::Auto(target) = choice.size {
             watch.stage("basis for the responses");
             for _ in 0..ENLARGEMENTS {
                 match (reduced.housing, &reduced.estimate) {
                     (FrfHousing::Mesh(stage), Some(estimate)) if estimate.lacking() > MARGIN * target => {
                         let stage = stage.with_forces(estimate.forces().clone())?;
-                        reduced = Self::of(asked, meshed(stage), band_hz)?;
+                        reduced = Self::of(case, frf, meshed(stage), band_hz)?;
                     }
                     (housing, _) => {
                         reduced.housing = housing;
@@ -105,28 +175,27 @@ impl<'c> ReducedPaths<'c> {
         Ok(reduced)
     }
 
-    fn of(asked: Asked<'c>, housing: FrfHousing, band_hz: [f64; 2]) -> Result<Self, ComputeError> {
-        let system = system(asked.case, &housing)?;
+    fn of(case: &'c Case, frf: &'c case::Frf, housing: FrfHousing, band_hz: [f64; 2]) -> Result<Self, ComputeError> {
+        let system = system(case, &housing)?;
         let basis = ModalBasis::new(&system)?;
         let order = system.order();
-        let [from, to] = asked.ends();
-        let from = housing.rows(from.into_iter())?;
-        let to = housing.rows(to.into_iter())?;
+        let ends = ends(case, frf);
+        let (from, to) = (housing.rows(&ends[0])?, housing.rows(&ends[1])?);
         let paths = FrfPaths {
             loads: DenseMatrix::from_fn(order, from.len(), |row, load| from[load][row]),
             sensors: DenseMatrix::from_fn(to.len(), order, |sensor, row| to[sensor][row]),
         };
         let kept = basis.frequencies_hz().len();
         let superposition = ModalSuperposition::new(&system, &basis, &paths, kept, &NO_MORE)?;
-        let frequencies_hz = frequencies(asked.frf, &basis, &superposition, band_hz)?;
+        let frequencies_hz = frequencies(frf, &basis, &superposition, band_hz)?;
         let estimate = match &housing {
             FrfHousing::File(_) => None,
             FrfHousing::Mesh(stage) => Some(ResponseEstimate::new(
                 &stage.condensed,
                 InteriorDamping {
                     structural: stage.structural.as_ref(),
-                    mass: mass_damping(asked.case)?,
-                    by_mode: matches!(modal_damping(asked.case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
+                    mass: mass_damping(case)?,
+                    by_mode: matches!(modal_damping(case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
                 },
                 &system,
                 &basis,
@@ -134,16 +203,7 @@ impl<'c> ReducedPaths<'c> {
                 &frequencies_hz,
             )?),
         };
-        Ok(Self { asked, housing, band_hz, frequencies_hz, estimate, system, paths, superposition })
-    }
-
-    /// Places of forces and sensors on a condensed housing.
-    ///
-    /// # Errors
-    /// None that [`ReducedPaths::build`] did not have.
-    pub(crate) fn places(&self, stage: &CondensedHousing) -> Result<[Vec<Place>; 2], ComputeError> {
-        let [from, to] = self.asked.ends();
-        Ok([places(stage, from.into_iter())?, places(stage, to.into_iter())?])
+        Ok(Self { ends, housing, band_hz, frequencies_hz, estimate, system, paths, superposition })
     }
 
     /// Responses at ascending frequencies, Hz: sums of modes where damping does not couple them, which is exact and quick.
@@ -163,10 +223,10 @@ impl<'c> ReducedPaths<'c> {
     /// # Errors
     /// [`ComputeError::Frf`].
     pub(crate) fn transfer_paths(&self) -> Result<Vec<TransferPath>, ComputeError> {
-        let [from, to] = self.asked.ends();
+        let [from, to] = &self.ends;
         let mut paths = Vec::with_capacity(from.len() * to.len());
-        for (sensor, (to, ..)) in to.iter().enumerate() {
-            for (load, (from, ..)) in from.iter().enumerate() {
+        for (sensor, to) in to.iter().enumerate() {
+            for (load, from) in from.iter().enumerate() {
                 let (band_hz, hz) = (self.band_hz, &self.frequencies_hz);
                 let mut shares = self.superposition.shares(sensor, load, band_hz, hz)?;
                 let closed = |all: &ResponseEstimate| all.closed((sensor, load)).is_some();
@@ -180,8 +240,8 @@ impl<'c> ReducedPaths<'c> {
                     receptance: (0..hz.len()).map(|place| parts[(share.mode, place)]).collect(),
                 });
                 paths.push(TransferPath {
-                    from: from.name().to_owned(),
-                    to: to.name().to_owned(),
+                    from: from.name.to_owned(),
+                    to: to.name.to_owned(),
                     place: (sensor, load),
                     carried: carried.collect(),
                     shares,

@@ -1,14 +1,14 @@
 //! The report of `plummer frf`.
 
 use super::compute::FrfResult;
-use super::housing::FrfHousing;
-use super::path::TransferPath;
+use super::reduced::{FrfHousing, TransferPath};
 use crate::app::case::Case;
+use crate::app::commands::parts::signed_report;
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Document, Fact, Plot, Report, Section, Table, Verdict, significant,
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, significant,
 };
 use faer::c64;
 
@@ -20,10 +20,7 @@ const LISTED: usize = 8;
 /// # Errors
 /// [`ComputeError::Frf`].
 pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
-    let document =
-        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
-    let mut report =
-        Report::new(&case.title, command, env!("CARGO_PKG_VERSION")).subtitle("Transfer paths").document(document);
+    let mut report = signed_report(case, command, "Transfer paths");
     let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
     report = match (&result.estimate, result.largest_estimate()) {
         (None, _) => report.headline("Estimated error", "not known", Verdict::None),
@@ -43,18 +40,14 @@ pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Resu
     for path in 0..result.paths.len() {
         report = report.section(of_path(result, path)?);
     }
-    if let Some(estimate) = &result.estimate {
-        report = report.section(errors(result, estimate));
-    }
+    report.sections.extend(result.estimate.as_ref().map(|estimate| errors(result, estimate)));
     if !result.ranking.is_empty() {
         report = report.section(ranking(result));
     }
     if let Some(why) = &result.not_compared {
         report = report.warning(format!("Nothing was compared with the full model: {why}."));
     }
-    for text in &result.doubts {
-        report = report.warning(text);
-    }
+    report.warnings.extend_from_slice(&result.doubts);
     Ok(report)
 }
 
@@ -116,25 +109,23 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
         let name = format!("{:.0} Hz", part.frequency_hz);
         parts = parts.curve(curve(name, &values, |h| h.norm()));
     }
-    let mut table = Table::new(
-        format!("What carries the path from {} to {}", path.from, path.to),
+    let columns = [
+        Column::number("Mode", ""),
+        Column::number("Frequency", "Hz"),
+        Column::number("Damping ratio", ""),
+        Column::number("Share", "%"),
+        Column::number("Alone", "%"),
+    ];
+    let rows = path.shares.modes.iter().take(LISTED).map(|share| {
         [
-            Column::number("Mode", ""),
-            Column::number("Frequency", "Hz"),
-            Column::number("Damping ratio", ""),
-            Column::number("Share", "%"),
-            Column::number("Alone", "%"),
-        ],
-    );
-    for share in path.shares.modes.iter().take(LISTED) {
-        table = table.row([
             Cell::text((share.mode + 1).to_string()),
             Cell::number(share.frequency_hz, 6),
-            share.ratio.map_or_else(|| Cell::text("rigid"), |ratio| Cell::number(ratio, 3)),
+            Cell::number_or(share.ratio, 3, "rigid"),
             Cell::number(100.0 * share.share, 3),
             Cell::number(100.0 * share.alone, 3),
-        ]);
-    }
+        ]
+    });
+    let table = Table::new(format!("What carries the path from {} to {}", path.from, path.to), columns).rows(rows);
     Ok(Section::new(title)
         .plot(magnitude)
         .plot(phase)
@@ -185,27 +176,21 @@ fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
 
 fn compared_table(result: &FrfResult) -> Table {
     let mut columns = vec![Column::number("Frequency", "Hz")];
-    for path in &result.paths {
-        let name = |of| format!("{} to {}, {of}", path.from, path.to);
-        columns.push(Column::number(name("reduced"), "m/N"));
-        columns.push(Column::number(name("full"), "m/N"));
-    }
-    columns.push(Column::number("Estimated error", ""));
-    columns.push(Column::number("Largest difference", ""));
-    let mut table = Table::new("Receptance, reduced and full", columns);
-    for compared in &result.compared {
+    columns.extend(result.paths.iter().flat_map(|path| {
+        ["reduced", "full"].map(|of| Column::number(format!("{} to {}, {of}", path.from, path.to), "m/N"))
+    }));
+    columns.extend([Column::number("Estimated error", ""), Column::number("Largest difference", "")]);
+    let rows = result.compared.iter().map(|compared| {
         let mut cells = vec![Cell::number(compared.frequency_hz, 6)];
         for (reduced, full) in compared.reduced.iter().zip(&compared.full) {
-            cells.push(Cell::number(reduced.norm(), 6));
-            cells.push(Cell::number(full.norm(), 6));
+            cells.extend([Cell::number(reduced.norm(), 6), Cell::number(full.norm(), 6)]);
         }
-        let outside = || Cell::text("outside the band");
-        cells.push(compared.estimated.map_or_else(outside, |error| Cell::number(error, 2)));
+        cells.push(Cell::number_or(compared.estimated, 2, "outside the band"));
         let verdict = Verdict::of(compared.difference <= result.target);
         cells.push(Cell::number(compared.difference, 2).judged(verdict));
-        table = table.row(cells);
-    }
-    table
+        cells
+    });
+    Table::new("Receptance, reduced and full", columns).rows(rows)
 }
 
 fn ranking(result: &FrfResult) -> Section {
@@ -214,22 +199,16 @@ fn ranking(result: &FrfResult) -> Section {
         .paragraph(format!("Energy mean of the accelerance from {low:.0} to {high:.0} Hz, the quietest first."));
     for ranked in &result.ranking {
         let path = &result.paths[ranked.path];
-        let mut table = Table::new(
-            format!("From {} to {}", path.from, path.to),
-            [
-                Column::text("Variant"),
-                Column::number("Level", "dB re 1/kg"),
-                Column::number("Above the quietest", "dB"),
-            ],
-        );
-        for variant in &ranked.variants {
-            table = table.row([
-                Cell::text(&variant.name),
-                Cell::number(variant.mean_db, 5),
-                Cell::number(variant.above_quietest_db, 4),
-            ]);
-        }
-        section = section.table(table);
+        let columns = [
+            Column::text("Variant"),
+            Column::number("Level", "dB re 1/kg"),
+            Column::number("Above the quietest", "dB"),
+        ];
+        let rows = ranked.variants.iter().map(|variant| {
+            let (mean, above) = (Cell::number(variant.mean_db, 5), Cell::number(variant.above_quietest_db, 4));
+            [Cell::text(&variant.name), mean, above]
+        });
+        section = section.table(Table::new(format!("From {} to {}", path.from, path.to), columns).rows(rows));
     }
     section
 }

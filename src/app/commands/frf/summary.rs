@@ -63,7 +63,6 @@ pub struct PathSummary<'a> {
 
 impl FrfResult {
     /// What `frf.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> FrfSummary<'_> {
         let (element, compared) = (self.housing.element(), self.compared.iter());
         let paths = self.paths.iter().enumerate().map(|(index, path)| {

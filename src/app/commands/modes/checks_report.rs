@@ -4,8 +4,7 @@ use super::comparison::{ComparedPair, FileComparison, LoneMode, Miss};
 use super::compute::ModesResult;
 use super::convergence::{MeshConvergence, ModeOnMeshes};
 use super::shape_view::shown_places;
-use crate::fe::modal::MatchedBy;
-use crate::fe::modal::ModalSurvey;
+use crate::fe::modal::{MatchedBy, ModalSurvey};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, Headline, Matrix, Plot, Section, Table, Verdict, significant,
 };
@@ -45,22 +44,16 @@ pub(crate) fn misses_text(misses: &[Miss]) -> String {
 
 /// The verdicts for the head of the report.
 pub(crate) fn headlines(result: &ModesResult) -> Vec<Headline> {
-    let mut found: Vec<Headline> = result
-        .comparisons
-        .iter()
-        .map(|comparison| {
-            let [agree, judged] = comparison.agreeing();
-            let mut value = format!("{agree} of {judged} modes");
-            if comparison.missing_here() > 0 {
-                value.push_str(&format!(", {} not found here", comparison.missing_here()));
-            }
-            Headline {
-                label: format!("Agreement with {}", comparison.what),
-                value,
-                verdict: Verdict::of(comparison.ok),
-            }
-        })
-        .collect();
+    let of_comparison = |comparison: &FileComparison| {
+        let [agree, judged] = comparison.agreeing();
+        let mut value = format!("{agree} of {judged} modes");
+        if comparison.missing_here() > 0 {
+            value.push_str(&format!(", {} not found here", comparison.missing_here()));
+        }
+        let label = format!("Agreement with {}", comparison.what);
+        Headline { label, value, verdict: Verdict::of(comparison.ok) }
+    };
+    let mut found: Vec<Headline> = result.comparisons.iter().map(of_comparison).collect();
     if let Some(convergence) = &result.convergence {
         let unknown = convergence.without_limit();
         let of = convergence.modes.len();
@@ -131,16 +124,14 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
         Column::text("Misses"),
         Column::text("Verdict"),
     ];
-    let mut rows: Vec<(f64, Option<usize>, Vec<Cell>)> = Vec::new();
-    for pair in &comparison.pairs {
-        rows.push((pair.here_hz, pair.here.first().copied(), pair_row(pair)));
-    }
+    let pairs = comparison.pairs.iter().map(|pair| (pair.here_hz, pair.here.first().copied(), pair_row(pair)));
+    let mut rows: Vec<(f64, Option<usize>, Vec<Cell>)> = pairs.collect();
     let missing = |modes: &[LoneMode]| -> Vec<LoneMode> { modes.iter().copied().filter(|mode| mode.missing).collect() };
-    let lone = |here: [Cell; 2], there: [Cell; 2]| -> Vec<Cell> {
-        let rest = [Cell::text("–"), Cell::text("–"), Cell::text(Miss::Partner.describe()), Cell::badge(Verdict::Bad)];
-        here.into_iter().chain(there).chain(rest).collect()
-    };
     let none = || [Cell::text("–"), Cell::text("–")];
+    let lone = |here: [Cell; 2], there: [Cell; 2]| -> Vec<Cell> {
+        let misses = [Cell::text(Miss::Partner.describe()), Cell::badge(Verdict::Bad)];
+        [here, there, none(), misses].into_iter().flatten().collect()
+    };
     let of = |mode: &LoneMode| [Cell::text((mode.mode + 1).to_string()), Cell::number(mode.hz, 7)];
     for mode in missing(&comparison.lone_here) {
         rows.push((mode.hz, Some(mode.mode), lone(of(&mode), none())));
@@ -158,9 +149,8 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
     }
     let places = shown_places(survey);
     let shown: Vec<Option<usize>> = rows.iter().map(|row| places.get(row.1?).copied().flatten()).collect();
-    let table = Table::new(format!("Modes here and in {}", comparison.what), columns);
-    let table = rows.into_iter().fold(table, |table, row| table.row(row.2));
-    table
+    Table::new(format!("Modes here and in {}", comparison.what), columns)
+        .rows(rows.into_iter().map(|row| row.2))
         .showing_modes(shown)
         .footnote("Difference: (here - there) / there. MAC of a group: the squared cosine of the largest angle between the two spaces. Modes there are numbered in the order of the file.")
 }
@@ -188,24 +178,17 @@ fn pair_row(pair: &ComparedPair) -> Vec<Cell> {
         Cell::number(pair.there_hz, 7),
         difference.judged(missed(Miss::Frequency)),
         Cell::text(format!("{:.4}", pair.mac)).value(pair.mac).judged(missed(Miss::Mac)),
-        Cell::text(match pair.misses.is_empty() {
-            true => String::new(),
-            false => misses_text(&pair.misses),
-        }),
+        Cell::text(if pair.misses.is_empty() { String::new() } else { misses_text(&pair.misses) }),
         Cell::badge(Verdict::of(pair.misses.is_empty())),
     ]
 }
 
 fn mac_matrix(comparison: &FileComparison) -> Matrix {
     let numbers = |count: usize| (1..=count).map(|mode| mode.to_string()).collect::<Vec<_>>();
-    let columns = numbers(comparison.there_hz.len());
+    let rows = ("Mode here", numbers(comparison.mac.len()));
+    let columns = ("Mode there", numbers(comparison.there_hz.len()));
     let title = format!("Modal assurance criterion with {}", comparison.what);
-    let mut matrix = Matrix::new(
-        title,
-        ("Mode here", numbers(comparison.mac.len())),
-        ("Mode there", columns),
-        comparison.mac.clone(),
-    );
+    let mut matrix = Matrix::new(title, rows, columns, comparison.mac.clone());
     matrix.caption = Some(
         "Modal assurance criterion, mode by mode. Within a group of repeated modes any combination is a mode: single values say nothing there."
             .to_owned(),
@@ -220,14 +203,9 @@ pub(crate) fn convergence_section(found: &MeshConvergence, survey: &ModalSurvey)
         "The modes of this case on {count} meshes, recognised by their shapes, and extrapolated to an infinitely fine one by f = f₀ + c hᵖ (Richardson). The elements promise p = {} in a smooth body. The mesh error is that of this case's own mesh, (f − f₀) / f₀; its uncertainty is that of the grid convergence index beyond the estimate (factor of safety 1.25 where the observed order is within 10 % of the promised one, otherwise 3). It is an estimate, not a bound.",
         plain(found.formal_order)
     );
-    let mut section = Section::new("Convergence of the mesh")
-        .paragraph(text)
-        .table(mesh_table(found))
-        .table(limit_table(found, survey));
-    if let Some(plot) = plot(found) {
-        section = section.plot(plot);
-    }
-    section
+    let section = Section::new("Convergence of the mesh").paragraph(text);
+    let section = section.table(mesh_table(found)).table(limit_table(found, survey));
+    plot(found).into_iter().fold(section, Section::plot)
 }
 
 fn mesh_table(found: &MeshConvergence) -> Table {
@@ -240,7 +218,6 @@ fn mesh_table(found: &MeshConvergence) -> Table {
         Column::number("Points compared", ""),
         Column::text(""),
     ];
-    let table = Table::new("Meshes", columns);
     let rows = found.meshes.iter().map(|mesh| {
         [
             Cell::text(mesh.mesh.display().to_string()),
@@ -256,8 +233,9 @@ fn mesh_table(found: &MeshConvergence) -> Table {
             }),
         ]
     });
-    let table = rows.fold(table, |table, row| table.row(row));
-    table.footnote("h: (area or volume / elements) to the power of 1 over the dimension.")
+    Table::new("Meshes", columns)
+        .rows(rows)
+        .footnote("h: (area or volume / elements) to the power of 1 over the dimension.")
 }
 
 fn limit_table(found: &MeshConvergence, survey: &ModalSurvey) -> Table {
@@ -273,13 +251,8 @@ fn limit_table(found: &MeshConvergence, survey: &ModalSurvey) -> Table {
         Column::number("Uncertainty", "± %"),
         Column::text("Behaviour"),
     ]);
-    let mut table = Table::new("Frequencies by mesh and their limit", columns);
-    let number = |value: Option<f64>, digits| match value {
-        Some(value) => Cell::number(value, digits),
-        None => Cell::text("–"),
-    };
-    let places = shown_places(survey);
-    for mode in &found.modes {
+    let number = |value: Option<f64>, digits| Cell::number_or(value, digits, "–");
+    let rows = found.modes.iter().map(|mode| {
         let limit = mode.limit.as_ref();
         let mut cells = vec![Cell::text((mode.mode + 1).to_string())];
         cells.extend(mode.frequencies_hz.iter().map(|&hz| number(hz, 7)));
@@ -287,16 +260,15 @@ fn limit_table(found: &MeshConvergence, survey: &ModalSurvey) -> Table {
         cells.extend([
             number(limit.and_then(|limit| limit.estimate), 7),
             number(limit.and_then(|limit| limit.order), 3),
-            match error {
-                Some(error) => Cell::text(signed(error, 2)).value(error),
-                None => Cell::text("–"),
-            },
+            error.map_or_else(|| Cell::text("–"), |error| Cell::text(signed(error, 2)).value(error)),
             number(mode.mesh_error_uncertainty.map(|around| 100.0 * around), 2),
             Cell::text(limit.map_or("on no other mesh of its kind", |limit| limit.behaviour.describe())),
         ]);
-        table = table.row(cells);
-    }
+        cells
+    });
+    let places = shown_places(survey);
     let shown = found.modes.iter().map(|mode| places.get(mode.mode).copied().flatten());
+    let table = Table::new("Frequencies by mesh and their limit", columns).rows(rows);
     table.showing_modes(shown).footnote("Without an estimate the uncertainty is the range of the frequencies.")
 }
 

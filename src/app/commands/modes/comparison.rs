@@ -3,16 +3,14 @@
 use crate::app::case::{Case, ComparedModes};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::ModalSurvey;
-use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet};
+use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModalSurvey, ModePair, ModeSet};
 use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
 use crate::numerics::linalg::DenseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::HashMap;
-use std::path::Path;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What a pair of modes, or a mode without a partner, misses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -164,16 +162,10 @@ impl<'c> ComparedFile<'c> {
         survey: &ModalSurvey,
         housing: Option<(&Mesh, &HousingModel)>,
     ) -> Result<FileComparison, ComputeError> {
-        let own = survey.own_modes(housing);
-        let mesh = housing.map(|(mesh, _)| mesh);
-        let check = survey.basis.count_check;
-        let own = Side { set: own.set(), covers_hz: [check.above_hz.unwrap_or(0.0), check.below_hz] };
-        let there = placed(&self.asked.file, &self.modes, mesh)?;
-        self.judge(&own, survey.basis.rigid_modes, there)
-    }
-
-    fn judge(&self, own: &Side, rigid: usize, there: ModeSet) -> Result<FileComparison, ComputeError> {
-        let asked = self.asked;
+        let (asked, check) = (self.asked, survey.basis.count_check);
+        let covered = [check.above_hz.unwrap_or(0.0), check.below_hz];
+        let own = &Side { set: survey.own_modes(housing).set(), covers_hz: covered };
+        let there = placed(&asked.file, &self.modes, housing.map(|(mesh, _)| mesh))?;
         let compared = |source| ComputeError::Compared { file: asked.file.clone(), source: Box::new(source) };
         let mut options = ComparisonOptions::default();
         // what passes must be paired
@@ -182,12 +174,11 @@ impl<'c> ComparedFile<'c> {
             options.point_tolerance = (distance / own.set.diagonal()).min(1.0);
         }
         let found = ModalComparison::new(&own.set, &there, options).map_err(compared)?;
-        let covered = there
-            .frequencies_hz
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &hz| [low.min(hz), high.max(hz)]);
+        let frequencies = there.frequencies_hz.iter();
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let covered = frequencies.fold(ends, |[low, high], &hz| [low.min(hz), high.max(hz)]);
         let there = Side { set: there, covers_hz: covered };
-        let judge = Judge { asked, own, there: &there, rigid };
+        let judge = Judge { asked, own, there: &there, rigid: survey.basis.rigid_modes };
         let pairs: Vec<ComparedPair> = found.pairs.iter().map(|pair| judge.pair(pair)).collect();
         let lone_here = judge.lone(&found.unpaired_here, own, &there);
         let lone_there = judge.lone(&found.unpaired_there, &there, own);

@@ -1,24 +1,20 @@
-//! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded, and the
-//! verification against expected ones.
+//! `plummer modes`: eigenfrequencies of housing, ring, or both, unloaded and loaded, the verification against
+//! expected ones, and the shapes as other programs read them.
 
 use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
-use super::shapes::mode_shapes;
 use crate::app::case::{Case, Expected, Linearise};
 use crate::app::commands::parts::tables::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::contact_limits::accept_contacts;
-use crate::app::scene::structure_modes::UnloadedModes;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{ModalSurvey, ModeRange};
+use crate::fe::modal::{FullModes, ModalBasis, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::numerics::{Unwatched, Watch};
-use crate::system::LoadedPass;
-use crate::system::Statics;
-use crate::system::{BearingSetup, Equilibrium, LoadedMode, LoadedModes, StaticCondition};
+use crate::system::{BearingSetup, Equilibrium, LoadedModes, LoadedPass, StaticCondition, Statics};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -68,11 +64,26 @@ pub struct ModesResult {
 }
 
 impl ModesResult {
+    /// Nothing but the case itself.
+    fn new(base: Reading, survey: ModalSurvey, doubts: Vec<String>) -> Self {
+        Self {
+            base,
+            variants: Vec::new(),
+            survey,
+            structure: None,
+            housing: None,
+            comparisons: Vec::new(),
+            convergence: None,
+            statics: None,
+            loaded_pass: None,
+            doubts,
+        }
+    }
+
     /// Mesh and model of the housing, if there is one.
     pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
         let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
-        let coupled = self.structure.as_ref().and_then(|stage| stage.housing.as_ref());
-        alone.or(coupled.map(|housing| (&housing.mesh, &housing.model)))
+        alone.or(self.structure.as_ref().and_then(CoupledStructure::mesh_and_model))
     }
 
     /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
@@ -87,18 +98,10 @@ impl ModesResult {
 }
 
 impl Reading {
-    /// Frequencies that the verification looks at: loaded ones if there are any.
-    pub(crate) fn frequencies_hz(&self) -> Vec<f64> {
-        match &self.loaded {
-            Some(loaded) => loaded.modes.iter().map(|mode| mode.frequency_hz).collect(),
-            None => self.unloaded_hz.clone(),
-        }
-    }
-
     /// Nearest mode to a frequency among those that are not the balls' own, Hz.
     pub(crate) fn nearest_hz(&self, hz: f64) -> Option<f64> {
         match &self.loaded {
-            Some(loaded) => loaded.nearest(hz).map(|mode: &LoadedMode| mode.frequency_hz),
+            Some(loaded) => loaded.nearest(hz).map(|mode| mode.frequency_hz),
             None => self.unloaded_hz.iter().copied().min_by(|a, b| (a - hz).abs().total_cmp(&(b - hz).abs())),
         }
     }
@@ -134,15 +137,14 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     };
     let survey = stage.survey(case.modes.extent, watch)?;
     watch.stage("linearise");
-    let unloaded =
-        UnloadedModes { frequencies_hz: survey.basis.frequencies_hz.clone(), rigid: survey.basis.rigid_modes };
-    let base = reading(case, &stage, unloaded, String::new(), Vec::new())?;
-    let statics = match linearised_setup(case)? {
-        Some(setup) => Some(Statics::compute(&stage.structure, &setup, start_time(case))?),
+    let base = reading(case, &stage, &survey.basis, String::new(), Vec::new())?;
+    let setup = linearised_setup(case)?;
+    let statics = match &setup {
+        Some(setup) => Some(Statics::compute(&stage.structure, setup, start_time(case))?),
         None => None,
     };
-    let loaded_pass = match linearised_setup(case)?.filter(|_| case.modes.ball_pass) {
-        Some(setup) => Some(LoadedPass::compute((&stage.structure, &stage.modes), &setup, start_time(case), watch)?),
+    let loaded_pass = match setup.as_ref().filter(|_| case.modes.ball_pass) {
+        Some(setup) => Some(LoadedPass::compute((&stage.structure, &stage.modes), setup, start_time(case), watch)?),
         None => None,
     };
     watch.stage("variants");
@@ -151,39 +153,22 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     for (index, variant) in cases.iter().enumerate() {
         watch.fraction(index as f64 / cases.len() as f64);
         let set = case.modes.variants[index].set.clone();
-        let built = CoupledStructure::build(&variant.case, &Unwatched)?;
-        if let Some(built) = built {
-            let unloaded = built.unloaded_modes(variant.case.modes.extent)?;
-            let what = variant.what.clone();
-            variants.push(reading(&variant.case, &built, unloaded, what, set)?);
+        if let Some(built) = CoupledStructure::build(&variant.case, &Unwatched)? {
+            let full = FullModes::of(built.full_matrices(), variant.case.modes.extent, &Unwatched)?;
+            variants.push(reading(&variant.case, &built, &full.basis, variant.what.clone(), set)?);
         }
     }
-    let housing = stage.housing.as_ref();
-    let housing = housing.map(|housing| (&housing.mesh, &housing.model));
-    let setup = linearised_setup(case)?;
     let at_rest = statics.iter().flat_map(|statics| &statics.equilibria).next();
-    let imported = stage.imported.iter();
     let top_hz = survey.basis.frequencies_hz.iter().copied().fold(0.0, f64::max);
     let asked_hz = match case.modes.extent {
         ModeRange::UpToHz(top_hz) | ModeRange::BandHz([_, top_hz]) => top_hz,
         ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
     };
-    let top_hz = top_hz.max(asked_hz);
-    let beyond = imported.filter_map(|imported| imported.doubt(top_hz));
-    let mut doubts = doubts(case, housing, setup.as_ref().zip(at_rest))?;
+    let beyond = stage.imported.iter().filter_map(|imported| imported.doubt(top_hz.max(asked_hz)));
+    let mut doubts = doubts(case, stage.mesh_and_model(), setup.as_ref().zip(at_rest))?;
     doubts.extend(beyond);
-    Ok(ModesResult {
-        base,
-        variants,
-        survey,
-        housing: None,
-        comparisons: Vec::new(),
-        convergence: None,
-        doubts,
-        structure: Some(stage),
-        statics,
-        loaded_pass,
-    })
+    let structure = Some(stage);
+    Ok(ModesResult { variants, structure, statics, loaded_pass, ..ModesResult::new(base, survey, doubts) })
 }
 
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
@@ -198,18 +183,8 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, Compute
         expected: Vec::new(),
     };
     base.expected = judge(&base, &case.modes.expected);
-    Ok(ModesResult {
-        base,
-        variants: Vec::new(),
-        survey,
-        structure: None,
-        doubts: doubts(case, Some((&mesh, &model)), None)?,
-        housing: Some((mesh, model)),
-        comparisons: Vec::new(),
-        convergence: None,
-        statics: None,
-        loaded_pass: None,
-    })
+    let doubts = doubts(case, Some((&mesh, &model)), None)?;
+    Ok(ModesResult { housing: Some((mesh, model)), ..ModesResult::new(base, survey, doubts) })
 }
 
 /// The bearing, if modes are linearised with it.
@@ -229,7 +204,7 @@ fn start_time(case: &Case) -> f64 {
 fn reading(
     case: &Case,
     stage: &CoupledStructure,
-    unloaded: UnloadedModes,
+    unloaded: &ModalBasis,
     what: String,
     set: Vec<String>,
 ) -> Result<Reading, ComputeError> {
@@ -240,16 +215,15 @@ fn reading(
             if let Some(contacts) = race_contacts(case)? {
                 accept_contacts(&setup, &contacts, &equilibrium)?;
             }
-            let modes = LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?;
-            Some(modes)
+            Some(LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?)
         }
         None => None,
     };
     let mut reading = Reading {
         what,
         set,
-        condensation_difference: condensation_difference(stage, &unloaded, case.modes.extent),
-        unloaded_hz: unloaded.frequencies_hz,
+        condensation_difference: condensation_difference(stage, unloaded, case.modes.extent),
+        unloaded_hz: unloaded.frequencies_hz.clone(),
         loaded,
         expected: Vec::new(),
     };
@@ -259,12 +233,12 @@ fn reading(
 
 /// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
 /// there are no elastic modes to compare.
-fn condensation_difference(stage: &CoupledStructure, full: &UnloadedModes, extent: ModeRange) -> Option<f64> {
+fn condensation_difference(stage: &CoupledStructure, full: &ModalBasis, extent: ModeRange) -> Option<f64> {
     stage.housing.as_ref()?;
     let condensed: Vec<f64> = (0..stage.modes.count()).map(|mode| stage.modes.frequency_hz(mode)).collect();
     let largest = |first: usize| {
         let pairs = condensed.get(first..)?.iter().zip(&full.frequencies_hz);
-        let differences = pairs.skip(full.rigid).map(|(own, full)| (own / full - 1.0).abs());
+        let differences = pairs.skip(full.rigid_modes).map(|(own, full)| (own / full - 1.0).abs());
         differences.reduce(f64::max)
     };
     match extent {
@@ -277,19 +251,49 @@ fn condensation_difference(stage: &CoupledStructure, full: &UnloadedModes, exten
 }
 
 fn judge(reading: &Reading, expected: &[Expected]) -> Vec<ExpectedMode> {
-    expected
-        .iter()
-        .map(|expected| {
-            let found_hz = reading.nearest_hz(expected.hz);
-            let relative_error = found_hz.map(|found| found / expected.hz - 1.0);
-            ExpectedMode {
-                hz: expected.hz,
-                what: expected.what.clone(),
-                found_hz,
-                relative_error,
-                within: expected.within,
-                ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
+    expected.iter().map(|expected| ExpectedMode::of(expected, reading.nearest_hz(expected.hz))).collect()
+}
+
+/// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.
+fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) -> ModeShapes {
+    let mut points = Vec::new();
+    let mut shapes = vec![Vec::new(); survey.basis.count()];
+    if let (Some((mesh, model)), Some(moved)) = (housing, &survey.housing) {
+        points.extend(&mesh.nodes);
+        let d = model.dimension();
+        for (mode, shape) in shapes.iter_mut().enumerate() {
+            for node in moved.col_as_slice(mode).chunks_exact(d) {
+                // nothing moves across a plane
+                shape.extend((0..3).map(|axis| node.get(axis).copied().unwrap_or(0.0)));
             }
-        })
-        .collect()
+        }
+    }
+    if let Some(ring) = &survey.ring {
+        points.extend(&ring.points);
+        for (shape, moved) in shapes.iter_mut().zip(&ring.displacements) {
+            shape.extend(moved.as_flattened());
+        }
+    }
+    let node_tags = match (&survey.ring, housing) {
+        (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
+        _ => None,
+    };
+    ModeShapes { frequencies_hz: survey.basis.frequencies_hz.clone(), node_tags, points: Some(points), shapes }
+}
+
+/// Computes the modes of a case, as many as it asks for, and nothing else: the mesh, if it has one, and the shapes.
+///
+/// # Errors
+/// [`ComputeError`] of the stages that it goes through.
+pub(crate) fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
+    let extent = case.modes.extent;
+    if let Some(stage) = CoupledStructure::build(case, watch)? {
+        let survey = stage.survey(extent, watch)?;
+        let shapes = mode_shapes(&survey, stage.mesh_and_model());
+        return Ok((stage.housing.map(|stage| stage.mesh), shapes));
+    }
+    let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;
+    let shapes = mode_shapes(&survey, Some((&mesh, &model)));
+    Ok((Some(mesh), shapes))
 }

@@ -1,11 +1,12 @@
 //! How far the frequencies of the case's own mesh are from those of an infinitely fine one.
 
-use super::mesh_sequence::{MeshSequence, ModesOnMesh, at};
+use super::mesh_sequence::{MeshSequence, at, modes_on_mesh};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{Behaviour, ComparisonOptions, Convergence, ModalComparison, ModeSet, richardson};
-use crate::fe::modal::{ModalSurvey, ModeRange, partners};
+use crate::fe::modal::{
+    Behaviour, ComparisonOptions, Convergence, ModalComparison, ModalSurvey, ModeRange, ModeSet, partners, richardson,
+};
 use crate::fe::model::HousingModel;
 use crate::numerics::Watch;
 use schemars::JsonSchema;
@@ -118,9 +119,9 @@ pub(crate) fn mesh_convergence(
     for (index, level) in sequence.levels.iter().enumerate().skip(1) {
         watch.fraction((index - 1) as f64 / (sequence.levels.len() - 1) as f64);
         let on_level = || -> Result<OnLevel, ComputeError> {
-            let modes = ModesOnMesh::compute(case, level.mesh.clone(), extent)?;
+            let (modes, free_dof) = modes_on_mesh(case, level.mesh.clone(), extent)?;
             let larger = level.element_size.max(sequence.levels[0].element_size);
-            recognised(&own, &modes, NEAREST * larger)
+            recognised(&own, &modes, free_dof, NEAREST * larger)
         };
         found.push(on_level().map_err(|error| at(index - 1, &level.mesh, error))?);
     }
@@ -130,22 +131,23 @@ pub(crate) fn mesh_convergence(
     let elastic = survey.basis.rigid_modes..own_modes;
     let modes: Vec<ModeOnMeshes> =
         elastic.map(|mode| on_meshes(mode, sequence, &found, &order)).collect::<Result<_, _>>()?;
+    let of_level = |&index: &usize| {
+        let (level, on_level) = (&sequence.levels[index], &found[index]);
+        SequenceMesh {
+            mesh: level.mesh.clone(),
+            own: index == 0,
+            extrapolated: sequence.is_alike(index),
+            elements: level.elements,
+            kinds: level.kind_names(),
+            free_dof: on_level.free_dof,
+            element_size_m: level.element_size,
+            matched_points: on_level.matched_points,
+        }
+    };
     Ok(Some(MeshConvergence {
         formal_order: sequence.formal_order,
         notes: notes(case, sequence, &modes),
-        meshes: order
-            .iter()
-            .map(|&level| SequenceMesh {
-                mesh: sequence.levels[level].mesh.clone(),
-                own: level == 0,
-                extrapolated: sequence.is_alike(level),
-                elements: sequence.levels[level].elements,
-                kinds: sequence.levels[level].kind_names(),
-                free_dof: found[level].free_dof,
-                element_size_m: sequence.levels[level].element_size,
-                matched_points: found[level].matched_points,
-            })
-            .collect(),
+        meshes: order.iter().map(of_level).collect(),
         modes,
     }))
 }
@@ -169,13 +171,13 @@ fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
 }
 
 /// Which mode of another mesh is which of the case's: by shape, and repeated ones in their order within their group.
-fn recognised(own: &ModeSet, other: &ModesOnMesh, distance: f64) -> Result<OnLevel, ComputeError> {
+fn recognised(own: &ModeSet, other: &ModeSet, free_dof: usize, distance: f64) -> Result<OnLevel, ComputeError> {
     let options =
         ComparisonOptions { point_tolerance: (distance / own.diagonal()).min(1.0), ..ComparisonOptions::default() };
-    let found = ModalComparison::new(own, &other.set, options)?;
-    let partners = partners(own, &other.set, &found).into_iter();
+    let found = ModalComparison::new(own, other, options)?;
+    let partners = partners(own, other, &found).into_iter();
     Ok(OnLevel {
-        free_dof: other.free_dof,
+        free_dof,
         matched_points: found.points.pairs.len(),
         frequencies_hz: partners.map(|partner| partner.map(|partner| partner.hz)).collect(),
     })
@@ -217,8 +219,7 @@ fn on_meshes(
 
 fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<String> {
     let mut notes = Vec::new();
-    let alike = (0..sequence.levels.len()).filter(|&level| sequence.is_alike(level));
-    let alike = alike.count();
+    let alike = (0..sequence.levels.len()).filter(|&level| sequence.is_alike(level)).count();
     if alike == 2 {
         notes.push(format!(
             "Two meshes: the order of convergence is not observed but assumed to be {}; three meshes or more would show it.",
@@ -242,13 +243,12 @@ fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<St
         let names: Vec<String> = chosen.map(|mode| (mode.mode + 1).to_string()).collect();
         (!names.is_empty()).then(|| names.join(", "))
     };
-    let behaves =
-        |mode: &ModeOnMeshes, behaviour| mode.limit.as_ref().is_some_and(|limit| limit.behaviour == behaviour);
+    let behaviour_of = |mode: &ModeOnMeshes| mode.limit.as_ref().map(|limit| limit.behaviour);
     for (behaviour, what) in [
         (Behaviour::Oscillating, "go to and fro from mesh to mesh"),
         (Behaviour::Diverging, "change by steps that do not shrink"),
     ] {
-        if let Some(names) = named(&|mode| behaves(mode, behaviour)) {
+        if let Some(names) = named(&|mode| behaviour_of(mode) == Some(behaviour)) {
             notes
                 .push(format!("Frequencies that {what} are not extrapolated, their error is not known: mode {names}."));
         }

@@ -3,10 +3,9 @@
 use crate::app::case::{Case, HousingSource};
 use crate::app::commands::inspect::{elements_of, size};
 use crate::app::error::ComputeError;
-use crate::app::scene::bodies::Bodies;
+use crate::app::scene::free_system::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
-use crate::fe::modal::{FullModes, ModeRange};
-use crate::fe::modal::{MeshLevels, ModeSet};
+use crate::fe::modal::{FullModes, MeshLevels, ModeRange, ModeSet};
 use crate::numerics::Unwatched;
 use crate::report::significant;
 use std::path::PathBuf;
@@ -77,7 +76,7 @@ impl MeshSequence {
     pub(crate) fn doubts(&self) -> Vec<String> {
         let own = self.levels[0].measure;
         let others = self.levels.iter().enumerate().skip(1);
-        let told = others.filter_map(|(index, level)| {
+        let doubted = others.filter_map(|(index, level)| {
             let more = level.measure / own - 1.0;
             (more.abs() > DOUBTED).then(|| {
                 format!(
@@ -89,7 +88,7 @@ impl MeshSequence {
                 )
             })
         });
-        told.collect()
+        doubted.collect()
     }
 
     /// Whether a mesh has the kinds of elements that the case's own has: unlike ones have unlike errors at one size.
@@ -153,50 +152,17 @@ fn on_mesh(case: &Case, path: PathBuf) -> Case {
     other
 }
 
-/// Modes on another mesh, and its degrees of freedom.
-pub(crate) struct ModesOnMesh {
-    /// The modes at the nodes.
-    pub set: ModeSet,
-    /// Degrees of freedom that they were computed over.
-    pub free_dof: usize,
-}
-
-impl ModesOnMesh {
-    /// The modes of the case on `path`, as many of them as it has; nothing else is computed there.
-    ///
-    /// # Errors
-    /// [`ComputeError`] of mesh, model and eigenvalues.
-    pub(crate) fn compute(case: &Case, path: PathBuf, extent: ModeRange) -> Result<Self, ComputeError> {
-        let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
-        let modes = match extent {
-            // a coarse mesh may have fewer
-            ModeRange::Count(count) | ModeRange::AtMost(count) => FullModes::lowest(matrices, count, &Unwatched),
-            other => FullModes::of(matrices, other, &Unwatched),
-        }?;
-        let free_dof = modes.free_dof();
-        let set = bodies.mode_set(&modes);
-        Ok(Self { set, free_dof })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Chords of a circle cut off 0.5 % where they are 36; a body that is 2 % longer is another one.
-    #[test]
-    fn bodies_of_another_size_are_told() {
-        let level = |measure: f64| Level {
-            mesh: PathBuf::from("other.msh"),
-            elements: 1,
-            kinds: Vec::new(),
-            measure,
-            element_size: 1.0,
-        };
-        let sequence = |other: f64| MeshSequence { levels: vec![level(2.0), level(other)], formal_order: 2.0 };
-        assert!(sequence(1.99).doubts().is_empty());
-        let told = sequence(2.04).doubts().join(" ");
-        let expected = "The body of modes.convergence.meshes[0] (other.msh) is 2.0 % larger";
-        assert!(told.starts_with(expected), "{told}");
-    }
+/// The modes of the case on `path` at the nodes, as many of them as it has, and the degrees of freedom that they were computed over;
+/// nothing else is computed there.
+///
+/// # Errors
+/// [`ComputeError`] of mesh, model and eigenvalues.
+pub(crate) fn modes_on_mesh(case: &Case, path: PathBuf, extent: ModeRange) -> Result<(ModeSet, usize), ComputeError> {
+    let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
+    let modes = match extent {
+        // a coarse mesh may have fewer
+        ModeRange::Count(count) | ModeRange::AtMost(count) => FullModes::lowest(matrices, count, &Unwatched),
+        other => FullModes::of(matrices, other, &Unwatched),
+    }?;
+    Ok((bodies.mode_set(&modes), modes.free_dof()))
 }

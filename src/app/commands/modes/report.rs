@@ -2,24 +2,27 @@
 
 use super::checks_report::{comparison_section, convergence_section, headlines};
 use super::compute::{ModesResult, Reading};
-use super::energy_tables::energy_tables;
 use super::shape_view::shape_view;
 use super::tables::{
-    complete, effective_mass_bars, effective_mass_table, free_motions, frequency_table, mass_facts, material_table,
-    proof_facts,
+    complete, effective_mass_bars, effective_mass_table, energy_tables, free_motions, frequency_table, mass_facts,
+    material_table, proof_facts,
 };
 use crate::app::case::Case;
-use crate::app::commands::modes::loaded_pass_report::loaded_pass_section;
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
-use crate::app::commands::parts::tables::{expected_table, mode_table};
-use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::commands::parts::tables::{ExpectedMode, expected_table, mode_table};
+use crate::app::commands::parts::{assumptions, model_facts, signed_report};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_setup, race_contacts};
 use crate::report::{
-    Cell, Column, Document, Fact, ModeShapeView, Report, Section, ShapeFigures, Table, Verdict, significant,
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, ModeShapeView, Plot, Report, Section, ShapeFigures, Table,
+    Verdict, significant,
 };
+use crate::system::{LoadedPass, LoadedPoint};
+
+/// Frequencies drawn over a ball pass.
+const DRAWN: usize = 8;
 
 /// Composes the report; `command` is the line that made it.
 ///
@@ -30,31 +33,25 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
     let mut report = head(case, result, command);
     report = report.section(purpose(result)).section(model(case, result, &view)?);
     if let Some(mass) = &result.survey.mass {
-        let section = Section::new("Mass properties")
-            .paragraph("From the mass matrix itself, point masses included.")
-            .facts(mass_facts(mass));
-        report = report.section(section);
+        let section = Section::new("Mass properties");
+        let section = section.paragraph("From the mass matrix itself, point masses included.");
+        report = report.section(section.facts(mass_facts(mass)));
     }
     report = report.section(frequencies(result));
     let proof = Section::new("Completeness and accuracy")
         .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
         .facts(proof_facts(&result.survey));
     report = report.section(proof);
-    for comparison in &result.comparisons {
-        report = report.section(comparison_section(comparison, &result.survey));
-    }
-    if let Some(convergence) = &result.convergence {
-        report = report.section(convergence_section(convergence, &result.survey));
-    }
+    let comparisons = result.comparisons.iter().map(|comparison| comparison_section(comparison, &result.survey));
+    report.sections.extend(comparisons);
+    let convergence = result.convergence.iter().map(|convergence| convergence_section(convergence, &result.survey));
+    report.sections.extend(convergence);
     if result.survey.basis.count() > 0 {
         if let Some(found) = &result.survey.participation {
-            let mut mass = Section::new("Effective mass")
+            let mass = Section::new("Effective mass")
                 .bars(effective_mass_bars(&result.survey, found))
                 .table(effective_mass_table(&result.survey, found));
-            for table in energy_tables(&result.survey) {
-                mass = mass.table(table);
-            }
-            report = report.section(mass);
+            report = report.section(energy_tables(&result.survey).into_iter().fold(mass, Section::table));
         }
         let shapes = ModeShapeView { figures: ShapeFigures::Modes, ..view };
         report = report.section(Section::new("Mode shapes").shapes(shapes));
@@ -71,41 +68,24 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
         let equilibria = result.statics.iter().flat_map(|statics| &statics.equilibria);
         let table = bearing_table(setup, &contacts, equilibria.clone().next());
         report = report.section(Section::new("Bearing").table(table));
-        if let Some(statics) = &result.statics {
-            report = report.section(statics_section(setup, statics));
-        }
-        if let Some(pass) = &result.loaded_pass {
-            report = report.section(loaded_pass_section(pass));
-        }
+        report.sections.extend(result.statics.as_ref().map(|statics| statics_section(setup, statics)));
+        report.sections.extend(result.loaded_pass.as_ref().map(loaded_pass_section));
     }
-    for text in assumptions(case, setup.as_ref()) {
-        report = report.assumption(text);
-    }
+    report.assumptions.extend(assumptions(case, setup.as_ref()));
     let imported = result.structure.iter().flat_map(|stage| &stage.imported);
-    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
-        report = report.warning(text);
-    }
-    let notes = result.convergence.iter();
-    let notes = notes.flat_map(|convergence| convergence.notes.iter().cloned());
-    for text in result.doubts.iter().cloned().chain(free_motions(result)).chain(notes) {
-        report = report.warning(text);
-    }
+    report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
+    report.warnings.extend(result.doubts.iter().cloned().chain(free_motions(result)));
+    report.warnings.extend(result.convergence.iter().flat_map(|convergence| convergence.notes.iter().cloned()));
     Ok(report)
 }
 
 fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
-    let document =
-        Document::new().case(case.source.path.display().to_string()).signed_by("Prepared by").signed_by("Checked by");
-    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle("Modal verification report")
-        .document(document);
+    let mut report = signed_report(case, command, "Modal verification report");
     for expected in &result.base.expected {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
-    for of_check in headlines(result) {
-        report = report.headline(of_check.label, of_check.value, of_check.verdict);
-    }
+    report.headlines.extend(headlines(result));
     let basis = &result.survey.basis;
     let modes = format!("{} of {}", basis.count_check.found, basis.count_check.counted);
     report = report.headline("Modes found of those that exist", modes, complete(&result.survey));
@@ -135,11 +115,11 @@ fn purpose(result: &ModesResult) -> Section {
         _ => ", the first ones without strain. ",
     });
     text.push_str("Each frequency comes with a bound on the error of its computation, and the number of modes is proved by a count.");
-    let mut section = Section::new("Purpose").paragraph(text);
-    if !result.base.expected.is_empty() {
-        section = section.table(expected_table(&result.base.expected));
+    let section = Section::new("Purpose").paragraph(text);
+    match result.base.expected.is_empty() {
+        true => section,
+        false => section.table(expected_table(&result.base.expected)),
     }
-    section
 }
 
 fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, ComputeError> {
@@ -156,38 +136,24 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
         ]);
     }
     if let Some(stage) = &result.structure {
-        let setup = bearing_setup(case)?;
-        section = section.drawing(draw(case, stage, setup.as_ref())).facts(model_facts(
-            case,
-            stage,
-            result.base.loaded.is_some(),
-        ));
+        let facts = model_facts(case, stage, result.base.loaded.is_some());
+        section = section.drawing(draw(case, stage, bearing_setup(case)?.as_ref())).facts(facts);
     }
     section = section.table(material_table(case));
     if result.mesh_and_model().is_some() {
-        let still = ModeShapeView {
-            title: "The model".to_owned(),
-            figures: ShapeFigures::Mesh,
-            modes: Vec::new(),
-            ..view.clone()
-        };
-        section = section.shapes(still);
+        let (title, figures) = ("The model".to_owned(), ShapeFigures::Mesh);
+        section = section.shapes(ModeShapeView { title, figures, modes: Vec::new(), ..view.clone() });
     }
     Ok(section)
 }
 
 fn frequencies(result: &ModesResult) -> Section {
     let section = Section::new("Eigenfrequencies").table(frequency_table(&result.survey));
-    match &result.base.loaded {
-        Some(loaded) => {
-            let table = mode_table(&result.base.unloaded_hz, Some(loaded));
-            section.table(match condensation(&result.base) {
-                Some(text) => table.footnote(text),
-                None => table,
-            })
-        }
-        None => section,
-    }
+    let Some(loaded) = &result.base.loaded else {
+        return section;
+    };
+    let table = mode_table(&result.base.unloaded_hz, Some(loaded));
+    section.table(condensation(&result.base).into_iter().fold(table, Table::footnote))
 }
 
 /// What condensing the housing does to the frequencies, so that nobody takes it for an effect of the load.
@@ -202,13 +168,11 @@ fn condensation(reading: &Reading) -> Option<String> {
 fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
     let expected = &base.expected;
     let mut columns = vec![Column::text("Reading")];
-    for expected in expected {
-        columns.push(Column::number(format!("near {} kHz", significant(expected.hz / 1e3, 3)), "Hz"));
-    }
+    let near = |expected: &ExpectedMode| format!("near {} kHz", significant(expected.hz / 1e3, 3));
+    columns.extend(expected.iter().map(|expected| Column::number(near(expected), "Hz")));
     columns.push(Column::number("Modes below 40 kHz without the balls' own", "kHz"));
     columns.push(Column::number("Condensation moves by", "%"));
-    let mut table = Table::new("Readings side by side", columns);
-    for reading in std::iter::once(base).chain(variants) {
+    Table::new("Readings side by side", columns).rows(std::iter::once(base).chain(variants).map(|reading| {
         let name = if reading.what.is_empty() { "this case" } else { &reading.what };
         let mut cells = vec![Cell::text(name)];
         for expected in &reading.expected {
@@ -222,13 +186,9 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
             cells.push(cell.judged(Verdict::of(expected.ok)));
         }
         cells.push(Cell::text(own_modes(reading)));
-        cells.push(match reading.condensation_difference {
-            Some(difference) => Cell::number(100.0 * difference, 2),
-            None => Cell::text("-"),
-        });
-        table = table.row(cells);
-    }
-    table
+        cells.push(Cell::number_or(reading.condensation_difference.map(|difference| 100.0 * difference), 2, "-"));
+        cells
+    }))
 }
 
 fn own_modes(reading: &Reading) -> String {
@@ -236,5 +196,48 @@ fn own_modes(reading: &Reading) -> String {
         Some(loaded) => loaded.modes.iter().filter(|mode| !mode.is_ball_mode()).map(|mode| mode.frequency_hz).collect(),
         None => reading.unloaded_hz.clone(),
     };
-    frequencies.iter().filter(|&&hz| hz < 40e3).map(|hz| significant(hz / 1e3, 4)).collect::<Vec<_>>().join(", ")
+    let below = frequencies.iter().filter(|&&hz| hz < 40e3);
+    below.map(|hz| significant(hz / 1e3, 4)).collect::<Vec<_>>().join(", ")
+}
+
+/// Loaded frequencies as the balls go round.
+fn loaded_pass_section(pass: &LoadedPass) -> Section {
+    let angle = chart(
+        "Loaded frequencies over a ball pass",
+        Axis::new("Cage turned by", "deg"),
+        &pass.over_angle,
+        f64::to_degrees,
+    );
+    let load = chart(
+        "Loaded frequencies over the load",
+        Axis::new("Load on the shaft, in units of the case's", "").log(),
+        &pass.over_load,
+        |factor| factor,
+    );
+    Section::new("Loaded frequencies as the balls go round").plot(angle).plot(load)
+}
+
+/// The lowest frequencies of modes that are not the balls' own, by their number.
+fn chart(title: &str, x: Axis, points: &[LoadedPoint], show: impl Fn(f64) -> f64) -> Plot {
+    let places: Vec<f64> = points.iter().map(|point| show(point.at)).collect();
+    let frequencies: Vec<Vec<f64>> = points
+        .iter()
+        .map(|point| {
+            let modes = point.modes.iter().flat_map(|loaded| &loaded.modes);
+            let held = modes.filter(|mode| !mode.is_ball_mode());
+            held.map(|mode| mode.frequency_hz).take(DRAWN).collect()
+        })
+        .collect();
+    let mut plot = Plot::new(title, x, Axis::new("Frequency", "Hz").log()).caption(
+        "Each angle and load at its own equilibrium, without the modes that are the balls' own; numbered by frequency, so that two curves that come close may exchange their modes.",
+    );
+    for mode in 0..DRAWN {
+        let values = frequencies.iter().map(|found| found.get(mode).copied().unwrap_or(f64::NAN));
+        let values: Vec<f64> = values.collect();
+        if values.iter().any(|value| value.is_finite()) {
+            let curve = Curve::new(format!("mode {}", mode + 1), Abscissa::Points(places.clone()), values);
+            plot = plot.curve(curve.style(CurveStyle::Line));
+        }
+    }
+    plot
 }

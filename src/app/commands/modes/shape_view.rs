@@ -42,18 +42,10 @@ pub(crate) fn shape_view(result: &ModesResult) -> ModeShapeView {
             });
         }
     }
+    let shapes = result.mode_shapes().shapes;
     for mode in shown_order(survey) {
-        let mut displacement = vec![[0.0; 3]; first];
-        if let (Some(shapes), Some((_, model))) = (&survey.housing, result.mesh_and_model()) {
-            let d = model.dimension();
-            for (node, moved) in displacement.iter_mut().enumerate() {
-                for (axis, component) in moved.iter_mut().enumerate().take(d) {
-                    *component = shapes[(d * node + axis, mode)];
-                }
-            }
-        }
+        let mut displacement = shapes[mode].as_chunks().0.to_vec();
         if let Some(ring) = &survey.ring {
-            displacement.extend(&ring.displacements[mode]);
             // both edges of a band move with their node
             let nodes = ring.points.len();
             let edges = view.points.len() - first - nodes;

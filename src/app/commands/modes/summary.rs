@@ -4,8 +4,7 @@ use super::{FileComparison, MeshConvergence, ModesResult, Reading};
 use crate::app::commands::parts::{ExpectedMode, SuperelementSummary};
 use crate::fe::modal::{EnergyShares, FrequencyCount, MassProperties, Mechanisms};
 use crate::numerics::linalg::{DenseMatrix, EigenTimes};
-use crate::system::LoadedModes;
-use crate::system::{LoadedPass, LoadedPoint};
+use crate::system::{LoadedModes, LoadedPass, LoadedPoint};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -90,7 +89,6 @@ pub struct LoadedPointSummary {
 
 impl ModesResult {
     /// What `modes.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> ModesSummary<'_> {
         let survey = &self.survey;
         let (basis, found) = (&survey.basis, survey.participation.as_ref());

@@ -3,8 +3,7 @@
 use super::compute::ModesResult;
 use super::shape_view::shown_places;
 use crate::app::case::{Case, Material};
-use crate::fe::modal::ModalSurvey;
-use crate::fe::modal::{MassDistribution, MassProperties, Participation};
+use crate::fe::modal::{MassDistribution, MassProperties, ModalSurvey, Participation};
 use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, fixed, significant};
 
 /// Direction of a column of a participation, by the number of columns.
@@ -18,27 +17,25 @@ fn directions(columns: usize) -> &'static [&'static str] {
 /// Every mode with its error bound, its residual and what it is.
 pub(crate) fn frequency_table(survey: &ModalSurvey) -> Table {
     let basis = &survey.basis;
-    let mut table = Table::new(
-        "Eigenfrequencies without contact",
-        [
-            Column::number("Mode", ""),
-            Column::number("Frequency", "Hz"),
-            Column::number("Error bound", "Hz"),
-            Column::number("Relative residual", ""),
-            Column::text("Kind"),
-        ],
-    );
-    for mode in 0..basis.count() {
+    let columns = [
+        Column::number("Mode", ""),
+        Column::number("Frequency", "Hz"),
+        Column::number("Error bound", "Hz"),
+        Column::number("Relative residual", ""),
+        Column::text("Kind"),
+    ];
+    let rows = (0..basis.count()).map(|mode| {
         let rigid = mode < basis.rigid_modes;
-        table = table.row([
+        [
             Cell::text((mode + 1).to_string()),
             Cell::number(basis.frequencies_hz[mode], 7),
             Cell::number(basis.error_bounds_hz[mode], 2),
             Cell::number(basis.residuals[mode], 2),
             Cell::text(if rigid { "rigid" } else { "elastic" }),
-        ]);
-    }
-    table
+        ]
+    });
+    Table::new("Eigenfrequencies without contact", columns)
+        .rows(rows)
         .showing_modes(shown_places(survey))
         .footnote("The bound is that of the computation: how far the frequency may be from that of the same matrices in exact arithmetic. The mesh's own error is not in it.")
 }
@@ -66,29 +63,27 @@ pub(crate) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
 
 /// Mass, centroid, inertia.
 pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
-    let millimetres = |values: &[f64]| {
-        let texts: Vec<String> = values.iter().map(|value| fixed(1e3 * value, 4)).collect();
-        format!("({}) mm", texts.join(", "))
+    let vector = |values: &[f64], scale: f64| {
+        let texts: Vec<String> = values.iter().map(|value| fixed(scale * value, 4)).collect();
+        format!("({})", texts.join(", "))
     };
+    let centroid = |centroid: &[f64]| Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
     let mut facts = vec![Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)))];
     match &mass.distribution {
-        MassDistribution::Plane { centroid, polar } => {
-            facts.push(Fact::new("Centroid", millimetres(centroid)));
-            facts.push(
-                Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)))
-                    .note("about the axis along z through the centroid"),
-            );
-        }
-        MassDistribution::Space { centroid, .. } => {
-            facts.push(Fact::new("Centroid", millimetres(centroid)));
+        MassDistribution::Plane { centroid: place, polar } => facts.extend([
+            centroid(place),
+            Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)))
+                .note("about the axis along z through the centroid"),
+        ]),
+        MassDistribution::Space { centroid: place, .. } => {
+            facts.push(centroid(place));
             if let Some(principal) = mass.principal() {
-                let moments: Vec<String> = principal.moments.iter().map(|m| significant(*m, 5)).collect();
-                facts.push(
-                    Fact::new("Principal moments", format!("{} kg m^2", moments.join(", "))).note("about the centroid"),
-                );
-                let axes: Vec<String> =
-                    principal.axes.iter().map(|a| format!("({})", a.map(|part| fixed(part, 4)).join(", "))).collect();
-                facts.push(Fact::new("Principal axes", axes.join(", ")));
+                let moments = principal.moments.map(|moment| significant(moment, 5)).join(", ");
+                let axes = principal.axes.map(|axis| vector(&axis, 1.0)).join(", ");
+                facts.extend([
+                    Fact::new("Principal moments", format!("{moments} kg m^2")).note("about the centroid"),
+                    Fact::new("Principal axes", axes),
+                ]);
             }
         }
     }
@@ -97,34 +92,30 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
 
 /// Materials that the case's parts and sections use.
 pub(crate) fn material_table(case: &Case) -> Table {
-    let mut table = Table::new(
-        "Materials",
-        [
-            Column::text("Part"),
-            Column::text("Material"),
-            Column::text("Elasticity"),
-            Column::number("Density", "kg/m^3"),
-        ],
-    );
+    let columns = [
+        Column::text("Part"),
+        Column::text("Material"),
+        Column::text("Elasticity"),
+        Column::number("Density", "kg/m^3"),
+    ];
     let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
-    let parts = parts.map(|part| (part.group.clone(), part.material.clone()));
+    let parts = parts.map(|part| (part.group.as_str(), &part.material));
     let layers = case.ring.iter().flat_map(|ring| &ring.sections);
-    let layers = layers.map(|layer| ("ring".to_owned(), layer.material.clone()));
-    for (part, name) in parts.chain(layers) {
-        let (elasticity, density) = match case.material(&name) {
+    let layers = layers.map(|layer| ("ring", &layer.material));
+    Table::new("Materials", columns).rows(parts.chain(layers).map(|(part, name)| {
+        let (elasticity, density) = match case.material(name) {
             Some(Material::Isotropic(m)) => (
                 format!("E = {} GPa, nu = {}", significant(m.young * 1e-9, 4), significant(m.poisson, 3)),
                 Cell::number(m.density, 5),
             ),
             Some(Material::Orthotropic(m)) => {
-                let young: Vec<String> = m.young.iter().map(|e| significant(e * 1e-9, 4)).collect();
+                let young = m.young.map(|young| significant(young * 1e-9, 4));
                 (format!("orthotropic, E = {} GPa", young.join(", ")), Cell::number(m.density, 5))
             }
             None => (String::new(), Cell::text("")),
         };
-        table = table.row([Cell::text(part), Cell::text(name), Cell::text(elasticity), density]);
-    }
-    table
+        [Cell::text(part), Cell::text(name), Cell::text(elasticity), density]
+    }))
 }
 
 /// Effective mass of every mode along every direction, in per cent of the whole.
@@ -132,18 +123,17 @@ pub(crate) fn effective_mass_table(survey: &ModalSurvey, found: &Participation) 
     let names = directions(found.totals.len());
     let mut columns = vec![Column::number("Mode", ""), Column::number("Frequency", "Hz")];
     columns.extend(names.iter().map(|name| Column::number(*name, "%")));
-    let mut table = Table::new("Effective mass", columns);
     let percent = |value: f64| Cell::text(format!("{:.2}", 100.0 * value)).value(100.0 * value);
-    for mode in 0..survey.basis.count() {
-        let mut cells = vec![Cell::text((mode + 1).to_string()), Cell::number(survey.basis.frequencies_hz[mode], 6)];
-        cells.extend(
-            (0..names.len()).map(|direction| found.fraction(mode, direction).map_or_else(|| Cell::text(""), percent)),
-        );
-        table = table.row(cells);
-    }
+    let rows = survey.basis.frequencies_hz.iter().enumerate().map(|(mode, &hz)| {
+        let mut cells = vec![Cell::text((mode + 1).to_string()), Cell::number(hz, 6)];
+        let shares = (0..names.len()).map(|direction| found.fraction(mode, direction));
+        cells.extend(shares.map(|share| share.map_or_else(|| Cell::text(""), percent)));
+        cells
+    });
     let mut sums = vec![Cell::text("sum"), Cell::text("")];
     sums.extend((0..names.len()).map(|j| percent(found.sums[j] / found.totals[j])));
-    table
+    Table::new("Effective mass", columns)
+        .rows(rows)
         .row(sums)
         .showing_modes(shown_places(survey))
         .footnote("Per cent of the mass and, about the axes through the centroid, of the moments of inertia. What fixed nodes carry is in no mode; the rest of a sum is in modes above those computed.")
@@ -212,4 +202,71 @@ mod tests {
         let axes = &value("Principal axes").value;
         assert!(!axes.contains("-0.0") && !axes.contains("−0.0000"), "{axes}");
     }
+}
+
+/// Shares below this are not listed by number.
+const LISTED_SHARE: f64 = 0.005;
+
+/// Strain and kinetic energy of every mode by part, ring, spring or point mass, then by those groups that are no parts;
+/// none where all of it is in one place.
+pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
+    let Some(found) = &survey.shares else {
+        return Vec::new();
+    };
+    let groups: Vec<usize> =
+        (0..found.groups.len()).filter(|&group| !found.parts.contains(&found.groups[group])).collect();
+    let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| {
+        let groups = groups.iter().map(|&group| by_group[group]);
+        let whole = parts.iter().copied().chain(ring).chain(attached.iter().copied());
+        whole.chain(groups).collect::<Vec<f64>>()
+    };
+    let has_ring = survey.ring.is_some();
+    let names = |attached: &[String]| {
+        let ring = has_ring.then(|| "the ring".to_owned());
+        let whole = found.parts.iter().cloned().chain(ring).chain(attached.iter().cloned());
+        let groups = groups.iter().map(|&group| format!("in {}", found.groups[group]));
+        whole.chain(groups).collect::<Vec<String>>()
+    };
+    let strain = found.modes.iter().map(|mode| {
+        let own = mode.strain.as_ref()?;
+        Some(row(&own.parts, own.ring, &own.springs, &own.groups))
+    });
+    let kinetic = found.modes.iter().map(|mode| {
+        let own = mode.kinetic.as_ref()?;
+        Some(row(&own.parts, own.ring, &own.masses, &own.groups))
+    });
+    let strain = energy_table("Strain energy", survey, &names(&found.springs), strain);
+    let kinetic = energy_table("Kinetic energy", survey, &names(&found.masses), kinetic);
+    let noted = |table: Table| {
+        match groups.is_empty() {
+        true => table,
+        false => table.footnote("Columns named \"in\" a group show once more what part of the whole is in that group; groups may overlap. The other columns add up to 100 %."),
+    }
+    };
+    strain.into_iter().chain(kinetic).map(noted).collect()
+}
+
+fn energy_table(
+    caption: &str,
+    survey: &ModalSurvey,
+    names: &[String],
+    modes: impl Iterator<Item = Option<Vec<f64>>>,
+) -> Option<Table> {
+    if names.len() < 2 {
+        return None;
+    }
+    let mut columns = vec![Column::number("Mode", ""), Column::number("Frequency", "Hz")];
+    columns.extend(names.iter().map(|name| Column::number(name.clone(), "%")));
+    let rows = modes.enumerate().map(|(mode, shares)| {
+        let mut cells = vec![Cell::text((mode + 1).to_string()), Cell::number(survey.basis.frequencies_hz[mode], 6)];
+        match shares {
+            Some(shares) => cells.extend(shares.into_iter().map(|share| {
+                let text = if share < LISTED_SHARE { "<0.5".to_owned() } else { format!("{:.1}", 100.0 * share) };
+                Cell::text(text).value(100.0 * share)
+            })),
+            None => cells.extend(names.iter().map(|_| Cell::text("-"))),
+        }
+        cells
+    });
+    Some(Table::new(caption, columns).rows(rows).showing_modes(shown_places(survey)))
 }

@@ -10,4 +10,4 @@ pub(crate) mod tables;
 pub(crate) use bearing_table::bearing_table;
 pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;
-pub(crate) use tables::{assumptions, model_facts};
+pub(crate) use tables::{assumptions, model_facts, signed_report};

@@ -3,12 +3,12 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::app::case::{Bond, Case, Damping};
+use crate::app::case::{Bond, Case, Damping, Expected};
 use crate::app::scene::CoupledStructure;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::RadiusRule;
-use crate::report::{Cell, Column, Fact, Table, Verdict, significant};
+use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
 /// Loaded modes listed in a report.
@@ -264,4 +264,26 @@ pub struct ExpectedMode {
     pub within: f64,
     /// Whether it passes.
     pub ok: bool,
+}
+
+impl ExpectedMode {
+    /// An expected frequency beside the nearest one that was found, Hz.
+    pub(crate) fn of(expected: &Expected, found_hz: Option<f64>) -> Self {
+        let relative_error = found_hz.map(|found| found / expected.hz - 1.0);
+        Self {
+            hz: expected.hz,
+            what: expected.what.clone(),
+            found_hz,
+            relative_error,
+            within: expected.within,
+            ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
+        }
+    }
+}
+
+/// A report of a case with lines that are signed on paper; `command` is the line that made it.
+pub(crate) fn signed_report(case: &Case, command: &str, subtitle: &str) -> Report {
+    let path = case.source.path.display().to_string();
+    let document = Document::new().case(path).signed_by("Prepared by").signed_by("Checked by");
+    Report::new(&case.title, command, env!("CARGO_PKG_VERSION")).subtitle(subtitle).document(document)
 }

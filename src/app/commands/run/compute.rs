@@ -1,10 +1,9 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::keeper::{InMemory, Keeper};
-use super::recording::Recording;
+use super::recording::{Checkpoints, InMemory, Recording};
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
-use crate::app::case::{Case, RunCase};
+use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
@@ -13,12 +12,11 @@ use crate::app::scene::Scene;
 use crate::numerics::Watch;
 use crate::report::{Table, significant};
 use crate::signal::diagnosis::Kinematics;
-use crate::system::Statics;
-use crate::system::{EnergyBalance, LoadedModes, RunRecord};
+use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
 /// (callgrind, seven modes with residual), 0.2 s of the wall's clock then.
-const FEW_SAMPLES: f64 = 1e5;
+const ENERGY_SAMPLES: f64 = 1e5;
 
 /// Why there is no balance of energy.
 const NO_ENERGY: &str = "energy: a balance needs `bearing.formulation = \"consistent\"`, whose forces have potentials, and `bearing.balls_inertia = \"dynamic\"`";
@@ -68,17 +66,17 @@ pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoic
     Ok((choice, warnings))
 }
 
-/// Carries the command out with its signals where `keeper` wants them, from where it says.
+/// Carries the command out with its signals where `checkpoints` has them, from the last one on.
 ///
 /// # Errors
-/// As [`compute_run`], [`ComputeError::Interrupted`] and what the keeper returns.
-pub(crate) fn compute_kept_run<K: Keeper>(
+/// As [`compute_run`], [`ComputeError::Interrupted`] and what `checkpoints` returns.
+pub(crate) fn compute_kept_run<C: Checkpoints>(
     case: &Case,
     watch: &impl Watch,
-    keeper: &mut K,
-) -> Result<RunResult<K::Record>, ComputeError> {
+    checkpoints: &mut C,
+) -> Result<RunResult<C::Record>, ComputeError> {
     let run = case.for_run()?;
-    let RunCase { transient: asked, .. } = run;
+    let asked = run.transient;
     let mut scene = Scene::build(run, watch)?;
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
@@ -90,11 +88,13 @@ pub(crate) fn compute_kept_run<K: Keeper>(
     let horizon = Horizon::of(run, &scene, &choice);
     watch.stage("step");
     let samples = span.duration / choice.model.step;
-    let energy = case.analysis.energy.unwrap_or(samples <= FEW_SAMPLES);
-    let told = |done| watch.fraction(done);
-    let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, keeper, told)?;
+    let energy = case.analysis.energy.unwrap_or(samples <= ENERGY_SAMPLES);
+    let fraction = |done| watch.fraction(done);
+    let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, checkpoints, fraction)?;
+    let mut warnings = [scene.doubts.clone(), choice.warnings()].concat();
+    warnings.extend(energy_warning(simulation.energy.as_ref()));
     let mut result = RunResult {
-        warnings: [scene.doubts.clone(), choice.warnings(), energy_warning(simulation.energy.as_ref())].concat(),
+        warnings,
         scene,
         statics,
         choice,
@@ -122,17 +122,14 @@ const LEAST_EXCHANGED_J: f64 = 1e-12;
 /// Signals below this are taken for rest, m/s^2: no accelerometer for machines resolves less.
 const REST: f64 = 1e-3;
 
-fn energy_warning(energy: Option<&EnergyBalance>) -> Vec<String> {
-    let moved = energy.filter(|energy| energy.exchanged_j > LEAST_EXCHANGED_J);
-    let gap = moved.map(EnergyBalance::error);
-    let gap = gap.filter(|gap| gap.abs() > ENERGY_GAP);
-    let text = gap.map(|gap| {
+fn energy_warning(energy: Option<&EnergyBalance>) -> Option<String> {
+    let gap = energy.filter(|energy| energy.exchanged_j > LEAST_EXCHANGED_J)?.error();
+    (gap.abs() > ENERGY_GAP).then(|| {
         format!(
             "The energy balance misses by {} of all that was exchanged: the steps make energy, and the signals cannot be trusted. Leave transient.step to the program, or shorten it until the balance closes.",
             significant(gap.abs(), 2)
         )
-    });
-    text.into_iter().collect()
+    })
 }
 
 impl<R: Recording> RunResult<R> {
@@ -144,14 +141,11 @@ impl<R: Recording> RunResult<R> {
 
     /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
     pub(crate) fn distrust(&self) -> Option<&'static str> {
-        let gap = !energy_warning(self.simulation.energy.as_ref()).is_empty();
-        let measured = self.choice.measured;
-        let hopeless = measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST);
         if self.choice.stable_s.is_some() {
             Some("the step is longer than small motions at rest bear")
-        } else if gap {
+        } else if energy_warning(self.simulation.energy.as_ref()).is_some() {
             Some("the energy balance does not close")
-        } else if hopeless {
+        } else if self.choice.measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST) {
             Some("on a stretch a finer run differs by as much as they are")
         } else {
             None
@@ -179,8 +173,7 @@ impl<R: Recording> RunResult<R> {
         for (index, name) in self.simulation.record.sensors().iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
             let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
-            let analysed = analyse(name, &settings, read, &kinematics);
-            match analysed {
+            match analyse(name, &settings, read, &kinematics) {
                 Ok(windows) => self.windows.extend(windows),
                 Err(error) => self.not_analysed.push(format!("{name}: {error}")),
             }

@@ -1,8 +1,12 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
+//!
+//! A case comes in; a [`RunResult`] goes out, whose signals are in memory or, as a run that can stop and go on has them, on disk.
+//! Read `compute.rs` first: it takes the scene, has `choice` choose the model, steps it by `simulation.rs` and analyses the signals.
+//! `recording.rs` has what keeps rows and checkpoints, `unfinished` the files of a run that has not ended. `summary.rs` is `run.json`,
+//! `report.rs` the page.
 
 pub mod choice;
 pub(crate) mod compute;
-pub(crate) mod keeper;
 pub(crate) mod recording;
 pub(crate) mod report;
 pub(crate) mod scalogram;
@@ -14,8 +18,7 @@ pub mod unfinished;
 
 pub use compute::{RunResult, compute_run};
 pub(crate) use compute::{compute_kept_run, explain_run};
-pub use keeper::{InMemory, Keeper, Wish};
-pub use recording::Recording;
+pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};
 pub(crate) use report::run_report;
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};

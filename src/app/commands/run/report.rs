@@ -43,12 +43,8 @@ pub(crate) fn run_report<R: Recording>(
     if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));
     }
-    for text in &result.not_analysed {
-        report = report.warning(format!("Not analysed: {text}"));
-    }
-    for text in &result.warnings {
-        report = report.warning(text);
-    }
+    report.warnings.extend(result.not_analysed.iter().map(|text| format!("Not analysed: {text}")));
+    report.warnings.extend_from_slice(&result.warnings);
     if few {
         report.sections.extend(result.windows.iter().map(window_section));
     } else {
@@ -59,41 +55,32 @@ pub(crate) fn run_report<R: Recording>(
     let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
-    report =
-        report.section(
-            Section::new("Model")
-                .drawing(draw(case, &result.scene.stage, Some(&result.scene.setup)))
-                .facts(model_facts(case, &result.scene.stage, true)),
-        );
-    report = report.section(
-        Section::new("What was modelled, and why")
-            .paragraph(format!("{}.", capital(&result.estimate_sentence())))
-            .table(result.choice.table()),
-    );
-    report = report.section(Section::new("Bearing").table(result.bearing_table()));
-    report = report.section(statics_section(&result.scene.setup, &result.statics));
-    report = report.section(Section::new("Computation").facts(computation(result)));
+    let (stage, setup) = (&result.scene.stage, &result.scene.setup);
+    let model = Section::new("Model").drawing(draw(case, stage, Some(setup))).facts(model_facts(case, stage, true));
+    let choice = Section::new("What was modelled, and why")
+        .paragraph(format!("{}.", capital(&result.estimate_sentence())))
+        .table(result.choice.table());
+    report = report
+        .section(model)
+        .section(choice)
+        .section(Section::new("Bearing").table(result.bearing_table()))
+        .section(statics_section(setup, &result.statics))
+        .section(Section::new("Computation").facts(computation(result)));
     let imported = result.scene.stage.imported.iter();
-    for text in imported.flat_map(|imported| imported.notes.iter().cloned()) {
-        report = report.warning(text);
-    }
-    for text in assumptions(case, Some(&result.scene.setup)) {
-        report = report.assumption(text);
-    }
-    report = report.assumption(
+    report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
+    report.assumptions.extend(assumptions(case, Some(&result.scene.setup)));
+    Ok(report.assumption(
         "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
-    );
-    Ok(report)
+    ))
 }
 
 fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
-    let complete = matches!(result.simulation.end, RunEnd::Complete);
-    let mut report = report.headline(
-        "Simulated",
-        format!("{} s", significant(result.simulation.simulated_s, 4)),
-        Verdict::of(complete && result.distrust().is_none()),
-    );
-    report = report.headline("Real-time factor", significant(result.simulation.realtime_factor(), 3), Verdict::None);
+    let simulation = &result.simulation;
+    let complete = matches!(simulation.end, RunEnd::Complete);
+    let (length, realtime) = (significant(simulation.simulated_s, 4), significant(simulation.realtime_factor(), 3));
+    let mut report = report
+        .headline("Simulated", format!("{length} s"), Verdict::of(complete && result.distrust().is_none()))
+        .headline("Real-time factor", realtime, Verdict::None);
     if let Some(window) = result.windows.first() {
         report = report.headline(
             format!("{} peak, {}-{} s", window.sensor, window.from, window.to),
@@ -152,23 +139,9 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
 fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let modes = &result.scene.stage.modes;
     let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES)).map(|mode| modes.frequency_hz(mode)).collect();
-    let expected: Vec<ExpectedMode> = case
-        .modes
-        .expected
-        .iter()
-        .map(|expected| {
-            let found_hz = result.loaded.nearest(expected.hz).map(|mode| mode.frequency_hz);
-            let relative_error = found_hz.map(|hz| hz / expected.hz - 1.0);
-            ExpectedMode {
-                hz: expected.hz,
-                what: expected.what.clone(),
-                found_hz,
-                relative_error,
-                within: expected.within,
-                ok: relative_error.is_some_and(|error| error.abs() <= expected.within),
-            }
-        })
-        .collect();
+    let nearest_hz = |hz| result.loaded.nearest(hz).map(|mode| mode.frequency_hz);
+    let expected = case.modes.expected.iter().map(|expected| ExpectedMode::of(expected, nearest_hz(expected.hz)));
+    let expected: Vec<ExpectedMode> = expected.collect();
     let mut section = Section::new("Eigenfrequencies");
     if !expected.is_empty() {
         section = section.table(expected_table(&expected));
@@ -177,7 +150,9 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
-    let energy = result.simulation.energy.map(|energy| {
+    let simulation = &result.simulation;
+    let (steps, realtime) = (simulation.statistics.steps, significant(simulation.realtime_factor(), 3));
+    let energy = simulation.energy.map(|energy| {
         let [input, taken, stored, error] =
             [energy.input_j(), energy.dissipated_j(), energy.stored_j, energy.error().abs()]
                 .map(|value| significant(value, 2));
@@ -185,78 +160,19 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
             "of all that was exchanged: {input} J came in, {taken} J were damped, {stored} J more are stored"
         ))
     });
+    let others = if simulation.residual { "the others by their static residual" } else { "without static residual" };
     let mut facts = vec![
-        Fact::new("Method", result.simulation.method.name()),
-        Fact::new("Step", format!("{} s", significant(result.simulation.step_s(), 4))),
-        Fact::new("Steps", result.simulation.statistics.steps.to_string()),
-        Fact::new("Kept modes", format!("{} of {}", result.simulation.modes, result.scene.stage.structure.dof())).note(
-            if result.simulation.residual { "the others by their static residual" } else { "without static residual" },
-        ),
-        Fact::new("Wall time of the stepping", format!("{} s", significant(result.simulation.stepping_s, 3))),
-        Fact::new("Real-time factor", significant(result.simulation.realtime_factor(), 3))
-            .note("simulated time over wall time"),
+        Fact::new("Method", simulation.method.name()),
+        Fact::new("Step", format!("{} s", significant(simulation.step_s(), 4))),
+        Fact::new("Steps", steps.to_string()),
+        Fact::new("Kept modes", format!("{} of {}", simulation.modes, result.scene.stage.structure.dof())).note(others),
+        Fact::new("Wall time of the stepping", format!("{} s", significant(simulation.stepping_s, 3))),
+        Fact::new("Real-time factor", realtime).note("simulated time over wall time"),
         Fact::new(
             "Time per step",
-            format!(
-                "{} \u{b5}s",
-                significant(1e6 * result.simulation.stepping_s / result.simulation.statistics.steps.max(1) as f64, 3)
-            ),
+            format!("{} \u{b5}s", significant(1e6 * simulation.stepping_s / steps.max(1) as f64, 3)),
         ),
     ];
     facts.extend(energy);
     facts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::app::commands::run::compute_run;
-    use crate::numerics::Unwatched;
-    use crate::report::Block;
-
-    /// Twelve sensors are drawn, and of more than twelve windows there is one table.
-    #[test]
-    fn a_report_of_many_sensors_shows_some_and_says_so() {
-        let sections = |sensors: usize| {
-            let sensor = |at| format!("{{name='P{at}',ring_deg={at},direction=[0,1,0]}}");
-            let all: Vec<String> = (0..sensors).map(sensor).collect();
-            let all = format!("sensors=[{}]", all.join(","));
-            let window = "analysis.envelope=[{from=0.2e-3,to=0.8e-3}]";
-            let set = [&*all, window, "transient.end=1e-3", "transient.modes=3"];
-            let case = Case::example("scenes/smooth", &set);
-            let result = compute_run(&case, &Unwatched).unwrap();
-            assert_eq!(result.windows.len(), sensors, "{:?}", result.not_analysed);
-            run_report(&case, &result, "").unwrap().sections
-        };
-        let plots = |sections: &[Section]| {
-            let blocks = sections.iter().flat_map(|section| &section.blocks);
-            blocks.filter(|block| matches!(block, Block::Plot(_))).count()
-        };
-        let titled = |sections: &[Section], title: &str| sections.iter().any(|section| section.title == title);
-        let (few, many) = (sections(SHOWN_WINDOWS), sections(SHOWN_WINDOWS + 1));
-        assert!(!titled(&few, "Verdicts") && titled(&many, "Verdicts"));
-        assert!(plots(&few) > 2 * SHOWN_WINDOWS && plots(&many) < plots(&few));
-        let said = many.iter().flat_map(|section| &section.blocks);
-        let said = said
-            .filter(|block| matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors")));
-        assert_eq!(said.count(), 1);
-    }
-
-    /// A run to its end in steps that are too long is no good one.
-    #[test]
-    fn a_run_that_cannot_be_trusted_has_no_good_headline() {
-        let set = ["transient.end=1e-3", "transient.modes=3"];
-        let case = Case::example("scenes/smooth", &set);
-        let mut result = compute_run(&case, &Unwatched).unwrap();
-        let verdict = |result: &RunResult| {
-            let headlines = run_report(&case, result, "").unwrap().headlines;
-            let simulated = headlines.iter().find(|found| found.label == "Simulated");
-            simulated.unwrap().verdict
-        };
-        assert!(matches!(result.simulation.end, RunEnd::Complete));
-        assert_eq!(verdict(&result), Verdict::Ok);
-        result.choice.stable_s = Some(1e-9);
-        assert!(result.distrust().is_some());
-        assert_eq!(verdict(&result), Verdict::Bad);
-    }
 }

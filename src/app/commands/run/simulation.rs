@@ -1,22 +1,22 @@
 //! A scene stepped through time by one model.
 
-use super::keeper::fingerprint;
-use super::keeper::{InMemory, Keeper, Wish};
-use super::recording::Recording;
-use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
+use super::recording::{Checkpoints, InMemory, Recording, RunRequest};
+use crate::app::error::{ComputeError, UnfinishedError};
 use crate::app::scene::{RunModel, Scene};
-use crate::numerics::ode::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
-use crate::numerics::ode::{Instant as Now, Observer, Snapshot, State};
+use crate::numerics::ode::{
+    BlowUp, Instant as Now, Integration, Method, Observer, Schedule, SecondOrderSystem, Snapshot, State, Statistics,
+    TransientError,
+};
 use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow};
 use crate::system::{Column, CoupledSystem, EnergyBalance, EnergyMeter, Recorder, RunRecord};
+use sha2::{Digest, Sha256};
 use std::time::Instant;
 
 /// Rows that are handed on at once.
 const BLOCK: usize = 4096;
 
-/// Parts of the way at which it is told.
-const TOLD: u64 = 10_000;
+/// Parts of the way at which progress is reported.
+const PROGRESS_PARTS: u64 = 10_000;
 
 /// What is simulated of a scene, from its start on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,23 +107,23 @@ impl Simulation {
 const UNIT: &str = "m/s^2";
 
 impl<R: Recording> Simulation<R> {
-    /// Steps a scene through `span` from rest, or goes on where `keeper` says, and with `energy` takes the balance of its energy.
+    /// Steps a scene through `span` from rest, or goes on from a checkpoint, and with `energy` takes the balance of its energy.
     /// What it takes does not grow with time.
     ///
     /// # Errors
-    /// [`ComputeError`], [`ComputeError::Interrupted`] among them, after which the keeper has all to go on; a solution that blows up
+    /// [`ComputeError`], [`ComputeError::Interrupted`] among them, after which the checkpoints have all to go on; a solution that blows up
     /// is no error here but a [`RunEnd`].
     pub fn kept_from_rest(
         scene: &Scene,
         model: &RunModel,
         span: Span,
         energy: bool,
-        keeper: &mut impl Keeper<Record = R>,
+        checkpoints: &mut impl Checkpoints<Record = R>,
         fraction: impl Fn(f64),
     ) -> Result<Self, ComputeError> {
         let system = scene.system(model)?;
         let state = scene.at_rest(&system);
-        Self::kept(system, state, model, span, energy, keeper, fraction)
+        Self::kept(system, state, model, span, energy, checkpoints, fraction)
     }
 
     /// The same from any state.
@@ -133,7 +133,7 @@ impl<R: Recording> Simulation<R> {
         model: &RunModel,
         span: Span,
         energy: bool,
-        keeper: &mut impl Keeper<Record = R>,
+        checkpoints: &mut impl Checkpoints<Record = R>,
         fraction: impl Fn(f64),
     ) -> Result<Self, ComputeError> {
         let start_s = state.t;
@@ -142,7 +142,7 @@ impl<R: Recording> Simulation<R> {
         let (ratio, step) = (schedule.steps_per_interval, schedule.step());
         let recorder = Recorder::new(&system, ratio, step, wanted)?;
         schedule.intervals += recorder.intervals_past_the_end();
-        let (record, snapshot) = keeper.open(system.sensor_names(), system.setup().balls())?;
+        let (record, snapshot) = checkpoints.open(system.sensor_names(), system.setup().balls())?;
         let mut stepping = Stepping {
             fingerprint: fingerprint(&mut system, &state),
             energy: energy.then(|| EnergyMeter::new(&system, step)).flatten(),
@@ -157,10 +157,13 @@ impl<R: Recording> Simulation<R> {
                 let observers = &mut stepping.observers();
                 Integration::begin(&mut system, model.method, schedule, state, observers)?
             }
-            Some(snapshot) => stepping.recalled(&system, model.method, schedule, &snapshot)?,
+            Some(snapshot) => {
+                let integration = stepping.recall(&system, model.method, schedule, &snapshot)?;
+                integration.ok_or(UnfinishedError::Model)?
+            }
         };
-        let end = stepping.go(&mut system, &mut integration, schedule, keeper, fraction)?;
-        keeper.close();
+        let end = stepping.go(&mut system, &mut integration, schedule, checkpoints, fraction)?;
+        checkpoints.close();
         let energy = match end {
             RunEnd::Complete => stepping.energy.as_ref(),
             RunEnd::BlewUp(_) => None,
@@ -258,16 +261,16 @@ impl<R: Recording> Stepping<R> {
         system: &mut CoupledSystem,
         integration: &mut Integration<CoupledSystem>,
         schedule: Schedule,
-        keeper: &mut impl Keeper<Record = R>,
+        checkpoints: &mut impl Checkpoints<Record = R>,
         fraction: impl Fn(f64),
     ) -> Result<RunEnd, ComputeError> {
-        let tell_every = (schedule.intervals / TOLD).max(1);
+        let tell_every = (schedule.intervals / PROGRESS_PARTS).max(1);
         let tell = |done: u64| fraction(done as f64 / schedule.intervals as f64);
         tell(integration.intervals());
-        self.keep(integration, keeper)?;
+        self.save(integration, checkpoints)?;
         while !integration.is_complete() {
             if let Err(error) = integration.advance(system, &mut self.observers()) {
-                self.hand_on()?;
+                self.append_confirmed()?;
                 return match error {
                     TransientError::BlewUp(blow_up) => Ok(RunEnd::BlewUp(blow_up)),
                     other => Err(other.into()),
@@ -275,38 +278,38 @@ impl<R: Recording> Stepping<R> {
             }
             self.recorder.confirm();
             if self.recorder.confirmed() >= BLOCK {
-                self.hand_on()?;
+                self.append_confirmed()?;
             }
             let done = integration.intervals();
             if done.is_multiple_of(tell_every) {
                 tell(done);
             }
-            match keeper.wish() {
-                Wish::GoOn => {}
-                Wish::Checkpoint => self.keep(integration, keeper)?,
-                Wish::Stop if integration.is_complete() => {}
-                Wish::Stop => {
-                    self.keep(integration, keeper)?;
+            match checkpoints.request() {
+                RunRequest::GoOn => {}
+                RunRequest::Checkpoint => self.save(integration, checkpoints)?,
+                RunRequest::Stop if integration.is_complete() => {}
+                RunRequest::Stop => {
+                    self.save(integration, checkpoints)?;
                     return Err(ComputeError::Interrupted { at_s: integration.state().t, end_s: self.end_s });
                 }
             }
         }
-        self.keep(integration, keeper)?;
+        self.save(integration, checkpoints)?;
         Ok(RunEnd::Complete)
     }
 
     /// Brings the rows that are good into the record.
-    fn hand_on(&mut self) -> Result<(), ComputeError> {
+    fn append_confirmed(&mut self) -> Result<(), ComputeError> {
         let rows = self.recorder.take_confirmed();
         self.record.append(&rows)
     }
 
-    fn keep(
+    fn save(
         &mut self,
         integration: &Integration<CoupledSystem>,
-        keeper: &mut impl Keeper<Record = R>,
+        checkpoints: &mut impl Checkpoints<Record = R>,
     ) -> Result<(), ComputeError> {
-        self.hand_on()?;
+        self.append_confirmed()?;
         let mut snapshot = Snapshot::default();
         for word in self.fingerprint {
             snapshot.count(word);
@@ -318,36 +321,52 @@ impl<R: Recording> Stepping<R> {
             energy.remember(&mut snapshot);
         }
         integration.remember(&mut snapshot);
-        keeper.keep(&self.record, integration.state().t, &snapshot)
+        checkpoints.save(&self.record, integration.state().t, &snapshot)
     }
 
-    /// Takes up what [`keep`](Self::keep) wrote.
-    fn recalled(
+    /// Takes up what [`save`](Self::save) wrote; `None` where that is of another model.
+    fn recall(
         &mut self,
         system: &CoupledSystem,
         method: Method,
         schedule: Schedule,
         snapshot: &Snapshot,
-    ) -> Result<Integration<CoupledSystem>, ComputeError> {
+    ) -> Result<Option<Integration<CoupledSystem>>, TransientError> {
         let mut reader = snapshot.reader();
         let mut same = true;
         for word in self.fingerprint {
-            same &= reader.count().map_err(TransientError::from)? == word;
+            same &= reader.count()? == word;
         }
         if !same {
-            return Err(UnfinishedError::Model.into());
+            return Ok(None);
         }
-        self.before_s = reader.number().map_err(TransientError::from)?;
-        let recalled = self.recorder.recall(&mut reader);
-        recalled.map_err(TransientError::from)?;
-        if reader.flag().map_err(TransientError::from)? != self.energy.is_some() {
-            return Err(UnfinishedError::Model.into());
+        self.before_s = reader.number()?;
+        self.recorder.recall(&mut reader)?;
+        if reader.flag()? != self.energy.is_some() {
+            return Ok(None);
         }
         if let Some(energy) = &mut self.energy {
-            energy.recall(&mut reader).map_err(TransientError::from)?;
+            energy.recall(&mut reader)?;
         }
         let integration = Integration::resume(system, method, schedule, &mut reader)?;
-        reader.end().map_err(TransientError::from)?;
-        Ok(integration)
+        reader.end()?;
+        Ok(Some(integration))
     }
+}
+
+/// Tells models apart: SHA-256 of the linear part and of the force at the start, to the last bit.
+fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
+    let mut force = vec![0.0; start.y.len()];
+    system.force_into(start.t, &start.y, &start.v, &mut force);
+    let linear = system.linear().iter();
+    let linear = linear.flat_map(|linear| [linear.squared_frequency, linear.damping]);
+    let mut hasher = Sha256::new();
+    for value in linear.chain(start.y.iter().copied()).chain(force) {
+        hasher.update(value.to_bits().to_le_bytes());
+    }
+    let mut words = [0; 4];
+    for (word, bytes) in words.iter_mut().zip(hasher.finalize().chunks_exact(8)) {
+        *word = bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
+    }
+    words
 }

@@ -5,12 +5,12 @@ use super::*;
 use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
-use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
+use crate::app::error::{ComputeError, UnfinishedError};
 use crate::app::scene::{Scene, bearing_setup};
 use crate::numerics::Unwatched;
-use crate::numerics::ode::{Method, Schedule, Statistics, Stepping as Going, TransientError, integrate};
-use crate::numerics::ode::{NoRecord, Snapshot};
+use crate::numerics::ode::{
+    Method, NoRecord, Schedule, Snapshot, Statistics, Stepping as Going, TransientError, integrate,
+};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::Kinematics;
 use crate::system::{Column, RunRecord};
@@ -24,7 +24,7 @@ struct Stops {
     kept: Option<(RunRecord, Snapshot)>,
 }
 
-impl Keeper for Stops {
+impl Checkpoints for Stops {
     type Record = RunRecord;
 
     fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
@@ -35,27 +35,25 @@ impl Keeper for Stops {
         })
     }
 
-    fn wish(&mut self) -> Wish {
+    fn request(&mut self) -> RunRequest {
         self.intervals += 1;
         match self.after.last() {
             Some(&after) if self.intervals >= after => {
                 self.after.pop();
-                Wish::Stop
+                RunRequest::Stop
             }
             // checkpoints change nothing
-            _ if self.intervals.is_multiple_of(7) => Wish::Checkpoint,
-            _ => Wish::GoOn,
+            _ if self.intervals.is_multiple_of(7) => RunRequest::Checkpoint,
+            _ => RunRequest::GoOn,
         }
     }
 
-    fn keep(&mut self, record: &RunRecord, _: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
+    fn save(&mut self, record: &RunRecord, _: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         // through words, as a file has them
         let words = snapshot.words().to_vec();
         self.kept = Some((record.clone(), Snapshot::from_words(words)));
         Ok(())
     }
-
-    fn close(&mut self) {}
 }
 
 fn case(set: &[&str]) -> Case {

@@ -149,7 +149,6 @@ pub struct ExplainSummary<'a> {
 
 impl ModelChoice {
     /// What `plummer run --explain --json` says of it, with warnings.
-    #[must_use]
     pub(crate) fn summary<'a>(&'a self, warnings: &'a [String]) -> ExplainSummary<'a> {
         ExplainSummary { command: "run --explain", parts: &self.parts, estimated_error: self.estimated_error, warnings }
     }
@@ -157,7 +156,6 @@ impl ModelChoice {
 
 impl<R: Recording> RunResult<R> {
     /// What `run.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> RunSummary<'_> {
         let (scene, simulation) = (&self.scene, &self.simulation);
         let orders = scene.setup.geometry.orders();

@@ -1,14 +1,16 @@
-//! The ring of a case as a body of elements that stands for the beams: its section, its material, its elements.
+//! The ring of a case as a body of elements that stands for the beams: its section, its material, its elements, and the points at which
+//! modes with beams and with the body are compared.
 
 use super::reason::{NoTiePrice, Stop};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
-use crate::app::scene::ring::layer;
-use crate::app::scene::seat::Seat;
+use crate::app::scene::ring::{Seat, layer};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};
-use crate::fe::model::{PlaneModel, SolidRing};
+use crate::fe::modal::{FullModes, ModeSet};
+use crate::fe::model::{MeshedRing, PlaneModel, Ring, RingFrame, SolidRing};
+use crate::numerics::linalg::DenseMatrix;
 
 /// Gap between the rectangle's outer face and the bore that the joint may bridge, over the rectangle's height. A
 /// larger one is closed by moving the section.
@@ -185,4 +187,74 @@ impl Seat {
             ring.along = 2 * (0.5 * finer * ring.along as f64).ceil() as usize;
         }
     }
+}
+
+/// Corner nodes of all sections of a solid ring.
+pub(crate) fn section_nodes(meshed: &MeshedRing) -> impl Iterator<Item = usize> + '_ {
+    meshed.sections.iter().flatten().map(|&(node, _)| node)
+}
+
+/// Nodes at which modes are compared.
+pub(crate) struct Points {
+    /// Their indices in the mesh.
+    pub nodes: Vec<usize>,
+    /// Where they are, m.
+    pub places: Vec<[f64; 3]>,
+    tags: Vec<u64>,
+}
+
+impl Points {
+    /// Some nodes of the mesh that a ring was added to.
+    pub(crate) fn new(meshed: &MeshedRing, nodes: impl Iterator<Item = usize>) -> Self {
+        let nodes: Vec<usize> = nodes.collect();
+        let mesh = &meshed.mesh;
+        Self {
+            places: nodes.iter().map(|&node| mesh.nodes[node]).collect(),
+            tags: nodes.iter().map(|&node| mesh.node_tags[node]).collect(),
+            nodes,
+        }
+    }
+
+    /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
+    pub(crate) fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
+        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
+            true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
+            false => 0.0,
+        })
+    }
+
+    /// Modes with their shapes at the nodes.
+    pub(crate) fn set(&self, modes: &FullModes, shapes: DenseMatrix) -> ModeSet {
+        ModeSet {
+            frequencies_hz: modes.basis.frequencies_hz.clone(),
+            points: self.places.clone(),
+            node_tags: Some(self.tags.clone()),
+            shapes,
+        }
+    }
+}
+
+/// Displacements of points of a ring's rigid sections, in the mesh's axes [3 points x modes].
+pub(crate) fn beam_shapes(ring: &Ring, frame: &RingFrame, modes: &DenseMatrix, points: &[[f64; 3]]) -> DenseMatrix {
+    let mut shapes = DenseMatrix::zeros(3 * points.len(), modes.ncols());
+    for (place, point) in points.iter().enumerate() {
+        let [x, y, z] = frame.point(*point);
+        let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
+        let axes = frame.polar_axes(*point);
+        let (in_space, plane) = (ring.space_rows_at(angle), ring.rows_at(angle));
+        for mode in 0..modes.ncols() {
+            let d = modes.col_as_slice(mode);
+            let polar = match &in_space {
+                Some(rows) => rows.displacement_at(arm, z).map(|row| rows.apply(&row, d)),
+                None => {
+                    let tangential = plane.tangential_at(arm);
+                    [plane.apply(&plane.radial, d), plane.apply(&tangential, d), 0.0]
+                }
+            };
+            for axis in 0..3 {
+                shapes[(3 * place + axis, mode)] = (0..3).map(|k| polar[k] * axes[k][axis]).sum();
+            }
+        }
+    }
+    shapes
 }

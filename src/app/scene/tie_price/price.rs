@@ -5,10 +5,8 @@
 //! models are solved in full. The same ring alone, free, as beams and as a body, tells what part of the difference is
 //! the beams'.
 
-use super::body::RingBody;
-use super::points::{Points, beam_shapes, section_nodes};
-use super::reason::NoTiePrice;
-use super::reason::Stop;
+use super::body::{Points, RingBody, beam_shapes, section_nodes};
+use super::reason::{NoTiePrice, Stop};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
@@ -16,9 +14,7 @@ use crate::app::scene::housing::description;
 use crate::app::scene::ring::{ring, ring_and_tie};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::FullModes;
-use crate::fe::modal::{ComparisonOptions, ModalComparison, ModeSet, strain_products};
-use crate::fe::modal::{Partner, partners};
+use crate::fe::modal::{ComparisonOptions, FullModes, ModalComparison, ModeSet, Partner, partners, strain_products};
 use crate::fe::model::{
     Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule, PlaneModel, Ring,
     SpringStiffness, SupportShare,
@@ -92,23 +88,6 @@ pub struct BeamAndSolid {
     pub mac: Option<f64>,
 }
 
-impl TieComparison {
-    /// Largest magnitude of the relative differences of housing and ring; `None` if no mode was recognised.
-    pub(crate) fn largest_difference(&self) -> Option<f64> {
-        largest(&self.modes)
-    }
-
-    /// The same of the ring alone: differences of this size say nothing of the tie.
-    pub(crate) fn floor(&self) -> Option<f64> {
-        largest(&self.ring_alone)
-    }
-}
-
-pub(crate) fn largest(modes: &[BeamAndSolid]) -> Option<f64> {
-    let differences = modes.iter().filter_map(|mode| mode.relative_difference);
-    differences.map(f64::abs).reduce(f64::max)
-}
-
 /// Computes the price of the tie of a case for its lowest `count` elastic modes.
 ///
 /// # Errors
@@ -171,12 +150,14 @@ pub(crate) fn compared(
         });
     let sets = [points.set(&beams, of_beams), points.set(&solid, points.shapes(&of_solid, dimension))];
     let mut notes = body.notes.clone();
-    notes.extend(note_of_fit(asked_tie.fit));
+    if asked_tie.fit == Fit::Sliding {
+        notes.push(format!(
+            "The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height."
+        ));
+    }
     if ring.has_springs() {
-        notes.push(
-            "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes."
-                .to_owned(),
-        );
+        let text = "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes.";
+        notes.push(text.to_owned());
     }
     Ok(TieComparison {
         modes: side_by_side(&sets, beams.basis.rigid_modes, count)?,
@@ -191,15 +172,9 @@ pub(crate) fn compared(
     })
 }
 
-pub(crate) fn note_of_fit(fit: Fit) -> Option<String> {
-    (fit == Fit::Sliding).then(|| {
-        format!("The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height.")
-    })
-}
-
 /// The housing with the solid ring in its bore.
 pub(crate) fn joined(
-    description: HousingDescription,
+    mut description: HousingDescription,
     tie: &case::Tie,
     housing: &AssembledHousing,
     body: &RingBody,
@@ -208,10 +183,8 @@ pub(crate) fn joined(
     let AssembledHousing { mesh, model, .. } = housing;
     let dimension = model.dimension();
     let meshed = body.ring.added_to(mesh, model.frame(), dimension);
-    let mut description = description;
-    description
-        .parts
-        .push(HousingPart { group: meshed.body.clone(), material: body.material_in(description.plane)?.into() });
+    let material = body.material_in(description.plane)?.into();
+    description.parts.push(HousingPart { group: meshed.body.clone(), material });
     let outside = body.ring.radius + 0.5 * body.ring.height;
     let area = std::f64::consts::TAU * outside * body.ring.width;
     let connection = match tie.fit {

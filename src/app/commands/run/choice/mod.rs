@@ -1,7 +1,6 @@
 //! How much of a scene a run models, and in which steps.
 
 pub(crate) mod balls;
-pub(crate) mod heaviest;
 pub(crate) mod horizon;
 pub(crate) mod loaded_errors;
 pub(crate) mod mode_errors;
@@ -11,10 +10,8 @@ pub(crate) mod pilot;
 pub(crate) mod plan;
 pub(crate) mod quantities;
 pub(crate) mod stepping;
-pub(crate) mod table;
 #[cfg(test)]
 mod tests;
-pub(crate) mod travel;
 
 pub use horizon::Horizon;
 pub use model_choice::{ChosenPart, Measured, ModelChoice};

@@ -1,7 +1,7 @@
 //! A run's model and why it is this one, with the warnings that follow from it.
 
 use crate::app::scene::RunModel;
-use crate::report::significant;
+use crate::report::{Cell, Column, Table, significant};
 use crate::system::ModeSelection;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -56,20 +56,37 @@ impl ModelChoice {
         unstable.into_iter().chain(self.missed()).collect()
     }
 
-    fn missed(&self) -> Vec<String> {
+    /// The model's parts with reasons and estimated errors.
+    pub(crate) fn table(&self) -> Table {
+        let columns = ["Part", "Chosen", "Why, and what is left out", "Estimated error"].map(Column::text);
+        let row = |what: &str, chosen: &str, why: &str, error: Option<f64>| {
+            let error = error.map_or_else(|| "not estimated".to_owned(), |error| significant(error, 2));
+            [Cell::text(what), Cell::text(chosen), Cell::text(why), Cell::text(error)]
+        };
+        let parts = self.parts.iter().map(|part| row(part.what, &part.chosen, &part.why, part.estimated_error));
+        let together = "root of the sum of squares, relative, in the band, while nearby solutions stay together";
+        Table::new("The model, and why it is this one", columns).rows(parts).row(row(
+            "together",
+            "",
+            together,
+            self.estimated_error,
+        ))
+    }
+
+    fn missed(&self) -> Option<String> {
         let target = self.target;
         let parts = self.parts.iter();
         let parts = parts.filter_map(|part| Some((part, part.estimated_error?)));
         let largest = parts.max_by(|(_, a), (_, b)| a.total_cmp(b));
         let Some(together) = self.estimated_error else {
-            let unknown = self.parts.iter().find(|part| part.estimated_error.is_none());
-            return unknown.into_iter().map(|part| self.unknown(part)).collect();
+            let ChosenPart { what, chosen, why, .. } = self.parts.iter().find(|part| part.estimated_error.is_none())?;
+            return Some(format!(
+                "the error of the signals is not estimated: that of the {what} ({chosen}; {why}) is not known"
+            ));
         };
-        let Some((part, error)) = largest else {
-            return Vec::new();
-        };
+        let (part, error) = largest?;
         if together <= target {
-            return Vec::new();
+            return None;
         }
         let given = |what: &str| {
             let mut parts = self.parts.iter().filter(|part| part.what == what);
@@ -99,22 +116,14 @@ impl ModelChoice {
                 "a smaller accuracy.target shortens the steps; an error near 1 says that such a motion cannot be predicted for so long"
             }
         };
-        vec![format!(
+        Some(format!(
             "the estimated error is {} where accuracy.target is {}, most of it of the {} ({}; {}): {help}",
             significant(together, 2),
             significant(target, 2),
             part.what,
             part.chosen,
             significant(error, 2),
-        )]
-    }
-
-    /// That the error of a part is not known.
-    fn unknown(&self, part: &ChosenPart) -> String {
-        format!(
-            "the error of the signals is not estimated: that of the {} ({}; {}) is not known",
-            part.what, part.chosen, part.why
-        )
+        ))
     }
 }
 

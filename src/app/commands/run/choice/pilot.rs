@@ -6,10 +6,9 @@
 //! error that falls as `tolerance^p` the two differ by `1 - 10^-p` of it. Equal steps of the exponential method are halved: its error falls with the
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
-use super::heaviest::fastest_change;
 use super::model_choice::Measured;
-use super::stepping;
-use super::stepping::ADAMS_ORDER;
+use super::quantities::fastest_change;
+use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
 use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;

@@ -2,12 +2,11 @@
 //!
 //! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
 
-use super::heaviest::heaviest;
 use super::loaded_errors::LoadedErrors;
 use super::mode_errors::ModeErrors;
 use super::model_choice::{CONDENSATION, ChosenPart, Measured, ModelChoice, SUPERELEMENT};
 use super::modes::modes;
-use super::quantities::USUAL_BAND;
+use super::quantities::{USUAL_BAND, heaviest};
 use super::{balls, pilot, stepping};
 use crate::app::case::{self, RunCase};
 use crate::app::error::ComputeError;
@@ -102,8 +101,7 @@ impl ModelChoice {
             }
         }
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
-        parts.extend(superelement(scene, band_hz));
-        parts.extend(condensed(scene, band_hz));
+        parts.extend(vectors(scene, band_hz));
         for part in &mut parts {
             if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
                 part.estimated_error = Some(growth * error);
@@ -136,28 +134,23 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     }
 }
 
-/// What a superelement from a file lacks, by [`left_out`].
-fn superelement(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
-    let imported = scene.stage.imported.as_ref()?;
-    let highest = scene.stage.complete_hz;
-    Some(ChosenPart {
-        what: SUPERELEMENT,
-        chosen: format!("{} vectors", imported.record.modal_hz.len()),
-        why: format!("given; vectors above {} kHz were left out when it was condensed", significant(highest / 1e3, 4)),
-        estimated_error: Some(left_out(band_hz, highest)),
-    })
-}
-
-/// What the condensed housing lacks, by [`left_out`].
-fn condensed(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
-    scene.stage.housing.as_ref()?;
-    Some(ChosenPart {
-        what: CONDENSATION,
-        chosen: format!("{} vectors", scene.stage.fixed_interface_modes),
-        why: format!(
-            "of the housing's interior; those above {} kHz are left out",
-            significant(scene.stage.complete_hz / 1e3, 3)
+/// What a superelement from a file or the condensed housing lacks, by [`left_out`].
+fn vectors(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
+    let stage = &scene.stage;
+    let khz = |digits| significant(stage.complete_hz / 1e3, digits);
+    let (what, count, why) = match (&stage.imported, &stage.housing) {
+        (Some(imported), _) => (
+            SUPERELEMENT,
+            imported.record.modal_hz.len(),
+            format!("given; vectors above {} kHz were left out when it was condensed", khz(4)),
         ),
-        estimated_error: Some(left_out(band_hz, scene.stage.complete_hz)),
-    })
+        (None, Some(_)) => (
+            CONDENSATION,
+            stage.fixed_interface_modes,
+            format!("of the housing's interior; those above {} kHz are left out", khz(3)),
+        ),
+        (None, None) => return None,
+    };
+    let estimated_error = Some(left_out(band_hz, stage.complete_hz));
+    Some(ChosenPart { what, chosen: format!("{count} vectors"), why, estimated_error })
 }

@@ -1,7 +1,10 @@
-//! Quantities of a scene that several estimates use: forces to prepare for, a ball's vibration, participations of modes.
+//! Quantities of a scene that several estimates use: forces to prepare for, the equilibrium under the heaviest load, the fastest change of
+//! the loads, a ball's vibration, participations of modes.
 
-use crate::app::scene::{RunModel, Scene};
-use crate::system::{BallsInertia, Sensor, StructureModes};
+use crate::app::case;
+use crate::app::error::ComputeError;
+use crate::app::scene::Scene;
+use crate::system::{Equilibrium, Sensor, StaticCondition, StructureModes};
 use std::f64::consts::TAU;
 
 /// Largest ball force to prepare for, in units of the largest static one: impacts in a dent of the source's size reach five to
@@ -34,11 +37,6 @@ pub(crate) fn hertz(angular: f64) -> f64 {
     angular / TAU
 }
 
-/// Whether a bearing's balls are stepped with their mass.
-pub(crate) fn dynamic(model: &RunModel) -> bool {
-    model.balls_inertia == BallsInertia::Dynamic
-}
-
 pub(crate) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
     (0..modes.count()).map(|mode| modes.participation(mode, row)).collect()
 }
@@ -57,4 +55,68 @@ pub(crate) fn radial_forces(scene: &Scene, angles: impl Iterator<Item = f64>) ->
             participations(&scene.stage.modes, &row)
         })
         .collect()
+}
+
+/// Instants at which the speed is looked at; loads are looked at wherever one changes its slope.
+const SPEED_INSTANTS: u32 = 64;
+
+/// How much heavier than at the start a load has to be to be looked at.
+const HEAVIER: f64 = 1.05;
+
+/// That instant and equilibrium; the unbalance acts along the load there. `None` where nothing is heavier than at the start.
+///
+/// # Errors
+/// [`ComputeError::System`] where the shaft finds no equilibrium under that load.
+pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<(f64, Equilibrium)>, ComputeError> {
+    let setup = &scene.setup;
+    let duration = asked.end - asked.start;
+    let evenly = (1..=SPEED_INSTANTS).map(|i| asked.start + duration * f64::from(i) / f64::from(SPEED_INSTANTS));
+    let knots = knots(asked, scene);
+    let at_rest = |t: f64| {
+        let [x, y] = setup.shaft_load(t);
+        x.hypot(y)
+    };
+    let force = |t: f64| {
+        let speed = setup.cage.shaft().motion(t).speed;
+        at_rest(t) + setup.shaft.unbalance.abs() * speed * speed
+    };
+    let most = evenly.chain(knots).fold(asked.start, |most, t| match force(t) > force(most) {
+        true => t,
+        false => most,
+    });
+    if at_rest(most) <= 0.0 || force(most) <= HEAVIER * at_rest(asked.start) {
+        return Ok(None);
+    }
+    let condition = StaticCondition::at(setup, most).loaded(force(most) / at_rest(most));
+    let rest = Equilibrium::find(&scene.stage.structure, setup, condition)?;
+    Ok(Some((most, rest)))
+}
+
+/// Where a load begins to change its slope between start and end, s.
+fn knots(asked: &case::Transient, scene: &Scene) -> Vec<f64> {
+    let mut knots = Vec::new();
+    for load in &scene.setup.shaft.loads {
+        let mut t = load.next_knot(asked.start);
+        while t <= asked.end {
+            knots.push(t);
+            t = load.next_knot(t);
+        }
+    }
+    knots.sort_by(f64::total_cmp);
+    knots
+}
+
+/// Between which instants the loads change fastest; `None` where they do not change.
+pub(crate) fn fastest_change(asked: &case::Transient, scene: &Scene) -> Option<[f64; 2]> {
+    let mut instants = vec![asked.start];
+    instants.extend(knots(asked, scene));
+    instants.push(asked.end);
+    let rates = instants.windows(2).filter(|ends| ends[1] > ends[0]);
+    let rates = rates.map(|ends| {
+        let [a, b] = [ends[0], ends[1]].map(|t| scene.setup.shaft_load(t));
+        let change = (b[0] - a[0]).hypot(b[1] - a[1]);
+        ([ends[0], ends[1]], change / (ends[1] - ends[0]))
+    });
+    let fastest = rates.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    (fastest.1 > 0.0).then_some(fastest.0)
 }

@@ -4,12 +4,9 @@
 //! ([`ColumnFiles`]) belong to it. The rows reach the disk before the checkpoint that counts them takes the place of the one
 //! before: whenever the program ends, the checkpoint that is there and the rows that it counts are whole.
 
-use super::checkpoint;
-use super::checkpoint::Checkpoint;
-use super::identity::RunIdentity;
-use crate::app::commands::run::{Keeper, Wish};
-use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
+use super::checkpoint::{self, Checkpoint, RunIdentity};
+use crate::app::commands::run::{Checkpoints, RunRequest};
+use crate::app::error::{ComputeError, UnfinishedError};
 use crate::files;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
@@ -40,10 +37,13 @@ pub struct StopRequest {
 /// The folder of an unfinished run.
 #[derive(Debug)]
 pub struct UnfinishedRun {
-    folder: PathBuf,
+    /// Where it is.
+    pub(crate) folder: PathBuf,
     identity: RunIdentity,
-    every: Duration,
-    stop: StopRequest,
+    /// Wall time between checkpoints, if they do not take too much of it.
+    pub(crate) every: Duration,
+    /// What is asked of it from outside.
+    pub(crate) stop: StopRequest,
     /// To go on from.
     resumed: Option<Checkpoint>,
     last: Instant,
@@ -59,7 +59,15 @@ impl UnfinishedRun {
     /// A run that begins: the folder is made when it comes to stepping, and an earlier run in it given up then.
     #[must_use]
     pub fn begin(folder: &Path, identity: RunIdentity) -> Self {
-        Self::with(folder, identity, None)
+        Self {
+            folder: folder.to_owned(),
+            identity,
+            every: Duration::from_secs_f64(CHECKPOINT_S),
+            stop: StopRequest::default(),
+            resumed: None,
+            last: Instant::now(),
+            cost: Duration::ZERO,
+        }
     }
 
     /// The run in a folder, to go on.
@@ -77,63 +85,28 @@ impl UnfinishedRun {
         if !changes.is_empty() {
             return Err(UnfinishedError::Changed { path: folder.to_owned(), changes });
         }
-        Ok(Self::with(folder, identity, Some(checkpoint)))
+        Ok(Self { resumed: Some(checkpoint), ..Self::begin(folder, identity) })
     }
 
-    fn with(folder: &Path, identity: RunIdentity, resumed: Option<Checkpoint>) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            identity,
-            every: Duration::from_secs_f64(CHECKPOINT_S),
-            stop: StopRequest::default(),
-            resumed,
-            last: Instant::now(),
-            cost: Duration::ZERO,
-        }
-    }
-
-    /// The run with checkpoints so far apart in wall time, if they do not take too much of it.
-    #[must_use]
-    pub(crate) fn every(mut self, pause: Duration) -> Self {
-        self.every = pause;
-        self
-    }
-
-    /// The run that stops when it is asked to.
-    #[must_use]
-    pub(crate) fn stopped_by(mut self, stop: StopRequest) -> Self {
-        self.stop = stop;
-        self
-    }
-
-    /// Where it is.
-    pub(crate) fn folder(&self) -> &Path {
-        &self.folder
-    }
-
-    /// Removes the folder: the run has ended and its results are written.
+    /// Removes what the folder has, the checkpoint first: the run has ended and its results are written, or another begins.
     ///
     /// # Errors
     /// [`UnfinishedError::Folder`].
-    pub(crate) fn remove(self) -> Result<(), UnfinishedError> {
-        remove(&self.folder)
+    pub(crate) fn remove(&self) -> Result<(), UnfinishedError> {
+        let folder = &self.folder;
+        let failed = |source| UnfinishedError::Folder { path: folder.clone(), source };
+        files::no_link(folder).map_err(failed)?;
+        if Self::is_in(folder) {
+            fs::remove_file(folder.join(FILE)).map_err(failed)?;
+        }
+        if folder.exists() {
+            fs::remove_dir_all(folder).map_err(failed)?;
+        }
+        Ok(())
     }
 }
 
-/// Removes what an unfinished run left, the checkpoint first.
-pub(crate) fn remove(folder: &Path) -> Result<(), UnfinishedError> {
-    let failed = |source| UnfinishedError::Folder { path: folder.to_owned(), source };
-    files::no_link(folder).map_err(failed)?;
-    if UnfinishedRun::is_in(folder) {
-        fs::remove_file(folder.join(FILE)).map_err(failed)?;
-    }
-    if folder.exists() {
-        fs::remove_dir_all(folder).map_err(failed)?;
-    }
-    Ok(())
-}
-
-impl Keeper for UnfinishedRun {
+impl Checkpoints for UnfinishedRun {
     type Record = ColumnFiles;
 
     fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
@@ -141,14 +114,13 @@ impl Keeper for UnfinishedRun {
         self.last = Instant::now();
         Ok(match self.resumed.take() {
             None => {
-                remove(&self.folder)?;
+                self.remove()?;
                 fs::create_dir_all(&self.folder)
                     .map_err(|source| UnfinishedError::Folder { path: self.folder.clone(), source })?;
                 (ColumnFiles::create(&self.folder, sensors, balls)?, None)
             }
             Some(checkpoint) => {
-                let rows = checkpoint.rows;
-                let record = ColumnFiles::resume(&self.folder, sensors, balls, rows)?;
+                let record = ColumnFiles::resume(&self.folder, sensors, balls, checkpoint.rows)?;
                 if record.digest() != checkpoint.columns_sha256 {
                     return Err(UnfinishedError::Damaged {
                         path: self.folder.clone(),
@@ -161,17 +133,17 @@ impl Keeper for UnfinishedRun {
         })
     }
 
-    fn wish(&mut self) -> Wish {
+    fn request(&mut self) -> RunRequest {
         if self.stop.asked.load(Ordering::Relaxed) {
-            Wish::Stop
+            RunRequest::Stop
         } else if self.last.elapsed() >= self.every.max(LEAST_PAUSE * self.cost) {
-            Wish::Checkpoint
+            RunRequest::Checkpoint
         } else {
-            Wish::GoOn
+            RunRequest::GoOn
         }
     }
 
-    fn keep(&mut self, record: &ColumnFiles, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
+    fn save(&mut self, record: &ColumnFiles, t: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         let began = Instant::now();
         record.sync()?;
         let path = self.folder.join(FILE);

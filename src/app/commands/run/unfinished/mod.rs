@@ -1,8 +1,7 @@
 //! Runs that stop and go on: checkpoints, and what identifies a run.
 
 pub(crate) mod checkpoint;
-pub(crate) mod identity;
 pub(crate) mod kept_run;
 
-pub use identity::RunIdentity;
+pub use checkpoint::RunIdentity;
 pub use kept_run::{CHECKPOINT_S, StopRequest, UnfinishedRun};
