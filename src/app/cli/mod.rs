@@ -23,7 +23,6 @@ mod progress;
 mod report;
 mod report_files;
 mod results;
-mod results_error;
 mod run;
 mod schema;
 mod set_arguments;
@@ -39,16 +38,14 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
+pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options, ResultOf};
-pub use export::ExportError;
 pub use failure::CliError;
-pub use init::{InitArguments, InitError};
-pub use outcome::{Outcome, Verdict};
+pub use init::InitArguments;
+pub use outcome::Outcome;
 pub use output::OutputFolder;
 pub(crate) use output::{emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
-pub use results_error::ResultsError;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
@@ -90,10 +87,7 @@ fn on_arguments() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    let done = interrupt::fail_at_limits()
-        .map_err(CliError::Signals)
-        .and_then(|()| execute(&arguments, &mut io::stdout().lock()));
-    match done {
+    match interrupt::fail_at_limits().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&mut io::stderr().lock());
@@ -115,7 +109,8 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     if let Err(error) = pool.build_global()
         && let Some(source) = std::error::Error::source(&error)
     {
-        return Err(CliError::Threads(source.to_string()));
+        return Err(CliError::failed(format!("the threads that compute cannot be started: {source}"))
+            .with_help("use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"));
     }
     let outcome = match &arguments.command {
         Command::Completions { shell } => return shell::completions(*shell, to),
@@ -135,11 +130,7 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Inspect { mesh, length_unit, density } => inspect::inspect(mesh, *length_unit, *density, options),
     }?;
     outcome.show(options, to)?;
-    match outcome.verdict {
-        Verdict::Good => Ok(()),
-        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
-        Verdict::WrongInput { what, help } => Err(CliError::WrongInput { what, help }),
-    }
+    outcome.verdict
 }
 
 /// Reads a case and carries out what it is to be used for.

@@ -14,36 +14,15 @@ pub struct Outcome {
     pub result: serde_json::Value,
     /// The files that were written, the most useful last.
     pub written: Vec<PathBuf>,
-    /// Whether the answer is good.
-    pub verdict: Verdict,
-}
-
-/// Whether an answer is good.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verdict {
-    /// It is.
-    Good,
-    /// It is not; the results are written all the same.
-    Bad {
-        /// What is bad, where and when.
-        what: String,
-        /// What to try.
-        help: Option<String>,
-    },
-    /// Some of the input is wrong; the results of the rest are written.
-    WrongInput {
-        /// Which, and what is wrong with it.
-        what: String,
-        /// What to try.
-        help: Option<String>,
-    },
+    /// What is bad about the answer, or wrong in some of the input; results are written all the same.
+    pub verdict: Result<(), CliError>,
 }
 
 impl Outcome {
     /// Writes the result: as JSON if asked for, else summary and files, else (quiet) nothing.
     ///
     /// # Errors
-    /// [`CliError::StandardOutput`] when `to` cannot be written; a closed pipe is none.
+    /// [`CliError`] when `to` cannot be written; a closed pipe is none.
     pub(crate) fn show(&self, options: &Options, to: &mut impl Write) -> Result<(), CliError> {
         if options.json {
             return emit(to, &format!("{:#}", self.result));
@@ -63,14 +42,14 @@ impl Outcome {
 mod tests {
     use std::path::PathBuf;
 
-    use super::{Options, Outcome, Verdict};
+    use super::{Options, Outcome};
 
     fn shown(options: &Options) -> String {
         let outcome = Outcome {
             summary: "8.2 kHz\n11.3 kHz".to_owned(),
             result: serde_json::json!({ "command": "modes" }),
             written: vec![PathBuf::from("out/a/modes.json")],
-            verdict: Verdict::Good,
+            verdict: Ok(()),
         };
         let mut written = Vec::new();
         outcome.show(options, &mut written).unwrap();

@@ -15,10 +15,20 @@ use crate::files;
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
+/// As [`printed`].
 pub(crate) fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
-    match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
+    printed(writeln!(to, "{}", printable(line)).and_then(|()| to.flush()))
+}
+
+/// What a writing to standard output comes to: a closed pipe is no error.
+///
+/// # Errors
+/// [`CliError`] when it failed for another reason.
+pub(super) fn printed(written: io::Result<()>) -> Result<(), CliError> {
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::failed(format!("cannot write to standard output: {error}")))
+        }
         _ => Ok(()),
     }
 }
@@ -26,7 +36,7 @@ pub(crate) fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// Writes a file under a temporary name beside it and renames it: a half-written file never carries its name.
 ///
 /// # Errors
-/// [`CliError::File`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
+/// [`CliError`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
 /// name is as it was.
 pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
@@ -35,9 +45,9 @@ pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
 /// A result as JSON.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`] for what JSON cannot hold: names of files that are not UTF-8.
+/// [`CliError`] for what JSON cannot hold: names of files that are not UTF-8.
 pub(super) fn json(result: &impl Serialize) -> Result<Value, CliError> {
-    serde_json::to_value(result).map_err(|error| CliError::StandardOutput(error.into()))
+    serde_json::to_value(result).map_err(|error| CliError::failed(format!("cannot write to standard output: {error}")))
 }
 
 /// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
@@ -73,7 +83,7 @@ impl OutputFolder {
     /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
     ///
     /// # Errors
-    /// [`CliError::ResultExists`], [`CliError::Busy`] or [`CliError::Folder`].
+    /// [`CliError`]: a folder that cannot be made or that another process has, a result that is there.
     pub(crate) fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
         self.claim_files(&[&format!("{command}.json")], force)
     }
@@ -83,11 +93,12 @@ impl OutputFolder {
     /// # Errors
     /// As [`claim`](Self::claim).
     pub(crate) fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
-        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder { path: self.path.clone(), source })?;
+        fs::create_dir_all(&self.path).map_err(|error| CliError::folder(&self.path, &error))?;
         self.lock()?;
         let mut paths = names.iter().map(|name| self.path.join(name));
         match paths.find(|path| !force && path.exists()) {
-            Some(path) => Err(CliError::ResultExists { path }),
+            Some(path) => Err(CliError::input(format!("{} is the result of an earlier run", path.display()))
+                .with_help("replace it with --force, or choose another folder with --out")),
             None => Ok(()),
         }
     }
@@ -95,14 +106,14 @@ impl OutputFolder {
     /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
     ///
     /// # Errors
-    /// [`CliError::Busy`], [`CliError::Folder`].
+    /// [`CliError`] when another process has it, or it cannot be opened.
     pub(crate) fn lock(&self) -> Result<(), CliError> {
-        let path = self.path.clone();
-        match folder_lock::take(&path) {
+        match folder_lock::take(&self.path) {
             Ok(true) => Ok(()),
-            Ok(false) => Err(CliError::Busy { path }),
+            Ok(false) => Err(CliError::input(format!("another plummer writes into {}", self.path.display()))
+                .with_help("wait for its end, or choose another folder with --out")),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            Err(source) => Err(CliError::Folder { path, source }),
+            Err(error) => Err(CliError::folder(&self.path, &error)),
         }
     }
 
@@ -119,7 +130,7 @@ impl OutputFolder {
     /// Writes a result as JSON; gives its path, and what it says.
     ///
     /// # Errors
-    /// [`CliError::Write`], and as [`json`].
+    /// [`CliError`] when it cannot be written, and as [`json`].
     pub(super) fn write_json(&self, name: &str, result: &impl Serialize) -> Result<(PathBuf, Value), CliError> {
         let json = json(result)?;
         let path = self.write(name, format!("{json:#}\n").as_bytes())?;
@@ -129,7 +140,7 @@ impl OutputFolder {
     /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
     ///
     /// # Errors
-    /// [`CliError::Folder`] or [`CliError::File`].
+    /// [`CliError`] when a folder cannot be made or the file not be written.
     pub(crate) fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
         self.write(name, bytes)
@@ -138,15 +149,15 @@ impl OutputFolder {
     /// Makes a folder below this one; none between may be a symbolic link.
     ///
     /// # Errors
-    /// [`CliError::Folder`].
+    /// [`CliError`] when it cannot be made.
     pub(crate) fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
-        files::make_below(&self.path, name).map_err(|source| CliError::Folder { path: self.path.join(name), source })
+        files::make_below(&self.path, name).map_err(|error| CliError::folder(&self.path.join(name), &error))
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.
     ///
     /// # Errors
-    /// [`CliError::File`].
+    /// [`CliError`] when it cannot be written.
     pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         let path = self.path.join(name);
         write_atomic(&path, bytes)?;
@@ -162,7 +173,6 @@ mod tests {
 
     use super::{CliError, Options, OutputFolder, emit, write_atomic};
     use crate::app::case::{Case, Source};
-    use crate::files::FileError;
 
     struct Broken(io::ErrorKind);
 
@@ -204,7 +214,8 @@ mod tests {
     fn a_closed_pipe_is_success_and_a_full_disk_is_not() {
         emit(&mut Broken(io::ErrorKind::BrokenPipe), "line").unwrap();
         let error = emit(&mut Broken(io::ErrorKind::StorageFull), "line").unwrap_err();
-        assert!(matches!(error, CliError::StandardOutput(_)));
+        assert_eq!(error.exit_code(), 1);
+        assert_eq!(error.to_string(), "cannot write to standard output: no storage space");
     }
 
     #[test]
@@ -225,7 +236,8 @@ mod tests {
         let path = folder.join("run.json");
         fs::create_dir_all(path.join("inside")).unwrap();
         let error = write_atomic(&path, b"text").unwrap_err();
-        assert!(matches!(error, CliError::File(FileError::Write { path: named, .. }) if named == path));
+        assert_eq!(error.exit_code(), 1);
+        assert!(error.to_string().starts_with(&format!("cannot write {}: ", path.display())), "{error}");
         assert_eq!(names(&folder), ["run.json"]);
         assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
         assert!(write_atomic(Path::new("/"), b"text").is_err());
@@ -247,14 +259,17 @@ mod tests {
         let written = folder.write("run.json", b"{}").unwrap();
         assert_eq!(written, path.join("new/run.json"));
         let error = folder.claim("run", false).unwrap_err();
-        assert!(matches!(error, CliError::ResultExists { path } if path == written));
+        let expected = CliError::input(format!("{} is the result of an earlier run", written.display()))
+            .with_help("replace it with --force, or choose another folder with --out");
+        assert_eq!(error, expected);
         folder.claim("modes", false).unwrap();
         folder.claim("run", true).unwrap();
         let default = OutputFolder::of(&case, &Options::default());
         assert_eq!(default.path(), Path::new("out/case.v2"));
         let blocked = OutputFolder { path: written.join("below a file") };
         let error = blocked.claim("run", false).unwrap_err();
-        assert!(matches!(error, CliError::Folder { .. }));
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().starts_with("cannot make the folder "), "{error}");
         fs::remove_dir_all(path).unwrap();
     }
 }

@@ -6,18 +6,23 @@ use crate::app::case::replaced_argument;
 /// Refuses `--set` where nothing would come of it: in a command that reads no case, and where a later argument replaces it.
 ///
 /// # Errors
-/// [`CliError::SetWithoutCase`], [`CliError::SetTwice`].
+/// [`CliError`] that names the arguments.
 pub(super) fn check_set(arguments: &Arguments) -> Result<(), CliError> {
     let set = &arguments.options.set;
     let Some(argument) = set.first() else {
         return Ok(());
     };
     if let Some(command) = without_case(&arguments.command) {
-        let argument = argument.clone();
-        return Err(CliError::SetWithoutCase { argument, command });
+        return Err(CliError::input(format!(
+            "--set {argument}: `plummer {command}` reads no case that it could change"
+        ))
+        .with_help("leave it out; the command has options of its own, which --help lists"));
     }
     match replaced_argument(set) {
-        Some([earlier, later]) => Err(CliError::SetTwice { earlier, later }),
+        Some([earlier, later]) => {
+            Err(CliError::input(format!("--set {later} replaces --set {earlier}: expected each key once"))
+                .with_help("leave one of the two out"))
+        }
         None => Ok(()),
     }
 }

@@ -28,6 +28,14 @@ use thiserror::Error;
 /// Failure of a stage.
 #[derive(Debug, Error)]
 pub enum ComputeError {
+    /// Input that nothing can be computed with.
+    #[error("{what}")]
+    Input {
+        /// What is wrong, and where.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
     /// The case file.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -403,6 +411,7 @@ impl ComputeError {
     /// What to do about it, where the message does not say it already.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Input { help, .. } => help.clone(),
             Self::Case(error) => error.help(),
             Self::Measured(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),

@@ -1,6 +1,6 @@
 //! What `plummer analyze` takes.
 
-use super::number::number;
+use super::speed::number;
 use std::path::PathBuf;
 
 use clap::Args;

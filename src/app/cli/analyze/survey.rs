@@ -13,7 +13,7 @@ use super::terminal;
 use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::result_head;
-use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput, survey_report,
     survey_section,
@@ -116,7 +116,7 @@ impl Analysed {
         let source = match Source::open(asked, input, Unnamed::Every, options) {
             Ok(source) => source,
             Err(error) => {
-                analysed.fail(&name, "", &error);
+                analysed.fail(&name, "", error);
                 return analysed;
             }
         };
@@ -133,7 +133,7 @@ impl Analysed {
             let windows = match source.analyse(input, signal).and_then(compared) {
                 Ok(windows) => windows,
                 Err(error) => {
-                    analysed.fail(&name, &signal.name, &error);
+                    analysed.fail(&name, &signal.name, error);
                     continue;
                 }
             };
@@ -160,26 +160,20 @@ impl Analysed {
         analysed
     }
 
-    fn fail(&mut self, input: &str, channel: &str, error: &CliError) {
-        let failure = Failure::of(input, channel, error);
-        let why = failure.message.clone();
-        self.rows.push(AnalysisRow::failed(input, channel, why));
-        self.failures.push(failure);
+    fn fail(&mut self, input: &str, channel: &str, error: CliError) {
+        self.rows.push(AnalysisRow::failed(input, channel, error.to_string()));
+        self.failures.push(Failure { input: input.to_owned(), channel: channel.to_owned(), error });
     }
 }
 
 /// Good where all was analysed and a part was judged in any window.
-fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Verdict {
-    match error {
-        Some(CliError::WrongInput { what, help }) => return Verdict::WrongInput { what, help },
-        Some(error) => {
-            return Verdict::Bad { what: error.to_string(), help: error.help() };
-        }
-        None => {}
+fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Result<(), CliError> {
+    if let Some(error) = error {
+        return Err(error);
     }
     let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
     if rows.iter().any(judged) {
-        return Verdict::Good;
+        return Ok(());
     }
-    no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark))
+    Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark)))
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{CliError, Outcome, Verdict};
+use super::{CliError, Outcome};
 use crate::app::cli::analyze::catalogue_orders;
 use crate::app::cli::output::json;
 use crate::app::commands::init::{BearingSummary, CatalogueResult};
@@ -19,7 +19,7 @@ pub(super) fn list() -> Result<Outcome, CliError> {
             bearings: CatalogueBearing::all().iter().map(entry).collect(),
         })?,
         written: Vec::new(),
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 

@@ -1,7 +1,6 @@
 //! `plummer init`: a case file from a mesh.
 
 mod arguments;
-mod error;
 mod list;
 mod relative;
 
@@ -9,12 +8,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use arguments::InitArguments;
-pub use error::InitError;
-pub(in crate::app::cli) use error::bearing_names;
 
+use super::analyze::bearing_names;
 use super::inspect::verdict;
 use super::output::json;
-use super::{CliError, Options, Outcome, Verdict, write_atomic};
+use super::{CliError, Options, Outcome, write_atomic};
 use crate::app::commands::init::{Draft, DraftRequest, DraftResult};
 use crate::app::commands::result::VERSION;
 use crate::app::shell_word::shell_word;
@@ -31,7 +29,8 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     let bearing = asked.bearing.as_deref().map(named).transpose()?;
     let case = case_file(mesh, options)?;
     if case.exists() && !options.force {
-        return Err(InitError::Exists { path: case }.into());
+        return Err(CliError::input(format!("{} exists", case.display()))
+            .with_help("replace it with --force, or name another file with --out"));
     }
     let folder = case.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
@@ -39,33 +38,39 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     let title = case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let request =
         DraftRequest { mesh, mesh_in_case: &mesh_in_case, title: &title, length_unit: asked.length_unit, bearing };
-    let (draft, inspection) = Draft::of_mesh(request).map_err(InitError::from)?;
-    if let Verdict::Bad { what, help } = verdict(&inspection) {
-        let path = mesh.clone();
-        return Err(InitError::Mesh { path, what, help }.into());
+    let (draft, inspection) = Draft::of_mesh(request)?;
+    if let Err(error) = verdict(&inspection) {
+        let what = format!("{}: {error}; no case file was written", mesh.display());
+        return Err(CliError { help: error.help, ..CliError::input(what) });
     }
-    fs::create_dir_all(folder).map_err(|source| CliError::Folder { path: folder.to_owned(), source })?;
+    fs::create_dir_all(folder).map_err(|error| CliError::folder(folder, &error))?;
     write_atomic(&case, draft.text.as_bytes())?;
     Ok(Outcome {
         summary: summary(&draft, &case),
         result: json(&DraftResult { plummer: VERSION, command: "init", mesh, case: &case, draft: &draft })?,
         written: vec![case],
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 
-fn named(name: &str) -> Result<&'static CatalogueBearing, InitError> {
-    CatalogueBearing::named(name).ok_or_else(|| InitError::UnknownBearing { found: name.to_owned() })
+fn named(name: &str) -> Result<&'static CatalogueBearing, CliError> {
+    CatalogueBearing::named(name).ok_or_else(|| {
+        CliError::input(format!("--bearing: found \"{name}\", expected a bearing of the catalogue"))
+            .with_help(format!("names: {}; plummer init --list-bearings says their dimensions", bearing_names()))
+    })
 }
 
 /// `--out`, else the mesh's name with another ending in the current folder.
-fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, InitError> {
+fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, CliError> {
     let path = match &options.out {
         Some(path) => path.clone(),
         None => Path::new(mesh.file_stem().unwrap_or_default()).with_extension("toml"),
     };
     if path.file_name().is_none() || path.is_dir() {
-        return Err(InitError::NoName { path });
+        return Err(CliError::input(format!(
+            "{}: found no file name, expected that of a case file (--out FILE.toml)",
+            path.display()
+        )));
     }
     Ok(path)
 }

@@ -2,7 +2,6 @@
 
 pub(crate) mod bore;
 pub(crate) mod draft;
-pub(crate) mod error;
 pub(crate) mod found;
 pub(crate) mod frame;
 pub(crate) mod groups;
@@ -17,7 +16,6 @@ pub(crate) mod text;
 pub(crate) mod unit;
 
 pub use draft::Draft;
-pub use error::DraftError;
 pub use found::{DraftRequest, FoundCylinder};
 pub use summary::{BearingSummary, CatalogueResult, DraftResult};
 pub use unit::UnitFrom;
