@@ -12,10 +12,10 @@ pub struct InitArguments {
     /// Mesh file (gmsh MSH 4.1 or 2.2)
     #[arg(value_name = "HOUSING.msh", required_unless_present = "list_bearings")]
     pub mesh: Option<PathBuf>,
-    /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, or a guess by the extent)
+    /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, else a guess by the size)
     #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
     pub length_unit: Option<LengthUnit>,
-    /// Designation of a deep groove ball bearing of the catalogue (default: the one whose outer diameter is the bore's within 1 %)
+    /// Deep groove ball bearing of the catalogue (default: one whose outer diameter is the bore's within 1 %)
     #[arg(long, value_name = "NAME")]
     pub bearing: Option<String>,
     /// List the bearings of the catalogue with their dimensions and sources
