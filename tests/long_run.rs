@@ -132,12 +132,14 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     // neither a new run nor a changed one touches it
     let (code, text) = run.ended(&[]);
     assert_eq!(code, 2);
-    assert!(text.contains(".run.partial holds an unfinished run\n"), "{text}");
-    assert!(text.contains("--force"), "{text}");
+    let way =
+        ".run.partial holds an unfinished run\nhelp: go on with --resume, or give it up and begin anew with --force\n";
+    assert!(text.contains(way), "{text}");
     let (code, text) = run.ended(&["--resume", "--set", "shaft.mass=0.2"]);
     assert_eq!(code, 2);
     assert!(text.contains("was begun with something else: --set "), "{text}");
-    assert!(text.contains("--set shaft.mass=0.2\n"), "{text}");
+    let help = "--set shaft.mass=0.2\nhelp: go on with what it was begun with, or begin anew with --force\n";
+    assert!(text.contains(help), "{text}");
     let (code, text) = run.ended(&["--resume", "--force"]);
     assert_eq!(code, 2, "{text}");
     assert!(run.checkpoint().unwrap() == checkpoint);

@@ -118,7 +118,7 @@ mod tests {
 
     use super::{ChartError, CliError, FormatError, SweepError};
     use crate::app::case::Case;
-    use crate::app::error::{ComputeError, UnfinishedError};
+    use crate::app::error::ComputeError;
     use crate::files::FileError;
 
     fn every() -> Vec<(CliError, u8, &'static str)> {
@@ -155,27 +155,6 @@ mod tests {
                 1,
                 "error: interrupted at t = 1.25 s of 4 s; the signals so far and a checkpoint are in out/a\n\
                  help: go on with: plummer run a.toml --resume\n",
-            ),
-            (
-                CliError::from(ComputeError::from(UnfinishedError::InTheWay { path: path() })),
-                2,
-                "error: out/a holds an unfinished run\n\
-                 help: go on with --resume, or give it up and begin anew with --force\n",
-            ),
-            (
-                CliError::from(ComputeError::from(UnfinishedError::Nothing { path: path() })),
-                2,
-                "error: out/a has no checkpoint: there is no unfinished run to go on with\n\
-                 help: leave --resume out to begin a run\n",
-            ),
-            (
-                CliError::from(ComputeError::from(UnfinishedError::Changed {
-                    path: path(),
-                    changes: vec!["no --set, now --set a=1".to_owned(), "another content of b".to_owned()],
-                })),
-                2,
-                "error: the run in out/a was begun with something else: no --set, now --set a=1; another content of b\n\
-                 help: go on with what it was begun with, or begin anew with --force\n",
             ),
             (
                 CliError::from(ComputeError::TieFrame),

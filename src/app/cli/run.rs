@@ -10,7 +10,6 @@ use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::run::unfinished::{CHECKPOINT_S, RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
 use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
@@ -83,7 +82,7 @@ pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Re
     let mut record = case_result("run", case, progress, wall_s, &files, result.summary());
     record.arrays = digests(&arrays)?;
     let (path, json) = folder.write_json("run.json", &record)?;
-    unfinished.remove().map_err(ComputeError::from)?;
+    unfinished.remove()?;
     Ok(Outcome {
         summary: summary(&result, started.elapsed().as_secs_f64()),
         result: json,
@@ -101,14 +100,12 @@ fn unfinished(case: &Case, arguments: &Arguments, folder: &OutputFolder) -> Resu
     };
     let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
     if in_the_way {
-        return Err(ComputeError::from(UnfinishedError::InTheWay { path: partial }).into());
+        return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
+            .with_help("go on with --resume, or give it up and begin anew with --force"));
     }
     let identity = RunIdentity::of(case)?;
-    let run = if resume {
-        UnfinishedRun::resume(&partial, identity).map_err(ComputeError::from)?
-    } else {
-        UnfinishedRun::begin(&partial, identity)
-    };
+    let run =
+        if resume { UnfinishedRun::resume(&partial, identity)? } else { UnfinishedRun::begin(&partial, identity) };
     let stop = interrupt::stop_request()?;
     Ok(run.every(Duration::from_secs_f64(pause)).stopped_by(stop))
 }

@@ -4,7 +4,6 @@ use super::keeper::fingerprint;
 use super::keeper::{InMemory, Keeper, Wish};
 use super::recording::Recording;
 use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{BlowUp, Integration, Method, Schedule, Statistics, TransientError};
 use crate::numerics::ode::{Instant as Now, Observer, Snapshot, State};
@@ -335,13 +334,13 @@ impl<R: Recording> Stepping<R> {
             same &= reader.count().map_err(TransientError::from)? == word;
         }
         if !same {
-            return Err(UnfinishedError::Model.into());
+            return Err(another_model());
         }
         self.before_s = reader.number().map_err(TransientError::from)?;
         let recalled = self.recorder.recall(&mut reader);
         recalled.map_err(TransientError::from)?;
         if reader.flag().map_err(TransientError::from)? != self.energy.is_some() {
-            return Err(UnfinishedError::Model.into());
+            return Err(another_model());
         }
         if let Some(energy) = &mut self.energy {
             energy.recall(&mut reader).map_err(TransientError::from)?;
@@ -350,4 +349,11 @@ impl<R: Recording> Stepping<R> {
         reader.end().map_err(TransientError::from)?;
         Ok(integration)
     }
+}
+/// Everything that was read is the same as of the unfinished run, and what was computed from it is not.
+fn another_model() -> ComputeError {
+    ComputeError::input(
+        "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor",
+        ComputeError::ANEW,
+    )
 }
