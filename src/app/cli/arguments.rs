@@ -1,17 +1,15 @@
 //! What can be written on the command line.
 
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand, ValueEnum};
-
 use super::progress::Visibility;
-use super::{AnalyzeArguments, InitArguments, SweepArguments};
-use crate::app::case::Case;
+use super::{AnalyzeArguments, CliError, SweepArguments};
+use crate::app::case::{Case, replaced_argument};
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::chart::Effort;
 use crate::numerics::units::LengthUnit;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -310,6 +308,23 @@ pub enum Command {
     },
 }
 
+/// A mesh, and what is known of it.
+#[derive(Debug, Clone, Args)]
+pub struct InitArguments {
+    /// Mesh file (gmsh MSH 4.1 or 2.2)
+    #[arg(value_name = "HOUSING.msh", required_unless_present = "list_bearings")]
+    pub mesh: Option<PathBuf>,
+    /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, else a guess by the size)
+    #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
+    pub length_unit: Option<LengthUnit>,
+    /// Deep groove ball bearing of the catalogue (default: one whose outer diameter is the bore's within 1 %)
+    #[arg(long, value_name = "NAME")]
+    pub bearing: Option<String>,
+    /// List the bearings of the catalogue with their dimensions and sources
+    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing"])]
+    pub list_bearings: bool,
+}
+
 /// A part of `plummer chart`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ChartPart {
@@ -502,6 +517,54 @@ pub enum ResultOf {
     Export,
     /// What report prints
     Report,
+}
+
+/// Refuses `--set` where nothing would come of it: in a command that reads no case, and where a later argument replaces it.
+///
+/// # Errors
+/// [`CliError`] that names the arguments.
+pub(super) fn check_set(arguments: &Arguments) -> Result<(), CliError> {
+    let set = &arguments.options.set;
+    let Some(argument) = set.first() else {
+        return Ok(());
+    };
+    if let Some(command) = without_case(&arguments.command) {
+        return Err(CliError::input(format!(
+            "--set {argument}: `plummer {command}` reads no case that it could change"
+        ))
+        .with_help("leave it out; the command has options of its own, which --help lists"));
+    }
+    match replaced_argument(set) {
+        Some([earlier, later]) => {
+            Err(CliError::input(format!("--set {later} replaces --set {earlier}: expected each key once"))
+                .with_help("leave one of the two out"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The command, if it reads no case of its own.
+fn without_case(command: &Command) -> Option<&'static str> {
+    match command {
+        Command::Completions { .. } => Some("completions"),
+        Command::Man => Some("man"),
+        Command::Schema { .. } => Some("schema"),
+        Command::Init(_) => Some("init"),
+        Command::Inspect { .. } => Some("inspect"),
+        Command::Verify { .. } => Some("verify"),
+        Command::Report { .. } => Some("report"),
+        Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => Some("analyze FILE"),
+        Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
+        Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
+        Command::Run { .. }
+        | Command::Modes { .. }
+        | Command::Condense { .. }
+        | Command::Frf { .. }
+        | Command::Chart { .. }
+        | Command::Export { .. }
+        | Command::Analyze(_)
+        | Command::Sweep(_) => None,
+    }
 }
 
 #[cfg(test)]

@@ -10,14 +10,12 @@ mod condense;
 mod earlier_results;
 mod export;
 mod failure;
-mod folder_lock;
 mod frf;
 mod init;
 mod inspect;
 mod interrupt;
 mod mode_checks;
 mod modes;
-mod outcome;
 mod output;
 mod progress;
 mod report;
@@ -25,7 +23,6 @@ mod report_files;
 mod results;
 mod run;
 mod schema;
-mod set_arguments;
 mod shell;
 mod stability;
 mod sweep;
@@ -39,11 +36,9 @@ use std::process::ExitCode;
 use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
-pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options, ResultOf};
+pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
 pub use failure::CliError;
-pub use init::InitArguments;
-pub use outcome::Outcome;
-pub use output::OutputFolder;
+pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
 pub use sweep::{Share, SweepArguments};
@@ -101,7 +96,7 @@ fn on_arguments() -> ExitCode {
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
-    set_arguments::check_set(arguments)?;
+    arguments::check_set(arguments)?;
     let options = &arguments.options;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

@@ -1,16 +1,16 @@
-//! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
+//! Where results go: what a command hands back, a folder that is not overwritten by accident and that one process at
+//! a time writes into, files that are whole or not there.
 
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-
-use serde::Serialize;
-use serde_json::Value;
-
-use super::{CliError, Options, folder_lock};
+use super::{CliError, Options};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
 use crate::files;
+use serde::Serialize;
+use serde_json::Value;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///
@@ -108,7 +108,7 @@ impl OutputFolder {
     /// # Errors
     /// [`CliError`] when another process has it, or it cannot be opened.
     pub(crate) fn lock(&self) -> Result<(), CliError> {
-        match folder_lock::take(&self.path) {
+        match take(&self.path) {
             Ok(true) => Ok(()),
             Ok(false) => Err(CliError::input(format!("another plummer writes into {}", self.path.display()))
                 .with_help("wait for its end, or choose another folder with --out")),
@@ -162,6 +162,74 @@ impl OutputFolder {
         let path = self.path.join(name);
         write_atomic(&path, bytes)?;
         Ok(path)
+    }
+}
+
+/// The folders that this process holds: a lock ends with the process, however it ends.
+static HELD: Mutex<Vec<(PathBuf, File)>> = Mutex::new(Vec::new());
+
+/// Takes a folder for this process until it ends, by `flock` on the folder itself. Returns whether no other process has it.
+///
+/// A file system that knows no locks gives none: the folder is then taken without.
+///
+/// # Errors
+/// What the system says when the folder cannot be opened.
+pub(super) fn take(folder: &Path) -> io::Result<bool> {
+    let path = folder.canonicalize()?;
+    let mut held = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    if held.iter().any(|(other, _)| *other == path) {
+        return Ok(true);
+    }
+    let file = File::open(&path)?;
+    match file.try_lock() {
+        Ok(()) => {
+            held.push((path, file));
+            Ok(true)
+        }
+        Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(_)) => Ok(true),
+    }
+}
+
+/// Whether another process has a folder now.
+pub(super) fn is_taken(folder: &Path) -> bool {
+    let Ok(file) = File::open(folder) else {
+        return false;
+    };
+    // the lock ends with the file
+    matches!(file.try_lock(), Err(TryLockError::WouldBlock))
+}
+
+/// What a command computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// A few lines for a reader, without a line end after the last.
+    pub summary: String,
+    /// The content of the command's result file.
+    pub result: serde_json::Value,
+    /// The files that were written, the most useful last.
+    pub written: Vec<PathBuf>,
+    /// What is bad about the answer, or wrong in some of the input; results are written all the same.
+    pub verdict: Result<(), CliError>,
+}
+
+impl Outcome {
+    /// Writes the result: as JSON if asked for, else summary and files, else (quiet) nothing.
+    ///
+    /// # Errors
+    /// [`CliError`] when `to` cannot be written; a closed pipe is none.
+    pub(crate) fn show(&self, options: &Options, to: &mut impl Write) -> Result<(), CliError> {
+        if options.json {
+            return emit(to, &format!("{:#}", self.result));
+        }
+        if options.quiet {
+            return Ok(());
+        }
+        emit(to, &self.summary)?;
+        for path in &self.written {
+            emit(to, &format!("wrote {}", path.display()))?;
+        }
+        Ok(())
     }
 }
 
@@ -271,5 +339,59 @@ mod tests {
         assert_eq!(error.exit_code(), 2);
         assert!(error.to_string().starts_with("cannot make the folder "), "{error}");
         fs::remove_dir_all(path).unwrap();
+    }
+}
+
+#[cfg(test)]
+mod lock_tests {
+    use std::fs::File;
+
+    use super::{is_taken, take};
+
+    #[test]
+    fn a_folder_is_taken_once_until_its_lock_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        assert!(!is_taken(path));
+        // as another process would
+        let other = File::open(path).unwrap();
+        other.lock().unwrap();
+        assert!(is_taken(path));
+        assert!(!take(path).unwrap());
+        drop(other);
+        assert!(take(path).unwrap());
+        assert!(is_taken(path));
+        // what this process has it may take again, by any name
+        assert!(take(&path.join(".")).unwrap());
+        assert!(take(&path.join("nothing")).is_err());
+    }
+}
+
+#[cfg(test)]
+mod outcome_tests {
+    use std::path::PathBuf;
+
+    use super::{Options, Outcome};
+
+    fn shown(options: &Options) -> String {
+        let outcome = Outcome {
+            summary: "8.2 kHz\n11.3 kHz".to_owned(),
+            result: serde_json::json!({ "command": "modes" }),
+            written: vec![PathBuf::from("out/a/modes.json")],
+            verdict: Ok(()),
+        };
+        let mut written = Vec::new();
+        outcome.show(options, &mut written).unwrap();
+        String::from_utf8(written).unwrap()
+    }
+
+    #[test]
+    fn summary_json_or_nothing() {
+        let plain = Options::default();
+        assert_eq!(shown(&plain), "8.2 kHz\n11.3 kHz\nwrote out/a/modes.json\n");
+        let json = Options { json: true, quiet: true, ..Options::default() };
+        assert_eq!(shown(&json), "{\n  \"command\": \"modes\"\n}\n");
+        let quiet = Options { quiet: true, ..Options::default() };
+        assert_eq!(shown(&quiet), "");
     }
 }

@@ -43,11 +43,11 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
 /// # Errors
 /// [`CliError`] when the input is wrong or there is nothing to start from.
 pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
-    let (choice, told) = explain_run(case, progress)?;
-    let lines = std::iter::once(choice.table().plain()).chain(warnings(&told));
+    let (choice, doubts) = explain_run(case, progress)?;
+    let lines = std::iter::once(choice.table().plain()).chain(warnings(&doubts));
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
-        result: json(&choice.summary(&told))?,
+        result: json(&choice.summary(&doubts))?,
         written: Vec::new(),
         verdict: Ok(()),
     })

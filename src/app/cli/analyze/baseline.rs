@@ -102,7 +102,7 @@ impl Baseline {
             let Some(change) = window.change.as_mut() else {
                 continue;
             };
-            let apart = change.window.to <= window.from || window.to <= change.window.from;
+            let apart = change.to <= window.from || window.to <= change.from;
             if self.is(input) && !apart {
                 change.warnings.push(format!(
                     "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."

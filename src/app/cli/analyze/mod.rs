@@ -3,7 +3,6 @@
 mod arguments;
 mod baseline;
 mod bearing;
-mod each;
 mod failures;
 mod machine;
 mod orders;

@@ -58,15 +58,15 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     };
     progress.finish();
     let Export { files, summary } = exported?;
-    let told = doubts_of_case(case)?;
-    let lines = warnings(&told).chain(std::iter::once(summary));
+    let doubts = doubts_of_case(case)?;
+    let lines = warnings(&doubts).chain(std::iter::once(summary));
     let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
     let wall_s = started.elapsed().as_secs_f64();
     let record = ExportSummary {
         to: to.name(),
         results: source.folder(),
-        warnings: &told,
+        warnings: &doubts,
         earlier: record::earlier(folder.path(), to.name()),
         files,
     };

@@ -1,16 +1,14 @@
 //! What a mesh shows of a case: bore, parts, supports, unit and bearing.
 
-use super::unit::UnitFrom;
-use super::{page, sensor, unit};
+use super::{page, sensor};
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
-use super::frame::Directions;
 use super::groups::{Groups, usable};
-use super::scene::{BearingNumbers, RingNumbers};
+use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
@@ -126,7 +124,7 @@ pub(crate) fn find<'a>(
     }
     let longest = extent.into_iter().fold(0.0, f64::max);
     let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
-    let (unit, unit_from) = unit::unit(request.length_unit, longest, radius, request.bearing);
+    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing);
     let metres = unit.to_metres();
     let directions = Directions::of(bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis));
     let middle = inventory.bounding_box;

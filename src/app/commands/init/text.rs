@@ -2,8 +2,8 @@
 
 use super::found::{Found, FoundCylinder};
 use super::page::{COMPUTED_DIGITS, Page, list, number, numbers, quoted};
+use super::scene::UnitFrom;
 use super::scene::{BALANCE, BearingNumbers, SHAFT_LENGTHS, SPEED_HZ, shaft};
-use super::unit::UnitFrom;
 
 /// Significant digits of what is measured in the mesh: far more than a drawing has.
 const MEASURED_DIGITS: usize = 9;
@@ -27,7 +27,7 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let what = if plane { "circle" } else { "cylinder" };
     let millimetre = |metres: f64| number(1e3 * metres, 6);
     let [x, y, z] = cylinder.axis;
-    let axis = super::frame::Directions::of(cylinder.axis).axis;
+    let axis = super::scene::Directions::of(cylinder.axis).axis;
     let about = ["x", "y", "z"]
         .into_iter()
         .zip(axis)
