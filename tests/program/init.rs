@@ -184,7 +184,10 @@ fn what_is_wrong_is_exit_code_2() {
     let nameless = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}", nameless.replace(" 2 1 1 ", " 2 0 1 "));
     fs::write(folder.join("nameless.msh"), nameless).unwrap();
     for (words, expected) in [
-        (vec![ring.as_str(), "--out", "taken.toml"], "error: taken.toml exists\nhelp: replace it with --force"),
+        (
+            vec![ring.as_str(), "--out", "taken.toml"],
+            "error: taken.toml exists\nhelp: replace it with --force, or name another file with --out\n",
+        ),
         (vec![&ring, "--out", "."], "error: .: found no file name"),
         (
             vec![&ring, "--bearing", "6299"],

@@ -110,7 +110,7 @@ fn a_run_that_is_killed_again_and_again_comes_to_the_same_bytes() {
     assert!(!killed.partial().exists());
     let (code, text) = killed.ended(&["--resume"]);
     assert_eq!(code, 2);
-    assert!(text.contains("run.json is the result of a finished run: there is nothing to go on with"), "{text}");
+    assert!(text.contains("run.json is the result of a finished run: there is nothing to go on with\nhelp: leave --resume out, and begin anew with --force\n"), "{text}");
 }
 
 #[test]
@@ -132,12 +132,14 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     // neither a new run nor a changed one touches it
     let (code, text) = run.ended(&[]);
     assert_eq!(code, 2);
-    assert!(text.contains(".run.partial holds an unfinished run\n"), "{text}");
-    assert!(text.contains("--force"), "{text}");
+    let way =
+        ".run.partial holds an unfinished run\nhelp: go on with --resume, or give it up and begin anew with --force\n";
+    assert!(text.contains(way), "{text}");
     let (code, text) = run.ended(&["--resume", "--set", "shaft.mass=0.2"]);
     assert_eq!(code, 2);
     assert!(text.contains("was begun with something else: --set "), "{text}");
-    assert!(text.contains("--set shaft.mass=0.2\n"), "{text}");
+    let help = "--set shaft.mass=0.2\nhelp: go on with what it was begun with, or begin anew with --force\n";
+    assert!(text.contains(help), "{text}");
     let (code, text) = run.ended(&["--resume", "--force"]);
     assert_eq!(code, 2, "{text}");
     assert!(run.checkpoint().unwrap() == checkpoint);

@@ -52,7 +52,11 @@ fn a_folder_is_written_by_one_process_at_a_time() {
         "export case.toml --to npz --out out",
         "sweep case.toml --command modes --vary ring.nodes=24,25 --out out",
     ] {
-        refused(&folder, line, "another plummer writes into out\n");
+        refused(
+            &folder,
+            line,
+            "another plummer writes into out\nhelp: wait for its end, or choose another folder with --out\n",
+        );
     }
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
     drop(held);
@@ -74,7 +78,11 @@ fn of_two_runs_in_a_folder_one_is_refused_while_the_other_lasts() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     let other = "run case.toml --set transient.end=0.01 --set bearing.contact_damping=3 --force --quiet --out out";
-    refused(&folder, other, "another plummer writes into out\n");
+    refused(
+        &folder,
+        other,
+        "another plummer writes into out\nhelp: wait for its end, or choose another folder with --out\n",
+    );
     // its death frees the folder
     first.kill().unwrap();
     first.wait().unwrap();

@@ -1,17 +1,15 @@
 //! What can be written on the command line.
 
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand, ValueEnum};
-
 use super::progress::Visibility;
-use super::{AnalyzeArguments, InitArguments, SweepArguments};
-use crate::app::case::Case;
+use super::{AnalyzeArguments, CliError, SweepArguments};
+use crate::app::case::{Case, replaced_argument};
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::chart::Effort;
 use crate::numerics::units::LengthUnit;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,13 +25,13 @@ Exit codes:
   2  the input is wrong: the message names file, line or key, what was found and what was expected";
 
 const RUN_EXAMPLE: &str = "\
-Examples: the dented bearing with a deeper dent, in a folder of its own; the same again after Ctrl-C or a power failure
+Examples: the dented bearing with a deeper dent, in a folder of its own; the same run goes on after Ctrl-C or a power failure
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper --resume
 
-Long runs: memory does not grow with the simulated time; signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
-keeps a checkpoint and ends with exit code 1, a second Ctrl-C ends at once. --resume goes on to the same signals, to the last
-bit, as without a stop, if program, case, --set and meshes are the same.";
+Long runs: memory does not grow with the simulated time. Signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
+keeps a checkpoint and ends with exit code 1; a second Ctrl-C ends at once. With --resume the run goes on. Its signals are then
+to the last bit those of a run without a stop, if program, case, --set and meshes are the same.";
 
 const INIT_EXAMPLE: &str = "\
 Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings that the program knows
@@ -41,15 +39,17 @@ Examples: a case file beside a mesh, with the bearing that fits its bore; the be
   plummer init housing.msh --length-unit mm --bearing 6205 --out motor.toml
   plummer init --list-bearings
 
-The file says of every value whether it is from the mesh, the catalogue, usual or a guess; what could not be told is there as a
-template, commented out. plummer modes FILE runs at once where the mesh allows it.
+The file says of every value whether it is from the mesh, the catalogue, usual or a guess. Tables that the mesh says nothing of
+are templates, commented out. plummer modes FILE runs at once where the mesh allows it.
 
-Bore: the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports: groups
-named like a foot, base, bolt, clamp or support.";
+The bore is the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports are
+groups named like a foot, base, bolt, clamp or support.";
 
 const INSPECT_EXAMPLE: &str = "\
 Example: a solid housing drawn in millimetres
-  plummer inspect meshes/pedestal.msh --length-unit mm --density 2700";
+  plummer inspect meshes/pedestal.msh --length-unit mm --density 2700
+
+The command writes inspect.json only where --out names a folder.";
 
 const MODES_EXAMPLE: &str = "\
 Example: the published frequencies with the consistent equations instead of the printed ones
@@ -60,15 +60,15 @@ Example: a housing on the nodes of its bore, its frequencies against those of th
   plummer condense examples/scenes/pedestal.toml --compare-full
 
 Files:
-  superelement.npz  k, m (interface first), labels, sensors (numpy.load); others: plummer export --to op4, mbdyn;
-                    in another case it takes the housing's place: [housing] superelement = \"superelement.npz\"
+  superelement.npz  k, m (interface first), labels, sensors (numpy.load); other formats: plummer export --to op4, mbdyn;
+                    in another case [housing] superelement = \"superelement.npz\" puts it in the housing's place
   condense.json     checks with limits and verdicts, estimated errors
 
-Large interfaces: condense.interface_modes = 30 in the case puts modes of the interface in the place of its coordinates. This
-belongs to this command alone: run, modes and frf keep the whole interface, export --to op4 and mbdyn refuse it.";
+Large interfaces: condense.interface_modes = 30 in the case puts modes of the interface in the place of its coordinates. Only this
+command does so: run, modes and frf keep the whole interface, export --to op4 and mbdyn refuse the key.";
 
 const FRF_EXAMPLE: &str = "\
-Example: what a force on the raceway does at the sensors, against the full model at its peaks
+Example: responses of the sensors to a force on the raceway, compared with the full model at the peaks
   plummer frf examples/transfer/pedestal.toml
 
 Files:
@@ -88,7 +88,7 @@ Files:
   stability.svg   the same as a map; resonance.svg: a mode in resonance with the step
   report.html     the same to zoom into, and tables
 
-Costs are measured on one thread, one run at a time: leave the machine alone meanwhile.";
+Wall times are measured on one thread, one run at a time: run nothing else on the machine meanwhile.";
 
 const ANALYZE_EXAMPLE: &str = "\
 Examples: a run of this program; a recorder's table, with a bearing by its drawing, and by its name; a run-up of a bearing with orders of a catalogue;
@@ -102,15 +102,17 @@ many files in one table
 Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
 the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
 
-Several files: a row a file, channel and window; every channel of each file unless --channel names some. A file that cannot be
-analysed has a row that says why, the others are analysed, and the exit code is 2.
+Several files: the table has a row for each file, channel and window. Every channel counts unless --channel names some. A file
+that cannot be analysed has a row that says why, the others are analysed, and the exit code is 2.
 
-Verdicts: named, not enough evidence, not seen, each with its evidence and the probability that noise alone looks like it;
-docs/diagnosis.md says what they rest on. Windows need 16 events of a part at least: 7 shaft turns for most bearings.
+Verdicts: named, not enough evidence, not seen. Each has its evidence and the probability that noise alone looks like it;
+docs/diagnosis.md explains them. A window needs at least 16 events of a part: 7 shaft turns for most bearings.
+
+Results of a run go into its own folder, of one file into out/ and its name, of several files into out/analysis.
 
 Files:
   analysis.json  windows with strongest peaks and verdicts
-  analysis.csv   a row a window: RMS, kurtosis, what is indicated; of each part conclusion, probability, strength
+  analysis.csv   a row for each window: RMS, kurtosis, parts indicated; conclusion, probability and strength of each part
   report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons; of several files their table, and
                  plots of up to 12 windows";
 
@@ -136,10 +138,11 @@ Examples: play and dent of the paper's bearing on all cores; the frequencies ove
   plummer sweep examples/tadina2011/outer-dent.toml --vary bearing.radial_play=1e-6:4e-6:4 --out out/play --slurm && sh out/play/sweep/submit.sh
 
 Points that fail are listed and do not stop the others: the exit code is 0 if any point has a result. Ctrl-C keeps checkpoints;
---resume goes on. Each point is a process with a folder of its own, DIR/sweep/NUMBER, as `plummer run` or `plummer modes` leaves it.
+the sweep goes on with --resume. Each point is a process with a folder of its own, DIR/sweep/NUMBER, as `plummer run` or
+`plummer modes` leaves it.
 
 Files:
-  sweep.csv    a row a point: values, state, wall time, figures of its result
+  sweep.csv    a row for each point: values, state, wall time, figures of its result
   sweep.npz    the same as arrays (numpy.load); shape: the lengths of the axes, for reshape
   sweep.json   the axes; state, exit code and message of each point
   report.html  plots over what was varied, points that are not done, the table";
@@ -154,30 +157,31 @@ Examples: to read it; the pages of all commands, for man
   plummer man --out ~/.local/share/man/man1";
 
 const REPORT_EXAMPLE: &str = "\
-Example: the pages of results that an earlier version computed; the results stay as they are
+Example: the pages of results that an earlier version computed
   plummer report out/outer-dent
 
-Nothing is computed: the content of each page lies beside it as report.cbor.gz (CBOR, packed by gzip).";
+The command computes nothing and leaves the results as they are. It draws each page from its content, which lies beside it as
+report.cbor.gz (CBOR, packed by gzip).";
 
 const VERIFY_EXAMPLE: &str = "\
-Examples: every built-in check of seconds; the orders of convergence too, half a minute
+Examples: the checks that take seconds; the orders of convergence too, which take half a minute
   plummer verify
   plummer verify --full --out out/full
 
-Files:
+Files, in out/verify unless --out names another folder:
   verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
   report.html   the same as tables; with --full the charts of orders";
 
 const SCHEMA_EXAMPLE: &str = "\
-Examples: completion, descriptions and checks of case files in an editor that knows taplo or Even Better TOML; what modes.json holds
+Examples: a schema by which an editor with taplo or Even Better TOML completes and checks case files; that of modes.json
   plummer schema > plummer.schema.json
   plummer schema --results modes
 
 The first line of a case file names the schema, relative to the case: #:schema plummer.schema.json
-Keys, kinds of values, options, and keys that exclude each other are in it; ranges and what needs the mesh are checked by every
-command that reads a case.";
+The schema has the keys, kinds of values, options, and keys that exclude each other. Every command that reads a case checks ranges
+and what needs the mesh.";
 
-/// From a housing mesh and a ball bearing's data to vibration signals and their diagnosis.
+/// Computes vibration signals from a housing mesh and a ball bearing's data, and diagnoses them.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "plummer", version, after_help = EXAMPLES, arg_required_else_help = true)]
 pub struct Arguments {
@@ -192,25 +196,25 @@ pub struct Arguments {
 /// What to compute.
 #[derive(Debug, Clone, Subcommand)]
 pub enum Command {
-    /// Static equilibrium, run-up transient, signals, analysis and report
+    /// Simulate a run: static equilibrium, transient of the run-up, signals, analysis and report
     #[command(after_help = RUN_EXAMPLE)]
     Run {
         /// Case file (TOML)
         case: PathBuf,
-        /// Say which model the run would take and why, with the estimated errors, and run nothing
+        /// Only say which model the run would take and why, with the estimated errors
         #[arg(long, conflicts_with = "resume")]
         explain: bool,
         /// Go on with the unfinished run in the folder for the results
         #[arg(long)]
         resume: bool,
-        /// Seconds of wall time between checkpoints; longer where they would take more than 4 % of it
+        /// Seconds of wall time between checkpoints; the pause is longer where checkpoints would take more than 4 % of the time
         #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
         checkpoint_every: f64,
     },
-    /// A commented case file from a mesh: bore, bearing, parts and supports by its named groups
+    /// Write a commented case file for a mesh, with bore, parts and supports by its named groups and a bearing that fits
     #[command(after_help = INIT_EXAMPLE)]
     Init(InitArguments),
-    /// What a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
+    /// Show what a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
     #[command(after_help = INSPECT_EXAMPLE)]
     Inspect {
         /// Mesh file (gmsh MSH 4.1 or 2.2)
@@ -218,50 +222,50 @@ pub enum Command {
         /// Unit of the mesh's coordinates: m, cm, mm, um or in (the file does not say)
         #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
         length_unit: Option<LengthUnit>,
-        /// Density in kg/m^3 for the mass (default: aluminium and steel)
+        /// Density in kg/m^3 for the mass (default: those of aluminium and of steel)
         #[arg(long, allow_hyphen_values = true, value_name = "RHO", value_parser = density)]
         density: Option<f64>,
     },
-    /// Eigenfrequencies of housing, ring, or both coupled; checks the expected ones
+    /// Compute eigenfrequencies of housing, ring, or both coupled, and compare them with expected ones
     #[command(after_help = MODES_EXAMPLE)]
     Modes {
         /// Case file (TOML)
         case: PathBuf,
     },
-    /// Craig-Bampton superelement of a housing, its error estimate and its checks
+    /// Condense a housing to a Craig-Bampton superelement, estimate its error and check it
     #[command(after_help = CONDENSE_EXAMPLE)]
     Condense {
         /// Case file (TOML)
         case: PathBuf,
-        /// Compute the full model too, and compare; error against size
+        /// Compare with the full model too, and show the error against the superelement's size
         #[arg(long)]
         compare_full: bool,
     },
-    /// Transfer paths from forces to sensors, reduced against full
+    /// Compute transfer paths from forces to sensors by the reduced model, and compare with the full one
     #[command(after_help = FRF_EXAMPLE)]
     Frf {
         /// Case file (TOML)
         case: PathBuf,
     },
-    /// Speed against accuracy of the simulation over methods, steps and sizes of the model, and the stability map
+    /// Chart speed against accuracy of the simulation over methods, steps and sizes of the model, and map its stability
     #[command(after_help = CHART_EXAMPLE)]
     Chart {
         /// Case file (TOML)
         case: PathBuf,
-        /// Fewer starts, a shorter span and fewer models; fewer conditions and steps, and shorter runs
+        /// Take a first look: fewer starts, models, conditions and steps, and shorter runs
         #[arg(long)]
         quick: bool,
         /// Make one of the two charts alone
         #[arg(long, value_name = "PART", value_enum)]
         only: Option<ChartPart>,
     },
-    /// Which part of a bearing is damaged, by a run's signal or a measured one
+    /// Judge which part of a bearing is damaged, by a run's signal or a measured one
     #[command(after_help = ANALYZE_EXAMPLE)]
     Analyze(Box<AnalyzeArguments>),
-    /// Many runs of one case with other values of its keys, one table; on all cores or on a cluster
+    /// Run many variants of a case into one table, on all cores or on a cluster
     #[command(after_help = SWEEP_EXAMPLE)]
     Sweep(Box<SweepArguments>),
-    /// Matrices and mode shapes in the formats of other programs
+    /// Write matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
         /// Case file (TOML), or a folder with results of `plummer modes`
@@ -271,37 +275,54 @@ pub enum Command {
         #[arg(long, value_name = "FORMAT", value_enum)]
         to: ExportFormat,
     },
-    /// Completions of this command line for a shell, on standard output
+    /// Print the completions of this command line for a shell
     #[command(after_help = COMPLETIONS_EXAMPLE)]
     Completions {
         /// The shell
         #[arg(value_name = "SHELL", value_enum)]
         shell: clap_complete::Shell,
     },
-    /// The manual page, on standard output; with --out a page a command
+    /// Print the manual page, or with --out write one for each command
     #[command(after_help = MAN_EXAMPLE)]
     Man,
-    /// The pages of earlier results again, with their tables and figures, as this version draws them
+    /// Draw the pages of earlier results again, with their tables and figures, as this version draws them
     #[command(after_help = REPORT_EXAMPLE)]
     Report {
         /// Folder with the results of one or more commands
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
-    /// Built-in checks against published numbers and closed forms; needs no files
+    /// Run built-in checks against published numbers and closed forms; they need no files
     #[command(after_help = VERIFY_EXAMPLE)]
     Verify {
-        /// Also orders of convergence (half a minute)
+        /// Check orders of convergence too (half a minute)
         #[arg(long)]
         full: bool,
     },
-    /// JSON Schema of the case file, for editors, or of a result, on standard output
+    /// Print the JSON Schema of case files, for editors, or of a command's results
     #[command(after_help = SCHEMA_EXAMPLE)]
     Schema {
-        /// Of what this command writes as COMMAND.json and prints with --json
+        /// Print the schema of what this command writes as COMMAND.json and prints with --json
         #[arg(long, value_name = "COMMAND", value_enum)]
         results: Option<ResultOf>,
     },
+}
+
+/// A mesh, and what is known of it.
+#[derive(Debug, Clone, Args)]
+pub struct InitArguments {
+    /// Mesh file (gmsh MSH 4.1 or 2.2)
+    #[arg(value_name = "HOUSING.msh", required_unless_present = "list_bearings")]
+    pub mesh: Option<PathBuf>,
+    /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, else a guess by the size)
+    #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
+    pub length_unit: Option<LengthUnit>,
+    /// Deep groove ball bearing of the catalogue (default: one whose outer diameter is the bore's within 1 %)
+    #[arg(long, value_name = "NAME")]
+    pub bearing: Option<String>,
+    /// List the bearings of the catalogue with their dimensions and sources
+    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing"])]
+    pub list_bearings: bool,
 }
 
 /// A part of `plummer chart`.
@@ -414,17 +435,16 @@ fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Options {
-    /// Folder for the results (default: out/ and the case file's name without ending, or out/verify; analyze: the run's own
-    /// folder, or out/ and the file's name, or out/analysis of several files; inspect writes only if named); of init: the case file
+    /// Folder for the results, or the case file of init (default: out/ and the name of the case or signal)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many threads to compute with (default: all cores)
     #[arg(long, global = true, allow_hyphen_values = true, value_name = "N", value_parser = number_of_threads)]
     pub threads: Option<NonZeroUsize>,
-    /// No progress and no summary; errors only
+    /// Print errors only, no progress and no summary
     #[arg(long, global = true)]
     pub quiet: bool,
-    /// The result as JSON on standard output, instead of the summary
+    /// Print the result as JSON instead of the summary
     #[arg(long, global = true)]
     pub json: bool,
     /// Replace an earlier result of the same command
@@ -497,6 +517,54 @@ pub enum ResultOf {
     Export,
     /// What report prints
     Report,
+}
+
+/// Refuses `--set` where nothing would come of it: in a command that reads no case, and where a later argument replaces it.
+///
+/// # Errors
+/// [`CliError`] that names the arguments.
+pub(super) fn check_set(arguments: &Arguments) -> Result<(), CliError> {
+    let set = &arguments.options.set;
+    let Some(argument) = set.first() else {
+        return Ok(());
+    };
+    if let Some(command) = without_case(&arguments.command) {
+        return Err(CliError::input(format!(
+            "--set {argument}: `plummer {command}` reads no case that it could change"
+        ))
+        .with_help("leave it out; the command has options of its own, which --help lists"));
+    }
+    match replaced_argument(set) {
+        Some([earlier, later]) => {
+            Err(CliError::input(format!("--set {later} replaces --set {earlier}: expected each key once"))
+                .with_help("leave one of the two out"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The command, if it reads no case of its own.
+fn without_case(command: &Command) -> Option<&'static str> {
+    match command {
+        Command::Completions { .. } => Some("completions"),
+        Command::Man => Some("man"),
+        Command::Schema { .. } => Some("schema"),
+        Command::Init(_) => Some("init"),
+        Command::Inspect { .. } => Some("inspect"),
+        Command::Verify { .. } => Some("verify"),
+        Command::Report { .. } => Some("report"),
+        Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => Some("analyze FILE"),
+        Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
+        Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
+        Command::Run { .. }
+        | Command::Modes { .. }
+        | Command::Condense { .. }
+        | Command::Frf { .. }
+        | Command::Chart { .. }
+        | Command::Export { .. }
+        | Command::Analyze(_)
+        | Command::Sweep(_) => None,
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{case_result, result_head, result_of_case, warnings};
 use super::stability::{alone, stability_lines, write_stability};
-use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::studies::chart::{
@@ -83,21 +83,18 @@ fn result_command(wanted: Wanted, line: &str) -> String {
     }
 }
 
-fn verdict(result: &Chart) -> Verdict {
+fn verdict(result: &Chart) -> Result<(), CliError> {
     if result.reference.agreed {
-        return Verdict::Good;
+        return Ok(());
     }
     let [by, beside] = result.reference.models.map(|model| model.method.name());
-    Verdict::Bad {
-        what: format!(
-            "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
-            result.reference.disagreement, result.settings.target
-        ),
-        help: Some(
-            "points below that are not marked; a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
-                .to_owned(),
-        ),
-    }
+    Err(CliError::failed(format!(
+        "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
+        result.reference.disagreement, result.settings.target
+    ))
+    .with_help(
+        "points below that are not marked; a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated",
+    ))
 }
 
 fn summary(result: &Chart) -> String {

@@ -2,7 +2,7 @@
 
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings};
-use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::condense::{
     Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
@@ -92,7 +92,7 @@ fn check_imported(
     })
 }
 
-fn verdict(checks: &[Check], help: &str) -> Verdict {
+fn verdict(checks: &[Check], help: &str) -> Result<(), CliError> {
     let failed: Vec<String> = checks
         .iter()
         .filter(|check| !check.ok())
@@ -104,11 +104,7 @@ fn verdict(checks: &[Check], help: &str) -> Verdict {
             format!("{}: found {:.3e}, expected {bound} {:.3e} ({})", check.name, check.value, check.limit, check.what)
         })
         .collect();
-    if failed.is_empty() {
-        Verdict::Good
-    } else {
-        Verdict::Bad { what: failed.join("; "), help: Some(help.to_owned()) }
-    }
+    if failed.is_empty() { Ok(()) } else { Err(CliError::failed(failed.join("; ")).with_help(help)) }
 }
 
 fn summary(result: &CondenseResult) -> String {

@@ -5,14 +5,18 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-use super::{CliError, ResultsError};
+use super::CliError;
 use crate::app::case::Case;
+use crate::app::shell_word::shell_word;
 use crate::files::{self, FileDigest, FileError};
 
 /// Where a result has the digests of the files beside it.
 pub(super) const ARRAYS: &str = "arrays";
 /// Where a result has the digest of its case, [`Source::digest`](crate::app::case::Source::digest).
 pub(super) const CASE_DIGEST: &str = "case_digest";
+
+/// What to do about damaged results.
+const AGAIN: &str = "compute the results again with --force";
 
 /// What is read of the results of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +32,7 @@ pub(super) struct Wanted {
 /// SHA-256 of files by their names, for the result that speaks of them.
 ///
 /// # Errors
-/// [`CliError::File`] for a file that is gone.
+/// [`CliError`] for a file that is gone.
 pub(super) fn digests(files: &[PathBuf]) -> Result<BTreeMap<String, String>, CliError> {
     let mut digests = BTreeMap::new();
     for path in files {
@@ -42,21 +46,30 @@ pub(super) fn digests(files: &[PathBuf]) -> Result<BTreeMap<String, String>, Cli
 /// The case of the results in a folder, which are whole and belong together; `set` is applied after what they were computed with.
 ///
 /// # Errors
-/// [`CliError::Results`], [`CliError::Case`].
+/// [`CliError`]: results that are not there, damaged or of other values than the case has now; a case that is wrong.
 pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> Result<Case, CliError> {
     let Wanted { command, arrays, instead } = wanted;
     let path = folder.join(format!("{command}.json"));
     let beside = folder.join(arrays);
     if !path.is_file() || !beside.is_file() {
-        return Err(ResultsError::Missing { folder: folder.to_owned(), command, arrays, instead }.into());
+        return Err(CliError::input(format!(
+            "{} has no {command}.json and {arrays}: expected a folder with results of `plummer {command}`, or {instead}",
+            folder.display()
+        ))
+        .with_help(format!(
+            "run `plummer {command} CASE.toml --out {}` first",
+            shell_word(&folder.to_string_lossy())
+        )));
     }
-    let damaged = |expected, found: String| ResultsError::Damaged { path: path.clone(), expected, found };
+    let damaged = |expected: &str, found: String| {
+        CliError::input(format!("{}: expected {expected}, found {found}", path.display())).with_help(AGAIN)
+    };
     let result = files::read(&path).map_err(|error| error.to_string());
     let result = result.and_then(|text| serde_json::from_slice(&text).map_err(|e| e.to_string()));
     let result: Value = result.map_err(|found| damaged("a result of this command", found))?;
     let Some(file) = result["case"].as_str().map(PathBuf::from) else {
         let found = result["case"].to_string();
-        return Err(damaged("the case file's name under \"case\"", found).into());
+        return Err(damaged("the case file's name under \"case\"", found));
     };
     let own: Vec<String> = match &result["set"] {
         Value::Null => Vec::new(),
@@ -64,24 +77,30 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
             .map_err(|_| damaged("a list of texts under \"set\"", set.to_string()))?,
     };
     if !file.exists() {
-        return Err(ResultsError::CaseGone { path, case: file }.into());
+        return Err(CliError::input(format!(
+            "{} names the case file {}, which is not there",
+            path.display(),
+            file.display()
+        ))
+        .with_help("go to the folder in which the results were computed, or compute them again"));
     }
     let case = Case::load(&file, &own)?;
     let digest = result[CASE_DIGEST].as_str();
     if digest.is_some_and(|digest| case.source.digest().is_ok_and(|now| now != digest)) {
-        return Err(ResultsError::CaseChanged { path, case: file }.into());
+        return Err(CliError::input(format!(
+            "{} is the result of other values than {} has now",
+            path.display(),
+            file.display()
+        ))
+        .with_help(
+            "compute the results again with --force, or give the case file its old values; [analysis] may change",
+        ));
     }
     if let Some(expected) = result[ARRAYS][arrays].as_str() {
         let found = FileDigest::of_file(&beside);
         let found = found.map_err(|error| damaged("a file that can be read", error.to_string()))?;
         if found.sha256 != expected {
-            return Err(ResultsError::OtherFile {
-                path,
-                arrays: beside,
-                expected: expected.to_owned(),
-                found: found.sha256,
-            }
-            .into());
+            return Err(other_file(&path, &beside, expected, &found.sha256));
         }
     }
     if set.is_empty() {
@@ -90,7 +109,17 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     let all: Vec<String> = own.into_iter().chain(set.iter().cloned()).collect();
     let looked_at = Case::load(&file, &all)?;
     if looked_at.source.digest().ok() != case.source.digest().ok() {
-        return Err(ResultsError::SetChanges { path }.into());
+        return Err(CliError::input(format!("{} is the result of other values than --set gives", path.display()))
+            .with_help("of results, --set changes [analysis] alone; compute others with these values"));
     }
     Ok(looked_at)
+}
+
+/// The error of a file that was replaced or damaged since a result speaks of it; `expected` and `found` are SHA-256.
+pub(super) fn other_file(result: &Path, file: &Path, expected: &str, found: &str) -> CliError {
+    let (file, result) = (file.display(), result.display());
+    CliError::input(format!(
+        "{file} is not the file that {result} speaks of: expected SHA-256 {expected}, found {found}"
+    ))
+    .with_help(AGAIN)
 }

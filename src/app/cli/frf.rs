@@ -2,7 +2,7 @@
 
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
 use crate::app::error::ComputeError;
@@ -34,9 +34,9 @@ pub(crate) fn frf(case: &Case, options: &Options, progress: &Progress) -> Result
     })
 }
 
-fn verdict(result: &FrfResult) -> Verdict {
+fn verdict(result: &FrfResult) -> Result<(), CliError> {
     if result.passes() {
-        return Verdict::Good;
+        return Ok(());
     }
     let found = |how: &str, (hz, error): (f64, f64)| {
         (error > result.target).then(|| format!("{how} {error:.1e} at {hz:.0} Hz"))
@@ -50,16 +50,14 @@ fn verdict(result: &FrfResult) -> Verdict {
     .into_iter()
     .flatten()
     .collect();
-    Verdict::Bad {
-        what: format!(
-            "the reduced responses miss the target {:.1e}: {}",
-            result.target,
-            misses.join(", ")
-        ),
-        help: Some(
-            "close to zeros of a response, and on paths that carry little, small differences are large: ask for the other paths alone, narrow frf.band_hz, or raise condense.fixed_interface_modes".to_owned(),
-        ),
-    }
+    Err(CliError::failed(format!(
+        "the reduced responses miss the target {:.1e}: {}",
+        result.target,
+        misses.join(", ")
+    ))
+    .with_help(
+        "close to zeros of a response, and on paths that carry little, small differences are large: ask for the other paths alone, narrow frf.band_hz, or raise condense.fixed_interface_modes",
+    ))
 }
 
 fn summary(result: &FrfResult) -> String {

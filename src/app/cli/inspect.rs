@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::output::json;
-use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection};
 use crate::app::error::ComputeError;
@@ -44,31 +44,31 @@ pub(crate) fn inspect(
 }
 
 /// A mesh is good unless elements of it are folded or count twice.
-pub(super) fn verdict(found: &Inspection) -> Verdict {
+pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
     let overlapping = found.overlapping.iter();
     let overlapping: Vec<String> = overlapping.map(|overlap| overlap.sentence()).collect();
-    match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
-        (None, None, None) if overlapping.is_empty() => Verdict::Good,
-        (None, None, None) => Verdict::Bad {
-            what: overlapping.join("; "),
-            help: Some("cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are".to_owned()),
-        },
-        (None, None, Some(mixed)) => Verdict::Bad {
-            what: mixed.sentence(),
-            help: Some("set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order".to_owned()),
-        },
-        (None, Some(doubled), _) => Verdict::Bad {
-            what: doubled.sentence(),
-            help: Some("keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again".to_owned()),
-        },
-        (Some(first), ..) => Verdict::Bad {
-            what: format!(
+    let (what, help) = match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
+        (None, None, None) if overlapping.is_empty() => return Ok(()),
+        (None, None, None) => (
+            overlapping.join("; "),
+            "cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are",
+        ),
+        (None, None, Some(mixed)) => {
+            (mixed.sentence(), "set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order")
+        }
+        (None, Some(doubled), _) => (
+            doubled.sentence(),
+            "keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
+        ),
+        (Some(first), ..) => (
+            format!(
                 "{} elements are inverted, folded or without size (the first is element {})",
                 found.invalid_elements, first.tag
             ),
-            help: Some("mesh again, or look at them in gmsh (Tools, Visibility)".to_owned()),
-        },
-    }
+            "mesh again, or look at them in gmsh (Tools, Visibility)",
+        ),
+    };
+    Err(CliError::failed(what).with_help(help))
 }
 
 fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {

@@ -10,23 +10,19 @@ mod condense;
 mod earlier_results;
 mod export;
 mod failure;
-mod folder_lock;
 mod frf;
 mod init;
 mod inspect;
 mod interrupt;
 mod mode_checks;
 mod modes;
-mod outcome;
 mod output;
 mod progress;
 mod report;
 mod report_files;
 mod results;
-mod results_error;
 mod run;
 mod schema;
-mod set_arguments;
 mod shell;
 mod stability;
 mod sweep;
@@ -39,16 +35,12 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-pub use analyze::{AnalyzeArguments, AnalyzeError, GivenOrders, GivenSpeed, Missing};
-pub use arguments::{Arguments, ChartPart, Command, ExportFormat, Options, ResultOf};
-pub use export::ExportError;
+pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
+pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
 pub use failure::CliError;
-pub use init::{InitArguments, InitError};
-pub use outcome::{Outcome, Verdict};
-pub use output::OutputFolder;
+pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
 pub use progress::{Progress, StageTime, Visibility};
-pub use results_error::ResultsError;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
@@ -90,10 +82,7 @@ fn on_arguments() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    let done = interrupt::fail_at_limits()
-        .map_err(CliError::Signals)
-        .and_then(|()| execute(&arguments, &mut io::stdout().lock()));
-    match done {
+    match interrupt::fail_at_limits().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&mut io::stderr().lock());
@@ -107,7 +96,7 @@ fn on_arguments() -> ExitCode {
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
-    set_arguments::check_set(arguments)?;
+    arguments::check_set(arguments)?;
     let options = &arguments.options;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -115,7 +104,8 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     if let Err(error) = pool.build_global()
         && let Some(source) = std::error::Error::source(&error)
     {
-        return Err(CliError::Threads(source.to_string()));
+        return Err(CliError::failed(format!("the threads that compute cannot be started: {source}"))
+            .with_help("use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"));
     }
     let outcome = match &arguments.command {
         Command::Completions { shell } => return shell::completions(*shell, to),
@@ -135,11 +125,7 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Inspect { mesh, length_unit, density } => inspect::inspect(mesh, *length_unit, *density, options),
     }?;
     outcome.show(options, to)?;
-    match outcome.verdict {
-        Verdict::Good => Ok(()),
-        Verdict::Bad { what, help } => Err(CliError::BadAnswer { what, help }),
-        Verdict::WrongInput { what, help } => Err(CliError::WrongInput { what, help }),
-    }
+    outcome.verdict
 }
 
 /// Reads a case and carries out what it is to be used for.

@@ -4,7 +4,7 @@ use super::earlier_results::digests;
 use super::mode_checks::{check_lines, failures};
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings, write_modes};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::modes::{ModesResult, Reading, compute_modes, modes_report};
 
@@ -30,15 +30,10 @@ pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outc
         result: json,
         written: [vec![path, shapes], files.paths].concat(),
         verdict: if result.passes() {
-            Verdict::Good
+            Ok(())
         } else {
-            Verdict::Bad {
-                what: failures(&result).join("; "),
-                help: Some(
-                    "the table names each; modes.expected and modes.compare in the case file hold the limits"
-                        .to_owned(),
-                ),
-            }
+            Err(CliError::failed(failures(&result).join("; "))
+                .with_help("the table names each; modes.expected and modes.compare in the case file hold the limits"))
         },
     })
 }

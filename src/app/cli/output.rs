@@ -1,24 +1,34 @@
-//! Where results go: a folder that is not overwritten by accident, files that are whole or not there.
+//! Where results go: what a command hands back, a folder that is not overwritten by accident and that one process at
+//! a time writes into, files that are whole or not there.
 
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-
-use serde::Serialize;
-use serde_json::Value;
-
-use super::{CliError, Options, folder_lock};
+use super::{CliError, Options};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
 use crate::files;
+use serde::Serialize;
+use serde_json::Value;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Writes a line. A closed pipe (`plummer ... | head`) counts as success.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`] when `to` cannot be written for another reason.
+/// As [`printed`].
 pub(crate) fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
-    match writeln!(to, "{}", printable(line)).and_then(|()| to.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
+    printed(writeln!(to, "{}", printable(line)).and_then(|()| to.flush()))
+}
+
+/// What a writing to standard output comes to: a closed pipe is no error.
+///
+/// # Errors
+/// [`CliError`] when it failed for another reason.
+pub(super) fn printed(written: io::Result<()>) -> Result<(), CliError> {
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::failed(format!("cannot write to standard output: {error}")))
+        }
         _ => Ok(()),
     }
 }
@@ -26,7 +36,7 @@ pub(crate) fn emit(to: &mut impl Write, line: &str) -> Result<(), CliError> {
 /// Writes a file under a temporary name beside it and renames it: a half-written file never carries its name.
 ///
 /// # Errors
-/// [`CliError::File`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
+/// [`CliError`] when writing or renaming fails; the temporary file is then removed and an earlier file of this
 /// name is as it was.
 pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
@@ -35,9 +45,9 @@ pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
 /// A result as JSON.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`] for what JSON cannot hold: names of files that are not UTF-8.
+/// [`CliError`] for what JSON cannot hold: names of files that are not UTF-8.
 pub(super) fn json(result: &impl Serialize) -> Result<Value, CliError> {
-    serde_json::to_value(result).map_err(|error| CliError::StandardOutput(error.into()))
+    serde_json::to_value(result).map_err(|error| CliError::failed(format!("cannot write to standard output: {error}")))
 }
 
 /// The folder for the results of one case. Several commands may share it: each has its own `COMMAND.json`, which is to
@@ -73,7 +83,7 @@ impl OutputFolder {
     /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
     ///
     /// # Errors
-    /// [`CliError::ResultExists`], [`CliError::Busy`] or [`CliError::Folder`].
+    /// [`CliError`]: a folder that cannot be made or that another process has, a result that is there.
     pub(crate) fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
         self.claim_files(&[&format!("{command}.json")], force)
     }
@@ -83,11 +93,12 @@ impl OutputFolder {
     /// # Errors
     /// As [`claim`](Self::claim).
     pub(crate) fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
-        fs::create_dir_all(&self.path).map_err(|source| CliError::Folder { path: self.path.clone(), source })?;
+        fs::create_dir_all(&self.path).map_err(|error| CliError::folder(&self.path, &error))?;
         self.lock()?;
         let mut paths = names.iter().map(|name| self.path.join(name));
         match paths.find(|path| !force && path.exists()) {
-            Some(path) => Err(CliError::ResultExists { path }),
+            Some(path) => Err(CliError::input(format!("{} is the result of an earlier run", path.display()))
+                .with_help("replace it with --force, or choose another folder with --out")),
             None => Ok(()),
         }
     }
@@ -95,14 +106,14 @@ impl OutputFolder {
     /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
     ///
     /// # Errors
-    /// [`CliError::Busy`], [`CliError::Folder`].
+    /// [`CliError`] when another process has it, or it cannot be opened.
     pub(crate) fn lock(&self) -> Result<(), CliError> {
-        let path = self.path.clone();
-        match folder_lock::take(&path) {
+        match take(&self.path) {
             Ok(true) => Ok(()),
-            Ok(false) => Err(CliError::Busy { path }),
+            Ok(false) => Err(CliError::input(format!("another plummer writes into {}", self.path.display()))
+                .with_help("wait for its end, or choose another folder with --out")),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            Err(source) => Err(CliError::Folder { path, source }),
+            Err(error) => Err(CliError::folder(&self.path, &error)),
         }
     }
 
@@ -119,7 +130,7 @@ impl OutputFolder {
     /// Writes a result as JSON; gives its path, and what it says.
     ///
     /// # Errors
-    /// [`CliError::Write`], and as [`json`].
+    /// [`CliError`] when it cannot be written, and as [`json`].
     pub(super) fn write_json(&self, name: &str, result: &impl Serialize) -> Result<(PathBuf, Value), CliError> {
         let json = json(result)?;
         let path = self.write(name, format!("{json:#}\n").as_bytes())?;
@@ -129,7 +140,7 @@ impl OutputFolder {
     /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
     ///
     /// # Errors
-    /// [`CliError::Folder`] or [`CliError::File`].
+    /// [`CliError`] when a folder cannot be made or the file not be written.
     pub(crate) fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
         self.write(name, bytes)
@@ -138,19 +149,87 @@ impl OutputFolder {
     /// Makes a folder below this one; none between may be a symbolic link.
     ///
     /// # Errors
-    /// [`CliError::Folder`].
+    /// [`CliError`] when it cannot be made.
     pub(crate) fn make_below(&self, name: &Path) -> Result<PathBuf, CliError> {
-        files::make_below(&self.path, name).map_err(|source| CliError::Folder { path: self.path.join(name), source })
+        files::make_below(&self.path, name).map_err(|error| CliError::folder(&self.path.join(name), &error))
     }
 
     /// Writes a file of this name into the folder, whole or not at all, and returns its path.
     ///
     /// # Errors
-    /// [`CliError::File`].
+    /// [`CliError`] when it cannot be written.
     pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
         let path = self.path.join(name);
         write_atomic(&path, bytes)?;
         Ok(path)
+    }
+}
+
+/// The folders that this process holds: a lock ends with the process, however it ends.
+static HELD: Mutex<Vec<(PathBuf, File)>> = Mutex::new(Vec::new());
+
+/// Takes a folder for this process until it ends, by `flock` on the folder itself. Returns whether no other process has it.
+///
+/// A file system that knows no locks gives none: the folder is then taken without.
+///
+/// # Errors
+/// What the system says when the folder cannot be opened.
+pub(super) fn take(folder: &Path) -> io::Result<bool> {
+    let path = folder.canonicalize()?;
+    let mut held = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    if held.iter().any(|(other, _)| *other == path) {
+        return Ok(true);
+    }
+    let file = File::open(&path)?;
+    match file.try_lock() {
+        Ok(()) => {
+            held.push((path, file));
+            Ok(true)
+        }
+        Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(_)) => Ok(true),
+    }
+}
+
+/// Whether another process has a folder now.
+pub(super) fn is_taken(folder: &Path) -> bool {
+    let Ok(file) = File::open(folder) else {
+        return false;
+    };
+    // the lock ends with the file
+    matches!(file.try_lock(), Err(TryLockError::WouldBlock))
+}
+
+/// What a command computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// A few lines for a reader, without a line end after the last.
+    pub summary: String,
+    /// The content of the command's result file.
+    pub result: serde_json::Value,
+    /// The files that were written, the most useful last.
+    pub written: Vec<PathBuf>,
+    /// What is bad about the answer, or wrong in some of the input; results are written all the same.
+    pub verdict: Result<(), CliError>,
+}
+
+impl Outcome {
+    /// Writes the result: as JSON if asked for, else summary and files, else (quiet) nothing.
+    ///
+    /// # Errors
+    /// [`CliError`] when `to` cannot be written; a closed pipe is none.
+    pub(crate) fn show(&self, options: &Options, to: &mut impl Write) -> Result<(), CliError> {
+        if options.json {
+            return emit(to, &format!("{:#}", self.result));
+        }
+        if options.quiet {
+            return Ok(());
+        }
+        emit(to, &self.summary)?;
+        for path in &self.written {
+            emit(to, &format!("wrote {}", path.display()))?;
+        }
+        Ok(())
     }
 }
 
@@ -162,7 +241,6 @@ mod tests {
 
     use super::{CliError, Options, OutputFolder, emit, write_atomic};
     use crate::app::case::{Case, Source};
-    use crate::files::FileError;
 
     struct Broken(io::ErrorKind);
 
@@ -204,7 +282,8 @@ mod tests {
     fn a_closed_pipe_is_success_and_a_full_disk_is_not() {
         emit(&mut Broken(io::ErrorKind::BrokenPipe), "line").unwrap();
         let error = emit(&mut Broken(io::ErrorKind::StorageFull), "line").unwrap_err();
-        assert!(matches!(error, CliError::StandardOutput(_)));
+        assert_eq!(error.exit_code(), 1);
+        assert_eq!(error.to_string(), "cannot write to standard output: no storage space");
     }
 
     #[test]
@@ -225,7 +304,8 @@ mod tests {
         let path = folder.join("run.json");
         fs::create_dir_all(path.join("inside")).unwrap();
         let error = write_atomic(&path, b"text").unwrap_err();
-        assert!(matches!(error, CliError::File(FileError::Write { path: named, .. }) if named == path));
+        assert_eq!(error.exit_code(), 1);
+        assert!(error.to_string().starts_with(&format!("cannot write {}: ", path.display())), "{error}");
         assert_eq!(names(&folder), ["run.json"]);
         assert!(write_atomic(&folder.join("no/such/run.json"), b"text").is_err());
         assert!(write_atomic(Path::new("/"), b"text").is_err());
@@ -247,14 +327,71 @@ mod tests {
         let written = folder.write("run.json", b"{}").unwrap();
         assert_eq!(written, path.join("new/run.json"));
         let error = folder.claim("run", false).unwrap_err();
-        assert!(matches!(error, CliError::ResultExists { path } if path == written));
+        let expected = CliError::input(format!("{} is the result of an earlier run", written.display()))
+            .with_help("replace it with --force, or choose another folder with --out");
+        assert_eq!(error, expected);
         folder.claim("modes", false).unwrap();
         folder.claim("run", true).unwrap();
         let default = OutputFolder::of(&case, &Options::default());
         assert_eq!(default.path(), Path::new("out/case.v2"));
         let blocked = OutputFolder { path: written.join("below a file") };
         let error = blocked.claim("run", false).unwrap_err();
-        assert!(matches!(error, CliError::Folder { .. }));
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().starts_with("cannot make the folder "), "{error}");
         fs::remove_dir_all(path).unwrap();
+    }
+}
+
+#[cfg(test)]
+mod lock_tests {
+    use std::fs::File;
+
+    use super::{is_taken, take};
+
+    #[test]
+    fn a_folder_is_taken_once_until_its_lock_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        assert!(!is_taken(path));
+        // as another process would
+        let other = File::open(path).unwrap();
+        other.lock().unwrap();
+        assert!(is_taken(path));
+        assert!(!take(path).unwrap());
+        drop(other);
+        assert!(take(path).unwrap());
+        assert!(is_taken(path));
+        // what this process has it may take again, by any name
+        assert!(take(&path.join(".")).unwrap());
+        assert!(take(&path.join("nothing")).is_err());
+    }
+}
+
+#[cfg(test)]
+mod outcome_tests {
+    use std::path::PathBuf;
+
+    use super::{Options, Outcome};
+
+    fn shown(options: &Options) -> String {
+        let outcome = Outcome {
+            summary: "8.2 kHz\n11.3 kHz".to_owned(),
+            result: serde_json::json!({ "command": "modes" }),
+            written: vec![PathBuf::from("out/a/modes.json")],
+            verdict: Ok(()),
+        };
+        let mut written = Vec::new();
+        outcome.show(options, &mut written).unwrap();
+        String::from_utf8(written).unwrap()
+    }
+
+    #[test]
+    fn summary_json_or_nothing() {
+        let plain = Options::default();
+        assert_eq!(shown(&plain), "8.2 kHz\n11.3 kHz\nwrote out/a/modes.json\n");
+        let json = Options { json: true, quiet: true, ..Options::default() };
+        assert_eq!(shown(&json), "{\n  \"command\": \"modes\"\n}\n");
+        let quiet = Options { quiet: true, ..Options::default() };
+        assert_eq!(shown(&quiet), "");
     }
 }

@@ -1,6 +1,7 @@
 //! `plummer report`: the pages of earlier results, drawn again from their content.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
@@ -8,11 +9,15 @@ use serde::Serialize;
 
 use super::output::json;
 use super::report_files::{ReportFiles, page_of};
-use super::results_error::{ResultsError, WITH_REPORT};
-use super::{CliError, Options, Outcome, OutputFolder, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::commands::result::VERSION;
 use crate::files::FileError;
 use crate::report::Report;
+
+/// The commands that write reports, by the names of their results.
+const WITH_REPORT: [&str; 9] = ["run", "modes", "condense", "frf", "chart", "stability", "analysis", "sweep", "verify"];
+/// What to do about a damaged report.
+const AGAIN: &str = "run the command again with --force";
 
 /// The pages that were drawn.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -74,13 +79,13 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         summary: summary.join("\n"),
         result: json(&ReportResult { plummer: VERSION, command: "report", reports: pages })?,
         written,
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 
 /// The contents of reports in a folder, in order of their names, each with the name of its page.
-fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
-    let failed = |source| FileError::read(folder)(source);
+fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
+    let failed = |source| unreadable(folder, source);
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let entry = entry.map_err(failed)?;
@@ -89,21 +94,53 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, ResultsError> {
         }
     }
     if found.is_empty() {
-        return Err(ResultsError::NoReport { folder: folder.to_owned() });
+        return Err(CliError::input(format!(
+            "{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page",
+            folder.display()
+        ))
+        .with_help("name the folder with the results of a command"));
     }
     found.sort();
     Ok(found)
 }
 
 /// The report that a file holds, and the command that it is of.
-fn read(path: &Path) -> Result<(String, Report), ResultsError> {
-    let bytes = fs::read(path).map_err(FileError::read(path))?;
-    let report =
-        Report::from_record(&bytes).map_err(|source| ResultsError::BrokenReport { path: path.to_owned(), source })?;
+fn read(path: &Path) -> Result<(String, Report), CliError> {
+    let bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
+    let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
+    let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
     // names of files are made of it: nothing is written beside the folder
     let command = report.table_files.as_ref().map(|files| &files.prefix);
     match command.filter(|command| WITH_REPORT.contains(&command.as_str())) {
         Some(command) => Ok((command.clone(), report)),
-        None => Err(ResultsError::OtherReport { path: path.to_owned(), command: command.cloned().unwrap_or_default() }),
+        None => {
+            let command = command.map_or("", String::as_str);
+            Err(wrong(&format!("a report of \"{command}\": expected one of {}", WITH_REPORT.join(", "))))
+        }
+    }
+}
+
+/// A folder that was named, or a file in it, cannot be read.
+fn unreadable(path: &Path, source: io::Error) -> CliError {
+    CliError::input(FileError::read(path)(source).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::records;
+
+    #[test]
+    fn a_folder_without_a_report_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = records(folder.path()).unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        let mut lines = Vec::new();
+        error.report(&mut lines);
+        let expected = format!(
+            "error: {} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page\n\
+             help: name the folder with the results of a command\n",
+            folder.path().display()
+        );
+        assert_eq!(String::from_utf8(lines).unwrap(), expected);
     }
 }

@@ -122,7 +122,7 @@ fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError
 
 /// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
 fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
-    let failed = |source| CliError::Folder { path: path.to_owned(), source };
+    let failed = |error| CliError::folder(path, &error);
     if !path.is_dir() {
         return Ok(());
     }

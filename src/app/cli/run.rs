@@ -4,13 +4,12 @@ use super::earlier_results::digests;
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings, write_scalograms, write_signals};
-use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, Verdict, interrupt};
+use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, interrupt};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::run::unfinished::{CHECKPOINT_S, RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
-use crate::app::error::UnfinishedError;
 use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
@@ -22,14 +21,18 @@ pub(super) const PARTIAL: &str = ".run.partial";
 /// Checks that there is an unfinished run to go on with.
 ///
 /// # Errors
-/// [`CliError::Busy`], [`CliError::ResumeAnew`], [`CliError::Finished`], [`CliError::Stage`] if there never was one.
+/// [`CliError`]: another process has the folder, `--force` is there too, or the run has ended.
 pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
     folder.lock()?;
     let (partial, finished) = (folder.path().join(PARTIAL), folder.path().join("run.json"));
     if force {
-        Err(CliError::ResumeAnew)
+        Err(CliError::resume_anew())
     } else if !UnfinishedRun::is_in(&partial) && finished.exists() {
-        Err(CliError::Finished { path: finished })
+        Err(CliError::input(format!(
+            "{} is the result of a finished run: there is nothing to go on with",
+            finished.display()
+        ))
+        .with_help("leave --resume out, and begin anew with --force"))
     } else {
         Ok(())
     }
@@ -40,13 +43,13 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
 /// # Errors
 /// [`CliError`] when the input is wrong or there is nothing to start from.
 pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
-    let (choice, told) = explain_run(case, progress)?;
-    let lines = std::iter::once(choice.table().plain()).chain(warnings(&told));
+    let (choice, doubts) = explain_run(case, progress)?;
+    let lines = std::iter::once(choice.table().plain()).chain(warnings(&doubts));
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
-        result: json(&choice.summary(&told))?,
+        result: json(&choice.summary(&doubts))?,
         written: Vec::new(),
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 
@@ -61,12 +64,12 @@ pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Re
     let mut unfinished = unfinished(case, arguments, &folder)?;
     let result = compute_kept_run(case, progress, &mut unfinished);
     let result = result.map_err(|error| match error {
-        ComputeError::Interrupted { .. } => CliError::Interrupted {
-            what: error.to_string(),
-            kept: "the signals so far and a checkpoint are",
-            folder: unfinished.folder.clone(),
-            command: again(case, arguments),
-        },
+        ComputeError::Interrupted { .. } => CliError::interrupted(
+            &error.to_string(),
+            "the signals so far and a checkpoint are",
+            &unfinished.folder,
+            &again(case, arguments),
+        ),
         error => error.into(),
     })?;
     progress.stage("write");
@@ -79,7 +82,7 @@ pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Re
     let mut record = case_result("run", case, progress, wall_s, &files, result.summary());
     record.arrays = digests(&arrays)?;
     let (path, json) = folder.write_json("run.json", &record)?;
-    unfinished.remove().map_err(ComputeError::from)?;
+    unfinished.remove()?;
     Ok(Outcome {
         summary: summary(&result, started.elapsed().as_secs_f64()),
         result: json,
@@ -97,15 +100,13 @@ fn unfinished(case: &Case, arguments: &Arguments, folder: &OutputFolder) -> Resu
     };
     let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
     if in_the_way {
-        return Err(ComputeError::from(UnfinishedError::InTheWay { path: partial }).into());
+        return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
+            .with_help("go on with --resume, or give it up and begin anew with --force"));
     }
     let identity = RunIdentity::of(case)?;
-    let mut run = if resume {
-        UnfinishedRun::resume(&partial, identity).map_err(ComputeError::from)?
-    } else {
-        UnfinishedRun::begin(&partial, identity)
-    };
-    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    let mut run =
+        if resume { UnfinishedRun::resume(&partial, identity)? } else { UnfinishedRun::begin(&partial, identity) };
+    let stop = interrupt::stop_request()?;
     (run.every, run.stop) = (Duration::from_secs_f64(pause), stop);
     Ok(run)
 }
@@ -120,23 +121,19 @@ fn again(case: &Case, arguments: &Arguments) -> String {
     line + " --resume"
 }
 
-fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Verdict {
+fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Result<(), CliError> {
     match &result.simulation.end {
         RunEnd::Complete => match result.distrust() {
-            None => Verdict::Good,
-            Some(why) => Verdict::Bad {
-                what: format!("the signals cannot be trusted: {why}"),
-                help: Some("the warnings of run.json and of the report say by how much, and what helps; signals.npz has the signals all the same".to_owned()),
-            },
-        },
-        RunEnd::BlewUp(blow_up) => Verdict::Bad {
-            what: blow_up.to_string(),
-            help: Some(format!(
-                "{}; {} instants computed until then are in signals.npz",
-                smaller_steps(blow_up, asked),
-                result.simulation.record.rows()
+            None => Ok(()),
+            Some(why) => Err(CliError::failed(format!("the signals cannot be trusted: {why}")).with_help(
+                "the warnings of run.json and of the report say by how much, and what helps; signals.npz has the signals all the same",
             )),
         },
+        RunEnd::BlewUp(blow_up) => Err(CliError::failed(blow_up.to_string()).with_help(format!(
+            "{}; {} instants computed until then are in signals.npz",
+            smaller_steps(blow_up, asked),
+            result.simulation.record.rows()
+        ))),
     }
 }
 

@@ -1,33 +1,34 @@
 //! What a shell and `man` know of the command line, made from its definition.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use clap::CommandFactory;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
+use super::output::printed;
 use super::{Arguments, CliError, Options, OutputFolder};
 
 /// Writes the completions for a shell.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`] when `to` cannot be written; a closed pipe is none.
+/// [`CliError`] when `to` cannot be written; a closed pipe is none.
 pub(super) fn completions(shell: Shell, to: &mut impl Write) -> Result<(), CliError> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "plummer", &mut script);
-    told(to.write_all(&script).and_then(|()| to.flush()))
+    printed(to.write_all(&script).and_then(|()| to.flush()))
 }
 
 /// Writes the manual page, or with `--out` that of every command as `plummer-COMMAND.1` into the folder.
 ///
 /// # Errors
-/// [`CliError::StandardOutput`]; [`CliError::Folder`] and [`CliError::File`] for the folder's files.
+/// [`CliError`] when `to` or a file cannot be written.
 pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError> {
     let command = Arguments::command();
     let Some(folder) = &options.out else {
         let mut page = Vec::new();
-        Man::new(command).render(&mut page).map_err(CliError::StandardOutput)?;
-        return told(to.write_all(&page).and_then(|()| to.flush()));
+        printed(Man::new(command).render(&mut page))?;
+        return printed(to.write_all(&page).and_then(|()| to.flush()));
     };
     let folder = OutputFolder::at(folder);
     folder.claim_files(&[], options.force)?;
@@ -37,18 +38,10 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
     for part in command.get_subcommands().chain([&command]) {
         let name = part.get_bin_name().unwrap_or("plummer").replace(' ', "-");
         let mut page = Vec::new();
-        Man::new(part.clone().display_name(name.clone())).render(&mut page).map_err(CliError::StandardOutput)?;
+        printed(Man::new(part.clone().display_name(name.clone())).render(&mut page))?;
         folder.write(&format!("{name}.1"), &page)?;
     }
     Ok(())
-}
-
-/// A closed pipe is no error.
-fn told(written: io::Result<()>) -> Result<(), CliError> {
-    match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::StandardOutput(error)),
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

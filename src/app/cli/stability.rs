@@ -3,7 +3,7 @@
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::case_result;
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
@@ -41,7 +41,7 @@ pub(super) fn alone(
         summary: stability_lines(&stability),
         result: json(&record)?,
         written: [written, files.paths].concat(),
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::report_files::ReportFiles;
 use super::results::result_head;
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::verification::{Check, SectionResult, VerifyResult, suite};
 use crate::report::Report;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub(crate) fn verify(full: bool, options: &Options) -> Result<Outcome, CliError>
     folder.claim("verify", options.force)?;
     let progress = Progress::new(options.visibility());
     let started = std::time::Instant::now();
-    let sections = suite(full, &progress).map_err(CliError::Verification);
+    let sections = suite(full, &progress).map_err(|error| CliError::failed(error.to_string()));
     let outcome = sections.and_then(|sections| {
         let wall_s = started.elapsed().as_secs_f64();
         conclude(&sections, full, &folder, &progress, wall_s)
@@ -57,12 +57,11 @@ fn conclude(
         result: json,
         written: [vec![path], files.paths].concat(),
         verdict: if failed.is_empty() {
-            Verdict::Good
+            Ok(())
         } else {
-            Verdict::Bad {
-                what: failed.join("; "),
-                help: Some("the program does not compute here what it computed where it was made: please report it with verify.json".to_owned()),
-            }
+            Err(CliError::failed(failed.join("; ")).with_help(
+                "the program does not compute here what it computed where it was made: please report it with verify.json",
+            ))
         },
     })
 }
@@ -145,9 +144,9 @@ mod tests {
     #[test]
     fn a_reference_that_is_missed_is_named_and_everything_is_written_all_the_same() {
         let (outcome, folder) = concluded("verify-bad", 2.1);
-        let Verdict::Bad { what, .. } = &outcome.verdict else {
-            panic!("{outcome:?}");
-        };
+        let error = outcome.verdict.unwrap_err();
+        let what = error.to_string();
+        assert_eq!(error.exit_code(), 1);
         assert!(what.starts_with("judged: 2.0") && !what.contains("right"), "{what}");
         assert!(outcome.summary.ends_with("1 of 2 checks pass"), "{}", outcome.summary);
         let text = std::fs::read_to_string(folder.path().join("verify.json")).unwrap();
@@ -163,7 +162,7 @@ mod tests {
     #[test]
     fn references_that_are_met_are_good() {
         let (outcome, folder) = concluded("verify-good", 2.01);
-        assert_eq!(outcome.verdict, Verdict::Good);
+        assert_eq!(outcome.verdict, Ok(()));
         std::fs::remove_dir_all(folder.path()).unwrap();
     }
 }

@@ -4,12 +4,15 @@ use super::dof_labels::of_ring;
 use super::places::{Place, PlaceBodies, Spot};
 use super::ring::ring;
 use crate::app::case::{self, Case, SensorSpot};
-use crate::app::error::{ComputeError, ImportError};
+use crate::app::error::ComputeError;
 use crate::fe::model::{Ring, RingFrame};
-use crate::fe::reduction::{Check, Superelement, check_matrices};
-use crate::formats::{DofBody, DofLabel, SuperelementRecord, read_superelement_npz, read_superelement_op4};
+use crate::fe::reduction::{Bound, Check, Superelement, check_matrices};
+use crate::formats::{
+    DofBody, DofLabel, FormatError, SuperelementRecord, read_superelement_npz, read_superelement_op4,
+};
 use crate::numerics::linalg::DenseMatrix;
 use crate::report::significant;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A frequency at the end of a band lies within it, and numbers that were written and read are the same.
@@ -25,6 +28,9 @@ const AXIS: f64 = 1e-6;
 /// Largest ratio of a mode's frequency to the one below that is taken for two modes of an interior. Residual vectors of a flanged housing
 /// follow its last mode, at 22.8 kHz, by factors of 1.65 and 1.22: it tells them from modes narrowly.
 const CLOSE: f64 = 1.2;
+
+/// The interface coordinates of a superelement, and who writes them.
+const ORDER: &str = "`plummer condense` with interface = \"ring\" writes such a file: x, y, about_z of node after node, in space then z, about_x, about_y of node after node, nodes counter-clockwise from angle 0";
 
 /// A condensed housing of which nothing but the file is known.
 #[derive(Debug, Clone)]
@@ -47,26 +53,34 @@ impl ImportedHousing {
     /// Reads the file and makes the ring that fits it: in space if the interface has six motions a node.
     ///
     /// # Errors
-    /// [`ComputeError::Import`] for a file that cannot be read and for an interface that is not the ring's; [`ComputeError`]
+    /// [`ComputeError`] for a file that cannot be read and for an interface that is not the ring's, and
     /// of the ring.
     pub(crate) fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), ComputeError> {
-        let fault = |source: ImportError| ComputeError::Import { path: path.to_owned(), source: Box::new(source) };
-        let record = record(path, asked.nodes).map_err(fault)?;
+        let record = record(path, asked.nodes)?;
         if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
             && (case - file).abs() > ROUND_OFF * file
         {
-            return Err(fault(ImportError::OuterRadius { case, file }));
+            return Err(refused(
+                path,
+                format!(
+                    "ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")"
+                ),
+                "the tie to the bore is within the superelement: give its value, leave the key out, or condense again",
+            ));
         }
         let in_space = record.interface.len() == 6 * asked.nodes;
         if !in_space {
             let mut supports = asked.supports.iter();
             if let Some(index) = supports.position(|support| support.spring.z > 0.0) {
-                return Err(fault(ImportError::SpringAcross { index }));
+                let what = format!(
+                    "ring.supports[{index}].spring has a component z, expected x and y only: the superelement is plane, three motions a node"
+                );
+                return Err(refused(path, what, None));
             }
         }
         let ring = ring(case, asked, in_space)?;
-        let frame = frame(&record.interface).map_err(fault)?;
-        check_labels(&record.interface, &ring, &frame).map_err(fault)?;
+        let frame = frame(path, &record.interface)?;
+        check_labels(path, &record.interface, &ring, &frame)?;
         let element = Superelement {
             stiffness: record.stiffness.clone(),
             mass: record.mass.clone(),
@@ -88,17 +102,22 @@ impl ImportedHousing {
     /// Lets matrices pass that are those of a condensed housing.
     ///
     /// # Errors
-    /// [`ImportError::Check`] with the first check that fails.
+    /// [`ComputeError`] with the first check that fails.
     pub(crate) fn accept(&self) -> Result<(), ComputeError> {
         match self.checks.iter().find(|check| !check.ok()) {
             None => Ok(()),
-            Some(check) => Err(self.fault(ImportError::Check {
-                name: check.name,
-                what: check.what.clone(),
-                value: check.value,
-                limit: check.limit,
-                bound: check.bound,
-            })),
+            Some(check) => {
+                let bound = match check.bound {
+                    Bound::AtMost => "at most",
+                    Bound::AtLeast => "at least",
+                };
+                let Check { name, what, value, limit, .. } = check;
+                Err(refused(
+                    &self.path,
+                    format!("check \"{name}\" ({what}): expected {bound} {limit:e}, found {value:e}"),
+                    "`plummer condense` of this case lists all checks; expected are Craig-Bampton matrices in SI units, modes of mass 1 after the interface",
+                ))
+            }
         }
     }
 
@@ -142,10 +161,14 @@ impl ImportedHousing {
     /// Refuses structural damping, which a simulation over time cannot have.
     ///
     /// # Errors
-    /// [`ImportError::StructuralDamping`].
+    /// [`ComputeError`] where there is any.
     pub(crate) fn refuse_structural_damping(&self) -> Result<(), ComputeError> {
         match &self.record.structural {
-            Some(matrix) if matrix.norm_max() > 0.0 => Err(self.fault(ImportError::StructuralDamping)),
+            Some(matrix) if matrix.norm_max() > 0.0 => Err(refused(
+                &self.path,
+                "array \"structural\" is structural damping, which has a meaning for harmonic motion alone; a run steps through time",
+                "leave the array out and give [damping]",
+            )),
             _ => Ok(()),
         }
     }
@@ -153,7 +176,7 @@ impl ImportedHousing {
     /// The row of a place over the coordinates \[order\].
     ///
     /// # Errors
-    /// [`ImportError::Sensor`] for a row that the file lacks, [`ComputeError`] of places on the ring; each names the sensor or force.
+    /// [`ComputeError`] for a row that the file lacks, and of places on the ring; each names the sensor or force.
     pub(crate) fn row(&self, spot: Spot<'_>, ring: &Ring) -> Result<Vec<f64>, ComputeError> {
         let SensorSpot::Recovered(row) = spot.at else {
             let place = Place::new(PlaceBodies::of_ring(ring, self.frame), spot)?;
@@ -164,19 +187,34 @@ impl ImportedHousing {
             return Ok(found.row.clone());
         }
         let names: Vec<String> = sensors.iter().map(|s| format!("\"{}\"", s.name)).collect();
-        Err(self.fault(ImportError::Sensor {
-            name: spot.to_string(),
-            row: row.clone(),
-            known: match names.is_empty() {
-                true => "of array \"sensors\", which the file lacks".to_owned(),
-                false => names.join(", "),
-            },
-        }))
+        let known = match names.is_empty() {
+            true => "of array \"sensors\", which the file lacks".to_owned(),
+            false => names.join(", "),
+        };
+        Err(refused(
+            &self.path,
+            format!("{spot}: expected one of the rows {known}, found \"{row}\""),
+            "give one of these names as `recovered`, `ring_deg` for a place on the ring, or condense again with the sensor in its case",
+        ))
     }
+}
 
-    fn fault(&self, source: ImportError) -> ComputeError {
-        ComputeError::Import { path: self.path.clone(), source: Box::new(source) }
+/// The error of a superelement that cannot take the housing's place, and what to do about it.
+fn refused<'a>(path: &Path, what: impl Display, help: impl Into<Option<&'a str>>) -> ComputeError {
+    ComputeError::Input {
+        what: format!("housing.superelement: {}: {what}", path.display()),
+        help: help.into().map(str::to_owned),
     }
+}
+
+/// The error of another number of interface coordinates than the ring's.
+fn wrong_count(path: &Path, nodes: usize, found: usize) -> ComputeError {
+    let what = format!(
+        "expected {} interface coordinates for ring.nodes = {nodes} (x, y, about_z of each) or {} (in a solid housing then z, about_x, about_y of each), found {found}",
+        3 * nodes,
+        6 * nodes
+    );
+    refused(path, what, ORDER)
 }
 
 /// The highest of some frequencies (Hz) that lies within [`CLOSE`] of the next lower one; the lowest where none does, zero without any.
@@ -189,28 +227,33 @@ fn last_mode_hz(modal_hz: &[f64]) -> f64 {
 }
 
 /// A file's content, its interface as long as that of a ring of so many nodes.
-fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ImportError> {
+fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ComputeError> {
+    let unreadable = |error: FormatError| refused(path, error, None);
     let fits = |count: usize| count == 3 * nodes || count == 6 * nodes;
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let (record, found) = match ending.to_str() {
         Some("npz") => {
-            let record = read_superelement_npz(path)?;
+            let record = read_superelement_npz(path).map_err(unreadable)?;
             let found = record.interface.len();
             if let Some(recovery) = &record.interface_recovery {
-                return Err(ImportError::InterfaceModes { modes: found, coordinates: recovery.labels.len() });
+                let what = format!(
+                    "expected the ring's own coordinates, found {found} modes of an interface of {} coordinates (array \"interface_modes\"): condense without condense.interface_modes",
+                    recovery.labels.len()
+                );
+                return Err(refused(path, what, None));
             }
             (record, found)
         }
         Some("op4") => {
-            let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes])?;
+            let record = read_superelement_op4(path, &[3 * nodes, 6 * nodes]).map_err(unreadable)?;
             let order = record.order();
             (record, order)
         }
-        _ => return Err(ImportError::Format),
+        _ => return Err(refused(path, "expected a file that ends in .npz or .op4", None)),
     };
     match fits(record.interface.len()) {
         true => Ok(record),
-        false => Err(ImportError::Count { nodes, found }),
+        false => Err(wrong_count(path, nodes, found)),
     }
 }
 
@@ -220,7 +263,7 @@ fn labelled(interface: &[DofLabel]) -> bool {
 }
 
 /// The frame of the first node's axes about the mean of the nodes; the file's axes where it has none.
-fn frame(interface: &[DofLabel]) -> Result<RingFrame, ImportError> {
+fn frame(path: &Path, interface: &[DofLabel]) -> Result<RingFrame, ComputeError> {
     let known = |vector: &[f64; 3]| vector.iter().all(|part| part.is_finite());
     let (Some(first), Some(third)) = (interface.first(), interface.get(2)) else {
         return Ok(RingFrame::default());
@@ -237,25 +280,36 @@ fn frame(interface: &[DofLabel]) -> Result<RingFrame, ImportError> {
             }
         }
     }
-    RingFrame::new(centre, z, x).ok_or(ImportError::Frame { x, z })
+    RingFrame::new(centre, z, x).ok_or_else(|| {
+        let what = format!("expected axes x and z of ring node 0 at right angles, found {x:?} and {z:?}");
+        refused(path, what, None)
+    })
 }
 
 /// Whether labels are the ring's in the ring's order; what the file does not say passes.
-fn check_labels(interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Result<(), ImportError> {
+fn check_labels(path: &Path, interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Result<(), ComputeError> {
     if !labelled(interface) {
         return Ok(());
     }
     let reach = POSITION * ring.section().radius;
     for (row, (own, label)) in of_ring(ring, frame).iter().zip(interface).enumerate() {
         if (own.body, own.node, own.direction) != (label.body, label.node, label.direction) {
-            return Err(ImportError::Label { row, expected: name(own), found: name(label) });
+            let what = format!("interface coordinate {row} (from 0): expected {}, found {}", name(own), name(label));
+            return Err(refused(path, what, ORDER));
         }
         for (what, limit, expected, found) in
             [("position in m", reach, own.position, label.position), ("axis", AXIS, own.axis, label.axis)]
         {
             // not so for what is not known
             if (0..3).any(|k| (expected[k] - found[k]).abs() > limit) {
-                return Err(ImportError::Place { row, what, label: name(own), expected, found });
+                return Err(refused(
+                    path,
+                    format!(
+                        "interface coordinate {row} (from 0), {what} of {}: expected {expected:?}, found {found:?}",
+                        name(own)
+                    ),
+                    "ring.sections (their radius), ring.nodes and ring.bond must be those that were condensed, or condense again",
+                ));
             }
         }
     }

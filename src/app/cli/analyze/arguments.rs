@@ -1,6 +1,6 @@
 //! What `plummer analyze` takes.
 
-use super::number::number;
+use super::speed::number;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -15,15 +15,14 @@ pub struct AnalyzeArguments {
     /// Folders with results of `plummer run`, or files of signals: .npz, .mat, .csv, .txt, .wav, .uff, .unv
     #[arg(value_name = "DIR|FILE", required = true)]
     pub inputs: Vec<PathBuf>,
-    /// Signal to analyse, by name; can be repeated (default: the only one; of a folder every sensor; of several files every
-    /// channel of each)
+    /// Signal to analyse, by name; can be repeated (default: the only one, a folder's sensors, or all channels of several files)
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
-    /// Sampling rate in Hz, in the place of what the file says
+    /// Sampling rate in Hz, instead of the file's
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
-    /// Case file whose bearing it is (without --speed the shaft turns as it says), or a bearing of the catalogue: 6205 (plummer
-    /// init --list-bearings); a file of that name goes first
+    /// Case file with the bearing, and with the shaft's speed unless --speed gives it; or the bearing's name in the catalogue, as
+    /// 6205 (plummer init --list-bearings). A file goes before a bearing of the same name
     #[arg(long, value_name = "CASE.toml|NAME")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
@@ -38,23 +37,22 @@ pub struct AnalyzeArguments {
     /// Contact angle in degrees
     #[arg(long, allow_hyphen_values = true, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
     pub contact_angle: f64,
-    /// Events per revolution of the shaft: outer=3.58,inner=5.42,ball=4.71,cage=0.398 or some of them; BPFO, BPFI and FTF are other
-    /// names of outer, inner and cage. BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
+    /// Events per revolution of the shaft: some of outer=3.58,inner=5.42,ball=4.71,cage=0.398, or of BPFO, BPFI, BSF and FTF.
+    /// BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
     #[arg(long, allow_hyphen_values = true, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
     pub orders: Option<GivenOrders>,
-    /// Shaft speed: 29.95, 29.95Hz, 1797rpm or "1797 1/min" (without a unit in Hz), or over time with straight lines between,
-    /// T in s: 0:600rpm,8:3000rpm
+    /// Shaft speed: 29.95Hz, 1797rpm, "1797 1/min" or 29.95 in Hz; over time 0:600rpm,8:3000rpm, T in s, with straight lines between
     #[arg(long, allow_hyphen_values = true, value_name = "SPEED|T:SPEED,...", value_parser = GivenSpeed::parse)]
     pub speed: Option<GivenSpeed>,
-    /// Stretch of time in s; can be repeated (default: the case's windows, or the whole signal)
+    /// Window of time in s; can be repeated (default: the case's windows, or the whole signal)
     #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO", value_parser = window)]
     pub window: Vec<TimeWindow>,
-    /// Corner of the high-pass before the envelope in Hz (default: the case's; else 5000, or an eighth of the sampling rate if
-    /// that is lower)
+    /// Corner of the high-pass before the envelope in Hz (default: the case's; else 5000 or an eighth of the sampling rate, the
+    /// lower one)
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub high_pass: Option<f64>,
-    /// Band before the envelope in Hz, in the place of --high-pass: where the housing rings; or `kurtogram`: the most impulsive
-    /// band of each window, and the high-pass where noise may be as impulsive
+    /// Band before the envelope in Hz, where the housing rings, instead of --high-pass. With `kurtogram` it is the most impulsive
+    /// band of each window, or the high-pass where noise may be as impulsive
     #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
     pub band: Option<EnvelopeBand>,
     /// Show the spectrum of the whitened signal's squared envelope; verdicts look at both anyway
@@ -63,8 +61,7 @@ pub struct AnalyzeArguments {
     /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
     #[arg(long, allow_hyphen_values = true, value_name = "PART")]
     pub geometry_error: Option<f64>,
-    /// Earlier signal of the same machine, by the same sensor at the same place and gain: what grew since. Its channel is that of the same
-    /// name, else its only one
+    /// Earlier signal of the same machine, sensor, place and gain, with which the signal is compared
     #[arg(long, value_name = "DIR|FILE")]
     pub baseline: Option<PathBuf>,
     /// Shaft speed in the baseline, as --speed (default: what its file or its run says; else --speed)
@@ -76,7 +73,7 @@ pub struct AnalyzeArguments {
     /// Sampling rate of the baseline in Hz (default: what its file says, else --rate)
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive, requires = "baseline")]
     pub baseline_rate: Option<f64>,
-    /// Stretch of the baseline in s (default: that of the input's window if one is given and the baseline holds it; else all of it)
+    /// Window of the baseline in s (default: the input's window if one is given and the baseline holds it; else all of it)
     #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO", value_parser = window, requires = "baseline")]
     pub baseline_window: Option<TimeWindow>,
 }

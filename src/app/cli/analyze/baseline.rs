@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::read::{Unnamed, read};
+use super::AnalyzeArguments;
+use super::read::{Missing, Unnamed, first_channels, read};
 use super::source::Source;
-use super::{AnalyzeArguments, AnalyzeError, Missing};
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_window};
 use crate::app::error::ComputeError;
@@ -64,7 +64,7 @@ impl Baseline {
     /// Compares the analysed windows of a signal of an input with the baseline.
     ///
     /// # Errors
-    /// [`AnalyzeError`]: no such channel in the baseline, another unit, a window outside it.
+    /// [`CliError`]: no such channel in the baseline, another unit, a window outside it.
     pub(super) fn compare(
         &self,
         input: &Path,
@@ -75,14 +75,13 @@ impl Baseline {
         let earlier = self.signal(signal)?;
         let [expected, found] = [signal, earlier].map(|signal| signal.series.unit());
         if !expected.is_empty() && !found.is_empty() && expected != found {
-            return Err(AnalyzeError::BaselineUnit {
-                baseline: self.path.clone(),
-                channel: earlier.name.clone(),
-                input: input.to_owned(),
-                expected: expected.to_owned(),
-                found: found.to_owned(),
-            }
-            .into());
+            return Err(CliError::input(format!(
+                "--baseline {}, channel \"{}\": expected {expected} as in {}, found {found}",
+                self.path.display(),
+                earlier.name,
+                input.display()
+            ))
+            .with_help("scale one of the two files to the unit of the other"));
         }
         let kinematics = source.kinematics(input, signal)?;
         let before = self.source.kinematics(&self.path, earlier)?;
@@ -96,15 +95,14 @@ impl Baseline {
             };
             let within_hz = window.band.judged_hz(source.settings.band, source.settings.good_to_hz);
             let compared = compare_window(window, within_hz, signal, &kinematics, &earlier);
-            compared.map_err(|error| AnalyzeError::Baseline {
-                baseline: self.path.clone(),
-                channel: earlier.signal.name.clone(),
-                why: error.to_string(),
+            compared.map_err(|error| {
+                CliError::input(format!("--baseline {name}, channel \"{}\": {error}", earlier.signal.name))
+                    .with_help("see --baseline-window and --baseline-speed for the part of it that counts")
             })?;
             let Some(change) = window.change.as_mut() else {
                 continue;
             };
-            let apart = change.window.to <= window.from || window.to <= change.window.from;
+            let apart = change.to <= window.from || window.to <= change.from;
             if self.is(input) && !apart {
                 change.warnings.push(format!(
                     "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
@@ -117,17 +115,22 @@ impl Baseline {
     }
 
     /// The signal of the same name, else the only one.
-    fn signal(&self, signal: &MeasuredSignal) -> Result<&MeasuredSignal, AnalyzeError> {
+    fn signal(&self, signal: &MeasuredSignal) -> Result<&MeasuredSignal, CliError> {
         let signals = &self.source.signals;
         let mut same = signals.iter().filter(|other| other.name == signal.name);
         match (same.next(), signals.as_slice()) {
             (Some(same), _) => Ok(same),
             (None, [only]) => Ok(only),
-            (None, others) => Err(AnalyzeError::BaselineChannel {
-                baseline: self.path.clone(),
-                channel: signal.name.clone(),
-                known: others.iter().map(|other| other.name.clone()).collect(),
-            }),
+            (None, others) => {
+                let known: Vec<String> = others.iter().map(|other| other.name.clone()).collect();
+                Err(CliError::input(format!(
+                    "--baseline {}: expected a channel \"{}\", or one channel alone; found {} others",
+                    self.path.display(),
+                    signal.name,
+                    known.len()
+                ))
+                .with_help(format!("--baseline-channel NAME; the baseline has {}", first_channels(&known))))
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{AnalyzeArguments, AnalyzeError};
+use super::AnalyzeArguments;
 use crate::app::case::Case;
 use crate::app::cli::CliError;
 use crate::app::error::ComputeError;
@@ -18,7 +18,7 @@ pub(super) enum Named<'a> {
 }
 
 /// A file goes before a bearing of the catalogue that has its name.
-pub(super) fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>>, AnalyzeError> {
+pub(super) fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>>, CliError> {
     let Some(path) = asked.bearing.as_deref() else {
         return Ok(None);
     };
@@ -33,7 +33,8 @@ pub(super) fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>
     if path.extension().is_some() || path.components().count() > 1 {
         return Ok(Some(Named::Case(path)));
     }
-    Err(AnalyzeError::UnknownBearing { found: name.into_owned() })
+    Err(CliError::input(format!("--bearing: found \"{name}\", expected a case file or a bearing of the catalogue"))
+        .with_help(format!("bearings: {}", bearing_names())))
 }
 
 /// Orders with their relative error: what was typed goes before what a case says. `None` where nothing says them.
@@ -68,6 +69,12 @@ pub(super) fn orders(
     Ok(Some(FaultOrders::of(&row, error).map_err(ComputeError::from)?))
 }
 
+/// Every designation of the catalogue.
+pub(in crate::app::cli) fn bearing_names() -> String {
+    let names = CatalogueBearing::all().iter().map(|bearing| bearing.name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
 /// Orders of a bearing of the catalogue, without a contact angle.
 pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, RaceError> {
     let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?;
@@ -86,6 +93,6 @@ pub(super) fn described(bearing: &CatalogueBearing) -> String {
     )
 }
 
-pub(super) fn without_bearing(case: &Case) -> AnalyzeError {
-    AnalyzeError::CaseWithoutBearing { path: case.source.path.clone() }
+pub(super) fn without_bearing(case: &Case) -> CliError {
+    CliError::input(format!("{}: expected a case with [bearing], found none", case.source.path.display()))
 }

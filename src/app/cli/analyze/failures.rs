@@ -7,30 +7,18 @@ use crate::app::commands::analyze::FailureSummary;
 const LISTED: usize = 20;
 
 /// Why an input, or a channel of it, was not analysed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub(super) struct Failure {
     pub(super) input: String,
     /// Empty: the whole input.
     pub(super) channel: String,
-    pub(super) message: String,
-    help: Option<String>,
-    is_input: bool,
+    pub(super) error: CliError,
 }
 
 impl Failure {
-    pub(super) fn of(input: &str, channel: &str, error: &CliError) -> Self {
-        Self {
-            input: input.to_owned(),
-            channel: channel.to_owned(),
-            message: error.to_string(),
-            help: error.help(),
-            is_input: error.exit_code() == 2,
-        }
-    }
-
     /// What a result says of it.
     pub(super) fn summary(&self) -> FailureSummary {
-        FailureSummary { input: self.input.clone(), channel: self.channel.clone(), error: self.message.clone() }
+        FailureSummary { input: self.input.clone(), channel: self.channel.clone(), error: self.error.to_string() }
     }
 
     /// The message, with the file in front if it does not say it.
@@ -39,12 +27,9 @@ impl Failure {
             "" => String::new(),
             channel => format!(", channel \"{channel}\""),
         };
-        let named = self.message.starts_with(&self.input) || self.message.contains(&format!(" {}:", self.input));
-        if channel.is_empty() && named {
-            self.message.clone()
-        } else {
-            format!("{}{channel}: {}", self.input, self.message)
-        }
+        let message = self.error.to_string();
+        let named = message.starts_with(&self.input) || message.contains(&format!(" {}:", self.input));
+        if channel.is_empty() && named { message } else { format!("{}{channel}: {message}", self.input) }
     }
 }
 
@@ -57,15 +42,12 @@ pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> Cli
     }
     let what = lines.join("\n");
     let mut helps: Vec<&str> = Vec::new();
-    for line in failures.iter().filter_map(|failure| failure.help.as_deref()).flat_map(str::lines) {
+    for line in failures.iter().filter_map(|failure| failure.error.help.as_deref()).flat_map(str::lines) {
         if !helps.contains(&line) && helps.len() < LISTED {
             helps.push(line);
         }
     }
-    let help = (!helps.is_empty()).then(|| helps.join("\n"));
-    if failures.iter().any(|failure| failure.is_input) {
-        CliError::WrongInput { what, help }
-    } else {
-        CliError::BadAnswer { what, help }
-    }
+    let is_input = failures.iter().any(|failure| failure.error.is_input);
+    let error = if is_input { CliError::input(what) } else { CliError::failed(what) };
+    if helps.is_empty() { error } else { error.with_help(helps.join("\n")) }
 }

@@ -51,10 +51,7 @@ impl Machine {
         let bearing = other.as_ref().or(case);
         let moved = |case: Option<&Case>| {
             let case = case.filter(|case| case.speed.is_some() && asked.speed.is_none());
-            let setup = case.map(|case| {
-                let setup = bearing_setup(case)?;
-                Ok::<_, CliError>(setup.ok_or_else(|| without_bearing(case))?)
-            });
+            let setup = case.map(|case| bearing_setup(case)?.ok_or_else(|| without_bearing(case)));
             setup.transpose()
         };
         let setup: Option<BearingSetup> = moved(bearing.filter(|_| !typed))?;

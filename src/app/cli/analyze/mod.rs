@@ -3,11 +3,8 @@
 mod arguments;
 mod baseline;
 mod bearing;
-mod each;
-mod error;
 mod failures;
 mod machine;
-mod number;
 mod orders;
 mod read;
 mod single;
@@ -20,8 +17,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 pub use arguments::AnalyzeArguments;
-pub(super) use bearing::catalogue_orders;
-pub use error::{AnalyzeError, Missing};
+pub(super) use bearing::{bearing_names, catalogue_orders};
 pub use orders::GivenOrders;
 pub use speed::GivenSpeed;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::number::number;
+use super::speed::number;
 use crate::signal::diagnosis::FaultOrders;
 
 /// Names of the orders, in the order of [`GivenOrders`].

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Missing;
+use crate::app::cli::CliError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 
 /// Which channels are read where none is named.
@@ -72,4 +72,97 @@ pub(super) fn read(path: &Path, mut request: SignalRequest, unnamed: Unnamed) ->
         }
     }
     Ok(read)
+}
+
+/// Most channels that are listed.
+const LISTED: usize = 20;
+
+/// What an analysis needs and nothing says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Missing {
+    /// Which of these channels is meant.
+    Channel {
+        /// Channels of the file.
+        known: Vec<String>,
+    },
+    /// How fast the signal was sampled.
+    Rate,
+    /// How often parts strike.
+    Bearing,
+    /// How fast the shaft turns.
+    Speed,
+}
+
+impl Missing {
+    fn what(&self) -> &'static str {
+        match self {
+            Self::Channel { .. } => "which channel is meant",
+            Self::Rate => "how fast it was sampled",
+            Self::Bearing => "which bearing it is",
+            Self::Speed => "how fast the shaft turns",
+        }
+    }
+
+    /// What to type.
+    fn help(&self) -> String {
+        match self {
+            Self::Channel { known } => {
+                let more = if known.len() > LISTED { ", ..." } else { "" };
+                format!("--channel NAME (repeatable), of {}{more}", first_channels(known))
+            }
+            Self::Rate => "--rate HZ, the sampling rate".to_owned(),
+            Self::Bearing => "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)".to_owned(),
+            Self::Speed => "--speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...".to_owned(),
+        }
+    }
+}
+
+/// The error of an input of which something is missing, with what to type for each.
+pub(super) fn nothing_says(input: &Path, missing: &[Missing]) -> CliError {
+    let words: Vec<&str> = missing.iter().map(Missing::what).collect();
+    let listed = match words.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    };
+    let help: Vec<String> = missing.iter().map(Missing::help).collect();
+    CliError::input(format!("{}: nothing says {listed}", input.display())).with_help(help.join("\n"))
+}
+
+/// The first channels by name, in quotation marks.
+pub(super) fn first_channels(known: &[String]) -> String {
+    let quoted: Vec<String> = known.iter().take(LISTED).map(|name| format!("\"{name}\"")).collect();
+    quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::{Missing, nothing_says};
+
+    fn lines(missing: &[Missing]) -> String {
+        let error = nothing_says(Path::new("out/a"), missing);
+        assert_eq!(error.exit_code(), 2);
+        let mut lines = Vec::new();
+        error.report(&mut lines);
+        String::from_utf8(lines).unwrap()
+    }
+
+    #[test]
+    fn all_that_is_missing_is_said_at_once() {
+        let channel = Missing::Channel { known: vec!["P1".to_owned(), "P2".to_owned()] };
+        assert_eq!(
+            lines(&[channel, Missing::Rate, Missing::Speed]),
+            "error: out/a: nothing says which channel is meant, how fast it was sampled and how fast the shaft turns\n\
+             help: --channel NAME (repeatable), of \"P1\", \"P2\"\n\
+             help: --rate HZ, the sampling rate\n\
+             help: --speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...\n",
+        );
+        assert_eq!(
+            lines(&[Missing::Bearing]),
+            "error: out/a: nothing says which bearing it is\n\
+             help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
+        );
+    }
 }

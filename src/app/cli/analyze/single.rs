@@ -8,7 +8,7 @@ use super::source::Source;
 use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::result_head;
-use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
@@ -75,26 +75,22 @@ fn judged(window: &WindowAnalysis) -> bool {
     diagnosis.is_ok_and(Diagnosis::is_judged)
 }
 
-fn verdict(windows: &[WindowAnalysis]) -> Verdict {
+fn verdict(windows: &[WindowAnalysis]) -> Result<(), CliError> {
     if windows.iter().any(judged) {
-        return Verdict::Good;
+        return Ok(());
     }
     let reason = windows.iter().find_map(|window| match &window.diagnosis {
         Ok(diagnosis) => Some(diagnosis.faults.first()?.why.clone()),
         Err(reason) => Some(reason.clone()),
     });
-    no_part_judged(reason.as_deref().unwrap_or("no orders"))
+    Err(no_part_judged(reason.as_deref().unwrap_or("no orders")))
 }
 
 /// No verdict at all.
-pub(super) fn no_part_judged(reason: &str) -> Verdict {
-    Verdict::Bad {
-        what: format!("no part could be judged in any window: {reason}"),
-        help: Some(
-            "where the window is too short, take a longer --window; where lines coincide, check --bearing or --orders, and --speed"
-                .to_owned(),
-        ),
-    }
+pub(super) fn no_part_judged(reason: &str) -> CliError {
+    CliError::failed(format!("no part could be judged in any window: {reason}")).with_help(
+        "where the window is too short, take a longer --window; where lines coincide, check --bearing or --orders, and --speed",
+    )
 }
 
 /// What grew, and the RMS.

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use super::AnalyzeArguments;
 use super::bearing::{Named, named_bearing};
 use super::machine::Machine;
-use super::read::{Unnamed, read};
-use super::{AnalyzeArguments, AnalyzeError, Missing};
+use super::read::{Missing, Unnamed, nothing_says, read};
 use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::{CliError, Options};
@@ -72,10 +72,7 @@ impl Source {
         match (read.first, missing.as_slice()) {
             (_, []) => {}
             (Some(alone), [_]) => return Err(ComputeError::from(alone).into()),
-            _ => {
-                let input = input.to_owned();
-                return Err(AnalyzeError::Missing { input, missing }.into());
-            }
+            _ => return Err(nothing_says(input, &missing)),
         }
         let mut signals = read.signals;
         if let Some(case) = case.as_ref().filter(|_| is_run) {
@@ -146,19 +143,19 @@ impl Source {
     /// How the machine of a signal of this file moves.
     ///
     /// # Errors
-    /// [`AnalyzeError::Missing`]: a signal without a speed, where another states one.
-    pub(super) fn kinematics(&self, input: &Path, signal: &MeasuredSignal) -> Result<Kinematics<'_>, AnalyzeError> {
+    /// [`CliError`]: a signal without a speed, where another states one; a shaft that turns more than once in two samples.
+    pub(super) fn kinematics(&self, input: &Path, signal: &MeasuredSignal) -> Result<Kinematics<'_>, CliError> {
         let motion = self.machine.motion(signal);
-        let (kinematics, _) =
-            motion.ok_or_else(|| AnalyzeError::Missing { input: input.to_owned(), missing: vec![Missing::Speed] })?;
+        let (kinematics, _) = motion.ok_or_else(|| nothing_says(input, &[Missing::Speed]))?;
         let (series, speed_hz) = (&signal.series, kinematics.mean_speed_hz(signal.series.span()));
         if speed_hz.is_nan() || speed_hz >= 0.5 * series.rate_hz() {
-            return Err(AnalyzeError::TooFast {
-                input: input.to_owned(),
-                channel: signal.name.clone(),
-                rate_hz: series.rate_hz(),
-                speed_hz,
-            });
+            return Err(CliError::input(format!(
+                "{}, channel \"{}\": expected a shaft speed below half of the sampling rate, {:e} Hz, found {speed_hz:e} Hz",
+                input.display(),
+                signal.name,
+                series.rate_hz()
+            ))
+            .with_help("check --speed and --rate, or what the file says"));
         }
         Ok(kinematics)
     }

@@ -1,6 +1,5 @@
 //! A shaft speed as it is typed: a number or points in time, in Hz or with a unit.
 
-use super::number::number;
 use crate::bearing::{SpeedKnot, SpeedProfile};
 
 /// Units, in small letters, with their part of 1 Hz.
@@ -67,6 +66,11 @@ impl GivenSpeed {
             meant.join(",")
         ))
     }
+}
+
+/// A finite number, as an argument gives it.
+pub(super) fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 /// A speed at a time, as typed.

@@ -1,10 +1,6 @@
 //! Many files and folders, analysed into one table.
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use super::baseline::Baseline;
-use super::each::each;
 use super::failures::{Failure, failure};
 use super::read::Unnamed;
 use super::single::no_part_judged;
@@ -13,12 +9,16 @@ use super::terminal;
 use super::{AnalyzeArguments, RESULT, command, warn, write_table};
 use crate::app::cli::report_files::ReportFiles;
 use crate::app::cli::results::result_head;
-use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, Verdict};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput, survey_report,
     survey_section,
 };
 use crate::report::Section;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 
 /// What is kept of an input: what the table, the result and the report have of it.
 #[derive(Debug, Default)]
@@ -116,7 +116,7 @@ impl Analysed {
         let source = match Source::open(asked, input, Unnamed::Every, options) {
             Ok(source) => source,
             Err(error) => {
-                analysed.fail(&name, "", &error);
+                analysed.fail(&name, "", error);
                 return analysed;
             }
         };
@@ -133,7 +133,7 @@ impl Analysed {
             let windows = match source.analyse(input, signal).and_then(compared) {
                 Ok(windows) => windows,
                 Err(error) => {
-                    analysed.fail(&name, &signal.name, &error);
+                    analysed.fail(&name, &signal.name, error);
                     continue;
                 }
             };
@@ -160,26 +160,69 @@ impl Analysed {
         analysed
     }
 
-    fn fail(&mut self, input: &str, channel: &str, error: &CliError) {
-        let failure = Failure::of(input, channel, error);
-        let why = failure.message.clone();
-        self.rows.push(AnalysisRow::failed(input, channel, why));
-        self.failures.push(failure);
+    fn fail(&mut self, input: &str, channel: &str, error: CliError) {
+        self.rows.push(AnalysisRow::failed(input, channel, error.to_string()));
+        self.failures.push(Failure { input: input.to_owned(), channel: channel.to_owned(), error });
     }
 }
 
 /// Good where all was analysed and a part was judged in any window.
-fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Verdict {
-    match error {
-        Some(CliError::WrongInput { what, help }) => return Verdict::WrongInput { what, help },
-        Some(error) => {
-            return Verdict::Bad { what: error.to_string(), help: error.help() };
-        }
-        None => {}
+fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Result<(), CliError> {
+    if let Some(error) = error {
+        return Err(error);
     }
     let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
     if rows.iter().any(judged) {
-        return Verdict::Good;
+        return Ok(());
     }
-    no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark))
+    Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark)))
+}
+
+/// Does `work` on each item, as many at a time as there are threads to compute with, and returns what it gives in the order of the
+/// items.
+///
+/// The threads are not those of rayon: one of those would begin another item while it waits for a part of its own, so that there
+/// would be more items in memory than threads.
+fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..rayon::current_num_threads().min(items.len()) {
+            scope.spawn(|| {
+                loop {
+                    let place = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(place) else {
+                        break;
+                    };
+                    let result = work(item);
+                    done.lock().unwrap_or_else(PoisonError::into_inner).push((place, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_order_of_the_items_and_few_at_a_time() {
+        let (now, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let items: Vec<u64> = (0..40).collect();
+        let results = each(&items, |&item| {
+            most.fetch_max(now.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+            thread::sleep(Duration::from_micros(100 * (40 - item)));
+            now.fetch_sub(1, Ordering::SeqCst);
+            10 * item
+        });
+        assert_eq!(results, (0..40).map(|item| 10 * item).collect::<Vec<_>>());
+        assert!(most.into_inner() <= rayon::current_num_threads());
+        assert_eq!(each(&[0; 0], |&item: &i32| item), Vec::<i32>::new());
+    }
 }

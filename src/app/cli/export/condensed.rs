@@ -1,21 +1,22 @@
 //! The condensed housing for finite-element and multibody programs.
 
 use super::record::WrittenFile;
-use super::{CliError, Export, ExportError};
+use super::{CliError, Export};
 use crate::app::case::{Case, Interface, InterfaceModes};
 use crate::app::cli::{ExportFormat, OutputFolder, Progress};
 use crate::app::commands::condense::superelement_record;
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::formats::{
-    DofLabel, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem, write_superelement_op4,
+    DofLabel, MbdynError, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
+    write_superelement_op4,
 };
 
 /// Whether a case has a housing and something that it is condensed on, coordinates and not modes of an interface.
 ///
 /// # Errors
-/// [`ExportError::NothingCondensed`], [`ExportError::InterfaceModes`].
-pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportError> {
+/// [`CliError`] that says what the case has instead.
+pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), CliError> {
     let tied = case.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
     let found = if case.superelement().is_some() {
         "a superelement, which is condensed already"
@@ -24,18 +25,27 @@ pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), ExportEr
     } else if !tied && case.condense.interface == Interface::Ring {
         "a housing that nothing is attached to"
     } else if case.condense.interface_modes != InterfaceModes::None {
-        return Err(ExportError::InterfaceModes { format: to.name() });
+        return Err(CliError::input(format!(
+            "--to {} writes the displacements of an interface, by which others attach it: expected \
+             condense.interface_modes = \"none\", found modes in their place",
+            to.name()
+        ))
+        .with_help("--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"));
     } else {
         return Ok(());
     };
-    Err(ExportError::NothingCondensed { format: to.name(), found })
+    Err(CliError::input(format!(
+        "--to {} writes a condensed housing: expected [housing] with a mesh, and ring.tie or condense.interface, found {found}",
+        to.name()
+    ))
+    .with_help("--to mtx and --to npz write matrices that are not condensed"))
 }
 
 /// `superelement.op4`, `superelement_dofs.csv`.
 pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let record = condensed(case, progress)?;
     let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), ExportError> {
+    let write = || -> Result<(), CliError> {
         write_superelement_op4(&at("superelement.op4"), &record, Op4Format::Binary)?;
         Ok(write_dofs_csv(&at("superelement_dofs.csv"), &record.labels())?)
     };
@@ -62,7 +72,7 @@ pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> 
     let record = condensed(case, progress)?;
     let reference = reference(&record.interface);
     let path = folder.path().join("superelement.fem");
-    let written = write_mbdyn_fem(&path, &record, reference).map_err(ExportError::from)?;
+    let written = write_mbdyn_fem(&path, &record, reference).map_err(of_mbdyn)?;
     let joint = match (written.mass, reference) {
         (None, _) => "held by its supports: `clamped` in MBDyn's joint".to_owned(),
         (Some(mass), MbdynReference::Node { body, node }) => format!(
@@ -79,6 +89,18 @@ pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> 
         files: vec![WrittenFile::new(folder.path(), "superelement.fem", &what)?],
         summary: format!("{}\n{what}", counts(&record)),
     })
+}
+
+/// What cannot be written for MBDyn: wrong input, unless the file or the eigenvalue problem failed.
+fn of_mbdyn(error: MbdynError) -> CliError {
+    let is_input = !matches!(error, MbdynError::File(_) | MbdynError::Eigen { .. });
+    let wrong = CliError { is_input, ..CliError::input(format!("--to mbdyn: {error}")) };
+    match error {
+        MbdynError::RigidMotions { .. } => {
+            wrong.with_help("MBDyn's bodies are solid: a housing that is free in space, or held by its supports")
+        }
+        _ => wrong,
+    }
 }
 
 fn condensed(case: &Case, progress: &Progress) -> Result<SuperelementRecord, CliError> {

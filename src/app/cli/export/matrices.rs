@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::record::WrittenFile;
 use super::source::Source;
-use super::{CliError, Export, ExportError};
+use super::{CliError, Export};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
 use crate::app::scene::FreeSystem;
@@ -26,7 +26,7 @@ pub(super) fn mtx(case: &Case, folder: &OutputFolder, progress: &Progress) -> Re
         )
     };
     let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), ExportError> {
+    let write = || -> Result<(), CliError> {
         write_matrix_market(&at("stiffness.mtx"), &system.stiffness, &comment(STIFFNESS))?;
         write_matrix_market(&at("mass.mtx"), &system.mass, &comment(MASS))?;
         Ok(write_dofs_csv(&at("dofs.csv"), &system.rows)?)
@@ -46,7 +46,7 @@ pub(super) fn npz(source: &Source, folder: &OutputFolder, progress: &Progress) -
     let (_, shapes) = source.shapes(progress)?;
     progress.stage("write");
     let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), ExportError> {
+    let write = || -> Result<(), CliError> {
         write_sparse_npz(&at("stiffness.npz"), &system.stiffness)?;
         write_sparse_npz(&at("mass.npz"), &system.mass)?;
         write_dofs_npz(&at("dofs.npz"), &system.rows)?;

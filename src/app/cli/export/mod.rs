@@ -4,7 +4,6 @@
 //! `plummer modes` gives its mode shapes without solving again.
 
 mod condensed;
-mod error;
 mod matrices;
 mod record;
 mod shapes;
@@ -12,10 +11,8 @@ mod source;
 
 use std::path::{Path, PathBuf};
 
-pub use error::ExportError;
-
 use super::results::{result_head, result_of_case, warnings};
-use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, Verdict};
+use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::scene::{doubts_of_case, mesh_digests};
 pub(super) use record::ExportSummary;
@@ -61,15 +58,15 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     };
     progress.finish();
     let Export { files, summary } = exported?;
-    let told = doubts_of_case(case)?;
-    let lines = warnings(&told).chain(std::iter::once(summary));
+    let doubts = doubts_of_case(case)?;
+    let lines = warnings(&doubts).chain(std::iter::once(summary));
     let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
     let wall_s = started.elapsed().as_secs_f64();
     let record = ExportSummary {
         to: to.name(),
         results: source.folder(),
-        warnings: &told,
+        warnings: &doubts,
         earlier: record::earlier(folder.path(), to.name()),
         files,
     };
@@ -80,7 +77,7 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     let mut written: Vec<PathBuf> = written.collect();
     let (path, result) = folder.write_json("export.json", &record)?;
     written.push(path);
-    Ok(Outcome { summary, result, written, verdict: Verdict::Good })
+    Ok(Outcome { summary, result, written, verdict: Ok(()) })
 }
 
 impl ExportFormat {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::record::WrittenFile;
 use super::source::Source;
-use super::{CliError, Export, ExportError};
+use super::{CliError, Export};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion};
@@ -52,13 +52,13 @@ pub(super) fn uff(source: &Source, folder: &OutputFolder, progress: &Progress) -
         let elements = volumes(mesh);
         let own = at_used_nodes(mesh, &elements, shapes);
         let path = folder.path().join("modes.uff");
-        write_uff(&path, title, mesh, elements, &own).map_err(ExportError::from)?;
+        write_uff(&path, title, mesh, elements, &own)?;
         let what = "nodes, elements and mode shapes (dataset 55) of the housing, SI, labels of the mesh";
         files.push(WrittenFile::new(folder.path(), "modes.uff", what)?);
     }
     if let Some(shapes) = &bodies.ring {
         let path = folder.path().join("ring.uff");
-        write_modes_uff(&path, title, shapes).map_err(ExportError::from)?;
+        write_modes_uff(&path, title, shapes)?;
         let what = "nodes and mode shapes (dataset 55) of the ring, SI, labels from 1";
         files.push(WrittenFile::new(folder.path(), "ring.uff", what)?);
     }
@@ -120,7 +120,7 @@ fn write_grid(
     elements: &[ElementId],
     shapes: &ModeShapes,
     cells: &[Field],
-) -> Result<(), ExportError> {
+) -> Result<(), CliError> {
     // as many digits as the last mode has, so that programs that sort names keep the order
     let digits = shapes.count_modes().to_string().len();
     let title = |(index, hz): (usize, &f64)| format!("mode {:0digits$}, {hz:.4} Hz", index + 1);

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{CliError, ExportError};
+use super::CliError;
 use crate::app::case::Case;
-use crate::app::cli::earlier_results::{Wanted, case_of_results};
-use crate::app::cli::{Options, Progress, ResultsError};
+use crate::app::cli::earlier_results::{Wanted, case_of_results, other_file};
+use crate::app::cli::{Options, Progress};
 use crate::app::commands::modes::compute_mode_shapes;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
@@ -21,6 +21,9 @@ const SAME_POINT: f64 = 1e-9;
 /// The results that shapes are taken from.
 const MODES: Wanted = Wanted { command: "modes", arrays: "modes.npz", instead: "a case file" };
 
+/// What to do about results of modes that cannot be used.
+const MODES_AGAIN: &str = "run `plummer modes` again with --force, or name the case file";
+
 /// A case, and the folder with its results if they are to be taken from there.
 pub(super) struct Source {
     case: Case,
@@ -31,7 +34,7 @@ impl Source {
     /// Opens a case file, or the case that the `modes.json` of a folder names.
     ///
     /// # Errors
-    /// [`CliError::Case`], [`ExportError`] for a folder without usable results.
+    /// [`CliError`] for a wrong case, or a folder without usable results.
     pub(super) fn open(from: &Path, options: &Options) -> Result<Self, CliError> {
         if !from.is_dir() {
             let case = Case::load(from, &options.set)?;
@@ -39,7 +42,11 @@ impl Source {
         }
         let folder = from.to_owned();
         if !options.set.is_empty() {
-            return Err(ExportError::SetForResults { folder }.into());
+            return Err(CliError::input(format!(
+                "--set changes the case, but {} holds results of it as it was",
+                folder.display()
+            ))
+            .with_help("name the case file to compute it again"));
         }
         let case = case_of_results(from, MODES, &[])?;
         same_meshes(&case, &from.join("modes.json"))?;
@@ -63,15 +70,18 @@ impl Source {
     /// The mesh, if the case has one, and the mode shapes: at the mesh's nodes, then at the ring's.
     ///
     /// # Errors
-    /// [`CliError::Stage`] of the computation, [`ExportError`] if earlier results cannot be read or are of another mesh.
+    /// [`CliError`] of the computation, or if earlier results cannot be read or are of another mesh.
     pub(super) fn shapes(&self, progress: &Progress) -> Result<(Option<Mesh>, ModeShapes), CliError> {
         let Some(path) = self.modes_npz() else {
             let (mesh, shapes) = compute_mode_shapes(&self.case, progress)?;
-            shapes.check().map_err(ExportError::from)?;
+            shapes.check().map_err(|fault| {
+                CliError::input(format!("mode shapes: {fault}")).with_help("ask for more modes in [modes]")
+            })?;
             return Ok((mesh, shapes));
         };
         progress.stage("read");
-        let shapes = read_modes_npz(&path).map_err(ExportError::Read)?;
+        let shapes =
+            read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();
         let mesh = housing
             .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
@@ -91,19 +101,16 @@ fn same_meshes(case: &Case, result: &Path) -> Result<(), CliError> {
     let now = mesh_digests(case)?;
     match then.iter().zip(now).find(|(then, now)| then.sha256 != now.sha256) {
         None => Ok(()),
-        Some((then, now)) => Err(ResultsError::OtherFile {
-            path: result.to_owned(),
-            arrays: now.path,
-            expected: then.sha256.clone(),
-            found: now.sha256,
-        }
-        .into()),
+        Some((then, now)) => Err(other_file(result, &now.path, &then.sha256, &now.sha256)),
     }
 }
 
 /// Whether shapes are at the nodes of this mesh and of a ring of so many nodes.
-fn check_fit(path: &Path, mesh: Option<&Mesh>, ring_nodes: usize, shapes: &ModeShapes) -> Result<(), ExportError> {
-    let wrong = |expected: String, found: String| ExportError::DoesNotFit { path: path.to_owned(), expected, found };
+fn check_fit(path: &Path, mesh: Option<&Mesh>, ring_nodes: usize, shapes: &ModeShapes) -> Result<(), CliError> {
+    let wrong = |expected: String, found: String| {
+        CliError::input(format!("{} does not fit the case: expected {expected}, found {found}", path.display()))
+            .with_help(MODES_AGAIN)
+    };
     let nodes: &[[f64; 3]] = mesh.map_or(&[], |mesh| &mesh.nodes);
     let found = shapes.count_points();
     if found != nodes.len() + ring_nodes {

@@ -10,25 +10,25 @@ use crate::app::studies::sweep::SweptCommand;
 /// What is varied, what is computed at each point, and by whom.
 #[derive(Debug, Clone, Args)]
 pub struct SweepArguments {
-    /// Case file (TOML); with --task or --merge the folder for the results
+    /// Case file (TOML); with --task or --merge the folder with the sweep
     #[arg(value_name = "CASE|DIR")]
     pub from: PathBuf,
-    /// A key and its values: KEY=A,B,C, KEY=FROM:TO:COUNT or KEY=FROM:TO:COUNT:log; can be repeated, every value with every other
+    /// Key and its values: KEY=A,B,C, KEY=FROM:TO:COUNT or KEY=FROM:TO:COUNT:log; several keys make a grid of all their values
     #[arg(long, value_name = "KEY=VALUES", required_unless_present_any = ["task", "merge"])]
     pub vary: Vec<String>,
     /// What is computed at each point
     #[arg(long, value_enum, default_value_t, hide_default_value = true)]
     pub command: SweptCommand,
-    /// Go on with the sweep in the folder for the results: points that are done stay, unfinished runs go on
+    /// Go on with the sweep in the folder for the results: finished points stay, unfinished runs go on
     #[arg(long, conflicts_with = "slurm")]
     pub resume: bool,
-    /// Compute nothing: write job scripts for Slurm, an array of as many tasks as points, or as told (1000 at most unless told)
+    /// Only write job scripts for Slurm, an array of so many tasks (default: one for each point, at most 1000)
     #[arg(long, value_name = "TASKS", num_args = 0..=1, require_equals = true)]
     pub slurm: Option<Option<NonZeroUsize>>,
-    /// Compute the points K, K+N, K+2N, ... of the sweep in the folder: what a task of the job array does
+    /// Compute the points K, K+N, K+2N, ... of the sweep in the folder, as a task of the job array does
     #[arg(long, value_name = "K/N", value_parser = share, conflicts_with_all = ["vary", "command", "resume", "slurm", "merge"])]
     pub task: Option<Share>,
-    /// Make the table of the sweep in the folder from the points that are there
+    /// Only make the table of the sweep in the folder, from the points that are there
     #[arg(long, conflicts_with_all = ["vary", "command", "resume", "slurm"])]
     pub merge: bool,
 }

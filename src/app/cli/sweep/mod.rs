@@ -11,7 +11,7 @@ pub use arguments::{Share, SweepArguments};
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, Verdict, interrupt, write_atomic};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt, write_atomic};
 use crate::app::case::Case;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
@@ -63,7 +63,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let points = folder.path().join(POINTS);
     if asked.resume {
         if options.force {
-            return Err(CliError::ResumeAnew);
+            return Err(CliError::resume_anew());
         }
         folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
@@ -79,16 +79,12 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         return write_scripts(&plan, &folder, tasks.min(plan.count()), options);
     }
     progress.stage("points");
-    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    let stop = interrupt::stop_request()?;
     let workers = Workers::new(options, plan.count(), stop)?;
     let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
     if let Some(done) = stopped {
-        return Err(CliError::Interrupted {
-            what: format!("interrupted at {done} of {} points", plan.count()),
-            kept: POINTS_KEPT,
-            folder: points,
-            command: again(&case, asked, options),
-        });
+        let what = format!("interrupted at {done} of {} points", plan.count());
+        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again(&case, asked, options)));
     }
     merge(plan, &folder, progress)
 }
@@ -105,22 +101,15 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     }
     let points = folder.path().join(POINTS);
     progress.stage("points");
-    let stop = interrupt::stop_request().map_err(CliError::Signals)?;
+    let stop = interrupt::stop_request()?;
     let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
     let workers = Workers::new(options, numbers.len(), stop)?;
     let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;
     if let Some(done) = stopped {
-        return Err(CliError::Interrupted {
-            what: format!("interrupted at {done} of {} points", numbers.len()),
-            kept: POINTS_KEPT,
-            folder: points,
-            command: format!(
-                "plummer sweep --task {}/{} {}",
-                share.number,
-                share.of,
-                shell_word(&from.to_string_lossy())
-            ),
-        });
+        let what = format!("interrupted at {done} of {} points", numbers.len());
+        let from = shell_word(&from.to_string_lossy());
+        let again = format!("plummer sweep --task {}/{} {from}", share.number, share.of);
+        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again));
     }
     let result = SweepResult::collect(plan, &points)?;
     let mut lines = Vec::new();
@@ -133,7 +122,7 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
         summary: lines.join("\n"),
         result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: numbers })?,
         written: vec![points],
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 
@@ -165,7 +154,7 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     folder.claim("sweep", force)?;
     if file.exists() {
         // a folder that has a plan is a sweep's own
-        fs::remove_dir_all(&points).map_err(|source| CliError::Folder { path: points.clone(), source })?;
+        fs::remove_dir_all(&points).map_err(|error| CliError::folder(&points, &error))?;
     }
     folder.make_below(Path::new(POINTS))?;
     let text = serde_json::to_string_pretty(plan).unwrap_or_default();
@@ -238,22 +227,18 @@ fn summary(result: &SweepResult) -> String {
 }
 
 /// Single points that fail are listed; a sweep without any answer, or one that is not complete, is bad.
-fn verdict(result: &SweepResult) -> Verdict {
+fn verdict(result: &SweepResult) -> Result<(), CliError> {
     let missing = result.count(PointState::Missing);
     let all = result.points.len();
     if missing > 0 {
-        return Verdict::Bad {
-            what: format!("{missing} of {all} points are not computed"),
-            help: Some("submit the job array again, or go on with --resume".to_owned()),
-        };
+        return Err(CliError::failed(format!("{missing} of {all} points are not computed"))
+            .with_help("submit the job array again, or go on with --resume"));
     }
     if result.points.iter().any(|point| point.state.has_result()) {
-        return Verdict::Good;
+        return Ok(());
     }
-    Verdict::Bad {
-        what: format!("none of {all} points has a result"),
-        help: Some("their messages are in the report and in sweep.json".to_owned()),
-    }
+    Err(CliError::failed(format!("none of {all} points has a result"))
+        .with_help("their messages are in the report and in sweep.json"))
 }
 
 fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Options) -> Result<Outcome, CliError> {
@@ -277,7 +262,7 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
         ),
         result: json(&ScriptsSummary { command: "sweep", points: plan.count(), tasks, scripts: &written })?,
         written,
-        verdict: Verdict::Good,
+        verdict: Ok(()),
     })
 }
 

@@ -8,7 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::super::{CliError, Options, folder_lock, write_atomic};
+use super::super::output::is_taken;
+use super::super::{CliError, Options, write_atomic};
 use super::Share;
 use crate::app::commands::run::unfinished::{StopRequest, UnfinishedRun};
 use crate::app::studies::sweep::{Plan, PointRecord, SweepError, SweepPoint, SweptCommand};
@@ -107,7 +108,7 @@ impl Workers {
     fn point(&self, plan: &Plan, sweep: &Path, point: &SweepPoint) -> Result<bool, CliError> {
         let folder = plan.folder(sweep, point.number);
         // a sweep that was killed leaves its processes, which end their points
-        while folder_lock::is_taken(&folder) {
+        while is_taken(&folder) {
             if self.stopping() {
                 return Ok(false);
             }

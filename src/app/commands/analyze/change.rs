@@ -1,6 +1,6 @@
 //! A window of a signal beside an earlier signal of the same machine: what grew.
 
-use super::window::{WindowAnalysis, WindowChange};
+use super::window::{WindowAnalysis, WindowChange, stretch};
 use crate::app::error::ComputeError;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
@@ -76,14 +76,15 @@ pub(crate) fn compare_window(
     earlier: &EarlierSignal<'_>,
 ) -> Result<(), ComputeError> {
     let span = TimeWindow { from: window.from, to: window.to };
-    let stretch = stretch(&signal.series, span)?;
-    let before = stretch_of(earlier)?;
+    let now = with_margins(&signal.series, span)?;
+    let before = with_margins(&earlier.signal.series, earlier.window)?;
     let part = before.window(earlier.window.from, earlier.window.to)?;
-    let levels = level_changes((&stretch, span), (&before, earlier.window))?;
+    let levels = level_changes((&now, span), (&before, earlier.window))?;
     let mut change = WindowChange {
         baseline: earlier.name.to_owned(),
         channel: earlier.signal.name.clone(),
-        window: earlier.window,
+        from: earlier.window.from,
+        to: earlier.window.to,
         speed_hz: earlier.kinematics.mean_speed_hz(earlier.window),
         rms: part.rms(),
         peak: part.peak(),
@@ -100,7 +101,7 @@ pub(crate) fn compare_window(
             Ok(found) => {
                 let turns_now = |time| kinematics.turns(time);
                 let orders_now = kinematics.orders(span)?;
-                let now = ComparedSignal::new(&stretch, span, turns_now, orders_now, diagnosis);
+                let now = ComparedSignal::new(&now, span, turns_now, orders_now, diagnosis);
                 let then = ComparedSignal::new(&before, earlier.window, turns, orders, &found);
                 change.compare_impacts(&now, &then)?;
             }
@@ -139,18 +140,8 @@ pub(crate) fn compare_window(
 }
 
 /// A window of a series with as much before and after it as it is long, so that its envelope has no edges.
-fn stretch(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, ComputeError> {
-    let samples = series.values().len();
-    let inside = window.check_inside(series.start_s(), series.step_s(), samples);
-    inside.map_err(DiagnosisError::from)?;
-    let (span, margin_s) = (series.span(), window.to - window.from);
-    let from = (window.from - margin_s).max(span.from);
-    let to = (window.to + margin_s).min(span.to);
-    Ok(series.window(from, to)?)
-}
-
-fn stretch_of(earlier: &EarlierSignal<'_>) -> Result<TimeSeries, ComputeError> {
-    stretch(&earlier.signal.series, earlier.window)
+fn with_margins(series: &TimeSeries, window: TimeWindow) -> Result<TimeSeries, ComputeError> {
+    stretch(series, window, window.to - window.from)
 }
 
 /// Band that is shown: of a part that is indicated, of what grew, of any that was compared.

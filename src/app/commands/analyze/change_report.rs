@@ -1,9 +1,10 @@
-//! What a report says of a window beside an earlier signal.
+//! What a report says of a window beside an earlier signal, and the curve of an envelope's lines over orders.
 
-use super::order_plot::{last_order, order_curve};
 use super::window::WindowAnalysis;
 use super::window::WindowChange;
-use crate::report::{Axis, Cell, Column, Marker, Plot, Report, Section, Table, Verdict, significant};
+use crate::report::{
+    Axis, Cell, Column, Curve, CurveStyle, Marker, Plot, Report, Section, Table, Verdict, significant,
+};
 use crate::signal::diagnosis::{ChangeConclusion, EnvelopeOrderSpectrum, change_words};
 
 /// What grew in each window, on top of a report, and what makes a comparison doubtful.
@@ -144,4 +145,26 @@ fn change_plot(
         plot = plot.marker(Marker::new(order, verdict.fault.name()).family(family));
     }
     plot
+}
+
+/// Points of an order spectrum that are drawn.
+const DRAWN_POINTS: usize = 20_000;
+
+/// Highest order that is drawn: three harmonics of usual races.
+const DRAWN_ORDERS: f64 = 16.0;
+
+/// An order spectrum as it is drawn: of a long window, so many neighbours' largest each, so that no line is lost.
+pub(crate) fn order_curve(name: &str, spectrum: &EnvelopeOrderSpectrum) -> Curve {
+    let step = spectrum.order.get(1).copied().unwrap_or(1.0);
+    let count = ((last_order(spectrum) / step) as usize + 1).min(spectrum.amplitude.len());
+    let group = count.div_ceil(DRAWN_POINTS).max(1);
+    let largest = |group: &[f64]| group.iter().fold(0.0_f64, |most, &value| most.max(value));
+    let drawn = spectrum.amplitude[..count].chunks(group).map(largest).collect();
+    let even = crate::report::Abscissa::Even { start: 0.5 * (group - 1) as f64 * step, step: group as f64 * step };
+    Curve::new(name, even, drawn).style(CurveStyle::Line)
+}
+
+/// Where the drawing of an order spectrum ends.
+pub(crate) fn last_order(spectrum: &EnvelopeOrderSpectrum) -> f64 {
+    spectrum.order.last().map_or(DRAWN_ORDERS, |last| last.min(DRAWN_ORDERS))
 }

@@ -6,9 +6,7 @@ pub(crate) mod band_search_report;
 mod band_search_tests;
 pub(crate) mod change;
 pub(crate) mod change_report;
-pub(crate) mod compute;
 pub(crate) mod no_signs;
-pub(crate) mod order_plot;
 pub(crate) mod report;
 pub(crate) mod summary;
 pub(crate) mod survey_report;
@@ -18,14 +16,13 @@ pub(crate) mod window;
 pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use change::EarlierSignal;
 pub(crate) use change::compare_window;
-pub use compute::compute_analysis;
 pub(crate) use report::analysis_report;
 pub use summary::{
-    AnalysisResult, ChangeSummary, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary, OuterRaceLine,
-    SurveyResult, VerdictSummary, WindowOfInput, WindowSummary,
+    AnalysisResult, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary, OuterRaceLine, SurveyResult,
+    VerdictSummary, WindowOfInput, WindowSummary,
 };
 pub use survey_report::SHOWN_WINDOWS;
 pub(crate) use survey_report::{survey_report, survey_section};
 pub(crate) use table::analysis_table;
 pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures};
-pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse};
+pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse, compute_analysis};

@@ -3,9 +3,7 @@
 use super::{WindowAnalysis, WindowChange};
 use crate::app::commands::result::ResultHead;
 use crate::signal::EnvelopePeak;
-use crate::signal::diagnosis::{
-    Diagnosis, Fault, FaultOrders, FaultVerdict, LevelChange, LineChange, SpeedSource, UnexplainedImpacts,
-};
+use crate::signal::diagnosis::{Diagnosis, Fault, FaultOrders, FaultVerdict, SpeedSource, UnexplainedImpacts};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -122,7 +120,7 @@ pub struct WindowSummary {
     pub verdict: VerdictSummary,
     /// What changed since an earlier signal; absent where none was named.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub changes: Option<ChangeSummary>,
+    pub changes: Option<WindowChange>,
 }
 
 /// A line of the outer race in an envelope spectrum.
@@ -169,33 +167,6 @@ pub struct DiagnosisSummary {
     pub unexplained: Vec<UnexplainedImpacts>,
     /// Faults that the signal alone indicates and something else speaks against.
     pub by_signal_alone: Vec<Fault>,
-}
-
-/// A window beside an earlier signal.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct ChangeSummary {
-    /// File or folder of the earlier signal.
-    pub baseline: String,
-    /// Its channel.
-    pub channel: String,
-    /// Start of its window, s.
-    pub from: f64,
-    /// End of its window, s.
-    pub to: f64,
-    /// Mean shaft speed in it, Hz.
-    pub speed_hz: f64,
-    /// Root mean square in it, in the signal's unit.
-    pub rms: f64,
-    /// Largest magnitude in it, in the signal's unit.
-    pub peak: f64,
-    /// Kurtosis in it; `None` for a constant signal.
-    pub kurtosis: Option<f64>,
-    /// The impacts of each part, and of those that belong to none.
-    pub lines: Vec<LineChange>,
-    /// RMS of all of the signal (first), and of each octave.
-    pub levels: Vec<LevelChange>,
-    /// What makes the comparison doubtful, in words.
-    pub warnings: Vec<String>,
 }
 
 impl OrdersSummary {
@@ -247,7 +218,8 @@ impl WindowAnalysis {
                 },
                 diagnosis: self.diagnosis.as_ref().ok().map(DiagnosisSummary::of),
             },
-            changes: self.change.as_ref().map(WindowChange::summary),
+            // a result keeps no spectra
+            changes: self.change.as_ref().map(|change| WindowChange { spectra: None, ..change.clone() }),
         }
     }
 }
@@ -265,24 +237,6 @@ impl DiagnosisSummary {
             faults: diagnosis.faults.clone(),
             unexplained: diagnosis.unexplained.clone(),
             by_signal_alone: diagnosis.by_signal_alone.clone(),
-        }
-    }
-}
-
-impl WindowChange {
-    fn summary(&self) -> ChangeSummary {
-        ChangeSummary {
-            baseline: self.baseline.clone(),
-            channel: self.channel.clone(),
-            from: self.window.from,
-            to: self.window.to,
-            speed_hz: self.speed_hz,
-            rms: self.rms,
-            peak: self.peak,
-            kurtosis: self.kurtosis,
-            lines: self.lines.clone(),
-            levels: self.levels.clone(),
-            warnings: self.warnings.clone(),
         }
     }
 }

@@ -4,14 +4,20 @@ use super::band_search::{AskedBand, UsedBand};
 use super::no_signs::no_signs;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
+use crate::formats::MeasuredSignal;
+use crate::numerics::Watch;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
 use crate::signal::diagnosis::Kinematics;
-use crate::signal::diagnosis::{Diagnosis, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange};
+use crate::signal::diagnosis::{
+    Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange,
+};
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch, band_limit,
-    envelope_peaks, squared, whiten,
+    envelope_peaks, squared, usual_high_pass_hz, whiten,
 };
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
 /// would name peaks by chance: within 3 % of k times a line are 6 k % of the distance of two of its harmonics.
@@ -226,6 +232,76 @@ fn lines(
     Ok((lines, smeared))
 }
 
+/// A window beside an earlier signal.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct WindowChange {
+    /// File or folder of the earlier signal.
+    pub baseline: String,
+    /// Its channel.
+    pub channel: String,
+    /// Start of its window, s.
+    pub from: f64,
+    /// End of its window, s.
+    pub to: f64,
+    /// Mean shaft speed in it, Hz.
+    pub speed_hz: f64,
+    /// Root mean square in it, in the signal's unit.
+    pub rms: f64,
+    /// Largest magnitude in it, in the signal's unit.
+    pub peak: f64,
+    /// Kurtosis in it; `None` for a constant signal.
+    pub kurtosis: Option<f64>,
+    /// The impacts of each part, and of those that belong to none.
+    pub lines: Vec<LineChange>,
+    /// RMS of all of the signal (first), and of each octave.
+    pub levels: Vec<LevelChange>,
+    /// Order spectra of the envelope of one band (Hz) in this signal and in the earlier one.
+    #[serde(skip)]
+    pub spectra: Option<([f64; 2], [EnvelopeOrderSpectrum; 2])>,
+    /// What makes the comparison doubtful, in words.
+    pub warnings: Vec<String>,
+}
+
+/// Analyses every signal in every window; without windows each as a whole. Without a band in `settings`: the high-pass of
+/// `usual_high_pass_hz`.
+///
+/// # Errors
+/// [`ComputeError`]: a window outside a signal, a filter beyond half the sampling rate.
+pub fn compute_analysis(
+    signals: &[MeasuredSignal],
+    settings: &AnalysisSettings,
+    kinematics: &Kinematics,
+    watch: &impl Watch,
+) -> Result<Vec<WindowAnalysis>, ComputeError> {
+    watch.stage("analyse");
+    let mut windows = Vec::new();
+    for signal in signals {
+        let series = &signal.series;
+        let mut own = settings.clone();
+        if own.windows.is_empty() {
+            own.windows.push(series.span());
+        }
+        let usual = AskedBand::HighPass(usual_high_pass_hz(series.rate_hz()));
+        own.shown_band.get_or_insert(usual);
+        let read = |window: TimeWindow, margin_s: f64| stretch(series, window, margin_s);
+        windows.extend(analyse(&signal.name, &own, read, kinematics)?);
+    }
+    Ok(windows)
+}
+
+/// The stretch of a series that holds a window, with so many seconds before and after it as there are.
+///
+/// # Errors
+/// [`ComputeError::Diagnosis`] for a window outside the series: a window that was asked for and is not there is wrong input.
+pub(crate) fn stretch(series: &TimeSeries, window: TimeWindow, margin_s: f64) -> Result<TimeSeries, ComputeError> {
+    let samples = series.values().len();
+    window.check_inside(series.start_s(), series.step_s(), samples).map_err(DiagnosisError::from)?;
+    let span = series.span();
+    let from = (window.from - margin_s).max(span.from);
+    let to = (window.to + margin_s).min(span.to);
+    Ok(series.window(from, to)?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -247,31 +323,4 @@ mod tests {
         assert_eq!(kept(0.1), (some, true));
         assert_eq!(kept(0.6), (Vec::new(), true));
     }
-}
-
-/// What changed in a window since an earlier signal.
-#[derive(Debug, Clone)]
-pub struct WindowChange {
-    /// File or folder of the earlier signal.
-    pub baseline: String,
-    /// Its channel.
-    pub channel: String,
-    /// Its window, s.
-    pub window: TimeWindow,
-    /// Mean shaft speed in it, Hz.
-    pub speed_hz: f64,
-    /// Root mean square in it, in the signal's unit.
-    pub rms: f64,
-    /// Largest magnitude in it, in the signal's unit.
-    pub peak: f64,
-    /// Kurtosis in it; `None` for a constant signal.
-    pub kurtosis: Option<f64>,
-    /// The impacts of each part, and of those that belong to none. Empty where there is no verdict.
-    pub lines: Vec<LineChange>,
-    /// RMS of all of the signal (first), and of each octave.
-    pub levels: Vec<LevelChange>,
-    /// Order spectra of the envelope of one band (Hz) in this signal and in the earlier one.
-    pub spectra: Option<([f64; 2], [EnvelopeOrderSpectrum; 2])>,
-    /// What makes the comparison doubtful, in words.
-    pub warnings: Vec<String>,
 }

@@ -9,13 +9,13 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::error::DraftError;
 use super::found::{DraftRequest, Found, FoundCylinder, find};
 use super::page::Page;
 use super::run_text::run;
+use super::scene::UnitFrom;
 use super::text::{bearing, findings, head, housing, motion, ring, sensors};
-use super::unit::UnitFrom;
 use crate::app::commands::Inspection;
+use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::numerics::units::LengthUnit;
 
@@ -48,8 +48,8 @@ impl Draft {
     /// Writes a case file for a mesh. The inspection is that of the same mesh in its own unit, as if that were the metre.
     ///
     /// # Errors
-    /// [`DraftError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
-    pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), DraftError> {
+    /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
+    pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
         let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mesh, &inspection)?;

@@ -1,18 +1,16 @@
 //! What a mesh shows of a case: bore, parts, supports, unit and bearing.
 
-use super::error::DraftError;
-use super::unit::UnitFrom;
-use super::{page, sensor, unit};
+use super::{page, sensor};
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
-use super::frame::Directions;
 use super::groups::{Groups, usable};
-use super::scene::{BearingNumbers, RingNumbers};
+use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
 use crate::app::commands::Inspection;
+use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::numerics::units::LengthUnit;
@@ -80,18 +78,29 @@ pub(crate) fn find<'a>(
     request: DraftRequest<'a>,
     mesh: &Mesh,
     inspection: &Inspection,
-) -> Result<Found<'a>, DraftError> {
+) -> Result<Found<'a>, ComputeError> {
     let inventory = &inspection.inventory;
     let dimension = inventory.dimension;
-    let path = || request.mesh.to_owned();
+    let wrong = |what: String, help: String| ComputeError::Input {
+        what: format!("{}: {what}", request.mesh.display()),
+        help: Some(help),
+    };
     if dimension < 2 {
-        return Err(DraftError::NoHousing { path: path() });
+        return Err(wrong(
+            "found a mesh of curves or points, expected surfaces or volumes".to_owned(),
+            "mesh the volume in gmsh (Mesh 3;) and save it again".to_owned(),
+        ));
     }
     let extent = inventory.bounding_box.extent();
     let plane = dimension == 2;
     if plane && extent[2] > 1e-9 * inventory.bounding_box.diagonal() {
-        let height = extent[2];
-        return Err(DraftError::Shell { path: path(), height });
+        return Err(wrong(
+            format!(
+                "found a mesh of surfaces over {:e} units of z, expected one in a plane z = const, or volumes",
+                extent[2]
+            ),
+            "shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned(),
+        ));
     }
     let rim = Rim::of(mesh, dimension);
     let Cylinders { bore, holes, outside } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
@@ -105,12 +114,17 @@ pub(crate) fn find<'a>(
         {
             return Err(shared.into());
         }
-        let what = if plane { "surfaces" } else { "volumes" };
-        return Err(DraftError::NoPart { path: path(), what });
+        let (what, word) = if plane { ("surfaces", "Surface") } else { ("volumes", "Volume") };
+        return Err(wrong(
+            format!("found no physical group of {what} that a part could be made of"),
+            format!(
+                "name it in gmsh, Physical {word}(\"housing\") = {{...}};, and save the mesh again; plummer inspect shows what is there"
+            ),
+        ));
     }
     let longest = extent.into_iter().fold(0.0, f64::max);
     let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
-    let (unit, unit_from) = unit::unit(request.length_unit, longest, radius, request.bearing);
+    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing);
     let metres = unit.to_metres();
     let directions = Directions::of(bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis));
     let middle = inventory.bounding_box;
@@ -164,7 +178,7 @@ pub(crate) fn scaled(found: Candidate, metres: f64) -> FoundCylinder {
 pub(crate) fn fitting(
     request: &DraftRequest<'_>,
     bore: Option<&FoundCylinder>,
-) -> Result<(Option<&'static CatalogueBearing>, Vec<&'static str>), DraftError> {
+) -> Result<(Option<&'static CatalogueBearing>, Vec<&'static str>), ComputeError> {
     let Some(bore) = bore else {
         return Ok((None, Vec::new()));
     };
@@ -177,12 +191,18 @@ pub(crate) fn fitting(
         let names = nearest
             .iter()
             .map(|(bearing, _)| format!("{} ({} mm)", bearing.name, page::number(1e3 * bearing.outer_diameter, 6)));
-        return Err(DraftError::BearingSize {
-            bearing: bearing.name,
-            outer_mm: 1e3 * bearing.outer_diameter,
-            group: bore.group.clone(),
-            bore_mm: 1e3 * diameter,
-            nearest: format!("nearest of the catalogue: {}", names.collect::<Vec<_>>().join(", ")),
+        let nearest = names.collect::<Vec<_>>().join(", ");
+        return Err(ComputeError::Input {
+            what: format!(
+                "bearing {}: found an outer diameter of {:.4} mm, expected that of the bore \"{}\", {:.4} mm, within 1 %",
+                bearing.name,
+                1e3 * bearing.outer_diameter,
+                bore.group,
+                1e3 * diameter
+            ),
+            help: Some(format!(
+                "nearest of the catalogue: {nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"
+            )),
         });
     }
     let fits: Vec<&CatalogueBearing> =

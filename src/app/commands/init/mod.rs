@@ -2,9 +2,7 @@
 
 pub(crate) mod bore;
 pub(crate) mod draft;
-pub(crate) mod error;
 pub(crate) mod found;
-pub(crate) mod frame;
 pub(crate) mod groups;
 pub(crate) mod page;
 pub(crate) mod run_text;
@@ -14,10 +12,8 @@ pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 pub(crate) mod text;
-pub(crate) mod unit;
 
 pub use draft::Draft;
-pub use error::DraftError;
 pub use found::{DraftRequest, FoundCylinder};
+pub use scene::UnitFrom;
 pub use summary::{BearingSummary, CatalogueResult, DraftResult};
-pub use unit::UnitFrom;

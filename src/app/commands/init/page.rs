@@ -3,6 +3,9 @@
 /// Widest line of a note.
 const WIDTH: usize = 118;
 
+/// Significant digits of what is computed or guessed.
+pub(crate) const COMPUTED_DIGITS: usize = 4;
+
 /// The text so far.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Page {

@@ -1,7 +1,7 @@
 //! The case file's modes, accuracy, time and analysis.
 
 use super::found::Found;
-use super::page::{Page, number};
+use super::page::{COMPUTED_DIGITS, Page, number};
 use super::scene::SPEED_HZ;
 use crate::bearing::catalogue::CatalogueBearing;
 use crate::bearing::kinematics::BallRow;
@@ -11,8 +11,6 @@ use crate::signal::diagnosis::{Fault, FaultOrders};
 const SETTLED_S: f64 = 0.1;
 /// Fewest revolutions of the window, half a second.
 const FEWEST_TURNS: f64 = 12.5;
-/// Digits of what is computed or guessed.
-const FEW: usize = 4;
 
 /// The window that is analysed.
 struct Window {
@@ -39,14 +37,14 @@ impl Window {
                 format!(
                     "{:.0} turns: fewer do not tell the lines of the outer race, {} a turn, from the shaft's",
                     needed.ceil(),
-                    number(orders.outer, FEW)
+                    number(orders.outer, COMPUTED_DIGITS)
                 ),
             ),
             _ => of(
                 FEWEST_TURNS,
                 format!(
                     "{FEWEST_TURNS} turns; no window tells the lines of this outer race, {} a turn, from the shaft's",
-                    number(orders.outer, FEW)
+                    number(orders.outer, COMPUTED_DIGITS)
                 ),
             ),
         }
@@ -67,7 +65,7 @@ pub(crate) fn run(page: &mut Page, found: &Found<'_>) {
     page.value_from("start", "0", "s, in equilibrium at that time's speed");
     page.value_from(
         "end",
-        number(window.end_s, FEW),
+        number(window.end_s, COMPUTED_DIGITS),
         &format!("guess, s: {} turns, of which the first settle", number(SPEED_HZ * window.end_s, 3)),
     );
     page.value_from("method", "\"auto\"", "the program's choice; plummer run --explain says which");
@@ -76,7 +74,7 @@ pub(crate) fn run(page: &mut Page, found: &Found<'_>) {
     page.value_from("high_pass_hz", "3000", "guess: above it the housing rings, below it the shaft turns");
     page.value_from(
         "envelope",
-        format!("[{{ from = {SETTLED_S}, to = {} }}]", number(window.end_s, FEW)),
+        format!("[{{ from = {SETTLED_S}, to = {} }}]", number(window.end_s, COMPUTED_DIGITS)),
         &window.words,
     );
 }

@@ -1,7 +1,7 @@
 //! What is made of the numbers behind a case file.
 
 use super::scene::{BALANCE, BearingNumbers, RingNumbers, SPEED_HZ, shaft};
-use super::unit::{UnitFrom, unit};
+use super::scene::{UnitFrom, unit_of};
 use std::path::Path;
 
 use super::groups::Groups;
@@ -24,7 +24,7 @@ fn a_unit_is_given_told_by_the_bearing_or_guessed() {
         (None, 44.0, Some(26.0), None, (LengthUnit::Millimetre, UnitFrom::Extent)),
         (None, 0.044, None, None, (LengthUnit::Metre, UnitFrom::Extent)),
     ] {
-        assert_eq!(unit(given, longest, radius, bearing), expected, "{longest} {radius:?}");
+        assert_eq!(unit_of(given, longest, radius, bearing), expected, "{longest} {radius:?}");
     }
 }
 

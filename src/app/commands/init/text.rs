@@ -1,18 +1,15 @@
 //! The case file's text, and the findings in sentences.
 
 use super::found::{Found, FoundCylinder};
-use super::page::{Page, list, number, numbers, quoted};
+use super::page::{COMPUTED_DIGITS, Page, list, number, numbers, quoted};
+use super::scene::UnitFrom;
 use super::scene::{BALANCE, BearingNumbers, SHAFT_LENGTHS, SPEED_HZ, shaft};
-use super::unit::UnitFrom;
 
-/// Digits of what is measured in the mesh: far more than a drawing has.
-const DIGITS: usize = 9;
+/// Significant digits of what is measured in the mesh: far more than a drawing has.
+const MEASURED_DIGITS: usize = 9;
 
 /// Distance of nodes from a cylinder, over its radius, that is not worth a number.
 const ROUND_OFF: f64 = 1e-9;
-
-/// Digits of what is computed or guessed.
-const FEW: usize = 4;
 
 fn unit_origin(found: &Found<'_>) -> String {
     let sides = found.extent.map(|side| number(side, 3));
@@ -30,7 +27,7 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let what = if plane { "circle" } else { "cylinder" };
     let millimetre = |metres: f64| number(1e3 * metres, 6);
     let [x, y, z] = cylinder.axis;
-    let axis = super::frame::Directions::of(cylinder.axis).axis;
+    let axis = super::scene::Directions::of(cylinder.axis).axis;
     let about = ["x", "y", "z"]
         .into_iter()
         .zip(axis)
@@ -142,7 +139,7 @@ pub(crate) fn housing(page: &mut Page, found: &Found<'_>) {
         let thickness = found.ring.section_width();
         page.value_from(
             "plane",
-            format!("{{ assumption = \"stress\", thickness = {} }}", number(thickness, FEW)),
+            format!("{{ assumption = \"stress\", thickness = {} }}", number(thickness, COMPUTED_DIGITS)),
             "guess: as thick as the bearing is wide, m",
         );
     }
@@ -226,15 +223,15 @@ pub(crate) fn ring(page: &mut Page, found: &Found<'_>) {
         page.note(&section_origin(found));
         let mut keys = vec![
             "material = \"bearing steel\"".to_owned(),
-            format!("area = {}", number(section.area, FEW)),
-            format!("inertia = {}", number(section.inertia, FEW)),
+            format!("area = {}", number(section.area, COMPUTED_DIGITS)),
+            format!("inertia = {}", number(section.inertia, COMPUTED_DIGITS)),
         ];
         if !found.plane {
-            keys.push(format!("axial_inertia = {}", number(section.axial_inertia, FEW)));
+            keys.push(format!("axial_inertia = {}", number(section.axial_inertia, COMPUTED_DIGITS)));
         }
-        keys.push(format!("radius = {}", number(section.radius, FEW + 2)));
+        keys.push(format!("radius = {}", number(section.radius, COMPUTED_DIGITS + 2)));
         page.line(&format!("sections = [{{ {} }}]", keys.join(", ")));
-        page.value_from("outer_radius", number(0.5 * diameter, DIGITS), "mesh: that of the bore, m");
+        page.value_from("outer_radius", number(0.5 * diameter, MEASURED_DIGITS), "mesh: that of the bore, m");
         tie(page, found);
     });
 }
@@ -246,7 +243,7 @@ fn section_origin(found: &Found<'_>) -> String {
     } else {
         "down to the groove's bottom: its shoulders are not published"
     };
-    let scale = number(ring.scale, FEW);
+    let scale = number(ring.scale, COMPUTED_DIGITS);
     let scaled = match scale.as_str() {
         "1" => String::new(),
         scale => format!(", scaled by {scale} to the bore"),
@@ -265,9 +262,9 @@ fn tie(page: &mut Page, found: &Found<'_>) {
         "tie = {{ group = {}, fit = \"bonded\", centre = {}, axis = {}, zero_deg = {} }}",
         quoted(group),
         // a billionth of the radius is round-off of the fit
-        numbers(&centre, DIGITS, 1e-9 * radius),
-        numbers(&directions.axis, DIGITS, 1e-9),
-        numbers(&directions.zero, DIGITS, 1e-9)
+        numbers(&centre, MEASURED_DIGITS, 1e-9 * radius),
+        numbers(&directions.axis, MEASURED_DIGITS, 1e-9),
+        numbers(&directions.zero, MEASURED_DIGITS, 1e-9)
     ));
 }
 
@@ -308,7 +305,7 @@ pub(crate) fn bearing(page: &mut Page, found: &Found<'_>) {
             "No bearing of the catalogue fits (plummer init --list-bearings). This is {}, scaled by {} to the bore, which nobody \
              sells: to be replaced by your own. {}.",
             bearing.name,
-            number(found.ring.scale, FEW),
+            number(found.ring.scale, COMPUTED_DIGITS),
             bearing.source.citation()
         )),
     }
@@ -332,7 +329,7 @@ pub(crate) fn bearing(page: &mut Page, found: &Found<'_>) {
         page.value_from("outer_groove_radius", metres(numbers.outer_groove), "as said");
         page.value_from(
             "radial_play",
-            number(numbers.play, FEW),
+            number(numbers.play, COMPUTED_DIGITS),
             "usual: half the middle of the normal clearance, less in warm or tight fits, m",
         );
         page.value_from("contact_damping", "2.0", "guess, s/m: without it unloaded balls bounce for ever");
@@ -386,5 +383,5 @@ pub(crate) fn sensors(page: &mut Page, found: &Found<'_>) {
         // a mesh has corners: this is for a mesh that lost them
         (None, None) => page.value_from("point", "[0, 0, 0]", "guess, m"),
     }
-    page.value_from("direction", numbers(&found.directions.up, DIGITS, 1e-9), "up");
+    page.value_from("direction", numbers(&found.directions.up, MEASURED_DIGITS, 1e-9), "up");
 }

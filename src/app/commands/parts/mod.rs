@@ -1,7 +1,6 @@
 //! Sections that several reports show: model, bearing, statics.
 
 pub(crate) mod bearing_table;
-pub(crate) mod dent_drops;
 pub(crate) mod drawing;
 pub(crate) mod statics_report;
 pub(crate) mod summary;

@@ -1,7 +1,7 @@
 //! A scene stepped through time by one model.
 
 use super::recording::{Checkpoints, InMemory, Recording, RunRequest};
-use crate::app::error::{ComputeError, UnfinishedError};
+use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{
     BlowUp, Instant as Now, Integration, Method, Observer, Schedule, SecondOrderSystem, Snapshot, State, Statistics,
@@ -159,7 +159,7 @@ impl<R: Recording> Simulation<R> {
             }
             Some(snapshot) => {
                 let integration = stepping.recall(&system, model.method, schedule, &snapshot)?;
-                integration.ok_or(UnfinishedError::Model)?
+                integration.ok_or_else(another_model)?
             }
         };
         let end = stepping.go(&mut system, &mut integration, schedule, checkpoints, fraction)?;
@@ -369,4 +369,12 @@ fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
         *word = bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
     }
     words
+}
+
+/// Everything that was read is the same as of the unfinished run, and what was computed from it is not.
+fn another_model() -> ComputeError {
+    ComputeError::input(
+        "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor",
+        ComputeError::ANEW,
+    )
 }

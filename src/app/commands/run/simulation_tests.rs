@@ -5,7 +5,7 @@ use super::*;
 use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
-use crate::app::error::{ComputeError, UnfinishedError};
+use crate::app::error::ComputeError;
 use crate::app::scene::{Scene, bearing_setup};
 use crate::numerics::Unwatched;
 use crate::numerics::ode::{
@@ -154,7 +154,8 @@ fn a_run_of_another_model_does_not_go_on() {
     assert!(matches!(error, ComputeError::Interrupted { .. }), "{error}");
     assert!(!error.is_input());
     let error = stopped(&["shaft.mass=0.15000000000000002"], &mut stops);
-    assert!(matches!(error, ComputeError::Unfinished(UnfinishedError::Model)), "{error}");
+    assert!(error.to_string().starts_with("the model is not to the last bit that of the unfinished run: "), "{error}");
+    assert_eq!(error.help().as_deref(), Some("begin anew with --force"));
     assert!(error.is_input());
 }
 
@@ -200,7 +201,10 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
     unfinished.remove().unwrap();
     assert!(!path.exists());
     let error = UnfinishedRun::resume(&path, identity()).unwrap_err();
-    assert!(matches!(error, UnfinishedError::Nothing { .. }), "{error}");
+    let expected = format!("{} has no checkpoint: there is no unfinished run to go on with", path.display());
+    assert_eq!(error.to_string(), expected);
+    assert_eq!(error.help().as_deref(), Some("leave --resume out to begin a run"));
+    assert!(error.is_input());
 }
 
 /// A simulation with this signal at its one sensor, 100 kHz.

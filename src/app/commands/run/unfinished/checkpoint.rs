@@ -8,7 +8,7 @@
 //! ```
 
 use crate::app::case::{Case, Defect};
-use crate::app::error::{ComputeError, UnfinishedError};
+use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
 use crate::files::{self, FileDigest, FileError, write_atomic};
 use crate::formats::ColumnFiles;
@@ -48,14 +48,14 @@ struct Head {
 /// Writes a checkpoint, whole or not at all, in the place of an earlier one.
 ///
 /// # Errors
-/// [`UnfinishedError::File`].
+/// [`ComputeError::File`].
 pub(crate) fn write(
     path: &Path,
     identity: &RunIdentity,
     columns: &ColumnFiles,
     time_s: f64,
     snapshot: &Snapshot,
-) -> Result<(), UnfinishedError> {
+) -> Result<(), ComputeError> {
     let head = Head {
         identity: identity.clone(),
         time_s,
@@ -73,14 +73,19 @@ pub(crate) fn write(
     Ok(write_atomic(path, |file| file.write_all(&bytes))?)
 }
 
+/// The error of a file or folder that holds no whole checkpoint.
+pub(crate) fn damaged(path: &Path, what: &str) -> ComputeError {
+    ComputeError::input(format!("{} is no whole checkpoint: {what}", path.display()), ComputeError::ANEW)
+}
+
 impl Checkpoint {
     /// Reads a checkpoint.
     ///
     /// # Errors
-    /// [`UnfinishedError::File`], [`UnfinishedError::Damaged`].
-    pub(crate) fn read(path: &Path) -> Result<Self, UnfinishedError> {
+    /// [`ComputeError::File`], and as [`damaged`].
+    pub(crate) fn read(path: &Path) -> Result<Self, ComputeError> {
         let bytes = fs::read(path).map_err(FileError::read(path))?;
-        Self::parse(&bytes).map_err(|what| UnfinishedError::Damaged { path: path.to_owned(), what })
+        Self::parse(&bytes).map_err(|what| damaged(path, &what))
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {
@@ -224,7 +229,7 @@ mod tests {
             assert!(Checkpoint::parse(&whole[..length]).is_err(), "{length}");
         }
         let error = Checkpoint::read(&folder.path().join("nowhere")).unwrap_err();
-        assert!(matches!(error, UnfinishedError::File(_)));
+        assert!(matches!(error, ComputeError::File(_)));
     }
 
     #[test]

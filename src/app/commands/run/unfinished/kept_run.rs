@@ -6,11 +6,12 @@
 
 use super::checkpoint::{self, Checkpoint, RunIdentity};
 use crate::app::commands::run::{Checkpoints, RunRequest};
-use crate::app::error::{ComputeError, UnfinishedError};
+use crate::app::error::ComputeError;
 use crate::files;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -73,17 +74,22 @@ impl UnfinishedRun {
     /// The run in a folder, to go on.
     ///
     /// # Errors
-    /// [`UnfinishedError::Nothing`], [`UnfinishedError::Changed`] if what it was begun with is not what it would go on
-    /// with, [`UnfinishedError::Damaged`].
-    pub(crate) fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, UnfinishedError> {
-        files::no_link(folder).map_err(|source| UnfinishedError::Folder { path: folder.to_owned(), source })?;
+    /// [`ComputeError`] if there is none, if what it was begun with is not what it would go on with, or if it is damaged.
+    pub(crate) fn resume(folder: &Path, identity: RunIdentity) -> Result<Self, ComputeError> {
+        files::no_link(folder).map_err(of_folder(folder))?;
         if !Self::is_in(folder) {
-            return Err(UnfinishedError::Nothing { path: folder.to_owned() });
+            return Err(ComputeError::input(
+                format!("{} has no checkpoint: there is no unfinished run to go on with", folder.display()),
+                "leave --resume out to begin a run",
+            ));
         }
         let checkpoint = Checkpoint::read(&folder.join(FILE))?;
         let changes = checkpoint.identity.changes(&identity);
         if !changes.is_empty() {
-            return Err(UnfinishedError::Changed { path: folder.to_owned(), changes });
+            return Err(ComputeError::input(
+                format!("the run in {} was begun with something else: {}", folder.display(), changes.join("; ")),
+                format!("go on with what it was begun with, or {}", ComputeError::ANEW),
+            ));
         }
         Ok(Self { resumed: Some(checkpoint), ..Self::begin(folder, identity) })
     }
@@ -91,18 +97,25 @@ impl UnfinishedRun {
     /// Removes what the folder has, the checkpoint first: the run has ended and its results are written, or another begins.
     ///
     /// # Errors
-    /// [`UnfinishedError::Folder`].
-    pub(crate) fn remove(&self) -> Result<(), UnfinishedError> {
+    /// [`ComputeError`] when the system refuses.
+    pub(crate) fn remove(&self) -> Result<(), ComputeError> {
         let folder = &self.folder;
-        let failed = |source| UnfinishedError::Folder { path: folder.clone(), source };
-        files::no_link(folder).map_err(failed)?;
+        files::no_link(folder).map_err(of_folder(folder))?;
         if Self::is_in(folder) {
-            fs::remove_file(folder.join(FILE)).map_err(failed)?;
+            fs::remove_file(folder.join(FILE)).map_err(of_folder(folder))?;
         }
         if folder.exists() {
-            fs::remove_dir_all(folder).map_err(failed)?;
+            fs::remove_dir_all(folder).map_err(of_folder(folder))?;
         }
         Ok(())
+    }
+}
+
+/// What a failure to make or remove a folder is.
+fn of_folder(folder: &Path) -> impl FnOnce(io::Error) -> ComputeError {
+    |source| ComputeError::Failed {
+        what: format!("cannot make or remove the folder {}: {source}", folder.display()),
+        help: None,
     }
 }
 
@@ -115,18 +128,14 @@ impl Checkpoints for UnfinishedRun {
         Ok(match self.resumed.take() {
             None => {
                 self.remove()?;
-                fs::create_dir_all(&self.folder)
-                    .map_err(|source| UnfinishedError::Folder { path: self.folder.clone(), source })?;
+                fs::create_dir_all(&self.folder).map_err(of_folder(&self.folder))?;
                 (ColumnFiles::create(&self.folder, sensors, balls)?, None)
             }
             Some(checkpoint) => {
                 let record = ColumnFiles::resume(&self.folder, sensors, balls, checkpoint.rows)?;
                 if record.digest() != checkpoint.columns_sha256 {
-                    return Err(UnfinishedError::Damaged {
-                        path: self.folder.clone(),
-                        what: "the rows in its columns are not those that the checkpoint counts".to_owned(),
-                    }
-                    .into());
+                    let what = "the rows in its columns are not those that the checkpoint counts";
+                    return Err(checkpoint::damaged(&self.folder, what));
                 }
                 (record, Some(checkpoint.snapshot))
             }

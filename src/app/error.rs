@@ -1,7 +1,5 @@
-//! What can go wrong on the way from a case to a result, and whose fault it is.
+//! What can go wrong on the way from a case to a result: what failed, whose fault it is and what to do.
 
-use super::import::ImportError;
-use super::unfinished::UnfinishedError;
 use crate::app::case::CaseError;
 use crate::bearing::defect::DefectError;
 use crate::bearing::{CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError};
@@ -28,6 +26,14 @@ use thiserror::Error;
 /// Failure of a stage.
 #[derive(Debug, Error)]
 pub enum ComputeError {
+    /// Input that nothing can be computed with.
+    #[error("{what}")]
+    Input {
+        /// What is wrong, and where.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
     /// The case file.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -330,14 +336,6 @@ pub enum ComputeError {
         /// What was found.
         source: ReductionError,
     },
-    /// A superelement that cannot take the housing's place.
-    #[error("housing.superelement: {}: {source}", path.display())]
-    Import {
-        /// Its file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: Box<ImportError>,
-    },
     /// Craig-Bampton.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
@@ -356,9 +354,9 @@ pub enum ComputeError {
     /// Time integration.
     #[error(transparent)]
     Transient(#[from] TransientError),
-    /// An unfinished run that is in the way or cannot go on.
+    /// A file of a run that cannot be read or written.
     #[error(transparent)]
-    Unfinished(#[from] UnfinishedError),
+    File(#[from] FileError),
     /// A run that was asked to stop; it can go on.
     #[error("interrupted at t = {at_s:.6} s of {end_s} s")]
     Interrupted {
@@ -382,6 +380,14 @@ pub enum ComputeError {
     /// The report.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A study, or one of its files, that failed.
+    #[error("{what}")]
+    Failed {
+        /// What happened, and where.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
 }
 
 impl From<ModalError> for ComputeError {
@@ -395,6 +401,14 @@ impl From<ModalError> for ComputeError {
 }
 
 impl ComputeError {
+    /// Wrong input, and what to do about it.
+    pub(crate) fn input(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Input { what: what.into(), help: Some(help.into()) }
+    }
+
+    /// What to do with a run that cannot go on.
+    pub(crate) const ANEW: &'static str = "begin anew with --force";
+
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
         Self::InterfaceHeld { displacements: nodes.held.len(), holders: nodes.holders(model) }
@@ -403,12 +417,12 @@ impl ComputeError {
     /// What to do about it, where the message does not say it already.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Input { help, .. } => help.clone(),
             Self::Case(error) => error.help(),
             Self::Measured(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
-            Self::Import { source, .. } => source.help(),
-            Self::Unfinished(error) => error.help(),
-            Self::Columns(ColumnError::Cut { .. }) => Some(UnfinishedError::ANEW.to_owned()),
+            Self::Failed { help, .. } => help.clone(),
+            Self::Columns(ColumnError::Cut { .. }) => Some(Self::ANEW.to_owned()),
             Self::InterfaceHeld { .. } => Some(
                 "name other nodes in condense.interface, or take the support off them".to_owned(),
             ),
@@ -458,8 +472,9 @@ impl ComputeError {
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
-            Self::Unfinished(error) => error.is_input(),
-            Self::Interrupted { .. } | Self::Columns(ColumnError::File(_)) => false,
+            Self::Failed { .. } | Self::Interrupted { .. } | Self::File(_) | Self::Columns(ColumnError::File(_)) => {
+                false
+            }
             Self::MeshChanged { .. } | Self::Series(_) | Self::Format(_) | Self::Report(_) => false,
             _ => true,
         }
