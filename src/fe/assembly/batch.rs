@@ -2,7 +2,7 @@
 
 use super::pattern::Local;
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::ContinuumKind;
+use crate::fe::mesh::ElementKind;
 use crate::fe::model::{HousingElement, HousingModel, ModelError};
 use rayon::prelude::*;
 
@@ -17,7 +17,7 @@ const BATCH: usize = 1 << 20;
 /// [`ModelError::Element`] for the first element, in that order, for which `compute` fails.
 pub(super) fn in_batches(
     model: &HousingModel,
-    entries: impl Fn(ContinuumKind) -> usize,
+    entries: impl Fn(ElementKind) -> usize,
     compute: impl Fn(&HousingElement, &[[f64; 3]], &mut [f64]) -> Result<(), ElementError> + Sync,
     mut consume: impl FnMut(&[Local<'_>]),
 ) -> Result<(), ModelError> {

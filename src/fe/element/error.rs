@@ -79,6 +79,18 @@ pub enum ElementError {
         /// Coordinates given.
         found: usize,
     },
+    /// A point or a line where a plane element or a solid is needed.
+    #[error("a {kind} element has neither area nor volume")]
+    NoContinuum {
+        /// Name of the element kind.
+        kind: &'static str,
+    },
+    /// A point or a solid where an edge or a face is needed.
+    #[error("a {kind} element is neither an edge nor a face")]
+    NoSurface {
+        /// Name of the element kind.
+        kind: &'static str,
+    },
     /// An output buffer of the wrong length.
     #[error("the matrix of a {kind} element has {order} x {order} entries, the buffer holds {found}")]
     BufferLength {

@@ -3,7 +3,6 @@
 //! Source of the node order: gmsh reference manual, section "Node ordering".
 
 use super::ElementKind;
-use std::sync::LazyLock;
 
 /// A face of an element kind: an element of one dimension less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,33 +86,35 @@ impl ElementKind {
         }
     }
 
-    /// Edges, each once.
-    pub(crate) fn edges(self) -> &'static [Edge] {
-        static TABLE: LazyLock<Vec<Vec<Edge>>> =
-            LazyLock::new(|| ElementKind::all().map(ElementKind::find_edges).collect());
-        &TABLE[self as usize]
+    /// Edges by their two corners, each once, in gmsh's order: of an element of second order edge i carries node
+    /// `corners() + i`.
+    const fn corner_edges(self) -> &'static [[usize; 2]] {
+        match self {
+            Self::Point => &[],
+            Self::Line2 | Self::Line3 => &[[0, 1]],
+            Self::Tri3 | Self::Tri6 => &[[0, 1], [1, 2], [2, 0]],
+            Self::Quad4 | Self::Quad8 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            Self::Tet4 | Self::Tet10 => &[[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]],
+            Self::Hex8 | Self::Hex20 => {
+                &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]]
+            }
+            Self::Wedge6 | Self::Wedge15 => &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]],
+        }
     }
 
-    fn find_edges(self) -> Vec<Edge> {
-        if self.dimension() < 2 {
-            let middle = (self.order() == 2).then_some(2);
-            return vec![([0, 1], middle); self.dimension()];
-        }
-        let mut edges = Vec::new();
-        for face in self.faces() {
-            for (ends, middle) in face.kind.find_edges() {
-                let ends = ends.map(|local| face.nodes[local]);
-                // a solid has each edge in two faces, once in each direction
-                if self.dimension() == 2 || ends[0] < ends[1] {
-                    edges.push((ends, middle.map(|local| face.nodes[local])));
-                }
-            }
-        }
-        edges
+    /// The edges with a middle node, as their two corners; edge i carries node `corners() + i`. Empty for the linear elements.
+    pub const fn middle_edges(self) -> &'static [[usize; 2]] {
+        if self.order() == 2 { self.corner_edges() } else { &[] }
+    }
+
+    /// Edges, each once.
+    pub(crate) fn edges(self) -> impl Iterator<Item = Edge> {
+        let middle = move |place: usize| (self.order() == 2).then_some(self.corners() + place);
+        self.corner_edges().iter().enumerate().map(move |(place, &ends)| (ends, middle(place)))
     }
 
     /// Number of corner nodes; they come first.
-    pub fn corners(self) -> usize {
+    pub const fn corners(self) -> usize {
         match self {
             Self::Point => 1,
             Self::Line2 | Self::Line3 => 2,
@@ -173,7 +174,7 @@ mod tests {
                 ends.sort_unstable();
                 ends
             };
-            let mut found = kind.edges().to_vec();
+            let mut found: Vec<_> = kind.edges().collect();
             found.sort_unstable_by_key(|edge| edge.1);
             let found: Vec<_> = found.into_iter().map(|edge| sorted(edge.0)).collect();
             let expected: Vec<_> = edges(kind).iter().map(|&ends| sorted(ends)).collect();

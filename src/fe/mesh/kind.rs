@@ -51,7 +51,7 @@ const fn row(kind: ElementKind, gmsh_type: i32, name: &'static str, [dimension, 
 }
 
 /// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
-static TABLE: [Row; 13] = [
+static TABLE: [Row; ElementKind::COUNT] = [
     row(ElementKind::Point, 15, "Point", [0, 1, 1]),
     row(ElementKind::Line2, 1, "Line2", [1, 1, 2]),
     row(ElementKind::Line3, 8, "Line3", [1, 2, 3]),
@@ -68,8 +68,16 @@ static TABLE: [Row; 13] = [
 ];
 
 impl ElementKind {
-    fn row(self) -> &'static Row {
+    /// Number of kinds.
+    pub(crate) const COUNT: usize = 13;
+
+    const fn row(self) -> &'static Row {
         &TABLE[self as usize]
+    }
+
+    /// Kinds of plane elements and solids, in the order of the enum.
+    pub fn continua() -> impl Iterator<Item = Self> {
+        Self::all().filter(|kind| kind.dimension() >= 2)
     }
 
     /// Every kind, in the order of the enum.
@@ -93,17 +101,17 @@ impl ElementKind {
     }
 
     /// 0 point, 1 line, 2 surface, 3 volume.
-    pub fn dimension(self) -> usize {
+    pub const fn dimension(self) -> usize {
         self.row().dimension
     }
 
     /// 1 linear, 2 quadratic.
-    pub fn order(self) -> usize {
+    pub const fn order(self) -> usize {
         self.row().order
     }
 
     /// Number of nodes.
-    pub fn nodes(self) -> usize {
+    pub const fn nodes(self) -> usize {
         self.row().nodes
     }
 }

@@ -1,7 +1,7 @@
 //! Which elements a housing is made of, and which part each belongs to.
 
 use super::ModelError;
-use super::elements::{HousingElement, HousingElements, continuum_kind};
+use super::elements::{HousingElement, HousingElements};
 use crate::fe::mesh::Mesh;
 
 impl HousingElements {
@@ -15,9 +15,10 @@ impl HousingElements {
         let mut found = Self::default();
         let (mut unassigned, mut first_tag) = (0, 0);
         for (block, owners) in mesh.blocks.iter().zip(&owner) {
-            let Some(kind) = continuum_kind(block.kind).filter(|kind| kind.dimension() == dimension) else {
+            let kind = block.kind;
+            if kind.dimension() != dimension {
                 continue;
-            };
+            }
             for ((nodes, &tag), owner) in block.elements().zip(&block.tags).zip(owners) {
                 match owner {
                     Some(part) => {

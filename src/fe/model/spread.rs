@@ -4,8 +4,7 @@
 //! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
-use super::elements::{continuum_kind, surface_kind};
-use crate::fe::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
+use crate::fe::element::continuum::{measure_matrix, surface_matrix};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;
 use std::collections::BTreeSet;
@@ -77,10 +76,10 @@ pub(super) fn spread<'a>(
             continue; // a group is a set
         }
         let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
-        let matrix = match Spread::of(kind) {
-            Some(Spread::Surface(kind)) => surface_matrix(kind, &coordinates),
-            Some(Spread::Volume(kind)) => measure_matrix(kind, &coordinates),
-            None => Ok(DMatrix::from_element(1, 1, 1.0)),
+        let matrix = match kind.dimension() {
+            0 => Ok(DMatrix::from_element(1, 1, 1.0)),
+            3 => measure_matrix(kind, &coordinates),
+            _ => surface_matrix(kind, &coordinates),
         };
         let matrix = matrix.map_err(|source| ModelError::Element {
             path: mesh.source.display().to_string(),
@@ -95,20 +94,6 @@ pub(super) fn spread<'a>(
         share.matrix /= total;
     }
     Ok((found, total))
-}
-
-enum Spread {
-    Surface(SurfaceKind),
-    Volume(ContinuumKind),
-}
-
-impl Spread {
-    fn of(kind: ElementKind) -> Option<Self> {
-        match surface_kind(kind) {
-            Some(kind) => Some(Self::Surface(kind)),
-            None => continuum_kind(kind).map(Self::Volume),
-        }
-    }
 }
 
 impl Share {

@@ -1,6 +1,7 @@
 //! Which formulation an element uses, and which rule integrates what.
 
-use super::{ContinuumKind, QuadratureRule};
+use super::QuadratureRule;
+use crate::fe::mesh::ElementKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,12 +40,12 @@ pub enum LinearFormulation {
     Plain,
 }
 
-impl ContinuumKind {
+impl ElementKind {
     /// The rule that integrates the stiffness of an element with any edges.
     ///
     /// Exact for straight-edged triangles and tetrahedra and for parallelograms, parallelepipeds and straight
     /// prisms; curved and distorted elements have rational integrands, for which no rule is exact.
-    /// Straight Tri6 and Tet10 take the cheaper [`ContinuumKind::straight_stiffness_rule`].
+    /// Straight Tri6 and Tet10 take the cheaper [`ElementKind::straight_stiffness_rule`].
     ///
     /// Tri6 takes six points although three are exact for straight sides: on an annulus of 576 curved Tri6 the
     /// first 17 elastic frequencies agree with those of 64 points to 1e-9, three points are 4.5e-6 off
@@ -65,6 +66,7 @@ impl ContinuumKind {
     /// 3.1e-6, Quad8 2.9e-4, Hex20 2.6e-4, Wedge15 9.4e-5.
     pub(crate) fn stiffness_rule(self) -> QuadratureRule {
         match self {
+            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::LINE_4,
             Self::Tri3 => QuadratureRule::TRIANGLE_1,
             Self::Tri6 => QuadratureRule::TRIANGLE_6,
             Self::Quad4 => QuadratureRule::SQUARE_2X2,
@@ -80,7 +82,7 @@ impl ContinuumKind {
 
     /// The rule that is exact for the stiffness if all edges are straight with their nodes in the middle:
     /// degree 2 for Tri6 and Tet10, whose Jacobian is then constant; for all others that of
-    /// [`ContinuumKind::stiffness_rule`].
+    /// [`ElementKind::stiffness_rule`].
     pub(crate) fn straight_stiffness_rule(self) -> QuadratureRule {
         match self {
             Self::Tri6 => QuadratureRule::TRIANGLE_3,
@@ -95,6 +97,7 @@ impl ContinuumKind {
     /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
     pub(crate) fn mass_rule(self) -> QuadratureRule {
         match self {
+            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::LINE_4,
             Self::Tri3 => QuadratureRule::TRIANGLE_3,
             Self::Tri6 => QuadratureRule::TRIANGLE_12,
             Self::Quad4 => QuadratureRule::SQUARE_2X2,
@@ -110,7 +113,7 @@ impl ContinuumKind {
 
     /// The rule that is exact for the mass if all edges are straight with their nodes in the middle: the
     /// Jacobian has then the degree of the linear element's, which leaves 6 in each direction (Hex20), 5 in the
-    /// triangle and 6 along zeta (Wedge15); for all others that of [`ContinuumKind::mass_rule`].
+    /// triangle and 6 along zeta (Wedge15); for all others that of [`ElementKind::mass_rule`].
     pub(crate) fn straight_mass_rule(self) -> QuadratureRule {
         match self {
             Self::Hex20 => QuadratureRule::CUBE_4X4X4,

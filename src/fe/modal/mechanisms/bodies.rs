@@ -1,7 +1,7 @@
 //! Bodies of a housing: elements that hang together through whole faces, edges in the plane.
 
-use crate::fe::mesh::{ElementKind, Sets};
-use crate::fe::model::{HousingModel, Ring, continuum_kind};
+use crate::fe::mesh::Sets;
+use crate::fe::model::{HousingModel, Ring};
 use std::collections::BTreeMap;
 
 /// A face by its sorted corners; `NO_CORNER` fills up.
@@ -97,8 +97,7 @@ fn joined_through_faces(model: &HousingModel) -> Vec<u32> {
     let mut faces: Vec<(Corners, u32)> = Vec::new();
     for (number, element) in (0..).zip(model.elements.iter()) {
         let nodes = model.elements.nodes(element);
-        let kind = ElementKind::all().find(|&kind| continuum_kind(kind) == Some(element.kind));
-        for face in kind.map_or(&[][..], ElementKind::faces) {
+        for face in element.kind.faces() {
             let mut corners = [NO_CORNER; 4];
             let local = &face.nodes[..face.kind.corners()];
             for (corner, &local) in corners.iter_mut().zip(local) {

@@ -3,7 +3,7 @@
 use super::boxes::Bounds;
 use crate::fe::element::continuum::measure;
 use crate::fe::mesh::{ElementKind, Mesh};
-use crate::fe::model::elements::{HousingElements, continuum_kind, element_kind};
+use crate::fe::model::elements::HousingElements;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
@@ -51,8 +51,7 @@ impl<'m> Bodies<'m> {
             }
         }
         let own = mesh.blocks.iter().zip(&part);
-        let own = own.filter(|(block, _)| continuum_kind(block.kind).is_some());
-        let own = own.filter(|(block, _)| Some(block.kind.dimension()) == dimension);
+        let own = own.filter(|(block, _)| block.kind.dimension() >= 2 && Some(block.kind.dimension()) == dimension);
         let solids = own.flat_map(|(block, parts)| {
             let each = block.elements().zip(&block.tags).zip(parts);
             each.map(|((nodes, &tag), &part)| Solid { tag, kind: block.kind, nodes, part })
@@ -68,7 +67,7 @@ impl<'m> Bodies<'m> {
     ) -> Self {
         let solids = elements.iter().map(|element| Solid {
             tag: element.tag,
-            kind: element_kind(element.kind),
+            kind: element.kind,
             nodes: elements.nodes(element),
             part: element.part,
         });
@@ -102,7 +101,7 @@ impl<'m> Bodies<'m> {
 
     /// Area (m^2) of a plane element, volume (m^3) of a solid; `None` for one that is inverted, folded or without size.
     pub(super) fn size(&self, solid: &Solid) -> Option<f64> {
-        measure(continuum_kind(solid.kind)?, &self.coordinates(solid)).ok()
+        measure(solid.kind, &self.coordinates(solid)).ok()
     }
 
     pub(super) fn names(&self, parts: [usize; 2]) -> [String; 2] {

@@ -41,7 +41,7 @@ const NO_NODE: u32 = u32::MAX;
 
 /// Edges of an element: the corners in order, and the middle node.
 fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
-    kind.edges().iter().map(|&(ends, middle)| {
+    kind.edges().map(|(ends, middle)| {
         let [a, b] = ends.map(|local| nodes[local] as u32);
         let middle = middle.map_or(NO_NODE, |local| nodes[local] as u32);
         [a.min(b), a.max(b), middle]

@@ -1,9 +1,8 @@
 //! What an element fills, by the planes of its faces.
 
 use super::bodies::{Bodies, Solid};
-use crate::fe::element::continuum::{ContinuumKind, shape_values, surface_shape};
+use crate::fe::element::continuum::shape_values;
 use crate::fe::mesh::{ElementKind, Face};
-use crate::fe::model::elements::{continuum_kind, surface_kind};
 use nalgebra::Vector3;
 
 /// How far behind the plane of each face a point must be, relative to the element's own centre, to be within it.
@@ -13,14 +12,11 @@ const DEPTH: f64 = 0.01;
 /// Centre of an element, where its natural coordinates have the mean of the corners: also of curved elements it lies
 /// within.
 pub(super) fn centre(bodies: &Bodies, solid: &Solid) -> Vector3<f64> {
-    let Some(kind) = continuum_kind(solid.kind) else {
-        return Vector3::from(bodies.mean(solid.corners()));
-    };
-    let values = shape_values(kind, natural_centre(kind));
+    let values = shape_values(solid.kind, natural_centre(solid.kind));
     blended(bodies, solid.nodes, &values)
 }
 
-fn natural_centre(kind: ContinuumKind) -> [f64; 3] {
+fn natural_centre(kind: ElementKind) -> [f64; 3] {
     let corners = &kind.natural_nodes()[..kind.corners()];
     [0, 1, 2].map(|axis| {
         let sum: f64 = corners.iter().map(|corner| corner[axis]).sum();
@@ -82,13 +78,10 @@ impl Bodies<'_> {
     /// The middle of a face of an element on the face's own curve.
     pub(super) fn middle(&self, solid: &Solid, face: &Face) -> Vector3<f64> {
         let natural = match face.kind {
-            ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0; 2],
-            _ => [0.0; 2],
+            ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            _ => [0.0; 3],
         };
         let nodes: Vec<usize> = face.nodes.iter().map(|&local| solid.nodes[local]).collect();
-        match surface_kind(face.kind) {
-            Some(kind) => blended(self, &nodes, &surface_shape(kind, natural).0),
-            None => Vector3::from(self.mean(&nodes)),
-        }
+        blended(self, &nodes, &shape_values(face.kind, natural))
     }
 }
