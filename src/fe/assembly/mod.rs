@@ -35,7 +35,7 @@ impl SystemMatrices {
     /// Assembles a housing.
     ///
     /// # Errors
-    /// [`ModelError::Element`] with the tag of an element that is inverted or degenerate.
+    /// [`ModelError::Refused`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Self, ModelError> {
         let graph = node_graph(model);
         let mut matrices = Self {

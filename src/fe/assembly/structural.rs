@@ -19,7 +19,7 @@ impl StructuralStiffness {
     /// Assembles a housing's; `None` if every loss factor is zero, which costs nothing.
     ///
     /// # Errors
-    /// [`ModelError::Element`] with the tag of an element that is inverted or degenerate.
+    /// [`ModelError::Refused`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Option<Self>, ModelError> {
         if model.loss_factors.iter().all(|&factor| factor == 0.0) {
             return Ok(None);

@@ -116,34 +116,6 @@ impl ElementKind {
     }
 }
 
-/// Highest element type number in gmsh 4.15 (`GmshDefines.h`).
-const LAST_GMSH_TYPE: i32 = 140;
-
-/// Name of a gmsh element type that the program does not read, and what to do about it.
-pub(super) struct Unsupported {
-    pub(super) name: &'static str,
-    pub(super) advice: &'static str,
-}
-
-/// What is known of an element type outside of the table.
-pub(super) fn unsupported(gmsh_type: i32) -> Unsupported {
-    let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
-    let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
-                   Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
-    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
-    let (name, advice) = match gmsh_type {
-        7 => ("Pyramid5", pyramid),
-        10 => ("Quad9", complete),
-        12 => ("Hex27", complete),
-        13 => ("Wedge18", complete),
-        14 => ("Pyramid14", pyramid),
-        19 => ("Pyramid13", pyramid),
-        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
-        _ => ("unknown to gmsh", "is the file damaged?"),
-    };
-    Unsupported { name, advice }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

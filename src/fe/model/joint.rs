@@ -30,7 +30,7 @@ impl Side {
     /// far as that lies on the other side.
     ///
     /// # Errors
-    /// [`ModelError::LinkApart`] if nothing of one side is on the housing or on the other side.
+    /// [`ModelError::Refused`] if nothing of one side is on the housing or on the other side.
     pub(super) fn both(
         mesh: &Mesh,
         groups: [&PhysicalGroup; 2],
@@ -42,12 +42,13 @@ impl Side {
         let whole = [0, 1].map(|k| Self::whole(mesh, groups[k], is_body[k], used));
         let [first, second] = &whole;
         let sides = [first.touching(mesh, second, is_body[0]), second.touching(mesh, first, is_body[1])];
-        match sides.iter().any(|side| side.faces.is_empty()) {
-            false => Ok(sides),
-            true => {
-                Err(ModelError::LinkApart { path: path.to_owned(), groups: groups.map(|group| group.name.clone()) })
-            }
+        if sides.iter().all(|side| !side.faces.is_empty()) {
+            return Ok(sides);
         }
+        Err(ModelError::Refused(format!(
+            "{path}: no face of \"{}\" lies on \"{}\": expected two bodies that touch, or groups of the surfaces to be linked",
+            groups[0].name, groups[1].name
+        )))
     }
 
     fn whole(mesh: &Mesh, group: &PhysicalGroup, is_body: bool, used: &[bool]) -> Self {

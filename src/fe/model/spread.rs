@@ -20,7 +20,7 @@ pub(super) struct Share {
 /// Shares of the nodes and elements of a group that the housing uses.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an element without length, area or volume, [`ModelError::NotOnHousing`] if no whole
+/// [`ModelError::Refused`] for an element without length, area or volume, [`ModelError::Refused`] if no whole
 /// element lies on the housing.
 pub(super) fn shares(
     mesh: &Mesh,
@@ -37,11 +37,7 @@ pub(super) fn shares(
     let (shares, _) = spread(mesh, elements)?;
     match shares.is_empty() {
         false => Ok(shares),
-        true => Err(ModelError::NotOnHousing {
-            path: mesh.source.display().to_string(),
-            group: group.name.clone(),
-            purpose,
-        }),
+        true => Err(not_on_housing(&mesh.source.display().to_string(), &group.name, purpose)),
     }
 }
 
@@ -49,7 +45,7 @@ pub(super) fn shares(
 /// and have none. What is listed twice counts once, a triangle in a quadrilateral not at all.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an element without length, area or volume.
+/// [`ModelError::Refused`] for an element without length, area or volume.
 pub(super) fn spread<'a>(
     mesh: &Mesh,
     elements: impl Iterator<Item = (ElementKind, &'a [usize], u64)>,
@@ -81,11 +77,7 @@ pub(super) fn spread<'a>(
             3 => measure_matrix(kind, &coordinates),
             _ => surface_matrix(kind, &coordinates),
         };
-        let matrix = matrix.map_err(|source| ModelError::Element {
-            path: mesh.source.display().to_string(),
-            tag,
-            source: Box::new(source),
-        })?;
+        let matrix = matrix.map_err(|source| ModelError::element(&mesh.source.display().to_string(), tag, &source))?;
         total += matrix.sum();
         let nodes = nodes.to_vec();
         found.push(Share { nodes, matrix });
@@ -94,6 +86,13 @@ pub(super) fn spread<'a>(
         share.matrix /= total;
     }
     Ok((found, total))
+}
+
+/// A group of which nothing, or no whole element, is on the housing.
+pub(super) fn not_on_housing(path: &str, group: &str, purpose: &str) -> ModelError {
+    ModelError::Refused(format!(
+        "group \"{group}\" in {path}: no part of it belongs to an element of the housing, so {purpose} would hang on nothing"
+    ))
 }
 
 impl Share {

@@ -8,7 +8,7 @@ use super::fixtures::{
     mass, properties, rigid_motions, straight, very_fine,
 };
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::dispatch::for_kind;
+use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, measure, nodal_mass, stiffness};

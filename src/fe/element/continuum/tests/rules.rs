@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::Outcome;
 use super::fixtures::{aluminium, distorted, properties, very_fine};
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::dispatch::for_kind;
+use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::{
