@@ -37,7 +37,7 @@ pub fn end_load(mesh: &Mesh, kind: ElementKind, length: f64) -> Result<Vec<f64>,
             nodes.push(element[kind.corners() + edge]);
         }
         let coords: Vec<_> = nodes.iter().map(|&node| flat(node)).collect();
-        let rule = if corners.len() == 3 { QuadratureRule::TRIANGLE_12 } else { QuadratureRule::SQUARE_4X4 };
+        let rule = if corners.len() == 3 { QuadratureRule::Triangle12 } else { QuadratureRule::Square4 };
         let natural: f64 = rule.points().iter().map(|point| point.weight).sum();
         // triangles and rectangles: the Jacobian is constant
         let jacobian = measure(face, &coords)? / natural;

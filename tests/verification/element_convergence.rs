@@ -70,11 +70,11 @@ fn manufactured(x: [f64; 3], dimension: usize) -> ([f64; 3], [f64; 3]) {
 /// Rule of high degree, not one of the points where a linear element's error happens to be small.
 fn fine_rule(kind: ElementKind) -> QuadratureRule {
     match kind {
-        ElementKind::Tri3 | ElementKind::Tri6 => QuadratureRule::TRIANGLE_12,
-        ElementKind::Quad4 | ElementKind::Quad8 => QuadratureRule::SQUARE_4X4,
-        ElementKind::Tet4 | ElementKind::Tet10 => QuadratureRule::TETRAHEDRON_64,
-        ElementKind::Hex8 | ElementKind::Hex20 => QuadratureRule::CUBE_4X4X4,
-        ElementKind::Wedge6 | ElementKind::Wedge15 => QuadratureRule::WEDGE_12X4,
+        ElementKind::Tri3 | ElementKind::Tri6 => QuadratureRule::Triangle12,
+        ElementKind::Quad4 | ElementKind::Quad8 => QuadratureRule::Square4,
+        ElementKind::Tet4 | ElementKind::Tet10 => QuadratureRule::Tetrahedron64,
+        ElementKind::Hex8 | ElementKind::Hex20 => QuadratureRule::Cube4,
+        _ => QuadratureRule::Wedge12x4,
     }
 }
 

@@ -247,7 +247,7 @@ impl HousingModel {
     fn area(&self, face: &[usize], element: &HousingElement) -> f64 {
         let across = self.across(face).norm();
         match self.dimension {
-            2 => across * self.properties[element.part].thickness(),
+            2 => across * self.properties[element.part].thickness,
             _ => 0.5 * across,
         }
     }

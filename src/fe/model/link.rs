@@ -169,7 +169,7 @@ impl HousingModel {
     pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
         let ties = self.links.iter().enumerate();
         let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
-        let density: Vec<f64> = self.properties.iter().map(|part| part.density() * part.thickness()).collect();
+        let density: Vec<f64> = self.properties.iter().map(|part| part.density * part.thickness).collect();
         let found = ties.filter_map(|(index, link)| {
             let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
             let own = own.map(|(&node, tied)| Tied { node, face: &tied.nodes, foot: tied.foot, size: tied.size });

@@ -31,11 +31,7 @@ pub(super) struct Placed<const N: usize> {
 impl<const N: usize> Placed<N> {
     /// Checks the number of coordinates, that they are finite, and the size. Plane elements do not read z.
     pub(super) fn new(kind: ElementKind, coords: &[[f64; 3]]) -> Result<Self, ElementError> {
-        let given: &[[f64; 3]; N] = coords.try_into().map_err(|_| ElementError::NodeCount {
-            kind: kind.name(),
-            expected: N,
-            found: coords.len(),
-        })?;
+        let given: &[[f64; 3]; N] = coords.try_into().map_err(|_| wrong_node_count(kind, coords))?;
         let mut finite = true;
         let (mut size, mut distance) = (0.0_f64, 0.0_f64);
         let mut relative = [[0.0; 3]; N];
@@ -48,10 +44,13 @@ impl<const N: usize> Placed<N> {
             }
         }
         if !finite {
-            return Err(not_finite(kind.name(), coords));
+            return Err(not_finite(kind, coords));
         }
         if size > LARGEST_SIZE {
-            return Err(ElementError::TooLarge { kind: kind.name(), size, largest: LARGEST_SIZE });
+            return Err(ElementError(format!(
+                "the {} element measures {size:e} m: expected at most {LARGEST_SIZE:e} m",
+                kind.name()
+            )));
         }
         // coordinates are rounded where they are, not where the element is
         let allowed = STRAIGHT * size + 2.0 * f64::EPSILON * distance;
@@ -80,11 +79,20 @@ impl<const N: usize> Placed<N> {
     }
 }
 
+/// Another number of coordinates than the kind has nodes.
+pub(super) fn wrong_node_count(kind: ElementKind, coords: &[[f64; 3]]) -> ElementError {
+    ElementError(format!("a {} element has {} nodes, found {}", kind.name(), kind.nodes(), coords.len()))
+}
+
 /// The first coordinate that is not finite.
-pub(super) fn not_finite(kind: &'static str, coords: &[[f64; 3]]) -> ElementError {
+pub(super) fn not_finite(kind: ElementKind, coords: &[[f64; 3]]) -> ElementError {
     let bad = |node: &[f64; 3]| !node.iter().all(|value| value.is_finite());
     let node = coords.iter().position(bad).unwrap_or_default();
-    ElementError::NotFinite { kind, node, position: coords.get(node).copied().unwrap_or_default() }
+    let [x, y, z] = coords.get(node).copied().unwrap_or_default();
+    ElementError(format!(
+        "node {node} of the {} element has the coordinates ({x}, {y}, {z}) m: expected finite numbers",
+        kind.name()
+    ))
 }
 
 /// `x^dimension` for 2 and 3.
@@ -186,23 +194,34 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
     table: &Table,
 ) -> ElementError {
     let found = extremes::<N, D>(kind, &placed.coords, table);
-    let limit = SMALLEST_DETERMINANT * power(placed.size, D);
-    if found.high < -limit {
-        ElementError::Inverted {
-            kind: kind.name(),
-            dimension: D,
-            determinant: found.high,
-            position: position(kind, coords, found.high_at),
-        }
-    } else {
-        ElementError::Degenerate {
-            kind: kind.name(),
-            dimension: D,
-            determinant: found.low,
-            natural: found.low_at,
-            position: position(kind, coords, found.low_at),
-        }
+    let name = kind.name();
+    let place = |natural: [f64; 3]| match position(kind, coords, natural) {
+        [x, y, _] if D == 2 => format!("({x:.6e}, {y:.6e}) m"),
+        [x, y, z] => format!("({x:.6e}, {y:.6e}, {z:.6e}) m"),
+    };
+    if found.high < -SMALLEST_DETERMINANT * power(placed.size, D) {
+        let (cause, remedy) = match D {
+            2 => (
+                "its nodes run clockwise",
+                "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)",
+            ),
+            _ => ("its nodes are numbered inside out", "the mesh was mirrored or the node order is not gmsh's"),
+        };
+        return ElementError(format!(
+            "the {name} element is inverted: {cause} (Jacobian determinant {:.6e} m^{D} at {}); {remedy}",
+            found.high,
+            place(found.high_at)
+        ));
     }
+    let natural = match found.low_at {
+        [xi, eta, _] if D == 2 => format!("({xi:.3}, {eta:.3})"),
+        [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
+    };
+    ElementError(format!(
+        "the {name} element is degenerate or folded: Jacobian determinant {:.6e} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        found.low,
+        place(found.low_at)
+    ))
 }
 
 /// The Jacobian of an element, sampled at its nodes and at the points of its stiffness rule.
@@ -223,7 +242,7 @@ pub struct ShapeQuality {
 /// `coords`: one (x, y, z) a node in gmsh's order, m; plane elements lie in xy and z is not read.
 ///
 /// # Errors
-/// [`ElementError::NodeCount`], [`ElementError::NotFinite`] and [`ElementError::TooLarge`] alone.
+/// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, and an element too large alone.
 pub(crate) fn quality(kind: ElementKind, coords: &[[f64; 3]]) -> Result<ShapeQuality, ElementError> {
     for_kind!(kind, sample(kind, coords))
 }

@@ -32,7 +32,7 @@ pub(crate) fn nodal_mass_into(
 ) -> Result<(), ElementError> {
     check_properties(kind, properties)?;
     check_length(kind, kind.nodes(), out)?;
-    let density = properties.density() * properties.thickness();
+    let density = properties.density * properties.thickness;
     for_kind!(kind, mass(kind, coords, density, out))
 }
 

@@ -95,16 +95,17 @@ pub(super) fn integrate<const N: usize, const D: usize>(
     if !placed.accepts(kind, smallest) {
         return Err(diagnose::<N, D>(kind, coords, placed, table));
     }
-    couplings.contract::<D>(properties.elasticity(), properties.thickness(), out);
+    couplings.contract::<D>(&properties.elasticity, properties.thickness, out);
     Ok(())
 }
 
 /// Plane properties for plane elements, solid ones for solids.
 pub(super) fn check_properties(kind: ElementKind, properties: &ContinuumProperties) -> Result<(), ElementError> {
-    if properties.dimension() == kind.dimension() {
+    if properties.dimension == kind.dimension() {
         Ok(())
     } else {
-        Err(ElementError::Dimension { kind: kind.name(), dimension: kind.dimension() })
+        let [needed, found] = if kind.dimension() == 2 { ["plane", "solid"] } else { ["solid", "plane"] };
+        Err(ElementError(format!("the {} element needs {needed} properties, found {found} ones", kind.name())))
     }
 }
 
@@ -113,7 +114,11 @@ pub(super) fn check_length(kind: ElementKind, order: usize, out: &[f64]) -> Resu
     if out.len() == order * order {
         Ok(())
     } else {
-        Err(ElementError::BufferLength { kind: kind.name(), order, found: out.len() })
+        Err(ElementError(format!(
+            "the matrix of a {} element has {order} x {order} entries, the buffer holds {}",
+            kind.name(),
+            out.len()
+        )))
     }
 }
 
@@ -146,13 +151,21 @@ fn incompatible<const N: usize, const M: usize, const D: usize>(
     let mut buffer = [0.0; ENTRIES];
     let (all, kept) = (M * D, N * D);
     let full = &mut buffer[..all * all];
-    couplings.contract::<D>(properties.elasticity(), properties.thickness(), full);
-    condense(full, all, kept).map_err(|pivot| ElementError::Condensation { kind: kind.name(), pivot })?;
+    couplings.contract::<D>(&properties.elasticity, properties.thickness, full);
+    condense(full, all, kept).map_err(|pivot| soft_modes(kind, pivot))?;
     for (column, from) in full.chunks_exact(all).take(kept).enumerate() {
         out[column * kept..][..kept].copy_from_slice(&from[..kept]);
     }
     mirror(out, kept);
     Ok(())
+}
+
+/// Incompatible modes without stiffness of their own; the pivot should be positive, N/m.
+pub(super) fn soft_modes(kind: ElementKind, pivot: f64) -> ElementError {
+    ElementError(format!(
+        "the incompatible modes of the {} element have no stiffness (pivot {pivot:.6e} N/m): use the plain formulation",
+        kind.name()
+    ))
 }
 
 /// Static condensation of the last rows: `K_uu - K_ua K_aa^-1 K_au`, one amplitude after the other, on the

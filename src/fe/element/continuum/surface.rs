@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::QuadratureRule;
-use super::geometry::not_finite;
+use super::geometry::{not_finite, wrong_node_count};
 use super::shape::{ShapeDerivatives, shape};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
@@ -16,7 +16,7 @@ impl ElementKind {
     /// warped ones have square roots to integrate, for which no rule is exact.
     fn surface_rule(self) -> QuadratureRule {
         match self {
-            Self::Quad4 => QuadratureRule::SQUARE_4X4,
+            Self::Quad4 => QuadratureRule::Square4,
             _ => self.mass_rule(),
         }
     }
@@ -34,13 +34,13 @@ impl ElementKind {
 /// without size.
 pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<Vec<f64>, ElementError> {
     if coords.len() != kind.nodes() {
-        return Err(ElementError::NodeCount { kind: kind.name(), expected: kind.nodes(), found: coords.len() });
+        return Err(wrong_node_count(kind, coords));
     }
     if !coords.as_flattened().iter().all(|value| value.is_finite()) {
-        return Err(not_finite(kind.name(), coords));
+        return Err(not_finite(kind, coords));
     }
     if !(1..=2).contains(&kind.dimension()) {
-        return Err(ElementError::NoSurface { kind: kind.name() });
+        return Err(ElementError(format!("a {} element is neither an edge nor a face", kind.name())));
     }
     let origin = coords[0];
     let mut weights = vec![0.0; kind.nodes()];
@@ -61,7 +61,10 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
     if total > smallest && total.is_finite() {
         Ok(weights)
     } else {
-        Err(ElementError::NoSize { kind: kind.name(), dimension: kind.dimension(), position: origin })
+        let [x, y, z] = origin;
+        let (what, size) = if kind.dimension() == 1 { ("edge", "length") } else { ("surface", "area") };
+        let name = kind.name();
+        Err(ElementError(format!("the {name} {what} at ({x:.6e}, {y:.6e}, {z:.6e}) m has no {size}")))
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use super::QuadraturePoint;
 use super::shape::{shape, shape_values};
+use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
 
 /// `function::<N, D>(...)` for the N nodes and D displacements a node of a kind: loops of known length, which
@@ -23,12 +24,18 @@ macro_rules! for_kind {
             Kind::Hex20 => $function::<20, 3>($($argument),*),
             Kind::Wedge6 => $function::<6, 3>($($argument),*),
             Kind::Wedge15 => $function::<15, 3>($($argument),*),
-            Kind::Point | Kind::Line2 | Kind::Line3 => Err(ElementError::NoContinuum { kind: $kind.name() }),
+            Kind::Point | Kind::Line2 | Kind::Line3 => Err($crate::fe::element::continuum::table::no_continuum($kind)),
         }
     }};
 }
 
 pub(super) use for_kind;
+
+/// A point or a line where a plane element or a solid is needed.
+#[cold]
+pub(super) fn no_continuum(kind: ElementKind) -> ElementError {
+    ElementError(format!("a {} element has neither area nor volume", kind.name()))
+}
 
 /// Shape functions of one kind at the points of one rule.
 #[derive(Debug)]

@@ -6,7 +6,6 @@ use std::path::Path;
 use super::MshError;
 use super::entities::Physical;
 use super::nodes::NodeTable;
-use super::sections::Name;
 use crate::fe::mesh::{ElementBlock, ElementId, Mesh, MshFormat, PhysicalGroup};
 
 /// What a file holds, checked.
@@ -17,6 +16,20 @@ pub(super) struct Content {
     pub(super) memberships: Vec<Membership>,
     pub(super) names: Vec<Name>,
     pub(super) allowance: Allowance,
+}
+
+/// Name of a physical group.
+pub(super) struct Name {
+    pub(super) dimension: u8,
+    pub(super) tag: i32,
+    pub(super) name: String,
+}
+
+impl Name {
+    /// Dimension and tag.
+    pub(super) fn key(&self) -> (usize, i32) {
+        (usize::from(self.dimension), self.tag)
+    }
 }
 
 /// The mesh with its groups by dimension and tag: those that elements belong to and those that only

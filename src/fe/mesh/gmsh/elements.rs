@@ -4,7 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::nodes::{dimension, not_as_announced, not_too_large, tag_range};
+use super::nodes::{dimension, no_elements, not_as_announced, not_too_large, tag_range};
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
@@ -59,12 +59,6 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
         0 => Err(no_elements()),
         _ => Ok(blocks),
     }
-}
-
-/// A mesh without nodes or elements.
-pub(super) fn no_elements() -> MshError {
-    let question = "is a Physical group defined, is the geometry meshed?";
-    MshError(format!("the mesh has no elements: expected at least one ({question})"))
 }
 
 /// A tag greater than 0 that has not occurred.

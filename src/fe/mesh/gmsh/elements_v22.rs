@@ -4,7 +4,8 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::elements::{check_not_repeated, check_tag, no_elements, node_index, unknown_kind};
+use super::elements::{check_not_repeated, check_tag, node_index, unknown_kind};
+use super::nodes::no_elements;
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::ElementKind;

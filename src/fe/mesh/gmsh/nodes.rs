@@ -4,7 +4,6 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::elements::no_elements;
 use super::numbers::Item;
 use super::tags::NodeIndex;
 
@@ -65,6 +64,12 @@ impl NodeTable {
             false => Ok(self),
         }
     }
+}
+
+/// A mesh without nodes or elements.
+pub(super) fn no_elements() -> MshError {
+    let question = "is a Physical group defined, is the geometry meshed?";
+    MshError(format!("the mesh has no elements: expected at least one ({question})"))
 }
 
 /// Nodes of MSH 4.1; a file unit is so many metres.

@@ -1,6 +1,6 @@
 //! A file from its header through its sections to a mesh.
 
-use super::build::{self, Allowance, Content, by_entity};
+use super::build::{self, Allowance, Content, Name, by_entity};
 use super::cursor::{Cursor, Encoding, quoted};
 use super::elements_v22::Listed;
 use super::entities::Physical;
@@ -241,13 +241,6 @@ fn flag(cursor: &mut Cursor<'_>, what: &str, words: [&[u8]; 2]) -> Result<bool, 
     found.map(|index| index == 1).ok_or_else(|| cursor.malformed(what, word))
 }
 
-/// Name of a physical group.
-pub(super) struct Name {
-    pub(super) dimension: u8,
-    pub(super) tag: i32,
-    pub(super) name: String,
-}
-
 /// Reads the lines `dimension tag "name"` after their number; a name may hold blanks and quotes.
 fn names(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
     const COUNT: &str = "the number of physical names";
@@ -289,12 +282,5 @@ fn name(line: &[u8]) -> Option<Name> {
     match numbers.next() {
         None => Some(Name { dimension, tag, name: name.to_owned() }),
         Some(_) => None,
-    }
-}
-
-impl Name {
-    /// Dimension and tag.
-    pub(super) fn key(&self) -> (usize, i32) {
-        (usize::from(self.dimension), self.tag)
     }
 }

@@ -108,6 +108,7 @@ pub(super) fn very_fine(kind: ElementKind) -> Vec<QuadraturePoint> {
         Tet4 | Tet10 => conical_tetrahedron(12),
         Hex8 | Hex20 => cube(12),
         Wedge6 | Wedge15 => product(&conical_triangle(12), 12, 2),
+        _ => Vec::new(),
     }
 }
 

@@ -46,7 +46,7 @@ fn isotropic_and_orthotropic_ways_agree() -> Outcome {
             let k = stiffness(kind, &coords, p, Formulation::default())?;
             let error = (stiffness(kind, &coords, &q, Formulation::default())? - &k).amax();
             assert!(error < 1e-14 * k.amax(), "{kind:?}: {error:e}");
-            assert!((p.density() - q.density()).abs() < 1e-12);
+            assert!((p.density - q.density).abs() < 1e-12);
         }
     }
     Ok(())

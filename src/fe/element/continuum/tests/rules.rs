@@ -5,9 +5,9 @@ use nalgebra::DMatrix;
 use super::Outcome;
 use super::fixtures::{aluminium, distorted, properties, very_fine};
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
+use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::{
     ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
 };
@@ -121,9 +121,9 @@ fn rule_error(
 #[test]
 fn curved_tet10_is_converged() -> Outcome {
     let candidates = [
-        (QuadratureRule::TETRAHEDRON_4, [1.4e-3, 2.8e-3, 5.9e-3]),
-        (QuadratureRule::TETRAHEDRON_14, [5.3e-9, 1.2e-7, 3.6e-6]),
-        (QuadratureRule::TETRAHEDRON_24, [4.9e-11, 2.3e-9, 1.7e-7]),
+        (QuadratureRule::Tetrahedron4, [1.4e-3, 2.8e-3, 5.9e-3]),
+        (QuadratureRule::Tetrahedron14, [5.3e-9, 1.2e-7, 3.6e-6]),
+        (QuadratureRule::Tetrahedron24, [4.9e-11, 2.3e-9, 1.7e-7]),
     ];
     for (rule, errors) in candidates {
         for (degrees, expected) in [5.0, 10.0, 20.0].into_iter().zip(errors) {
@@ -145,7 +145,7 @@ fn other_curved_elements_are_as_documented() -> Outcome {
         let near = (found / expected - 1.0).abs() < 0.1;
         assert!(near, "{kind:?}: {found:.1e} documented {expected:.1e}");
     }
-    let coarse = rule_error(Tri6, (10.0, 1.0), QuadratureRule::TRIANGLE_3)?;
+    let coarse = rule_error(Tri6, (10.0, 1.0), QuadratureRule::Triangle3)?;
     assert!(coarse > 1e-3, "three points would do: {coarse:e}");
     Ok(())
 }
