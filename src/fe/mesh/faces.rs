@@ -16,6 +16,21 @@ pub struct Face {
     pub nodes: &'static [usize],
 }
 
+/// A face by its sorted corners; `u32::MAX` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+pub(crate) type FaceCorners = [u32; 4];
+
+impl Face {
+    /// Its corners on an element with these nodes.
+    pub(crate) fn sorted_corners(&self, nodes: &[usize]) -> FaceCorners {
+        let mut corners = [u32::MAX; 4];
+        for (corner, &local) in corners.iter_mut().zip(&self.nodes[..self.kind.corners()]) {
+            *corner = nodes[local] as u32;
+        }
+        corners.sort_unstable();
+        corners
+    }
+}
+
 /// An edge in local nodes: two corners, and the node between them in second order.
 pub(crate) type Edge = ([usize; 2], Option<usize>);
 
@@ -138,11 +153,6 @@ pub struct BoundaryFace {
     pub nodes: Vec<usize>,
 }
 
-/// A face by its sorted corners; `NO_CORNER` fills up.
-type Corners = [u32; 4];
-
-const NO_CORNER: u32 = u32::MAX;
-
 impl Mesh {
     /// The faces that exactly one of these elements has, in the order of the elements: the surface of solids
     /// with outward normals, the rim of plane elements.
@@ -151,18 +161,12 @@ impl Mesh {
     /// of a part. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
     pub fn boundary_faces(&self, elements: impl Iterator<Item = ElementId>) -> Vec<BoundaryFace> {
         let elements: Vec<ElementId> = elements.collect();
-        let mut faces: Vec<(Corners, usize, u8)> = Vec::new();
+        let mut faces: Vec<(FaceCorners, usize, u8)> = Vec::new();
         for (position, &id) in elements.iter().enumerate() {
             let block = &self.blocks[id.block];
             let nodes = block.nodes_of(id.index);
             for (number, face) in (0..).zip(block.kind.faces()) {
-                let mut corners = [NO_CORNER; 4];
-                let local = &face.nodes[..face.kind.corners()];
-                for (corner, &local) in corners.iter_mut().zip(local) {
-                    *corner = nodes[local] as u32;
-                }
-                corners.sort_unstable();
-                faces.push((corners, position, number));
+                faces.push((face.sorted_corners(nodes), position, number));
             }
         }
         faces.sort_unstable();

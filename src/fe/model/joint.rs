@@ -2,7 +2,7 @@
 
 use super::ModelError;
 use super::surface::{Foot, SideFace, Surface};
-use crate::fe::mesh::{Mesh, PhysicalGroup};
+use crate::fe::mesh::{BoundingBox, Mesh, PhysicalGroup};
 
 /// Distance up to which faces of two bodies count as lying on each other, in sizes of the face: the sagitta of an arc
 /// of 60 degrees over its chord.
@@ -124,10 +124,6 @@ impl Side {
 
 /// Longest side of the box of some nodes, m.
 fn extent(mesh: &Mesh, nodes: &[usize]) -> f64 {
-    let side = |axis: usize| {
-        let along = nodes.iter().map(|&node| mesh.nodes[node][axis]);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
-    };
-    [0, 1, 2].map(side).into_iter().fold(0.0, f64::max)
+    let sides = BoundingBox::of(nodes.iter().map(|&node| mesh.nodes[node])).extent();
+    sides.into_iter().fold(0.0, f64::max)
 }

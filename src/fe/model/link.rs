@@ -3,7 +3,6 @@
 use super::housing::HousingModel;
 use super::joint::Side;
 use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes};
-use super::overlap::Tied;
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
@@ -172,8 +171,7 @@ impl HousingModel {
         let density: Vec<f64> = self.properties.iter().map(|part| part.density * part.thickness).collect();
         let found = ties.filter_map(|(index, link)| {
             let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
-            let own = own.map(|(&node, tied)| Tied { node, face: &tied.nodes, foot: tied.foot, size: tied.size });
-            let own: Vec<Tied> = own.collect();
+            let own: Vec<(usize, &TiedNode)> = own.map(|(&node, tied)| (node, tied)).collect();
             self.bodies().apart(&link.between, &own, &self.node_tags, &density)
         });
         let found: Vec<Apart> = found.collect();

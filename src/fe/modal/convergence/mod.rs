@@ -3,7 +3,7 @@
 mod fit;
 mod richardson;
 
-pub use richardson::{Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson};
+pub use richardson::{Behaviour, Convergence, MeshLevels, richardson};
 
 #[cfg(test)]
 mod tests;

@@ -92,13 +92,6 @@ impl Convergence {
     }
 }
 
-/// Size of a mesh relative to others of the same body, from its number of elements: `n^(-1/d)`; `None` for no elements
-/// or no dimension.
-pub fn relative_mesh_size(elements: usize, dimension: usize) -> Option<f64> {
-    let known = elements > 0 && dimension > 0;
-    known.then(|| (elements as f64).powf(-1.0 / dimension as f64))
-}
-
 /// Limit of a value that was computed on several meshes, and its uncertainty.
 ///
 /// With `f = f_0 + c h^p`: two meshes take the formal order, three give their own, more are fitted by least squares
@@ -118,31 +111,6 @@ pub fn richardson(levels: &MeshLevels, values: &[f64]) -> Result<Convergence, Mo
     let h: Vec<f64> = order.iter().map(|&mesh| levels.sizes[mesh]).collect();
     let f: Vec<f64> = order.iter().map(|&mesh| values[mesh]).collect();
     Ok(Sequence { h: &h, f: &f, formal: levels.formal_order }.convergence())
-}
-
-/// [`richardson`] for modes: `frequencies_hz` by mesh and mode, `modes` with the index of one and the same mode on every
-/// mesh (by order in the list, or from [`ModalComparison`](super::super::ModalComparison)).
-///
-/// # Errors
-/// As [`richardson`]; [`ModalError::Shape`] for a mode that a mesh has not.
-pub fn mode_convergence(
-    levels: &MeshLevels,
-    frequencies_hz: &[Vec<f64>],
-    modes: &[Vec<usize>],
-) -> Result<Vec<Convergence>, ModalError> {
-    check_count("lists of frequencies", levels.sizes.len(), frequencies_hz.len())?;
-    let of_mode = |own: &Vec<usize>| {
-        check_count("meshes of a mode", frequencies_hz.len(), own.len())?;
-        let values = own.iter().zip(frequencies_hz).map(|(&mode, list)| {
-            list.get(mode).copied().ok_or(ModalError::Shape {
-                what: "modes of a mesh",
-                expected: mode + 1,
-                found: list.len(),
-            })
-        });
-        richardson(levels, &values.collect::<Result<Vec<f64>, _>>()?)
-    };
-    modes.iter().map(of_mode).collect()
 }
 
 impl MeshLevels {

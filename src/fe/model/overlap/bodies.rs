@@ -1,8 +1,7 @@
 //! The elements that are searched, with the names of their parts.
 
-use super::boxes::Bounds;
 use crate::fe::element::continuum::measure;
-use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
 use crate::fe::model::elements::HousingElements;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
@@ -76,7 +75,7 @@ impl<'m> Bodies<'m> {
 
     fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
         let corners = solids.iter().flat_map(|solid| solid.corners());
-        let extent = Bounds::of(corners.map(|&node| points[node]), 0.0);
+        let extent = BoundingBox::of(corners.map(|&node| points[node]));
         let tolerance = match solids.is_empty() {
             true => 0.0,
             false => SAME_PLACE * extent.diagonal(),

@@ -24,7 +24,6 @@ mod tests;
 mod touching;
 
 pub use apart::Apart;
-pub(super) use apart::Tied;
 pub use bodies::Bodies;
 pub use crossing::Crossing;
 pub use doubled::Doubled;
