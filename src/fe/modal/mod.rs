@@ -19,6 +19,7 @@ mod mode_shapes;
 mod motions;
 mod participation;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 mod samples;
 mod spring_rows;
 mod strain_products;

@@ -1,6 +1,5 @@
 //! How far frequencies of a mesh are from those of an infinitely fine one, from two meshes or more.
 
-mod fit;
 mod richardson;
 
 pub use richardson::{Behaviour, Convergence, MeshLevels, richardson};

@@ -17,7 +17,6 @@ mod crossing;
 mod doubled;
 mod facets;
 mod inside;
-mod orders;
 mod outline;
 #[cfg(test)]
 mod tests;
@@ -26,7 +25,6 @@ mod touching;
 pub use apart::Apart;
 pub use bodies::Bodies;
 pub use crossing::Crossing;
-pub use doubled::Doubled;
+pub use doubled::{Doubled, MixedOrders};
 pub use inside::{Overlap, OverlapRule};
-pub use orders::MixedOrders;
 pub use touching::Touching;
