@@ -3,7 +3,7 @@
 use super::load::end_load;
 
 use plummer::fe::assembly::SystemMatrices;
-use plummer::fe::element::continuum::{ContinuumKind, Formulation};
+use plummer::fe::element::continuum::Formulation;
 use plummer::fe::material::Material;
 use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
@@ -78,7 +78,7 @@ impl Beam {
         [f64::midpoint(line(i / 2), line(i.div_ceil(2))), side(j), z]
     }
 
-    fn mesh(&self, kind: ContinuumKind) -> Mesh {
+    fn mesh(&self, kind: ElementKind) -> Mesh {
         let cells = [self.lines.len() - 1, self.across, self.across];
         let [a, b, c] = cells.map(|n| 2 * n + 1);
         let index = |p: [usize; 3]| p[0] + a * (p[1] + b * p[2]);
@@ -90,12 +90,12 @@ impl Beam {
                 let corners: Vec<_> = corners.iter().map(|p| [0, 1, 2].map(|i| 2 * origin[i] + p[i])).collect();
                 let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]));
                 connectivity.extend(corners.iter().copied().map(index));
-                connectivity.extend(kind.edges().iter().map(|&edge| index(middle(edge))));
+                connectivity.extend(kind.middle_edges().iter().map(|&edge| index(middle(edge))));
             }
         }
         // the diagonals of a tilted cell are straight, too
         for element in connectivity.chunks_exact(kind.nodes()) {
-            for (&[a, b], &middle) in kind.edges().iter().zip(&element[kind.corners()..]) {
+            for (&[a, b], &middle) in kind.middle_edges().iter().zip(&element[kind.corners()..]) {
                 let ends: [[f64; 3]; 2] = [nodes[element[a]], nodes[element[b]]];
                 nodes[middle] = [0, 1, 2].map(|i| f64::midpoint(ends[0][i], ends[1][i]));
             }
@@ -127,12 +127,7 @@ impl Beam {
 
     /// Deflection of the end per unit load, m/N: `F.u / F^2` with the load F as a parabolic shear stress over the end
     /// face, consistent, so that it is the mean deflection with that weight. From below for conforming elements.
-    pub fn compliance(
-        &self,
-        kind: ContinuumKind,
-        formulation: Formulation,
-        poisson: f64,
-    ) -> Result<f64, Box<dyn Error>> {
+    pub fn compliance(&self, kind: ElementKind, formulation: Formulation, poisson: f64) -> Result<f64, Box<dyn Error>> {
         let mesh = self.mesh(kind);
         let part = HousingPart { group: "beam".to_owned(), material: Material::new(YOUNG, poisson, 7800.0)?.into() };
         let description = HousingDescription { parts: vec![part], formulation, ..HousingDescription::default() };
@@ -160,7 +155,7 @@ impl Beam {
 }
 
 /// Corners of the elements of a cell, in half steps.
-fn corners_in_a_cell(kind: ContinuumKind) -> Vec<Vec<[usize; 3]>> {
+fn corners_in_a_cell(kind: ElementKind) -> Vec<Vec<[usize; 3]>> {
     match kind.corners() {
         4 => tetrahedra(),
         6 => [[[0, 0], [2, 0], [0, 2]], [[2, 2], [0, 2], [2, 0]]]

@@ -27,7 +27,8 @@ mod load;
 
 use beam::{Beam, HEIGHT, YOUNG};
 use chart::{Panel, svg};
-use plummer::fe::element::continuum::{ContinuumKind, Formulation, LinearFormulation};
+use plummer::fe::element::continuum::{Formulation, LinearFormulation};
+use plummer::fe::mesh::ElementKind;
 use std::error::Error;
 use std::io::Write;
 
@@ -44,14 +45,14 @@ const ACROSS: usize = 4;
 const SHORT: [f64; 3] = [0.05, 0.1, 0.15];
 
 /// Rows of the chart.
-const ELEMENTS: [(&str, ContinuumKind, LinearFormulation); 7] = [
-    ("Hex8 plain", ContinuumKind::Hex8, LinearFormulation::Plain),
-    ("Hex8 (default)", ContinuumKind::Hex8, LinearFormulation::Incompatible),
-    ("Hex20", ContinuumKind::Hex20, LinearFormulation::Plain),
-    ("Tet4", ContinuumKind::Tet4, LinearFormulation::Plain),
-    ("Tet10", ContinuumKind::Tet10, LinearFormulation::Plain),
-    ("Wedge6", ContinuumKind::Wedge6, LinearFormulation::Plain),
-    ("Wedge15", ContinuumKind::Wedge15, LinearFormulation::Plain),
+const ELEMENTS: [(&str, ElementKind, LinearFormulation); 7] = [
+    ("Hex8 plain", ElementKind::Hex8, LinearFormulation::Plain),
+    ("Hex8 (default)", ElementKind::Hex8, LinearFormulation::Incompatible),
+    ("Hex20", ElementKind::Hex20, LinearFormulation::Plain),
+    ("Tet4", ElementKind::Tet4, LinearFormulation::Plain),
+    ("Tet10", ElementKind::Tet10, LinearFormulation::Plain),
+    ("Wedge6", ElementKind::Wedge6, LinearFormulation::Plain),
+    ("Wedge15", ElementKind::Wedge15, LinearFormulation::Plain),
 ];
 const PLAIN: usize = 0;
 const DEFAULT: usize = 1;
@@ -105,7 +106,7 @@ impl Reference {
         let mut rest = [0.0; 3];
         for (rest, length) in rest.iter_mut().zip(SHORT) {
             let beam = Beam::fine(length, ACROSS);
-            let found = beam.compliance(ContinuumKind::Hex20, Formulation::default(), poisson)?;
+            let found = beam.compliance(ElementKind::Hex20, Formulation::default(), poisson)?;
             *rest = found - slender(length);
         }
         Ok(Self { poisson, rest })
@@ -184,7 +185,7 @@ fn check(panels: &[Panel]) {
 fn check_symmetry() -> Result<(), Box<dyn Error>> {
     let quarter = Beam::fine(SHORT[0], 1);
     let whole = Beam { quarter: false, across: 2, ..Beam::fine(SHORT[0], 1) };
-    let [part, all] = [quarter, whole].map(|beam| beam.compliance(ContinuumKind::Hex20, Formulation::default(), 0.4));
+    let [part, all] = [quarter, whole].map(|beam| beam.compliance(ElementKind::Hex20, Formulation::default(), 0.4));
     let difference = part? / all? - 1.0;
     assert!(difference.abs() < 1e-9, "quarter against whole section: {difference:.1e}");
     Ok(())

@@ -4,7 +4,7 @@ use crate::app::case::CaseError;
 use crate::bearing::defect::DefectError;
 use crate::bearing::{CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError};
 use crate::fe::element::ElementError;
-use crate::fe::material::{MaterialError, SectionError};
+use crate::fe::material::MaterialError;
 use crate::fe::mesh::MeshError;
 use crate::fe::modal::ModalError;
 use crate::fe::model::{HousingModel, ModelError, NodeInterface, RingError};
@@ -68,7 +68,7 @@ pub enum ComputeError {
     Plane(#[from] ElementError),
     /// A ring section out of range.
     #[error("ring.sections: {0}")]
-    Section(#[from] SectionError),
+    Section(#[from] MaterialError),
     /// Modes that cannot be analysed.
     #[error(transparent)]
     Modal(ModalError),

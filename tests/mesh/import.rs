@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use plummer::fe::element::continuum::{ContinuumKind, measure};
+use plummer::fe::element::continuum::measure;
 use plummer::fe::mesh::{ElementKind, Mesh, MeshError};
 use plummer::numerics::units::LengthUnit;
 
@@ -153,7 +153,7 @@ fn example_meshes_fill_their_drawings() -> Result<(), Box<dyn std::error::Error>
         let mesh = read(&format!("meshes/{name}.msh"), LengthUnit::Millimetre)?;
         let mut total = 0.0;
         for block in &mesh.blocks {
-            let surface = ContinuumKind::ALL.into_iter().find(|kind| kind.name() == block.kind.name());
+            let surface = (block.kind.dimension() == 2).then_some(block.kind);
             for element in block.elements() {
                 let coords: Vec<[f64; 3]> = element.iter().map(|&n| mesh.nodes[n]).collect();
                 total += surface.map_or(Ok(0.0), |kind| measure(kind, &coords))?;

@@ -13,10 +13,10 @@
 use plummer::app::verification::{BODY, StructuredMesh};
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::element::continuum::{
-    ContinuumKind, Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule, shape_derivatives,
-    shape_values,
+    Formulation, Integration, LinearFormulation, PlaneAssumption, QuadratureRule, shape_derivatives, shape_values,
 };
 use plummer::fe::material::Material;
+use plummer::fe::mesh::ElementKind;
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart, PlaneModel};
 use plummer::numerics::linalg::{DenseMatrix, SparseCholesky, sparse_times_dense, submatrix};
 use std::f64::consts::PI;
@@ -27,7 +27,7 @@ fn material() -> Material {
     Material::new(2.5, 0.3, 1.6).unwrap()
 }
 
-fn model(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -> HousingModel {
+fn model(grid: &StructuredMesh, kind: ElementKind, formulation: Formulation) -> HousingModel {
     let description = HousingDescription {
         parts: vec![HousingPart { group: BODY.to_owned(), material: material().into() }],
         plane: (kind.dimension() == 2)
@@ -68,18 +68,18 @@ fn manufactured(x: [f64; 3], dimension: usize) -> ([f64; 3], [f64; 3]) {
 }
 
 /// Rule of high degree, not one of the points where a linear element's error happens to be small.
-fn fine_rule(kind: ContinuumKind) -> QuadratureRule {
+fn fine_rule(kind: ElementKind) -> QuadratureRule {
     match kind {
-        ContinuumKind::Tri3 | ContinuumKind::Tri6 => QuadratureRule::TRIANGLE_12,
-        ContinuumKind::Quad4 | ContinuumKind::Quad8 => QuadratureRule::SQUARE_4X4,
-        ContinuumKind::Tet4 | ContinuumKind::Tet10 => QuadratureRule::TETRAHEDRON_64,
-        ContinuumKind::Hex8 | ContinuumKind::Hex20 => QuadratureRule::CUBE_4X4X4,
-        ContinuumKind::Wedge6 | ContinuumKind::Wedge15 => QuadratureRule::WEDGE_12X4,
+        ElementKind::Tri3 | ElementKind::Tri6 => QuadratureRule::Triangle12,
+        ElementKind::Quad4 | ElementKind::Quad8 => QuadratureRule::Square4,
+        ElementKind::Tet4 | ElementKind::Tet10 => QuadratureRule::Tetrahedron64,
+        ElementKind::Hex8 | ElementKind::Hex20 => QuadratureRule::Cube4,
+        _ => QuadratureRule::Wedge12x4,
     }
 }
 
 /// Calls `visit(nodes, shape values, position, weight det J)` at every point of every element.
-fn at_points(grid: &StructuredMesh, kind: ContinuumKind, mut visit: impl FnMut(&[usize], &[f64], [f64; 3], f64)) {
+fn at_points(grid: &StructuredMesh, kind: ElementKind, mut visit: impl FnMut(&[usize], &[f64], [f64; 3], f64)) {
     let points = fine_rule(kind).points().iter();
     let tables: Vec<_> =
         points.map(|p| (shape_values(kind, p.natural), shape_derivatives(kind, p.natural), p.weight)).collect();
@@ -104,7 +104,7 @@ fn at_points(grid: &StructuredMesh, kind: ContinuumKind, mut visit: impl FnMut(&
 }
 
 /// Error of the displacement in L2, relative to the displacement.
-fn static_error(grid: &StructuredMesh, kind: ContinuumKind, formulation: Formulation) -> f64 {
+fn static_error(grid: &StructuredMesh, kind: ElementKind, formulation: Formulation) -> f64 {
     let d = kind.dimension();
     let thickness = if d == 2 { THICKNESS } else { 1.0 };
     let model = model(grid, kind, formulation);
@@ -170,7 +170,7 @@ fn orders(cells: &[usize], errors: &[f64]) -> Vec<f64> {
     better.zip(finer).map(|(error, cells)| error.ln() / cells.ln()).collect()
 }
 
-fn displacement_order(kind: ContinuumKind, formulation: Formulation, straight: bool, cells: &[usize]) {
+fn displacement_order(kind: ElementKind, formulation: Formulation, straight: bool, cells: &[usize]) {
     let errors: Vec<f64> = cells
         .iter()
         .map(|&n| {
@@ -182,7 +182,7 @@ fn displacement_order(kind: ContinuumKind, formulation: Formulation, straight: b
         })
         .collect();
     let orders = orders(cells, &errors);
-    let degree = if kind.edges().is_empty() { 1.0 } else { 2.0 };
+    let degree = kind.order() as f64;
     let edges = if straight { "straight" } else { "curved" };
     println!(
         "{:<8} {:?} {:?} {edges}: cells {cells:?}, errors {}, orders {orders:.3?}",
@@ -199,7 +199,7 @@ macro_rules! displacement_orders {
     ($($test:ident: $kind:ident, $formulation:expr, $straight:expr, $cells:expr;)*) => {
         $(#[test]
         fn $test() {
-            displacement_order(ContinuumKind::$kind, $formulation, $straight, &$cells);
+            displacement_order(ElementKind::$kind, $formulation, $straight, &$cells);
         })*
     };
 }
@@ -238,9 +238,9 @@ fn quad8_loses_an_order_on_trapezoids() {
             let sign = if (column + row.round()) % 2.0 < 0.5 { 1.0 } else { -1.0 };
             [x, y + sign * inner / n as f64, 0.0]
         };
-        let mut grid = StructuredMesh::new(ContinuumKind::Quad8, [n; 3], alternate);
+        let mut grid = StructuredMesh::new(ElementKind::Quad8, [n; 3], alternate);
         grid.straighten();
-        static_error(&grid, ContinuumKind::Quad8, PLAIN)
+        static_error(&grid, ElementKind::Quad8, PLAIN)
     });
     let orders = orders(&cells, &errors);
     println!("Quad8 on trapezoids: errors {}, orders {orders:.3?}", listed(&errors));

@@ -10,8 +10,9 @@
 use crate::reference_frequencies::data;
 use plummer::app::verification::{BODY, StructuredMesh};
 use plummer::fe::assembly::SystemMatrices;
-use plummer::fe::element::continuum::{ContinuumKind, Formulation, Integration};
+use plummer::fe::element::continuum::{Formulation, Integration};
 use plummer::fe::material::Material;
+use plummer::fe::mesh::ElementKind;
 use plummer::fe::mesh::Mesh;
 use plummer::fe::modal::{ModeRange, housing_modes};
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
@@ -52,7 +53,7 @@ fn coarse_ring_stays_above_with_both_rules() {
 
 /// First elastic frequencies with four points over those with full integration, less 1.
 fn four_over_full(bulge: f64) -> Vec<f64> {
-    let grid = StructuredMesh::new(ContinuumKind::Tet10, [3; 3], |unit| {
+    let grid = StructuredMesh::new(ElementKind::Tet10, [3; 3], |unit| {
         let p = unit.map(|x| 2.0 * x - 1.0);
         let flat = p.map(|x| 1.0 - x * x);
         let swell = [flat[1] * flat[2], flat[2] * flat[0], flat[0] * flat[1]];

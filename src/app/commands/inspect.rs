@@ -2,7 +2,7 @@
 
 use crate::fe::element::continuum::{measure, quality, surface_weights};
 use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, continuum_kind, surface_kind};
+use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching};
 use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -136,9 +136,7 @@ impl Inspection {
 
     fn look_at(&mut self, mesh: &Mesh, id: ElementId) {
         let block = &mesh.blocks[id.block];
-        let Some(kind) = continuum_kind(block.kind) else {
-            return;
-        };
+        let kind = block.kind;
         // coordinates are finite and as many as the kind has nodes: the reader has seen to it
         let Ok(shape) = quality(kind, &coordinates(mesh, id)) else {
             return;
@@ -187,10 +185,9 @@ pub(crate) fn size(mesh: &Mesh, elements: impl Iterator<Item = ElementId>) -> f6
         .map(|id| {
             let kind = mesh.blocks[id.block].kind;
             let at = coordinates(mesh, id);
-            match (surface_kind(kind), continuum_kind(kind)) {
-                (Some(kind), _) => surface_weights(kind, &at).map_or(0.0, |w| w.iter().sum()),
-                (None, Some(kind)) => measure(kind, &at).unwrap_or(0.0),
-                (None, None) => 0.0,
+            match kind.dimension() {
+                3 => measure(kind, &at).unwrap_or(0.0),
+                _ => surface_weights(kind, &at).map_or(0.0, |w| w.iter().sum()),
             }
         })
         .sum()

@@ -1,8 +1,7 @@
 //! Structured meshes of the unit square and cube, of every continuum element, made in code.
 
-use crate::fe::element::continuum::ContinuumKind;
+use crate::fe::mesh::ElementKind;
 use crate::fe::mesh::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
-use crate::fe::model::element_kind;
 
 /// The group of all elements.
 pub const BODY: &str = "body";
@@ -13,7 +12,7 @@ pub const BODY: &str = "body";
 pub struct StructuredMesh {
     /// Nodes row by row along x, then y, then z, m; one block of elements, all in the group [`BODY`].
     pub mesh: Mesh,
-    kind: ContinuumKind,
+    kind: ElementKind,
     /// Half steps along each axis; the third is 0 in the plane.
     half_steps: [usize; 3],
 }
@@ -21,7 +20,7 @@ pub struct StructuredMesh {
 impl StructuredMesh {
     /// `cells` along each axis, 1 or more (the third is not used in the plane); `place` maps the unit square or cube to the
     /// body, m. Every node, middle ones too, is placed by it, so that edges curve as the map does.
-    pub fn new(kind: ContinuumKind, cells: [usize; 3], place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+    pub fn new(kind: ElementKind, cells: [usize; 3], place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         let plane = kind.dimension() == 2;
         let half_steps = [2 * cells[0], 2 * cells[1], if plane { 0 } else { 2 * cells[2] }];
         let [a, b, c] = half_steps.map(|n| n + 1);
@@ -58,7 +57,7 @@ impl StructuredMesh {
         let (block, nodes) = (&self.mesh.blocks[0], &mut self.mesh.nodes);
         let kind = self.kind;
         for element in block.elements() {
-            for (&[a, b], &middle) in kind.edges().iter().zip(&element[kind.corners()..]) {
+            for (&[a, b], &middle) in kind.middle_edges().iter().zip(&element[kind.corners()..]) {
                 let ends = [nodes[element[a]], nodes[element[b]]];
                 nodes[middle] = [0, 1, 2].map(|i| f64::midpoint(ends[0][i], ends[1][i]));
             }
@@ -67,7 +66,7 @@ impl StructuredMesh {
 }
 
 /// Nodes of the elements of a cell, in half steps from its lowest corner.
-fn elements_of_a_cell(kind: ContinuumKind) -> Vec<impl Iterator<Item = [usize; 3]> + use<>> {
+fn elements_of_a_cell(kind: ElementKind) -> Vec<impl Iterator<Item = [usize; 3]> + use<>> {
     let corners: Vec<Vec<[usize; 3]>> = match kind.corners() {
         // both triangles and both wedges have the diagonal from the second to the fourth corner
         3 => vec![vec![[0, 0, 0], [2, 0, 0], [0, 2, 0]], vec![[2, 2, 0], [0, 2, 0], [2, 0, 0]]],
@@ -84,7 +83,7 @@ fn elements_of_a_cell(kind: ContinuumKind) -> Vec<impl Iterator<Item = [usize; 3
     };
     let with_middles = move |corners: Vec<[usize; 3]>| {
         let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]));
-        let middles: Vec<_> = kind.edges().iter().map(|&edge| middle(edge)).collect();
+        let middles: Vec<_> = kind.middle_edges().iter().map(|&edge| middle(edge)).collect();
         corners.into_iter().chain(middles)
     };
     corners.into_iter().map(with_middles).collect()
@@ -106,7 +105,7 @@ fn tetrahedra() -> Vec<Vec<[usize; 3]>> {
     PATHS.into_iter().enumerate().map(along).collect()
 }
 
-fn mesh(kind: ContinuumKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> Mesh {
+fn mesh(kind: ElementKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> Mesh {
     let count = connectivity.len() / kind.nodes();
     let dimension = kind.dimension();
     let entity = Entity { dimension, tag: 1 };
@@ -119,12 +118,7 @@ fn mesh(kind: ContinuumKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> 
             nodes: (0..nodes.len()).collect(),
             elements: (0..count).map(|index| ElementId { block: 0, index }).collect(),
         }],
-        blocks: vec![ElementBlock {
-            kind: element_kind(kind),
-            tags: (1..=count as u64).collect(),
-            connectivity,
-            entity,
-        }],
+        blocks: vec![ElementBlock { kind, tags: (1..=count as u64).collect(), connectivity, entity }],
         nodes,
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: "structured grid".into(),

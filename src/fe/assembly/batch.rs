@@ -2,7 +2,7 @@
 
 use super::pattern::Local;
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::ContinuumKind;
+use crate::fe::mesh::ElementKind;
 use crate::fe::model::{HousingElement, HousingModel, ModelError};
 use rayon::prelude::*;
 
@@ -14,10 +14,10 @@ const BATCH: usize = 1 << 20;
 /// the elements.
 ///
 /// # Errors
-/// [`ModelError::Element`] for the first element, in that order, for which `compute` fails.
+/// [`ModelError::Refused`] for the first element, in that order, for which `compute` fails.
 pub(super) fn in_batches(
     model: &HousingModel,
-    entries: impl Fn(ContinuumKind) -> usize,
+    entries: impl Fn(ElementKind) -> usize,
     compute: impl Fn(&HousingElement, &[[f64; 3]], &mut [f64]) -> Result<(), ElementError> + Sync,
     mut consume: impl FnMut(&[Local<'_>]),
 ) -> Result<(), ModelError> {
@@ -47,11 +47,10 @@ pub(super) fn in_batches(
             for (to, &node) in coordinates.iter_mut().zip(nodes) {
                 *to = model.coordinates[node];
             }
-            compute(element, &coordinates[..nodes.len()], out).err().map(|source| (element.tag, Box::new(source)))
+            compute(element, &coordinates[..nodes.len()], out).err().map(|source| (element.tag, source))
         });
         if let Some((tag, source)) = failed {
-            let path = model.path.clone();
-            return Err(ModelError::Element { path, tag, source });
+            return Err(ModelError::element(&model.path, tag, &source));
         }
         let locals: Vec<Local<'_>> =
             work.iter().map(|(element, out)| Local { nodes: model.elements.nodes(element), matrix: out }).collect();

@@ -6,7 +6,7 @@ mod section;
 
 pub use elastic::ElasticMaterial;
 pub use orthotropic::OrthotropicMaterial;
-pub use section::{BeamSection, Bond, OutOfPlaneSection, RadiusRule, RingLayer, SectionError};
+pub use section::{BeamSection, Bond, OutOfPlaneSection, RadiusRule, RingLayer};
 
 use thiserror::Error;
 
@@ -26,48 +26,15 @@ pub struct Material {
     pub loss_factor: f64,
 }
 
-/// A material that cannot exist, or that the elements cannot use.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
+/// A material or a section of a ring that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum MaterialError {
-    /// A quantity out of its range, infinite or not a number.
-    #[error("{quantity} must be {rule}, found {value}")]
-    OutOfRange {
-        /// Name and unit of the quantity.
-        quantity: &'static str,
-        /// What it must be.
-        rule: &'static str,
-        /// The value found.
-        value: f64,
-    },
-    /// Poisson's ratios of an orthotropic material that are in range each but not together.
-    #[error(
-        "the three Poisson's ratios do not go together: 1 - nu_xy^2 E_y/E_x - nu_yz^2 E_z/E_y - \
-         nu_xz^2 E_z/E_x - 2 nu_xy nu_yz nu_xz E_z/E_x must be positive, found {determinant}"
-    )]
-    Unstable {
-        /// The expression in the message.
-        determinant: f64,
-    },
-    /// A material axis without length, or not finite.
-    #[error("the material axis {axis} needs a direction, found ({x}, {y}, {z})",
-        x = vector[0], y = vector[1], z = vector[2])]
-    Axis {
-        /// Which axis.
-        axis: &'static str,
-        /// What was given, mesh coordinates.
-        vector: [f64; 3],
-    },
-    /// Two material axes in one direction.
-    #[error(
-        "the material axes x ({}, {}, {}) and y ({}, {}, {}) are parallel: two different directions are needed",
-        axis_x[0], axis_x[1], axis_x[2], towards_y[0], towards_y[1], towards_y[2]
-    )]
-    ParallelAxes {
-        /// The vector given for x, mesh coordinates.
-        axis_x: [f64; 3],
-        /// The vector given for y, mesh coordinates.
-        towards_y: [f64; 3],
-    },
+    /// Axes that are parallel.
+    #[error("{0}")]
+    ParallelAxes(String),
+    /// A number out of its range, constants that do not go together, an axis without direction, a ring without sections.
+    #[error("{0}")]
+    Refused(String),
 }
 
 impl Material {
@@ -78,7 +45,7 @@ impl Material {
     /// (Timoshenko and Goodier, Theory of Elasticity, section 6).
     ///
     /// # Errors
-    /// [`MaterialError::OutOfRange`] for the first quantity out of its range.
+    /// [`MaterialError::Refused`] for the first quantity out of its range.
     pub fn new(young: f64, poisson: f64, density: f64) -> Result<Self, MaterialError> {
         let positive = "positive and finite";
         check(young > 0.0, "Young's modulus (Pa)", positive, young)?;
@@ -91,7 +58,7 @@ impl Material {
     /// The same material with a structural loss factor, 0 <= eta < 2.
     ///
     /// # Errors
-    /// [`MaterialError::OutOfRange`].
+    /// [`MaterialError::Refused`].
     pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
         check_loss_factor(loss_factor)?;
         Ok(Self { loss_factor, ..self })
@@ -115,7 +82,11 @@ fn check_loss_factor(value: f64) -> Result<(), MaterialError> {
 }
 
 fn check(in_range: bool, quantity: &'static str, rule: &'static str, value: f64) -> Result<(), MaterialError> {
-    if in_range && value.is_finite() { Ok(()) } else { Err(MaterialError::OutOfRange { quantity, rule, value }) }
+    if in_range && value.is_finite() {
+        Ok(())
+    } else {
+        Err(MaterialError::Refused(format!("{quantity} must be {rule}, found {value}")))
+    }
 }
 
 #[cfg(test)]

@@ -43,9 +43,9 @@ impl OrthotropicMaterial {
     /// (Lempriere, AIAA Journal 6 (1968) 2226).
     ///
     /// # Errors
-    /// [`MaterialError::OutOfRange`] for a modulus, a ratio or a density out of its range or not finite,
-    /// [`MaterialError::Unstable`] for three ratios that do not go together,
-    /// [`MaterialError::Axis`] and [`MaterialError::ParallelAxes`] for vectors that give no axes.
+    /// [`MaterialError::Refused`] for a modulus, a ratio or a density out of its range or not finite,
+    /// [`MaterialError::Refused`] for three ratios that do not go together,
+    /// [`MaterialError::Refused`] and [`MaterialError::ParallelAxes`] for vectors that give no axes.
     pub fn new(
         young: [f64; 3],
         poisson: [f64; 3],
@@ -69,7 +69,7 @@ impl OrthotropicMaterial {
     /// The same material with a structural loss factor, 0 <= eta < 2.
     ///
     /// # Errors
-    /// [`MaterialError::OutOfRange`].
+    /// [`MaterialError::Refused`].
     pub(crate) fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
         check_loss_factor(loss_factor)?;
         Ok(Self { loss_factor, ..self })
@@ -142,7 +142,12 @@ fn check_ratios(young: [f64; 3], poisson: [f64; 3]) -> Result<(), MaterialError>
         check(normalised[i].abs() < 1.0, names[i], rules[i], poisson[i])?;
     }
     let determinant = determinant(normalised);
-    if determinant > 0.0 { Ok(()) } else { Err(MaterialError::Unstable { determinant }) }
+    if determinant > 0.0 {
+        return Ok(());
+    }
+    Err(MaterialError::Refused(format!(
+        "the three Poisson's ratios do not go together: 1 - nu_xy^2 E_y/E_x - nu_yz^2 E_z/E_y - nu_xz^2 E_z/E_x - 2 nu_xy nu_yz nu_xz E_z/E_x must be positive, found {determinant}"
+    )))
 }
 
 /// Right-handed orthonormal axes, x first (Gram-Schmidt).
@@ -152,7 +157,10 @@ fn orthonormal(axis_x: [f64; 3], towards_y: [f64; 3]) -> Result<[[f64; 3]; 3], M
     let across = cross(x, y);
     let sine = length(across);
     if sine < SMALLEST_SINE {
-        return Err(MaterialError::ParallelAxes { axis_x, towards_y });
+        let ([a, b, c], [d, e, f]) = (axis_x, towards_y);
+        return Err(MaterialError::ParallelAxes(format!(
+            "the material axes x ({a}, {b}, {c}) and y ({d}, {e}, {f}) are parallel: two different directions are needed"
+        )));
     }
     let z = across.map(|value| value / sine);
     Ok([x, cross(z, x), z])
@@ -165,7 +173,8 @@ fn unit(vector: [f64; 3], axis: &'static str) -> Result<[f64; 3], MaterialError>
     if size > 0.0 && size.is_finite() && largest.is_finite() {
         Ok(scaled.map(|value| value / size))
     } else {
-        Err(MaterialError::Axis { axis, vector })
+        let [x, y, z] = vector;
+        Err(MaterialError::Refused(format!("the material axis {axis} needs a direction, found ({x}, {y}, {z})")))
     }
 }
 

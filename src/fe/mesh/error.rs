@@ -4,7 +4,11 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::MshError;
+/// Content of an MSH file that cannot be used: the section, the line (byte of a binary file), what was found and what was
+/// expected.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct MshError(pub(super) String);
 
 /// A mesh that cannot be read, or a name that it does not have.
 #[derive(Debug, Error)]

@@ -1,9 +1,9 @@
-//! Faces of solids, edges of plane elements, ends of lines: the boundary of one element.
+//! Faces of solids, edges of plane elements, ends of lines: the boundary of one element, and of a set of them.
 //!
 //! Source of the node order: gmsh reference manual, section "Node ordering".
 
-use super::ElementKind;
-use std::sync::LazyLock;
+use super::{ElementId, ElementKind, Mesh};
+use serde::Serialize;
 
 /// A face of an element kind: an element of one dimension less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +14,21 @@ pub struct Face {
     /// solid, by the right-hand rule on its corners, leads out of the element; an edge of a plane
     /// element runs counter-clockwise round it.
     pub nodes: &'static [usize],
+}
+
+/// A face by its sorted corners; `u32::MAX` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+pub(crate) type FaceCorners = [u32; 4];
+
+impl Face {
+    /// Its corners on an element with these nodes.
+    pub(crate) fn sorted_corners(&self, nodes: &[usize]) -> FaceCorners {
+        let mut corners = [u32::MAX; 4];
+        for (corner, &local) in corners.iter_mut().zip(&self.nodes[..self.kind.corners()]) {
+            *corner = nodes[local] as u32;
+        }
+        corners.sort_unstable();
+        corners
+    }
 }
 
 /// An edge in local nodes: two corners, and the node between them in second order.
@@ -87,33 +102,35 @@ impl ElementKind {
         }
     }
 
-    /// Edges, each once.
-    pub(crate) fn edges(self) -> &'static [Edge] {
-        static TABLE: LazyLock<Vec<Vec<Edge>>> =
-            LazyLock::new(|| ElementKind::all().map(ElementKind::find_edges).collect());
-        &TABLE[self as usize]
+    /// Edges by their two corners, each once, in gmsh's order: of an element of second order edge i carries node
+    /// `corners() + i`.
+    const fn corner_edges(self) -> &'static [[usize; 2]] {
+        match self {
+            Self::Point => &[],
+            Self::Line2 | Self::Line3 => &[[0, 1]],
+            Self::Tri3 | Self::Tri6 => &[[0, 1], [1, 2], [2, 0]],
+            Self::Quad4 | Self::Quad8 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            Self::Tet4 | Self::Tet10 => &[[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]],
+            Self::Hex8 | Self::Hex20 => {
+                &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]]
+            }
+            Self::Wedge6 | Self::Wedge15 => &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]],
+        }
     }
 
-    fn find_edges(self) -> Vec<Edge> {
-        if self.dimension() < 2 {
-            let middle = (self.order() == 2).then_some(2);
-            return vec![([0, 1], middle); self.dimension()];
-        }
-        let mut edges = Vec::new();
-        for face in self.faces() {
-            for (ends, middle) in face.kind.find_edges() {
-                let ends = ends.map(|local| face.nodes[local]);
-                // a solid has each edge in two faces, once in each direction
-                if self.dimension() == 2 || ends[0] < ends[1] {
-                    edges.push((ends, middle.map(|local| face.nodes[local])));
-                }
-            }
-        }
-        edges
+    /// The edges with a middle node, as their two corners; edge i carries node `corners() + i`. Empty for the linear elements.
+    pub const fn middle_edges(self) -> &'static [[usize; 2]] {
+        if self.order() == 2 { self.corner_edges() } else { &[] }
+    }
+
+    /// Edges, each once.
+    pub(crate) fn edges(self) -> impl Iterator<Item = Edge> {
+        let middle = move |place: usize| (self.order() == 2).then_some(self.corners() + place);
+        self.corner_edges().iter().enumerate().map(move |(place, &ends)| (ends, middle(place)))
     }
 
     /// Number of corner nodes; they come first.
-    pub fn corners(self) -> usize {
+    pub const fn corners(self) -> usize {
         match self {
             Self::Point => 1,
             Self::Line2 | Self::Line3 => 2,
@@ -122,6 +139,48 @@ impl ElementKind {
             Self::Wedge6 | Self::Wedge15 => 6,
             Self::Hex8 | Self::Hex20 => 8,
         }
+    }
+}
+
+/// A face of one element and of no other.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct BoundaryFace {
+    /// The element that it belongs to.
+    pub element: ElementId,
+    /// Kind of the face.
+    pub kind: ElementKind,
+    /// Indices of its nodes; the orientation is that of [`Face`].
+    pub nodes: Vec<usize>,
+}
+
+impl Mesh {
+    /// The faces that exactly one of these elements has, in the order of the elements: the surface of solids
+    /// with outward normals, the rim of plane elements.
+    ///
+    /// Faces are the same if their corners are. Elements of several dimensions do not mix: give those
+    /// of a part. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+    pub fn boundary_faces(&self, elements: impl Iterator<Item = ElementId>) -> Vec<BoundaryFace> {
+        let elements: Vec<ElementId> = elements.collect();
+        let mut faces: Vec<(FaceCorners, usize, u8)> = Vec::new();
+        for (position, &id) in elements.iter().enumerate() {
+            let block = &self.blocks[id.block];
+            let nodes = block.nodes_of(id.index);
+            for (number, face) in (0..).zip(block.kind.faces()) {
+                faces.push((face.sorted_corners(nodes), position, number));
+            }
+        }
+        faces.sort_unstable();
+        let once = faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
+        let mut once: Vec<(usize, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
+        once.sort_unstable();
+        let describe = |(position, number): (usize, u8)| {
+            let element = elements[position];
+            let block = &self.blocks[element.block];
+            let face = block.kind.faces()[usize::from(number)];
+            let nodes = block.nodes_of(element.index);
+            BoundaryFace { element, kind: face.kind, nodes: face.nodes.iter().map(|&local| nodes[local]).collect() }
+        };
+        once.into_iter().map(describe).collect()
     }
 }
 
@@ -173,7 +232,7 @@ mod tests {
                 ends.sort_unstable();
                 ends
             };
-            let mut found = kind.edges().to_vec();
+            let mut found: Vec<_> = kind.edges().collect();
             found.sort_unstable_by_key(|edge| edge.1);
             let found: Vec<_> = found.into_iter().map(|edge| sorted(edge.0)).collect();
             let expected: Vec<_> = edges(kind).iter().map(|&ends| sorted(ends)).collect();

@@ -51,7 +51,7 @@ const fn row(kind: ElementKind, gmsh_type: i32, name: &'static str, [dimension, 
 }
 
 /// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
-static TABLE: [Row; 13] = [
+static TABLE: [Row; ElementKind::COUNT] = [
     row(ElementKind::Point, 15, "Point", [0, 1, 1]),
     row(ElementKind::Line2, 1, "Line2", [1, 1, 2]),
     row(ElementKind::Line3, 8, "Line3", [1, 2, 3]),
@@ -68,8 +68,16 @@ static TABLE: [Row; 13] = [
 ];
 
 impl ElementKind {
-    fn row(self) -> &'static Row {
+    /// Number of kinds.
+    pub(crate) const COUNT: usize = 13;
+
+    const fn row(self) -> &'static Row {
         &TABLE[self as usize]
+    }
+
+    /// Kinds of plane elements and solids, in the order of the enum.
+    pub fn continua() -> impl Iterator<Item = Self> {
+        Self::all().filter(|kind| kind.dimension() >= 2)
     }
 
     /// Every kind, in the order of the enum.
@@ -93,47 +101,19 @@ impl ElementKind {
     }
 
     /// 0 point, 1 line, 2 surface, 3 volume.
-    pub fn dimension(self) -> usize {
+    pub const fn dimension(self) -> usize {
         self.row().dimension
     }
 
     /// 1 linear, 2 quadratic.
-    pub fn order(self) -> usize {
+    pub const fn order(self) -> usize {
         self.row().order
     }
 
     /// Number of nodes.
-    pub fn nodes(self) -> usize {
+    pub const fn nodes(self) -> usize {
         self.row().nodes
     }
-}
-
-/// Highest element type number in gmsh 4.15 (`GmshDefines.h`).
-const LAST_GMSH_TYPE: i32 = 140;
-
-/// Name of a gmsh element type that the program does not read, and what to do about it.
-pub(super) struct Unsupported {
-    pub(super) name: &'static str,
-    pub(super) advice: &'static str,
-}
-
-/// What is known of an element type outside of the table.
-pub(super) fn unsupported(gmsh_type: i32) -> Unsupported {
-    let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
-    let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
-                   Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
-    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
-    let (name, advice) = match gmsh_type {
-        7 => ("Pyramid5", pyramid),
-        10 => ("Quad9", complete),
-        12 => ("Hex27", complete),
-        13 => ("Wedge18", complete),
-        14 => ("Pyramid14", pyramid),
-        19 => ("Pyramid13", pyramid),
-        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
-        _ => ("unknown to gmsh", "is the file damaged?"),
-    };
-    Unsupported { name, advice }
 }
 
 #[cfg(test)]

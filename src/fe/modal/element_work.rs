@@ -43,7 +43,7 @@ impl ElementWork {
     /// Computes the matrices of an element.
     ///
     /// # Errors
-    /// [`ModelError::Element`] with its tag if it is inverted or degenerate.
+    /// [`ModelError::Refused`] with its tag if it is inverted or degenerate.
     pub(super) fn load(&mut self, model: &HousingModel, element: &HousingElement) -> Result<(), ModelError> {
         let mut coordinates = [[0.0; 3]; MAX_NODES];
         let nodes = model.elements.nodes(element);
@@ -56,11 +56,7 @@ impl ElementWork {
         let mass = &mut self.mass[..self.nodes * self.nodes];
         stiffness_into(element.kind, at, properties, model.formulation, stiffness)
             .and_then(|()| nodal_mass_into(element.kind, at, properties, mass))
-            .map_err(|source| ModelError::Element {
-                path: model.path.clone(),
-                tag: element.tag,
-                source: Box::new(source),
-            })?;
+            .map_err(|source| ModelError::element(&model.path, element.tag, &source))?;
         self.turn_from(at);
         Ok(())
     }

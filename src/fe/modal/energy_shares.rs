@@ -124,8 +124,8 @@ impl EnergyShares {
             let rows = |all: &[Vec<f64>]| all.get(mode).cloned().unwrap_or_default();
             let mut springs = rows(&housing.springs.sums);
             let masses = rows(&housing.masses.sums);
-            let [parts, groups] = [0, 1].map(|place| rows(&housing.strain[place]));
-            let [heavy_parts, heavy_groups] = [0, 1].map(|place| rows(&housing.kinetic[place]));
+            let [[parts, groups], [heavy_parts, heavy_groups]] =
+                housing.energies.get(mode).cloned().unwrap_or_default();
             let of_ring = ring.as_ref().map(|ring| ring.modes[mode]);
             springs.extend(of_ring.and_then(|ring| ring.springs));
             let sum = |values: [&[f64]; 2], ring: Option<f64>| -> f64 {
@@ -160,13 +160,13 @@ impl EnergyShares {
     }
 }
 
-/// Energies of a housing's modes: lists by mode, of parts and of groups.
+/// Energies of a housing's modes.
 #[derive(Default)]
 struct HousingSums {
     parts: Vec<String>,
     groups: Vec<String>,
-    strain: [Vec<Vec<f64>>; 2],
-    kinetic: [Vec<Vec<f64>>; 2],
+    /// Strain and kinetic energies of each mode, by part and by group.
+    energies: Vec<[[Vec<f64>; 2]; 2]>,
     springs: Attached,
     masses: Attached,
 }
@@ -177,18 +177,10 @@ impl HousingSums {
         check_count("nodes of the mesh", model.coordinates.len(), mesh.nodes.len())?;
         let membership = Membership::new(mesh, model)?;
         let sums = element_sums(model, &membership, shapes)?;
-        let modes = || (0..shapes.ncols()).map(|mode| sums.of_mode(mode));
         Ok(Self {
             parts: model.part_groups.clone(),
             groups: membership.names,
-            strain: [
-                modes().map(|rows| rows.strain_parts().collect()).collect(),
-                modes().map(|rows| rows.strain_groups().collect()).collect(),
-            ],
-            kinetic: [
-                modes().map(|rows| rows.kinetic_parts().collect()).collect(),
-                modes().map(|rows| rows.kinetic_groups().collect()).collect(),
-            ],
+            energies: (0..shapes.ncols()).map(|mode| sums.of_mode(mode)).collect(),
             springs: Attached::springs(model, shapes),
             masses: Attached::masses(model, shapes),
         })

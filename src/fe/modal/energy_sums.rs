@@ -14,13 +14,6 @@ pub(super) struct Sums {
     values: Vec<f64>,
 }
 
-/// The sums of one mode.
-#[derive(Clone, Copy)]
-pub(super) struct Rows<'s> {
-    sums: &'s Sums,
-    first: usize,
-}
-
 impl Sums {
     fn zeros(parts: usize, groups: usize, modes: usize) -> Self {
         Self { parts, groups, values: vec![0.0; 2 * (parts + groups) * modes] }
@@ -30,8 +23,14 @@ impl Sums {
         self.parts + self.groups
     }
 
-    pub(super) fn of_mode(&self, mode: usize) -> Rows<'_> {
-        Rows { sums: self, first: 2 * self.width() * mode }
+    /// Strain and kinetic energies of a mode, each by part and by group.
+    pub(super) fn of_mode(&self, mode: usize) -> [[Vec<f64>; 2]; 2] {
+        let width = self.width();
+        [0, 1].map(|kind| {
+            let row = &self.values[width * (2 * mode + kind)..][..width];
+            let (parts, groups) = row.split_at(self.parts);
+            [parts.to_vec(), groups.to_vec()]
+        })
     }
 
     fn add(&mut self, mode: usize, part: usize, groups: &[usize], [strain, kinetic]: [f64; 2]) {
@@ -41,28 +40,6 @@ impl Sums {
             own[place] += strain;
             own[width + place] += kinetic;
         }
-    }
-}
-
-impl<'s> Rows<'s> {
-    fn slice(self, from: usize, count: usize) -> impl Iterator<Item = f64> + 's {
-        self.sums.values[self.first + from..][..count].iter().copied()
-    }
-
-    pub(super) fn strain_parts(self) -> impl Iterator<Item = f64> + 's {
-        self.slice(0, self.sums.parts)
-    }
-
-    pub(super) fn strain_groups(self) -> impl Iterator<Item = f64> + 's {
-        self.slice(self.sums.parts, self.sums.groups)
-    }
-
-    pub(super) fn kinetic_parts(self) -> impl Iterator<Item = f64> + 's {
-        self.slice(self.sums.width(), self.sums.parts)
-    }
-
-    pub(super) fn kinetic_groups(self) -> impl Iterator<Item = f64> + 's {
-        self.slice(self.sums.width() + self.sums.parts, self.sums.groups)
     }
 }
 

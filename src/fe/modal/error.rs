@@ -40,11 +40,6 @@ pub enum ModalError {
         /// Mass found, kg.
         mass: f64,
     },
-    /// Plane and solid mass properties that were to be added.
-    #[error(
-        "mass properties of a plane model and of a solid one cannot be added: the plane one has no moments about x and y"
-    )]
-    PlaneAndSpace,
     /// A range of frequencies without a mode.
     #[error(
         "modes: expected at least one mode {}, a count of eigenvalues finds none",

@@ -110,33 +110,6 @@ impl MassProperties {
         Self::from_rigid_inertia(&inertia(about), about)
     }
 
-    /// Both together (a ring and its housing), in the same axes.
-    ///
-    /// # Errors
-    /// [`ModalError::PlaneAndSpace`].
-    pub fn combined(&self, other: &Self) -> Result<Self, ModalError> {
-        use MassDistribution::{Plane, Space};
-        let mass = self.mass + other.mass;
-        let share = other.mass / mass;
-        let reduced = self.mass * share;
-        let distribution = match (self.distribution, other.distribution) {
-            (Plane { centroid, polar }, Plane { centroid: further, polar: more }) => {
-                let [x, y] = [further[0] - centroid[0], further[1] - centroid[1]];
-                Plane {
-                    centroid: [centroid[0] + share * x, centroid[1] + share * y],
-                    polar: polar + more + reduced * (x * x + y * y),
-                }
-            }
-            (Space { centroid, inertia }, Space { centroid: further, inertia: more }) => {
-                let between = Vector3::from(further) - Vector3::from(centroid);
-                let sum = matrix(&inertia) + matrix(&more) + shift(reduced, between);
-                Space { centroid: (Vector3::from(centroid) + between * share).into(), inertia: rows(&sum) }
-            }
-            _ => return Err(ModalError::PlaneAndSpace),
-        };
-        Ok(Self { mass, distribution })
-    }
-
     /// Coordinates of the centroid, m; z is `None` for a plane model.
     pub fn centroid(&self) -> [Option<f64>; 3] {
         match self.distribution {

@@ -47,40 +47,6 @@ fn a_plane_model_knows_its_polar_moment_alone() {
     assert!((centroid[0] - 0.15).abs() < ROUND_OFF && (centroid[1] - 0.1).abs() < ROUND_OFF);
     assert!((polar / (mass * 0.13 / 12.0) - 1.0).abs() < ROUND_OFF);
     assert_eq!((found.centroid()[2], found.principal()), (None, None));
-    assert!(matches!(found.combined(&block(3, None)), Err(ModalError::PlaneAndSpace)));
-}
-
-/// A point mass in the mass matrix is the same as one added by hand.
-#[test]
-fn bodies_add_up() {
-    for dimension in [2, 3] {
-        let (bare, loaded) = (block(dimension, None), block(dimension, Some(5.0)));
-        let point = MassProperties {
-            mass: 5.0,
-            distribution: match dimension {
-                2 => MassDistribution::Plane { centroid: [0.3, 0.2], polar: 0.0 },
-                _ => MassDistribution::Space { centroid: [0.3, 0.2, 0.0], inertia: [[0.0; 3]; 3] },
-            },
-        };
-        let sum = bare.combined(&point).expect("of one dimension");
-        assert!((sum.mass / loaded.mass - 1.0).abs() < ROUND_OFF);
-        match (sum.distribution, loaded.distribution) {
-            (MassDistribution::Plane { centroid, polar }, MassDistribution::Plane { centroid: c, polar: p }) => {
-                assert!((centroid[0] - c[0]).abs() < ROUND_OFF);
-                assert!((centroid[1] - c[1]).abs() < ROUND_OFF);
-                assert!((polar / p - 1.0).abs() < ROUND_OFF);
-            }
-            (MassDistribution::Space { centroid, inertia }, MassDistribution::Space { centroid: c, inertia: i }) => {
-                for a in 0..3 {
-                    assert!((centroid[a] - c[a]).abs() < ROUND_OFF);
-                    for b in 0..3 {
-                        assert!((inertia[a][b] - i[a][b]).abs() < ROUND_OFF * i[2][2]);
-                    }
-                }
-            }
-            found => panic!("{found:?}"),
-        }
-    }
 }
 
 /// Axes of a turned inertia are found turned, and are right-handed.

@@ -19,6 +19,7 @@ mod mode_shapes;
 mod motions;
 mod participation;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 mod samples;
 mod spring_rows;
 mod strain_products;
@@ -26,7 +27,7 @@ mod survey;
 
 pub use basis::{FrequencyCount, ModalBasis, ModeRange};
 pub use comparison::{ComparisonOptions, MatchedBy, ModalComparison, ModePair, ModeSet, PointMatch};
-pub use convergence::{Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson};
+pub use convergence::{Behaviour, Convergence, MeshLevels, richardson};
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
 pub use full_modes::{FullModes, housing_modes};

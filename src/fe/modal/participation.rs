@@ -83,12 +83,6 @@ impl Participation {
         let total = self.totals.get(direction).filter(|total| **total > 0.0)?;
         (mode < self.effective.nrows()).then(|| self.effective[(mode, direction)] / total)
     }
-
-    /// Share of the total that the modes up to and with this one move, 0 to 1; `None` as for
-    /// [`Self::fraction`].
-    pub fn cumulative_fraction(&self, mode: usize, direction: usize) -> Option<f64> {
-        (0..=mode).map(|earlier| self.fraction(earlier, direction)).sum()
-    }
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@
 //! `c' / H`. So the layer is too soft from some `L / H` on, and from a larger one on springs. An element alone cannot tell
 //! the two: without these bubbles a flat one locks in bending, by `1 / (1 + (L / H)^2 / 2)`.
 
-use super::elements::element_kind;
 use super::nodal::NodalSource;
 use super::{HousingElement, HousingModel};
-use crate::fe::element::continuum::{ContinuumKind, LinearFormulation};
+use crate::fe::element::continuum::LinearFormulation;
+use crate::fe::mesh::ElementKind;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -136,11 +136,11 @@ impl HousingModel {
 
     /// Nodes of the faces of an element with incompatible modes, none of others.
     fn faces(&self, element: &HousingElement) -> Vec<Vec<usize>> {
-        if !matches!(element.kind, ContinuumKind::Quad4 | ContinuumKind::Hex8) {
+        if !matches!(element.kind, ElementKind::Quad4 | ElementKind::Hex8) {
             return Vec::new();
         }
         let nodes = self.elements.nodes(element);
-        let faces = element_kind(element.kind).faces().iter();
+        let faces = element.kind.faces().iter();
         faces.map(|face| face.nodes.iter().map(|&local| nodes[local]).collect()).collect()
     }
 
@@ -247,7 +247,7 @@ impl HousingModel {
     fn area(&self, face: &[usize], element: &HousingElement) -> f64 {
         let across = self.across(face).norm();
         match self.dimension {
-            2 => across * self.properties[element.part].thickness(),
+            2 => across * self.properties[element.part].thickness,
             _ => 0.5 * across,
         }
     }

@@ -4,8 +4,9 @@
 use super::elements::HousingElements;
 use super::nodal::{NodalMatrix, NodalSource, TiedNodes};
 use super::parts::highest_dimension;
+use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, PointMass};
-use super::{Apart, Bodies, Crossing, ModelError, Overlap, OverlapRule, RingFrame, Touching};
+use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
@@ -255,7 +256,7 @@ impl HousingModel {
     /// A group of which at least one node is on the housing, with the middle nodes that the housing has there.
     ///
     /// # Errors
-    /// [`ModelError::Mesh`], [`ModelError::NotOnHousing`], [`ModelError::GroupOrder`].
+    /// [`ModelError::Mesh`], or [`ModelError::Refused`] for a group beside the housing or without the middle nodes there.
     pub(crate) fn group_on_housing<'m>(
         &self,
         mesh: &'m Mesh,
@@ -263,22 +264,26 @@ impl HousingModel {
         purpose: &'static str,
     ) -> Result<&'m PhysicalGroup, ModelError> {
         let group = mesh.group(name)?;
-        let (path, name) = (self.path.clone(), name.to_owned());
+        let path = &self.path;
         if !group.nodes.iter().any(|&node| self.used[node]) {
-            return Err(ModelError::NotOnHousing { path, group: name, purpose });
+            return Err(not_on_housing(path, name, purpose));
         }
-        match self.bodies().without_middle_nodes(mesh, group) {
-            None => Ok(group),
-            Some(mixed) => Err(ModelError::GroupOrder { path, group: name, purpose, mixed: Box::new(mixed) }),
-        }
+        let Some(MixedOrders { edges, tags: [own, other], place: [x, y, z], .. }) =
+            self.bodies().without_middle_nodes(mesh, group)
+        else {
+            return Ok(group);
+        };
+        Err(ModelError::Refused(format!(
+            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; set Mesh.ElementOrder in gmsh and mesh again"
+        )))
     }
 }
 
 /// Parts that lie in one another as far as the rule allows it.
 ///
 /// # Errors
-/// [`ModelError::Doubled`] for elements on the same corners, [`ModelError::MixedOrders`] for elements of two orders on one
-/// edge, [`ModelError::Overlap`] for the first overlap that is not allowed.
+/// [`ModelError::Refused`] for elements on the same corners, elements of two orders on one edge, and the first overlap
+/// that is not allowed.
 fn accepted_overlaps(
     mesh: &Mesh,
     elements: &HousingElements,
@@ -286,19 +291,26 @@ fn accepted_overlaps(
     rule: OverlapRule,
     path: &str,
 ) -> Result<Vec<Overlap>, ModelError> {
-    let path = || path.to_owned();
+    let refused = |sentence: String, advice: &str| Err(ModelError::Refused(format!("{path}: {sentence}; {advice}")));
     let bodies = Bodies::of_housing(&mesh.nodes, elements, parts);
-    if let Some(doubled) = bodies.doubled().map(Box::new) {
-        return Err(ModelError::Doubled { path: path(), doubled });
+    if let Some(doubled) = bodies.doubled() {
+        return refused(
+            doubled.sentence(),
+            "their mass and stiffness would count twice: keep each element once; put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
+        );
     }
-    if let Some(mixed) = bodies.mixed_orders().map(Box::new) {
-        return Err(ModelError::MixedOrders { path: path(), mixed });
+    if let Some(mixed) = bodies.mixed_orders() {
+        return refused(
+            mixed.sentence(),
+            "the body would come apart between the corners: expected all its elements in one order; set Mesh.ElementOrder in gmsh and mesh again, or tie bodies with nodes of their own by a link",
+        );
     }
     let overlaps = bodies.overlaps();
-    match (rule, overlaps.first()) {
-        (OverlapRule::Refuse, Some(first)) => {
-            Err(ModelError::Overlap { path: path(), overlap: Box::new(first.clone()) })
-        }
+    match overlaps.first() {
+        Some(first) if rule == OverlapRule::Refuse => refused(
+            first.sentence(),
+            "mass and stiffness would count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments) or delete the copy; housing.overlap = \"allow\" takes them as they are",
+        ),
         _ => Ok(overlaps),
     }
 }
@@ -308,11 +320,7 @@ fn properties(part: &HousingPart, plane: Option<PlaneModel>, path: &str) -> Resu
         None => Ok(ContinuumProperties::solid(&part.material)),
         Some(plane) => ContinuumProperties::plane(&part.material, plane.assumption, plane.thickness),
     };
-    found.map_err(|source| ModelError::Part {
-        path: path.to_owned(),
-        group: part.group.clone(),
-        source: Box::new(source),
-    })
+    found.map_err(|source| ModelError::Refused(format!("{path}: part \"{}\": {source}", part.group)))
 }
 
 /// A plane mesh has a plane model and lies in a plane z = const, a solid one has none.
@@ -323,24 +331,28 @@ fn check_plane(
     frame: &RingFrame,
     path: &str,
 ) -> Result<(), ModelError> {
-    let path = || path.to_owned();
+    let refused = |message: String| Err(ModelError::Refused(format!("{path}{message}")));
     match (dimension, plane) {
         (3, None) => return Ok(()),
-        (3, Some(_)) => return Err(ModelError::PlaneForSolids { path: path() }),
-        (_, None) => return Err(ModelError::PlaneMissing { path: path() }),
+        (3, Some(_)) => return refused(" is a mesh of solids: leave `housing.plane` out".to_owned()),
+        (_, None) => {
+            return refused(
+                " is a mesh of surfaces: expected `housing.plane = { assumption = \"stress\", thickness = ... }` (or mesh the volume in gmsh and save it)".to_owned(),
+            );
+        }
         _ => {}
     }
     let [x, y, z] = frame.axis();
     if x.hypot(y) > 1e-9 * z.abs() {
-        return Err(ModelError::AxisInPlane { path: path(), axis: [x, y, z] });
+        return refused(format!(
+            " is a plane mesh in x and y: expected a tie along the axis [0, 0, 1] or [0, 0, -1], found [{x}, {y}, {z}]"
+        ));
     }
-    match mesh.node_off_plane() {
-        Some(index) => Err(ModelError::NotPlane {
-            path: path(),
-            tag: mesh.node_tags[index],
-            z: mesh.nodes[index][2],
-            first: mesh.nodes[0][2],
-        }),
-        None => Ok(()),
-    }
+    let Some(index) = mesh.node_off_plane() else {
+        return Ok(());
+    };
+    let (tag, z, first) = (mesh.node_tags[index], mesh.nodes[index][2], mesh.nodes[0][2]);
+    refused(format!(
+        ": node {tag} lies at z = {z:e} m, the first one at z = {first:e} m: a plane housing needs a mesh in one plane z = const"
+    ))
 }

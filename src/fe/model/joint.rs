@@ -2,7 +2,7 @@
 
 use super::ModelError;
 use super::surface::{Foot, SideFace, Surface};
-use crate::fe::mesh::{Mesh, PhysicalGroup};
+use crate::fe::mesh::{BoundingBox, Mesh, PhysicalGroup};
 
 /// Distance up to which faces of two bodies count as lying on each other, in sizes of the face: the sagitta of an arc
 /// of 60 degrees over its chord.
@@ -30,7 +30,7 @@ impl Side {
     /// far as that lies on the other side.
     ///
     /// # Errors
-    /// [`ModelError::LinkApart`] if nothing of one side is on the housing or on the other side.
+    /// [`ModelError::Refused`] if nothing of one side is on the housing or on the other side.
     pub(super) fn both(
         mesh: &Mesh,
         groups: [&PhysicalGroup; 2],
@@ -42,12 +42,13 @@ impl Side {
         let whole = [0, 1].map(|k| Self::whole(mesh, groups[k], is_body[k], used));
         let [first, second] = &whole;
         let sides = [first.touching(mesh, second, is_body[0]), second.touching(mesh, first, is_body[1])];
-        match sides.iter().any(|side| side.faces.is_empty()) {
-            false => Ok(sides),
-            true => {
-                Err(ModelError::LinkApart { path: path.to_owned(), groups: groups.map(|group| group.name.clone()) })
-            }
+        if sides.iter().all(|side| !side.faces.is_empty()) {
+            return Ok(sides);
         }
+        Err(ModelError::Refused(format!(
+            "{path}: no face of \"{}\" lies on \"{}\": expected two bodies that touch, or groups of the surfaces to be linked",
+            groups[0].name, groups[1].name
+        )))
     }
 
     fn whole(mesh: &Mesh, group: &PhysicalGroup, is_body: bool, used: &[bool]) -> Self {
@@ -123,10 +124,6 @@ impl Side {
 
 /// Longest side of the box of some nodes, m.
 fn extent(mesh: &Mesh, nodes: &[usize]) -> f64 {
-    let side = |axis: usize| {
-        let along = nodes.iter().map(|&node| mesh.nodes[node][axis]);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
-    };
-    [0, 1, 2].map(side).into_iter().fold(0.0, f64::max)
+    let sides = BoundingBox::of(nodes.iter().map(|&node| mesh.nodes[node])).extent();
+    sides.into_iter().fold(0.0, f64::max)
 }

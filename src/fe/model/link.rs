@@ -3,11 +3,10 @@
 use super::housing::HousingModel;
 use super::joint::Side;
 use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes};
-use super::overlap::Tied;
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
-use super::{Apart, ModelError, OverlapRule, parts::dimension_name};
+use super::{Apart, ModelError, OverlapRule, parts::check_dimension};
 use crate::fe::mesh::Mesh;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
 use nalgebra::DMatrix;
@@ -52,7 +51,7 @@ impl HousingModel {
     /// Number of nodes that both sides have, which no link joins to themselves.
     ///
     /// # Errors
-    /// [`ModelError::LinkToItself`] if one side has no others.
+    /// [`ModelError::Refused`] if one side has no others.
     fn common(&self, [first, second]: &[Side; 2]) -> Result<usize, ModelError> {
         let (least, other) = match first.nodes.len() <= second.nodes.len() {
             true => (first, second),
@@ -60,28 +59,17 @@ impl HousingModel {
         };
         let in_other = |node: &&usize| other.nodes.binary_search(node).is_ok();
         let common = least.nodes.iter().filter(in_other).count();
-        match common < least.nodes.len() {
-            true => Ok(common),
-            false => Err(ModelError::LinkToItself {
-                path: self.path.clone(),
-                groups: [least.name.clone(), other.name.clone()],
-                nodes: common,
-            }),
+        if common < least.nodes.len() {
+            return Ok(common);
         }
+        Err(ModelError::Refused(format!(
+            "{}: a link joins \"{}\" to \"{}\", and all {common} nodes of the one are nodes of the other: it joins them to themselves; expected two surfaces with nodes of their own; give the faces of each body a group of its own, or leave the link out",
+            self.path, least.name, other.name
+        )))
     }
 
     fn check_surface(&self, side: &Side) -> Result<(), ModelError> {
-        let expected = self.dimension - 1;
-        if side.dimension == expected {
-            return Ok(());
-        }
-        Err(ModelError::GroupDimension {
-            path: self.path.clone(),
-            group: side.name.clone(),
-            found: dimension_name(side.dimension),
-            expected: dimension_name(expected),
-            purpose: "a tie between parts",
-        })
+        check_dimension(&self.path, &side.name, side.dimension, self.dimension - 1, "a tie between parts")
     }
 
     fn attach_link_springs(
@@ -137,7 +125,7 @@ impl HousingModel {
     /// The nodes of a side with the faces of the other that they follow.
     ///
     /// # Errors
-    /// [`ModelError::TieGap`] if some of them are not near it.
+    /// [`ModelError::Refused`] if some of them are not near it.
     fn feet(&self, mesh: &Mesh, link: usize, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
         let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
@@ -162,47 +150,46 @@ impl HousingModel {
         if far == 0 {
             return Ok(tied);
         }
-        Err(ModelError::TieGap {
-            path: self.path.clone(),
-            group: side.name.clone(),
-            to: to.name.clone(),
-            count: far,
-            total: side.nodes.len(),
-            tag: self.node_tags[worst.1],
-            distance: worst.0,
-        })
+        let (distance, farthest) = worst;
+        Err(ModelError::Refused(format!(
+            "{}: {far} of the {} nodes of group \"{}\" are too far from \"{}\" to be tied to it (node {}: {distance:.3e} m, more than half a face): expected two surfaces that lie on each other, one within the other",
+            self.path,
+            side.nodes.len(),
+            side.name,
+            to.name,
+            self.node_tags[farthest]
+        )))
     }
 
     /// Ties whose sides do not lie on each other.
     ///
     /// # Errors
-    /// [`ModelError::TieInside`] for one that ends within the other body, unless bodies may lie in one another.
+    /// [`ModelError::Refused`] for one that ends within the other body, unless bodies may lie in one another.
     pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
         let ties = self.links.iter().enumerate();
         let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
-        let density: Vec<f64> = self.properties.iter().map(|part| part.density() * part.thickness()).collect();
+        let density: Vec<f64> = self.properties.iter().map(|part| part.density * part.thickness).collect();
         let found = ties.filter_map(|(index, link)| {
             let own = self.tied.iter().filter(|(_, tied)| tied.link == index);
-            let own = own.map(|(&node, tied)| Tied { node, face: &tied.nodes, foot: tied.foot, size: tied.size });
-            let own: Vec<Tied> = own.collect();
+            let own: Vec<(usize, &TiedNode)> = own.map(|(&node, tied)| (node, tied)).collect();
             self.bodies().apart(&link.between, &own, &self.node_tags, &density)
         });
         let found: Vec<Apart> = found.collect();
         match found.iter().find(|apart| apart.inside > 0) {
-            Some(apart) if rule == OverlapRule::Refuse => {
-                Err(ModelError::TieInside { path: self.path.clone(), apart: Box::new(apart.clone()) })
-            }
+            Some(apart) if rule == OverlapRule::Refuse => Err(ModelError::Refused(format!(
+                "{}: {}: a tie joins faces that lie on each other; move or cut one of the bodies in gmsh, or check the groups of the link; housing.overlap = \"allow\" takes them as they are",
+                self.path,
+                apart.sentence()
+            ))),
             _ => Ok(found),
         }
     }
 
     fn chain(&self, node: usize, sides: &[Side; 2]) -> ModelError {
-        ModelError::TieChain {
-            path: self.path.clone(),
-            tag: self.node_tags[node],
-            group: sides[0].name.clone(),
-            to: sides[1].name.clone(),
-        }
+        ModelError::Refused(format!(
+            "{}: node {} carries other nodes of the link from \"{}\" to \"{}\" or is tied twice: tie each surface once, or merge the nodes in gmsh",
+            self.path, self.node_tags[node], sides[0].name, sides[1].name
+        ))
     }
 
     /// A node that is tied can neither carry another one nor be fixed.
@@ -211,16 +198,20 @@ impl HousingModel {
             if let Some(&carrier) = tied.nodes.iter().find(|node| self.tied.contains_key(node)) {
                 return Err(self.chain(carrier, sides));
             }
-            if let Some(&support) = self.fixed[node].iter().flatten().next() {
-                return Err(ModelError::TiedAndFixed {
-                    path: self.path.clone(),
-                    tag: self.node_tags[node],
-                    tied: sides[0].name.clone(),
-                    fixed: self.supports[support].group.clone(),
-                });
-            }
+            self.check_not_fixed(node, &sides[0].name)?;
         }
         Ok(())
+    }
+
+    /// A node that the group `tied` ties cannot be fixed as well.
+    pub(super) fn check_not_fixed(&self, node: usize, tied: &str) -> Result<(), ModelError> {
+        match self.fixed[node].iter().flatten().next() {
+            None => Ok(()),
+            Some(&support) => Err(ModelError::Refused(format!(
+                "{}: node {} is tied by group \"{tied}\" and fixed by group \"{}\": a node can be one or the other; take it out of one of the groups in gmsh, or support the housing elsewhere",
+                self.path, self.node_tags[node], self.supports[support].group
+            ))),
+        }
     }
 
     /// T with `u = T u'`: all displacements from those of the nodes that no link ties; `None` without ties.

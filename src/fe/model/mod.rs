@@ -2,7 +2,6 @@
 //! between ring and housing.
 
 mod attach;
-mod domain;
 mod elements;
 mod error;
 mod flat;
@@ -23,7 +22,6 @@ mod surface;
 mod tie;
 
 pub use elements::{HousingElement, HousingElements};
-pub(crate) use elements::{continuum_kind, element_kind, surface_kind};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;

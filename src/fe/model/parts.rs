@@ -1,7 +1,7 @@
 //! Which elements a housing is made of, and which part each belongs to.
 
 use super::ModelError;
-use super::elements::{HousingElement, HousingElements, continuum_kind};
+use super::elements::{HousingElement, HousingElements};
 use crate::fe::mesh::Mesh;
 
 impl HousingElements {
@@ -15,9 +15,10 @@ impl HousingElements {
         let mut found = Self::default();
         let (mut unassigned, mut first_tag) = (0, 0);
         for (block, owners) in mesh.blocks.iter().zip(&owner) {
-            let Some(kind) = continuum_kind(block.kind).filter(|kind| kind.dimension() == dimension) else {
+            let kind = block.kind;
+            if kind.dimension() != dimension {
                 continue;
-            };
+            }
             for ((nodes, &tag), owner) in block.elements().zip(&block.tags).zip(owners) {
                 match owner {
                     Some(part) => {
@@ -33,12 +34,10 @@ impl HousingElements {
             }
         }
         if unassigned > 0 {
-            return Err(ModelError::Unassigned {
-                path: path.to_owned(),
-                count: unassigned,
-                total: unassigned + found.len(),
-                tag: first_tag,
-            });
+            return Err(ModelError::Refused(format!(
+                "{path}: {unassigned} of {} elements belong to no part (the first is element {first_tag}); add their group to [housing] parts",
+                unassigned + found.len()
+            )));
         }
         Ok(found)
     }
@@ -56,24 +55,14 @@ fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<
     let mut owner: Vec<Vec<Option<usize>>> = mesh.blocks.iter().map(|block| vec![None; block.len()]).collect();
     for (part, &name) in groups.iter().enumerate() {
         let group = mesh.group(name)?;
-        if group.dimension != dimension {
-            return Err(ModelError::GroupDimension {
-                path: path.to_owned(),
-                group: name.to_owned(),
-                found: dimension_name(group.dimension),
-                expected: dimension_name(dimension),
-                purpose: "a part of this housing",
-            });
-        }
+        check_dimension(path, name, group.dimension, dimension, "a part of this housing")?;
         for element in &group.elements {
             let slot = &mut owner[element.block][element.index];
             if let Some(first) = slot.filter(|&first| first != part) {
-                return Err(ModelError::TwoParts {
-                    path: path.to_owned(),
-                    tag: mesh.blocks[element.block].tags[element.index],
-                    first: groups[first].to_owned(),
-                    second: name.to_owned(),
-                });
+                return Err(ModelError::Refused(format!(
+                    "{path}: element {} belongs to the parts \"{}\" and \"{name}\": a part of the housing has one material",
+                    mesh.blocks[element.block].tags[element.index], groups[first]
+                )));
             }
             *slot = Some(part);
         }
@@ -81,7 +70,19 @@ fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<
     Ok(owner)
 }
 
-/// What elements of a dimension are called.
-pub(super) fn dimension_name(dimension: usize) -> &'static str {
-    ["points", "curves", "surfaces", "volumes"][dimension.min(3)]
+/// A group whose elements have the dimension that its purpose needs.
+pub(super) fn check_dimension(
+    path: &str,
+    group: &str,
+    found: usize,
+    expected: usize,
+    purpose: &str,
+) -> Result<(), ModelError> {
+    if found == expected {
+        return Ok(());
+    }
+    let [found, expected] = [found, expected].map(|d| ["points", "curves", "surfaces", "volumes"][d.min(3)]);
+    Err(ModelError::Refused(format!(
+        "group \"{group}\" in {path} is made of {found}; {purpose} needs {expected}: name another group or change the physical group in gmsh"
+    )))
 }

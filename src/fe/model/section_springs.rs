@@ -27,13 +27,16 @@ impl HousingModel {
     /// nodes.
     ///
     /// # Errors
-    /// [`ModelError::RingSections`] if they do not.
+    /// [`ModelError::Refused`] if they do not.
     pub(crate) fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
         for spring in ring.springs() {
             let (node, in_plane) = ring.node_of(spring.dofs[0]);
             let stations = solid.sections.len();
             if !(node * stations).is_multiple_of(ring.nodes()) {
-                return Err(ModelError::RingSections { nodes: ring.nodes(), sections: stations });
+                return Err(ModelError::Refused(format!(
+                    "springs at {} ring nodes need as many sections of the solid ring or a multiple, found {stations}",
+                    ring.nodes()
+                )));
             }
             let section = &solid.sections[node * stations / ring.nodes()];
             let motion = self.section_motion(section, ring.node_angle(node), solid.radius);

@@ -1,7 +1,6 @@
 //! A ring of rectangular section as a body of elements, in a mesh of its own or added to another.
 
 use super::RingFrame;
-use crate::fe::element::continuum::ContinuumKind;
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -151,7 +150,7 @@ impl Grid {
         let mut connectivity = Vec::new();
         for origin in origins([ring.across, ring.around, ring.layers(dimension).unwrap_or(1)]) {
             match dimension {
-                3 => connectivity.extend(self.element(origin, &CORNERS, ContinuumKind::Hex20.edges())),
+                3 => connectivity.extend(self.element(origin, &CORNERS, ElementKind::Hex20.middle_edges())),
                 _ => {
                     // counter-clockwise in the mesh's x and y
                     let corners = [0, 1, 2, 3].map(|corner| {
@@ -161,7 +160,7 @@ impl Grid {
                             false => [across, along, up],
                         }
                     });
-                    connectivity.extend(self.element(origin, &corners, ContinuumKind::Quad8.edges()));
+                    connectivity.extend(self.element(origin, &corners, ElementKind::Quad8.middle_edges()));
                 }
             }
         }
@@ -176,7 +175,7 @@ impl Grid {
                 3 => {
                     // outward normal: e_t x e_z
                     let corners = [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]];
-                    connectivity.extend(self.element(origin, &corners, ContinuumKind::Quad8.edges()));
+                    connectivity.extend(self.element(origin, &corners, ElementKind::Quad8.middle_edges()));
                 }
                 _ => {
                     let ends = [[0, 0, 0], [0, 2, 0]];

@@ -1,7 +1,6 @@
 use super::*;
 use crate::fe::element::continuum::quality;
 use crate::fe::mesh::{MshFormat, MshVersion};
-use crate::fe::model::continuum_kind;
 use std::path::PathBuf;
 
 const RING: SolidRing = SolidRing { radius: 5.0, height: 1.5, width: 4.0, around: 24, across: 2, along: 4 };
@@ -40,7 +39,7 @@ fn the_elements_fill_the_ring() {
                 let block = &mesh.blocks[id.block];
                 let nodes = block.element(id.index).expect("an element");
                 let places: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
-                let kind = continuum_kind(block.kind).expect("a body");
+                let kind = block.kind;
                 let shape = quality(kind, &places).expect("numbers");
                 // a cell of 15 degrees: inner side over outer side is 0.74 across the whole ring
                 assert!(shape.scaled_jacobian > 0.7, "{dimension}: {shape:?}");

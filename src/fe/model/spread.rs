@@ -4,8 +4,7 @@
 //! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
-use super::elements::{continuum_kind, surface_kind};
-use crate::fe::element::continuum::{ContinuumKind, SurfaceKind, measure_matrix, surface_matrix};
+use crate::fe::element::continuum::{measure_matrix, surface_matrix};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;
 use std::collections::BTreeSet;
@@ -21,7 +20,7 @@ pub(super) struct Share {
 /// Shares of the nodes and elements of a group that the housing uses.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an element without length, area or volume, [`ModelError::NotOnHousing`] if no whole
+/// [`ModelError::Refused`] for an element without length, area or volume, [`ModelError::Refused`] if no whole
 /// element lies on the housing.
 pub(super) fn shares(
     mesh: &Mesh,
@@ -38,11 +37,7 @@ pub(super) fn shares(
     let (shares, _) = spread(mesh, elements)?;
     match shares.is_empty() {
         false => Ok(shares),
-        true => Err(ModelError::NotOnHousing {
-            path: mesh.source.display().to_string(),
-            group: group.name.clone(),
-            purpose,
-        }),
+        true => Err(not_on_housing(&mesh.source.display().to_string(), &group.name, purpose)),
     }
 }
 
@@ -50,7 +45,7 @@ pub(super) fn shares(
 /// and have none. What is listed twice counts once, a triangle in a quadrilateral not at all.
 ///
 /// # Errors
-/// [`ModelError::Element`] for an element without length, area or volume.
+/// [`ModelError::Refused`] for an element without length, area or volume.
 pub(super) fn spread<'a>(
     mesh: &Mesh,
     elements: impl Iterator<Item = (ElementKind, &'a [usize], u64)>,
@@ -77,16 +72,12 @@ pub(super) fn spread<'a>(
             continue; // a group is a set
         }
         let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
-        let matrix = match Spread::of(kind) {
-            Some(Spread::Surface(kind)) => surface_matrix(kind, &coordinates),
-            Some(Spread::Volume(kind)) => measure_matrix(kind, &coordinates),
-            None => Ok(DMatrix::from_element(1, 1, 1.0)),
+        let matrix = match kind.dimension() {
+            0 => Ok(DMatrix::from_element(1, 1, 1.0)),
+            3 => measure_matrix(kind, &coordinates),
+            _ => surface_matrix(kind, &coordinates),
         };
-        let matrix = matrix.map_err(|source| ModelError::Element {
-            path: mesh.source.display().to_string(),
-            tag,
-            source: Box::new(source),
-        })?;
+        let matrix = matrix.map_err(|source| ModelError::element(&mesh.source.display().to_string(), tag, &source))?;
         total += matrix.sum();
         let nodes = nodes.to_vec();
         found.push(Share { nodes, matrix });
@@ -97,18 +88,11 @@ pub(super) fn spread<'a>(
     Ok((found, total))
 }
 
-enum Spread {
-    Surface(SurfaceKind),
-    Volume(ContinuumKind),
-}
-
-impl Spread {
-    fn of(kind: ElementKind) -> Option<Self> {
-        match surface_kind(kind) {
-            Some(kind) => Some(Self::Surface(kind)),
-            None => continuum_kind(kind).map(Self::Volume),
-        }
-    }
+/// A group of which nothing, or no whole element, is on the housing.
+pub(super) fn not_on_housing(path: &str, group: &str, purpose: &str) -> ModelError {
+    ModelError::Refused(format!(
+        "group \"{group}\" in {path}: no part of it belongs to an element of the housing, so {purpose} would hang on nothing"
+    ))
 }
 
 impl Share {

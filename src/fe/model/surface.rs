@@ -1,8 +1,6 @@
 //! The surface of one side of a link, and the point of it that is nearest to a given one.
 
-use super::domain::Domain;
-use super::elements::surface_kind;
-use crate::fe::element::continuum::{SurfaceKind, surface_shape};
+use crate::fe::element::continuum::shape;
 use crate::fe::mesh::{ElementKind, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
@@ -31,7 +29,7 @@ pub(super) struct Surface<'m> {
 
 #[derive(Debug)]
 struct Face {
-    kind: Option<SurfaceKind>,
+    kind: ElementKind,
     nodes: Vec<usize>,
     low: Vector3<f64>,
     high: Vector3<f64>,
@@ -56,7 +54,7 @@ pub(super) struct Foot {
 impl<'m> Surface<'m> {
     /// The surface that these faces make.
     pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
-        let face = |face: &SideFace| Face::new(mesh, surface_kind(face.kind), &face.nodes);
+        let face = |face: &SideFace| Face::new(mesh, face.kind, &face.nodes);
         Self { mesh, faces: faces.iter().map(face).collect() }
     }
 
@@ -85,7 +83,7 @@ struct Local {
 }
 
 impl Face {
-    fn new(mesh: &Mesh, kind: Option<SurfaceKind>, nodes: &[usize]) -> Self {
+    fn new(mesh: &Mesh, kind: ElementKind, nodes: &[usize]) -> Self {
         let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(-f64::INFINITY));
         for &node in nodes {
             let at = Vector3::from(mesh.nodes[node]);
@@ -102,11 +100,11 @@ impl Face {
 
     fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
         let mut local = Local { place: Vector3::zeros(), tangents: [Vector3::zeros(); 2] };
-        let Some(kind) = self.kind else {
+        if self.kind == ElementKind::Point {
             local.place = Vector3::from(mesh.nodes[self.nodes[0]]);
             return local;
-        };
-        let (values, derivatives) = surface_shape(kind, natural);
+        }
+        let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
         for ((&node, value), derivative) in self.nodes.iter().zip(values).zip(derivatives) {
             let at = Vector3::from(mesh.nodes[node]);
             local.place += at * value;
@@ -120,10 +118,10 @@ impl Face {
     /// Natural coordinates and distance of the nearest point: inside, or else on a side.
     fn project(&self, mesh: &Mesh, point: &Vector3<f64>) -> ([f64; 2], f64) {
         let distance = |natural| (self.at(mesh, natural).place - point).norm();
-        let Some(kind) = self.kind else {
+        if self.kind == ElementKind::Point {
             return ([0.0; 2], distance([0.0; 2]));
-        };
-        let domain = Domain::of(kind);
+        }
+        let domain = Domain::of(self.kind);
         if let Some(inside) = self.descend(mesh, point, domain.centre, &domain) {
             return (inside, distance(inside));
         }
@@ -185,11 +183,11 @@ impl Face {
     fn foot(&self, mesh: &Mesh, point: &Vector3<f64>, natural: [f64; 2], distance: f64) -> Foot {
         let local = self.at(mesh, natural);
         let gap = (point - local.place).cross_matrix();
-        let turns = |derivative: [f64; 2]| -> Matrix3<f64> { rotation_rows(&local.tangents, derivative) };
+        let turns = |[xi, eta, _]: [f64; 3]| -> Matrix3<f64> { rotation_rows(&local.tangents, [xi, eta]) };
         let follow = match self.kind {
-            None => vec![Matrix3::identity()],
-            Some(kind) => {
-                let (values, derivatives) = surface_shape(kind, natural);
+            ElementKind::Point => vec![Matrix3::identity()],
+            kind => {
+                let (values, derivatives) = shape(kind, [natural[0], natural[1], 0.0]);
                 let nodes = self.nodes.len();
                 let pairs = values.into_iter().zip(derivatives).take(nodes);
                 pairs
@@ -225,6 +223,53 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
         rows += (normal * across.transpose() * 0.5 - across * normal.transpose()) * factor;
     }
     rows
+}
+
+/// The natural coordinates that a face has.
+struct Domain {
+    dimension: usize,
+    centre: [f64; 2],
+    triangle: bool,
+    sides: &'static [[[f64; 2]; 2]],
+}
+
+impl Domain {
+    fn of(kind: ElementKind) -> Self {
+        const ENDS: [[[f64; 2]; 2]; 2] = [[[-1.0, 0.0]; 2], [[1.0, 0.0]; 2]];
+        const TRIANGLE: [[[f64; 2]; 2]; 3] =
+            [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [0.0, 0.0]]];
+        const SQUARE: [[[f64; 2]; 2]; 4] = [
+            [[-1.0, -1.0], [1.0, -1.0]],
+            [[1.0, -1.0], [1.0, 1.0]],
+            [[1.0, 1.0], [-1.0, 1.0]],
+            [[-1.0, 1.0], [-1.0, -1.0]],
+        ];
+        let (dimension, triangle, sides): (_, _, &'static [_]) = match kind {
+            ElementKind::Line2 | ElementKind::Line3 => (1, false, &ENDS),
+            ElementKind::Tri3 | ElementKind::Tri6 => (2, true, &TRIANGLE),
+            _ => (2, false, &SQUARE),
+        };
+        let centre = if triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
+        Self { dimension, centre, triangle, sides }
+    }
+
+    fn within(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {
+        if self.triangle {
+            xi >= -margin && eta >= -margin && xi + eta <= 1.0 + margin
+        } else {
+            xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin
+        }
+    }
+
+    /// Inside or on the boundary, but for round-off.
+    fn contains(&self, natural: [f64; 2]) -> bool {
+        self.within(natural, 1e-12)
+    }
+
+    /// Not so far out that a search from there could still end inside.
+    fn near(&self, natural: [f64; 2]) -> bool {
+        self.within(natural, 1.0)
+    }
 }
 
 #[cfg(test)]

@@ -53,9 +53,8 @@ impl RingTie {
     /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m); where it is not known, the nodes may be anywhere.
     ///
     /// # Errors
-    /// [`ModelError::TieRadius`] or [`ModelError::TieAxial`] if the nodes are not at the ring, [`ModelError::TiedAndFixed`],
-    /// [`ModelError::TiedTwice`], [`ModelError::RingDimension`] for a plane ring in a solid housing or the
-    /// other way round, and what finding the group reports.
+    /// [`ModelError::Refused`] if the nodes are not at the ring, are fixed or tied elsewhere, for a plane ring in a solid
+    /// housing or the other way round, and what finding the group reports.
     pub fn new(
         mesh: &Mesh,
         housing: &HousingModel,
@@ -65,7 +64,10 @@ impl RingTie {
         fit: Fit,
     ) -> Result<Self, ModelError> {
         if ring.is_in_space() != (housing.dimension == 3) {
-            return Err(ModelError::RingDimension { path: housing.path.clone() });
+            return Err(ModelError::Refused(format!(
+                "{}: a solid housing needs a ring in space, a plane one a ring in the plane",
+                housing.path
+            )));
         }
         let bore = housing.group_on_housing(mesh, group, "the tie")?;
         let on_housing = |node: &usize| housing.used[*node];
@@ -156,17 +158,10 @@ fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize,
             let pairs = rows.dofs.into_iter().zip(rows.radial).zip(tangential);
             pairs.map(|((dof, w), u)| (dof, [w, u, 0.0])).collect()
         }
-        Some(rows) => (0..rows.dofs.len())
-            .map(|k| {
-                // u_C + omega x (arm e_r + z e_z)
-                let moves = [
-                    rows.radial[k] + z * rows.about_tangential[k],
-                    rows.tangential[k] + arm * rows.about_axial[k] - z * rows.about_radial[k],
-                    rows.axial[k] - arm * rows.about_tangential[k],
-                ];
-                (rows.dofs[k], moves)
-            })
-            .collect(),
+        Some(rows) => {
+            let moves = rows.displacement_at(arm, z);
+            (0..rows.dofs.len()).map(|k| (rows.dofs[k], moves.map(|row| row[k]))).collect()
+        }
     }
 }
 
@@ -179,14 +174,11 @@ fn check_radius(housing: &HousingModel, group: &str, nodes: &[usize], outer_radi
     let farthest = nodes.iter().map(radius).fold(0.0, f64::max);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
-        return Err(ModelError::TieRadius {
-            path: housing.path.clone(),
-            group: group.to_owned(),
-            expected: outer_radius,
-            nearest,
-            farthest,
-            frame: Box::new(housing.frame),
-        });
+        let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
+        return Err(ModelError::Refused(format!(
+            "the tie finds no nodes of group \"{group}\" ({}) at the ring's outer radius {outer_radius:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
+            housing.path
+        )));
     }
     Ok(())
 }
@@ -198,13 +190,11 @@ fn check_axial(housing: &HousingModel, group: &str, nodes: &[usize], outer_radiu
     let highest = nodes.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
     if housing.dimension == 3 && (lowest > tolerance || highest < -tolerance) {
-        return Err(ModelError::TieAxial {
-            path: housing.path.clone(),
-            group: group.to_owned(),
-            lowest,
-            highest,
-            frame: Box::new(housing.frame),
-        });
+        let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
+        return Err(ModelError::Refused(format!(
+            "the ring's plane, through ({x:e}, {y:e}, {z:e}) m across ({a}, {b}, {c}), does not cut the group \"{group}\" ({}) that it is tied to: its nodes lie {lowest:.6e} to {highest:.6e} m from there along the axis, expected on both sides; check length_unit and tie.centre",
+            housing.path
+        )));
     }
     Ok(())
 }
@@ -212,20 +202,12 @@ fn check_axial(housing: &HousingModel, group: &str, nodes: &[usize], outer_radiu
 /// No node of the bore is fixed or tied by a link.
 fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<(), ModelError> {
     for &node in nodes {
-        if let Some(&support) = housing.fixed[node].iter().flatten().next() {
-            return Err(ModelError::TiedAndFixed {
-                path: housing.path.clone(),
-                tag: housing.node_tags[node],
-                tied: group.to_owned(),
-                fixed: housing.supports[support].group.clone(),
-            });
-        }
+        housing.check_not_fixed(node, group)?;
         if housing.tied.contains_key(&node) {
-            return Err(ModelError::TiedTwice {
-                path: housing.path.clone(),
-                tag: housing.node_tags[node],
-                bore: group.to_owned(),
-            });
+            return Err(ModelError::Refused(format!(
+                "{}: node {} of the bore \"{group}\" is tied to the ring and, by a link, to another part: keep the bore out of the linked surfaces, or join the parts by stiff springs (spring in the place of tie)",
+                housing.path, housing.node_tags[node]
+            )));
         }
     }
     Ok(())

@@ -15,6 +15,7 @@ mod interior_basis;
 mod residual_flexibility;
 mod response_estimate;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 mod samples;
 mod selection;
 mod size_study;

@@ -34,7 +34,6 @@ pub(super) fn descriptor(kind: ElementKind) -> Option<Descriptor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::element::continuum::ContinuumKind;
 
     /// Places of the dataset: a middle node and the two corners that it stands between.
     fn ring(first: usize, corners: usize) -> Vec<[usize; 3]> {
@@ -55,20 +54,20 @@ mod tests {
         };
         let tet10: Vec<[usize; 3]> = (0..3).map(|k| [6 + k, 2 * k, 9]).collect();
         let kinds = [
-            (ElementKind::Tri6, ContinuumKind::Tri6, ring(0, 3)),
-            (ElementKind::Quad8, ContinuumKind::Quad8, ring(0, 4)),
-            (ElementKind::Tet10, ContinuumKind::Tet10, [ring(0, 3), tet10].concat()),
-            (ElementKind::Hex20, ContinuumKind::Hex20, [ring(0, 4), between(8, 4), ring(12, 4)].concat()),
-            (ElementKind::Wedge15, ContinuumKind::Wedge15, [ring(0, 3), between(6, 3), ring(9, 3)].concat()),
+            (ElementKind::Tri6, ring(0, 3)),
+            (ElementKind::Quad8, ring(0, 4)),
+            (ElementKind::Tet10, [ring(0, 3), tet10].concat()),
+            (ElementKind::Hex20, [ring(0, 4), between(8, 4), ring(12, 4)].concat()),
+            (ElementKind::Wedge15, [ring(0, 3), between(6, 3), ring(9, 3)].concat()),
         ];
-        for (kind, continuum, middles) in kinds {
+        for (kind, middles) in kinds {
             let order = descriptor(kind).unwrap().order;
             let mut sorted = order.to_vec();
             sorted.sort_unstable();
             assert_eq!(sorted, (0..kind.nodes()).collect::<Vec<_>>(), "{kind:?}");
-            assert_eq!(middles.len(), continuum.edges().len(), "{kind:?}");
+            assert_eq!(middles.len(), kind.middle_edges().len(), "{kind:?}");
             for [middle, from, to] in middles {
-                let place = |own: usize| continuum.natural_nodes()[order[own]];
+                let place = |own: usize| kind.natural_nodes()[order[own]];
                 let (from, to) = (place(from), place(to));
                 let expected = [0, 1, 2].map(|axis| (from[axis] + to[axis]) / 2.0);
                 assert_eq!(place(middle), expected, "{kind:?} node {middle}");

@@ -46,7 +46,6 @@ pub(super) fn node_order(kind: ElementKind) -> &'static [usize] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::element::continuum::ContinuumKind;
 
     const TRIANGLE: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
     const QUADRILATERAL: [[usize; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
@@ -58,20 +57,20 @@ mod tests {
     #[allow(clippy::float_cmp)] // halves of small integers are exact
     #[test]
     fn middle_nodes_lie_between_the_corners_of_their_edge() {
-        let kinds: [(ElementKind, ContinuumKind, &[[usize; 2]]); 10] = [
-            (ElementKind::Tri3, ContinuumKind::Tri3, &[]),
-            (ElementKind::Tri6, ContinuumKind::Tri6, &TRIANGLE),
-            (ElementKind::Quad4, ContinuumKind::Quad4, &[]),
-            (ElementKind::Quad8, ContinuumKind::Quad8, &QUADRILATERAL),
-            (ElementKind::Tet4, ContinuumKind::Tet4, &[]),
-            (ElementKind::Tet10, ContinuumKind::Tet10, &TETRAHEDRON),
-            (ElementKind::Hex8, ContinuumKind::Hex8, &[]),
-            (ElementKind::Hex20, ContinuumKind::Hex20, &HEXAHEDRON),
-            (ElementKind::Wedge6, ContinuumKind::Wedge6, &[]),
-            (ElementKind::Wedge15, ContinuumKind::Wedge15, &WEDGE),
+        let kinds: [(ElementKind, &[[usize; 2]]); 10] = [
+            (ElementKind::Tri3, &[]),
+            (ElementKind::Tri6, &TRIANGLE),
+            (ElementKind::Quad4, &[]),
+            (ElementKind::Quad8, &QUADRILATERAL),
+            (ElementKind::Tet4, &[]),
+            (ElementKind::Tet10, &TETRAHEDRON),
+            (ElementKind::Hex8, &[]),
+            (ElementKind::Hex20, &HEXAHEDRON),
+            (ElementKind::Wedge6, &[]),
+            (ElementKind::Wedge15, &WEDGE),
         ];
-        for (kind, continuum, edges) in kinds {
-            let place = |vtk: usize| continuum.natural_nodes()[node_order(kind)[vtk]];
+        for (kind, edges) in kinds {
+            let place = |vtk: usize| kind.natural_nodes()[node_order(kind)[vtk]];
             let corners = kind.nodes() - edges.len();
             assert_eq!(node_order(kind)[..corners], SAME[..corners], "{kind:?}");
             for (index, &[from, to]) in edges.iter().enumerate() {

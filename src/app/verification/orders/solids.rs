@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 use super::super::structured_mesh::{BODY, StructuredMesh};
 use super::{Family, Series, VerificationError};
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::element::continuum::{ContinuumKind, Formulation, Integration, LinearFormulation};
+use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::material::Material;
+use crate::fe::mesh::ElementKind;
 use crate::fe::modal::{ModalBasis, ModeRange};
 use crate::fe::model::{HousingDescription, HousingModel, HousingPart};
 use crate::numerics::linalg::EigenProblem;
@@ -23,13 +24,13 @@ const MODES: usize = 4;
 const HALF_WAVES: usize = 9;
 
 /// An element, how its stiffness is formed, how often each mesh divides the coarsest, and the limit of the order.
-type Row = (ContinuumKind, LinearFormulation, &'static [usize], f64);
+type Row = (ElementKind, LinearFormulation, &'static [usize], f64);
 
 const ROWS: [Row; 4] = [
-    (ContinuumKind::Hex8, LinearFormulation::Plain, &[1, 2, 4], 0.05),
-    (ContinuumKind::Hex8, LinearFormulation::Incompatible, &[1, 2, 4], 0.05),
-    (ContinuumKind::Hex20, LinearFormulation::Plain, &[1, 2, 3], 0.025),
-    (ContinuumKind::Tet10, LinearFormulation::Plain, &[1, 2, 3], 0.075),
+    (ElementKind::Hex8, LinearFormulation::Plain, &[1, 2, 4], 0.05),
+    (ElementKind::Hex8, LinearFormulation::Incompatible, &[1, 2, 4], 0.05),
+    (ElementKind::Hex20, LinearFormulation::Plain, &[1, 2, 3], 0.025),
+    (ElementKind::Tet10, LinearFormulation::Plain, &[1, 2, 3], 0.075),
 ];
 
 pub(super) fn solids() -> Result<Family, VerificationError> {
@@ -48,7 +49,7 @@ pub(super) fn solids() -> Result<Family, VerificationError> {
 }
 
 fn of_element(
-    kind: ContinuumKind,
+    kind: ElementKind,
     linear: LinearFormulation,
     divisions: &[usize],
     limit: f64,
@@ -56,9 +57,9 @@ fn of_element(
     let exact = standing_waves()?;
     let found = divisions.iter().map(|&n| frequencies(kind, linear, n));
     let found = found.collect::<Result<Vec<_>, _>>()?;
-    let incompatible = kind == ContinuumKind::Hex8 && linear == LinearFormulation::Incompatible;
+    let incompatible = kind == ElementKind::Hex8 && linear == LinearFormulation::Incompatible;
     let name = if incompatible { "Hex8 incompatible" } else { kind.name() };
-    let degree = if kind.edges().is_empty() { 1.0 } else { 2.0 };
+    let degree = kind.order() as f64;
     let series = |mode: usize| Series {
         name: format!("{name}, wave {}", mode + 1),
         sizes: divisions.iter().map(|&n| BOX[2] / n as f64).collect(),
@@ -94,11 +95,7 @@ fn standing_waves() -> Result<Vec<f64>, VerificationError> {
 }
 
 /// The lowest frequencies of a mesh, Hz.
-fn frequencies(
-    kind: ContinuumKind,
-    linear: LinearFormulation,
-    divisions: usize,
-) -> Result<Vec<f64>, VerificationError> {
+fn frequencies(kind: ElementKind, linear: LinearFormulation, divisions: usize) -> Result<Vec<f64>, VerificationError> {
     let mesh = StructuredMesh::new(kind, CELLS.map(|n| n * divisions), |x| [0, 1, 2].map(|i| BOX[i] * x[i]));
     let description = HousingDescription {
         parts: vec![HousingPart { group: BODY.to_owned(), material: material()?.into() }],

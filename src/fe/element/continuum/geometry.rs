@@ -1,8 +1,9 @@
-//! From natural to real coordinates, and the check that an element is one.
+//! From natural to real coordinates, the check that an element is one, and how well it is shaped.
 
-use super::table::{Table, tables};
-use super::{ContinuumKind, shape_values};
+use super::shape_values;
+use super::table::{Table, for_kind, tables};
 use crate::fe::element::ElementError;
+use crate::fe::mesh::ElementKind;
 
 /// Smallest Jacobian determinant accepted, as a part of the size of the element to the power of its dimension:
 /// far below any useful shape (a strip or plate 1e4 times as long as thick has 1e-4, such a needle 1e-8) and
@@ -29,12 +30,8 @@ pub(super) struct Placed<const N: usize> {
 
 impl<const N: usize> Placed<N> {
     /// Checks the number of coordinates, that they are finite, and the size. Plane elements do not read z.
-    pub(super) fn new(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<Self, ElementError> {
-        let given: &[[f64; 3]; N] = coords.try_into().map_err(|_| ElementError::NodeCount {
-            kind: kind.name(),
-            expected: N,
-            found: coords.len(),
-        })?;
+    pub(super) fn new(kind: ElementKind, coords: &[[f64; 3]]) -> Result<Self, ElementError> {
+        let given: &[[f64; 3]; N] = coords.try_into().map_err(|_| wrong_node_count(kind, coords))?;
         let mut finite = true;
         let (mut size, mut distance) = (0.0_f64, 0.0_f64);
         let mut relative = [[0.0; 3]; N];
@@ -47,16 +44,19 @@ impl<const N: usize> Placed<N> {
             }
         }
         if !finite {
-            return Err(not_finite(kind.name(), coords));
+            return Err(not_finite(kind, coords));
         }
         if size > LARGEST_SIZE {
-            return Err(ElementError::TooLarge { kind: kind.name(), size, largest: LARGEST_SIZE });
+            return Err(ElementError(format!(
+                "the {} element measures {size:e} m: expected at most {LARGEST_SIZE:e} m",
+                kind.name()
+            )));
         }
         // coordinates are rounded where they are, not where the element is
         let allowed = STRAIGHT * size + 2.0 * f64::EPSILON * distance;
         let corners = kind.corners();
         let mut straight = true;
-        for (&[a, b], middle) in kind.edges().iter().zip(&relative[corners..]) {
+        for (&[a, b], middle) in kind.middle_edges().iter().zip(&relative[corners..]) {
             for i in 0..3 {
                 let expected = 0.5 * (relative[a][i] + relative[b][i]);
                 straight &= (middle[i] - expected).abs() <= allowed;
@@ -66,24 +66,33 @@ impl<const N: usize> Placed<N> {
     }
 
     /// The determinants found are all well above zero.
-    pub(super) fn accepts(&self, kind: ContinuumKind, smallest: f64) -> bool {
+    pub(super) fn accepts(&self, kind: ElementKind, smallest: f64) -> bool {
         smallest > SMALLEST_DETERMINANT * power(self.size, kind.dimension())
     }
 
     /// The smallest determinant at the nodes, m^2 or m^3. At the corners that is sufficient for straight plane
     /// elements; a strongly curved or warped one could still fold between nodes and points.
-    pub(super) fn smallest_at_nodes<const D: usize>(&self, kind: ContinuumKind) -> f64 {
+    pub(super) fn smallest_at_nodes<const D: usize>(&self, kind: ElementKind) -> f64 {
         let table = &tables(kind).nodes;
         let rows = table.derivatives::<N>().chunks_exact(D);
         rows.map(|rows| Jacobian::new::<N, D>(&self.coords, rows).determinant()).fold(f64::INFINITY, f64::min)
     }
 }
 
+/// Another number of coordinates than the kind has nodes.
+pub(super) fn wrong_node_count(kind: ElementKind, coords: &[[f64; 3]]) -> ElementError {
+    ElementError(format!("a {} element has {} nodes, found {}", kind.name(), kind.nodes(), coords.len()))
+}
+
 /// The first coordinate that is not finite.
-pub(super) fn not_finite(kind: &'static str, coords: &[[f64; 3]]) -> ElementError {
+pub(super) fn not_finite(kind: ElementKind, coords: &[[f64; 3]]) -> ElementError {
     let bad = |node: &[f64; 3]| !node.iter().all(|value| value.is_finite());
     let node = coords.iter().position(bad).unwrap_or_default();
-    ElementError::NotFinite { kind, node, position: coords.get(node).copied().unwrap_or_default() }
+    let [x, y, z] = coords.get(node).copied().unwrap_or_default();
+    ElementError(format!(
+        "node {node} of the {} element has the coordinates ({x}, {y}, {z}) m: expected finite numbers",
+        kind.name()
+    ))
 }
 
 /// `x^dimension` for 2 and 3.
@@ -140,7 +149,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// `x = sum N_a x_a`, m.
-fn position(kind: ContinuumKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
+fn position(kind: ElementKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
     let mut position = [0.0; 3];
     for (node, value) in coords.iter().zip(shape_values(kind, natural)) {
         for i in 0..kind.dimension() {
@@ -152,18 +161,14 @@ fn position(kind: ContinuumKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64
 
 /// The smallest and the largest determinant at the nodes and the points of a rule, and where they are.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Extremes {
-    pub(super) low: f64,
-    pub(super) low_at: [f64; 3],
-    pub(super) high: f64,
-    pub(super) high_at: [f64; 3],
+struct Extremes {
+    low: f64,
+    low_at: [f64; 3],
+    high: f64,
+    high_at: [f64; 3],
 }
 
-pub(super) fn extremes<const N: usize, const D: usize>(
-    kind: ContinuumKind,
-    coords: &[[f64; 3]; N],
-    table: &Table,
-) -> Extremes {
+fn extremes<const N: usize, const D: usize>(kind: ElementKind, coords: &[[f64; 3]; N], table: &Table) -> Extremes {
     let mut found = Extremes { low: f64::INFINITY, low_at: [0.0; 3], high: f64::NEG_INFINITY, high_at: [0.0; 3] };
     for table in [&tables(kind).nodes, table] {
         let rows = table.derivatives::<N>().chunks_exact(D);
@@ -180,37 +185,79 @@ pub(super) fn extremes<const N: usize, const D: usize>(
     found
 }
 
-impl Extremes {
-    /// Where the smallest determinant is, m.
-    pub(super) fn low_position(&self, kind: ContinuumKind, coords: &[[f64; 3]]) -> [f64; 3] {
-        position(kind, coords, self.low_at)
-    }
-}
-
 /// What is wrong with an element that was not accepted.
 #[cold]
 pub(super) fn diagnose<const N: usize, const D: usize>(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     placed: &Placed<N>,
     table: &Table,
 ) -> ElementError {
     let found = extremes::<N, D>(kind, &placed.coords, table);
-    let limit = SMALLEST_DETERMINANT * power(placed.size, D);
-    if found.high < -limit {
-        ElementError::Inverted {
-            kind: kind.name(),
-            dimension: D,
-            determinant: found.high,
-            position: position(kind, coords, found.high_at),
-        }
-    } else {
-        ElementError::Degenerate {
-            kind: kind.name(),
-            dimension: D,
-            determinant: found.low,
-            natural: found.low_at,
-            position: position(kind, coords, found.low_at),
-        }
+    let name = kind.name();
+    let place = |natural: [f64; 3]| match position(kind, coords, natural) {
+        [x, y, _] if D == 2 => format!("({x:.6e}, {y:.6e}) m"),
+        [x, y, z] => format!("({x:.6e}, {y:.6e}, {z:.6e}) m"),
+    };
+    if found.high < -SMALLEST_DETERMINANT * power(placed.size, D) {
+        let (cause, remedy) = match D {
+            2 => (
+                "its nodes run clockwise",
+                "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)",
+            ),
+            _ => ("its nodes are numbered inside out", "the mesh was mirrored or the node order is not gmsh's"),
+        };
+        return ElementError(format!(
+            "the {name} element is inverted: {cause} (Jacobian determinant {:.6e} m^{D} at {}); {remedy}",
+            found.high,
+            place(found.high_at)
+        ));
     }
+    let natural = match found.low_at {
+        [xi, eta, _] if D == 2 => format!("({xi:.3}, {eta:.3})"),
+        [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
+    };
+    ElementError(format!(
+        "the {name} element is degenerate or folded: Jacobian determinant {:.6e} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        found.low,
+        place(found.low_at)
+    ))
+}
+
+/// The Jacobian of an element, sampled at its nodes and at the points of its stiffness rule.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapeQuality {
+    /// Smallest determinant, m^2 (plane) or m^3 (solid); negative where the element is inverted.
+    pub smallest_determinant: f64,
+    /// Jacobian ratio: smallest determinant over largest magnitude, in [-1, 1]. 1: constant (every straight
+    /// triangle and tetrahedron, every parallelogram and parallelepiped, however thin); small: strongly
+    /// tapered, warped or curved; 0 or below: no valid element. An element without size has 0.
+    pub scaled_jacobian: f64,
+    /// Where the smallest determinant is, m.
+    pub position: [f64; 3],
+}
+
+/// The quality of any element, also of one that [`stiffness_into`](super::stiffness_into) refuses.
+///
+/// `coords`: one (x, y, z) a node in gmsh's order, m; plane elements lie in xy and z is not read.
+///
+/// # Errors
+/// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, and an element too large alone.
+pub(crate) fn quality(kind: ElementKind, coords: &[[f64; 3]]) -> Result<ShapeQuality, ElementError> {
+    for_kind!(kind, sample(kind, coords))
+}
+
+fn sample<const N: usize, const D: usize>(
+    kind: ElementKind,
+    coords: &[[f64; 3]],
+) -> Result<ShapeQuality, ElementError> {
+    let placed = Placed::<N>::new(kind, coords)?;
+    let found = extremes::<N, D>(kind, &placed.coords, &tables(kind).stiffness);
+    let largest = found.high.abs().max(found.low.abs());
+    let scaled_jacobian = if largest > 0.0 { found.low / largest } else { 0.0 };
+    Ok(ShapeQuality {
+        smallest_determinant: found.low,
+        scaled_jacobian,
+        position: position(kind, coords, found.low_at),
+    })
 }

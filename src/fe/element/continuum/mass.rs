@@ -2,13 +2,13 @@
 
 use nalgebra::DMatrix;
 
-use super::dispatch::for_kind;
+use super::ContinuumProperties;
 use super::geometry::{Jacobian, Placed, diagnose};
 use super::kernel::mirror;
 use super::stiffness::{check_length, check_properties};
-use super::table::{Table, tables};
-use super::{ContinuumKind, ContinuumProperties};
+use super::table::{Table, for_kind, tables};
 use crate::fe::element::ElementError;
+use crate::fe::mesh::ElementKind;
 
 /// Points whose shape functions are summed together; as in the stiffness.
 const BLOCK: usize = 8;
@@ -17,7 +17,7 @@ const BLOCK: usize = 8;
 /// into `out` (nodes x nodes, symmetric, column by column, both triangles; whatever it held is replaced).
 ///
 /// The mass matrix of the degrees of freedom is this number times the identity over the displacements of nodes
-/// a and b. Integrated exactly for any geometry ([`ContinuumKind::mass_rule`]); the sum of all entries is rho t
+/// a and b. Integrated exactly for any geometry ([`ElementKind::mass_rule`]); the sum of all entries is rho t
 /// A or rho V, and with it frequencies converge from above. `coords` as for
 /// [`stiffness_into`](super::stiffness_into). Source: Bathe, Finite Element Procedures (1996), equation 4.20.
 ///
@@ -25,14 +25,14 @@ const BLOCK: usize = 8;
 /// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
 /// coordinates that are not finite, or an element that is inverted, degenerate or folded.
 pub(crate) fn nodal_mass_into(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
     out: &mut [f64],
 ) -> Result<(), ElementError> {
     check_properties(kind, properties)?;
     check_length(kind, kind.nodes(), out)?;
-    let density = properties.density() * properties.thickness();
+    let density = properties.density * properties.thickness;
     for_kind!(kind, mass(kind, coords, density, out))
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn nodal_mass_into(
 /// # Errors
 /// As [`nodal_mass_into`].
 pub fn nodal_mass(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
 ) -> Result<DMatrix<f64>, ElementError> {
@@ -54,7 +54,7 @@ pub fn nodal_mass(
 ///
 /// # Errors
 /// As [`measure`].
-pub(crate) fn measure_matrix(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
+pub(crate) fn measure_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
     for_kind!(kind, mass(kind, coords, 1.0, out.as_mut_slice()))?;
     Ok(out)
@@ -67,12 +67,12 @@ pub(crate) fn measure_matrix(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an element that is
 /// inverted, degenerate or folded.
-pub fn measure(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
+pub fn measure(kind: ElementKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
     for_kind!(kind, size(kind, coords))
 }
 
 fn mass<const N: usize, const D: usize>(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     density: f64,
     out: &mut [f64],
@@ -92,7 +92,7 @@ fn mass<const N: usize, const D: usize>(
 
 /// `density int N_a N_b` by the points of a table, and the check of the element.
 pub(super) fn integrate<const N: usize, const D: usize>(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     placed: &Placed<N>,
     density: f64,
@@ -130,7 +130,7 @@ pub(super) fn integrate<const N: usize, const D: usize>(
     Ok(())
 }
 
-fn size<const N: usize, const D: usize>(kind: ContinuumKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
+fn size<const N: usize, const D: usize>(kind: ElementKind, coords: &[[f64; 3]]) -> Result<f64, ElementError> {
     let placed = Placed::<N>::new(kind, coords)?;
     let table = &tables(kind).mass;
     let natural: f64 = table.points.iter().map(|point| point.weight).sum();
@@ -150,7 +150,7 @@ fn size<const N: usize, const D: usize>(kind: ContinuumKind, coords: &[[f64; 3]]
 
 /// The determinant of a straight triangle or tetrahedron, the same everywhere.
 fn constant_determinant<const N: usize, const D: usize>(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     placed: &Placed<N>,
 ) -> Result<f64, ElementError> {

@@ -2,7 +2,7 @@
 //!
 //! `K = int B^T D B dV`, `M = rho int N^T N dV`; a plane element lies in the xy plane and has its thickness t
 //! before both. Degrees of freedom node by node: (u_x, u_y, u_z) of node 0, of node 1, ...; without u_z in the
-//! plane. Nodes are in gmsh's order, see [`ContinuumKind`].
+//! plane. Nodes are in gmsh's order, see [`ElementKind`](crate::fe::mesh::ElementKind).
 //!
 //! From coordinates to matrix: [`shape_derivatives`] at the points of a [`QuadratureRule`] are tabulated once a
 //! kind; the Jacobian turns them into gradients, whose products are summed over the points and contracted with
@@ -11,22 +11,18 @@
 //!
 //! Frequencies from the compatible elements lie above those of the continuum and fall as the mesh is refined,
 //! as far as the integration is exact: which rule is exact for what stands with
-//! [`ContinuumKind::stiffness_rule`] and [`ContinuumKind::mass_rule`]. Quad4 and Hex8 have incompatible modes
+//! `ElementKind::stiffness_rule` and `ElementKind::mass_rule`. Quad4 and Hex8 have incompatible modes
 //! by default ([`LinearFormulation`]), which bend without locking; their frequencies may come from below.
 //!
 //! # Limitations
 //! Tri3, Tet4 and Wedge6 lock in bending, and so do the plain Quad4 and Hex8. All elements lock as
 //! Poisson's ratio comes near 1/2, except in plane stress.
 
-mod dispatch;
 mod geometry;
-mod incompatible;
 mod kernel;
-mod kind;
 mod mass;
 mod properties;
 mod quadrature;
-mod quality;
 mod rules;
 mod shape;
 mod stiffness;
@@ -35,18 +31,15 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use kind::{ContinuumKind, MAX_NODES};
-pub(crate) use mass::measure_matrix;
-pub(crate) use mass::nodal_mass_into;
+pub use geometry::ShapeQuality;
+pub(crate) use geometry::quality;
 pub use mass::{measure, nodal_mass};
+pub(crate) use mass::{measure_matrix, nodal_mass_into};
 pub use properties::{ContinuumProperties, PlaneAssumption};
 pub use quadrature::{QuadraturePoint, QuadratureRule};
-pub use quality::ShapeQuality;
-pub(crate) use quality::quality;
 pub use rules::{Formulation, Integration, LinearFormulation};
-pub use shape::{ShapeDerivatives, ShapeValues, shape_derivatives, shape_values};
+pub(crate) use shape::shape;
+pub use shape::{MAX_NODES, ShapeDerivatives, ShapeValues, shape_derivatives, shape_values};
 pub use stiffness::stiffness;
 pub(crate) use stiffness::stiffness_into;
-pub(crate) use surface::surface_weights;
-pub use surface::{MAX_SURFACE_NODES, SurfaceDerivatives, SurfaceKind, SurfaceValues};
-pub(crate) use surface::{surface_matrix, surface_shape};
+pub(crate) use surface::{surface_matrix, surface_weights};

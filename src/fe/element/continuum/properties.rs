@@ -19,10 +19,13 @@ pub enum PlaneAssumption {
 /// [`ContinuumProperties::plane`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuumProperties {
-    dimension: usize,
-    density: f64,
-    thickness: f64,
-    elasticity: Elasticity,
+    /// 2 for a plane part, 3 for a solid one.
+    pub(super) dimension: usize,
+    /// Density rho, kg/m^3.
+    pub(crate) density: f64,
+    /// Thickness t of a plane part, m; 1 (no unit) for a solid one, so that `t` may stand before any integral.
+    pub(crate) thickness: f64,
+    pub(super) elasticity: Elasticity,
 }
 
 /// The elasticity as the stiffness loop wants it.
@@ -64,42 +67,29 @@ impl ContinuumProperties {
     /// `lambda' = E nu / (1 - nu^2)`; mu is the same. Source: Bathe, table 4.3.
     ///
     /// # Errors
-    /// [`ElementError::Thickness`] if it is not positive and finite; [`ElementError::MaterialAxis`] if the
-    /// z axis of an orthotropic material is not the normal of the plane.
+    /// [`ElementError`] if it is not positive and finite, or if the z axis of an orthotropic material is not the normal of
+    /// the plane.
     pub(crate) fn plane(
         material: &ElasticMaterial,
         assumption: PlaneAssumption,
         thickness: f64,
     ) -> Result<Self, ElementError> {
         if !(thickness > 0.0 && thickness.is_finite()) {
-            return Err(ElementError::Thickness { value: thickness });
+            return Err(ElementError(format!("thickness must be positive and finite, found {thickness} m")));
         }
         let elasticity = match material {
             ElasticMaterial::Isotropic(material) => isotropic_plane(material, assumption),
             ElasticMaterial::Orthotropic(orthotropic) => {
-                let axis = orthotropic.axes[2];
-                if axis[0].abs() > LEAN || axis[1].abs() > LEAN {
-                    return Err(ElementError::MaterialAxis { axis });
+                let [x, y, z] = orthotropic.axes[2];
+                if x.abs() > LEAN || y.abs() > LEAN {
+                    return Err(ElementError(format!(
+                        "the material axis z must be normal to the plane of the mesh, (0, 0, 1) or (0, 0, -1), found ({x:.6}, {y:.6}, {z:.6})"
+                    )));
                 }
                 general(&in_the_plane(material.stiffness_matrix(), assumption))
             }
         };
         Ok(Self { dimension: 2, density: material.density(), thickness, elasticity })
-    }
-
-    /// Density rho, kg/m^3.
-    pub(crate) fn density(&self) -> f64 {
-        self.density
-    }
-
-    /// Thickness t of a plane part, m; 1 (no unit) for a solid one, so that `t` may stand before any integral.
-    pub(crate) fn thickness(&self) -> f64 {
-        self.thickness
-    }
-
-    /// 2 for a plane part, 3 for a solid one.
-    pub(crate) fn dimension(&self) -> usize {
-        self.dimension
     }
 
     /// Shear modulus, Pa: of an orthotropic material the mean of its planes (plane parts have one).
@@ -109,10 +99,6 @@ impl ContinuumProperties {
             Elasticity::General(c) if self.dimension == 2 => c[0][1][0][1],
             Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
         }
-    }
-
-    pub(super) fn elasticity(&self) -> &Elasticity {
-        &self.elasticity
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which formulation an element uses, and which rule integrates what.
 
-use super::{ContinuumKind, QuadratureRule};
+use super::QuadratureRule;
+use crate::fe::mesh::ElementKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,12 +40,12 @@ pub enum LinearFormulation {
     Plain,
 }
 
-impl ContinuumKind {
+impl ElementKind {
     /// The rule that integrates the stiffness of an element with any edges.
     ///
     /// Exact for straight-edged triangles and tetrahedra and for parallelograms, parallelepipeds and straight
     /// prisms; curved and distorted elements have rational integrands, for which no rule is exact.
-    /// Straight Tri6 and Tet10 take the cheaper [`ContinuumKind::straight_stiffness_rule`].
+    /// Straight Tri6 and Tet10 take the cheaper [`ElementKind::straight_stiffness_rule`].
     ///
     /// Tri6 takes six points although three are exact for straight sides: on an annulus of 576 curved Tri6 the
     /// first 17 elastic frequencies agree with those of 64 points to 1e-9, three points are 4.5e-6 off
@@ -65,26 +66,27 @@ impl ContinuumKind {
     /// 3.1e-6, Quad8 2.9e-4, Hex20 2.6e-4, Wedge15 9.4e-5.
     pub(crate) fn stiffness_rule(self) -> QuadratureRule {
         match self {
-            Self::Tri3 => QuadratureRule::TRIANGLE_1,
-            Self::Tri6 => QuadratureRule::TRIANGLE_6,
-            Self::Quad4 => QuadratureRule::SQUARE_2X2,
-            Self::Quad8 => QuadratureRule::SQUARE_3X3,
-            Self::Tet4 => QuadratureRule::TETRAHEDRON_1,
-            Self::Tet10 => QuadratureRule::TETRAHEDRON_24,
-            Self::Hex8 => QuadratureRule::CUBE_2X2X2,
-            Self::Hex20 => QuadratureRule::CUBE_3X3X3,
-            Self::Wedge6 => QuadratureRule::WEDGE_3X2,
-            Self::Wedge15 => QuadratureRule::WEDGE_6X3,
+            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::Line4,
+            Self::Tri3 => QuadratureRule::Triangle1,
+            Self::Tri6 => QuadratureRule::Triangle6,
+            Self::Quad4 => QuadratureRule::Square2,
+            Self::Quad8 => QuadratureRule::Square3,
+            Self::Tet4 => QuadratureRule::Tetrahedron1,
+            Self::Tet10 => QuadratureRule::Tetrahedron24,
+            Self::Hex8 => QuadratureRule::Cube2,
+            Self::Hex20 => QuadratureRule::Cube3,
+            Self::Wedge6 => QuadratureRule::Wedge3x2,
+            Self::Wedge15 => QuadratureRule::Wedge6x3,
         }
     }
 
     /// The rule that is exact for the stiffness if all edges are straight with their nodes in the middle:
     /// degree 2 for Tri6 and Tet10, whose Jacobian is then constant; for all others that of
-    /// [`ContinuumKind::stiffness_rule`].
+    /// [`ElementKind::stiffness_rule`].
     pub(crate) fn straight_stiffness_rule(self) -> QuadratureRule {
         match self {
-            Self::Tri6 => QuadratureRule::TRIANGLE_3,
-            Self::Tet10 => QuadratureRule::TETRAHEDRON_4,
+            Self::Tri6 => QuadratureRule::Triangle3,
+            Self::Tet10 => QuadratureRule::Tetrahedron4,
             _ => self.stiffness_rule(),
         }
     }
@@ -95,26 +97,27 @@ impl ContinuumKind {
     /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
     pub(crate) fn mass_rule(self) -> QuadratureRule {
         match self {
-            Self::Tri3 => QuadratureRule::TRIANGLE_3,
-            Self::Tri6 => QuadratureRule::TRIANGLE_12,
-            Self::Quad4 => QuadratureRule::SQUARE_2X2,
-            Self::Quad8 => QuadratureRule::SQUARE_4X4,
-            Self::Tet4 => QuadratureRule::TETRAHEDRON_4,
-            Self::Tet10 => QuadratureRule::TETRAHEDRON_64,
-            Self::Hex8 => QuadratureRule::CUBE_3X3X3,
-            Self::Hex20 => QuadratureRule::CUBE_5X5X5,
-            Self::Wedge6 => QuadratureRule::WEDGE_6X3,
-            Self::Wedge15 => QuadratureRule::WEDGE_25X5,
+            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::Line4,
+            Self::Tri3 => QuadratureRule::Triangle3,
+            Self::Tri6 => QuadratureRule::Triangle12,
+            Self::Quad4 => QuadratureRule::Square2,
+            Self::Quad8 => QuadratureRule::Square4,
+            Self::Tet4 => QuadratureRule::Tetrahedron4,
+            Self::Tet10 => QuadratureRule::Tetrahedron64,
+            Self::Hex8 => QuadratureRule::Cube3,
+            Self::Hex20 => QuadratureRule::Cube5,
+            Self::Wedge6 => QuadratureRule::Wedge6x3,
+            Self::Wedge15 => QuadratureRule::Wedge25x5,
         }
     }
 
     /// The rule that is exact for the mass if all edges are straight with their nodes in the middle: the
     /// Jacobian has then the degree of the linear element's, which leaves 6 in each direction (Hex20), 5 in the
-    /// triangle and 6 along zeta (Wedge15); for all others that of [`ContinuumKind::mass_rule`].
+    /// triangle and 6 along zeta (Wedge15); for all others that of [`ElementKind::mass_rule`].
     pub(crate) fn straight_mass_rule(self) -> QuadratureRule {
         match self {
-            Self::Hex20 => QuadratureRule::CUBE_4X4X4,
-            Self::Wedge15 => QuadratureRule::WEDGE_12X4,
+            Self::Hex20 => QuadratureRule::Cube4,
+            Self::Wedge15 => QuadratureRule::Wedge12x4,
             _ => self.mass_rule(),
         }
     }

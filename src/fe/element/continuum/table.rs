@@ -1,8 +1,41 @@
-//! Shape functions at the points of the rules, evaluated once a kind.
+//! Shape functions at the points of the rules, evaluated once a kind, and the code made for its numbers of nodes and
+//! directions.
 
 use std::sync::OnceLock;
 
-use super::{ContinuumKind, QuadraturePoint, shape_derivatives, shape_values};
+use super::QuadraturePoint;
+use super::shape::{shape, shape_values};
+use crate::fe::element::ElementError;
+use crate::fe::mesh::ElementKind;
+
+/// `function::<N, D>(...)` for the N nodes and D displacements a node of a kind: loops of known length, which
+/// the compiler unrolls and vectorises. Points and lines are an error.
+macro_rules! for_kind {
+    ($kind:expr, $function:ident($($argument:expr),* $(,)?)) => {{
+        use $crate::fe::mesh::ElementKind as Kind;
+        match $kind {
+            Kind::Tri3 => $function::<3, 2>($($argument),*),
+            Kind::Tri6 => $function::<6, 2>($($argument),*),
+            Kind::Quad4 => $function::<4, 2>($($argument),*),
+            Kind::Quad8 => $function::<8, 2>($($argument),*),
+            Kind::Tet4 => $function::<4, 3>($($argument),*),
+            Kind::Tet10 => $function::<10, 3>($($argument),*),
+            Kind::Hex8 => $function::<8, 3>($($argument),*),
+            Kind::Hex20 => $function::<20, 3>($($argument),*),
+            Kind::Wedge6 => $function::<6, 3>($($argument),*),
+            Kind::Wedge15 => $function::<15, 3>($($argument),*),
+            Kind::Point | Kind::Line2 | Kind::Line3 => Err($crate::fe::element::continuum::table::no_continuum($kind)),
+        }
+    }};
+}
+
+pub(super) use for_kind;
+
+/// A point or a line where a plane element or a solid is needed.
+#[cold]
+pub(super) fn no_continuum(kind: ElementKind) -> ElementError {
+    ElementError(format!("a {} element has neither area nor volume", kind.name()))
+}
 
 /// Shape functions of one kind at the points of one rule.
 #[derive(Debug)]
@@ -15,12 +48,12 @@ pub(super) struct Table {
 }
 
 impl Table {
-    pub(super) fn new(kind: ContinuumKind, points: &[QuadraturePoint]) -> Self {
+    pub(super) fn new(kind: ElementKind, points: &[QuadraturePoint]) -> Self {
         let mut values = Vec::new();
         let mut derivatives = Vec::new();
         for point in points {
-            values.extend_from_slice(&shape_values(kind, point.natural)[..kind.nodes()]);
-            let at_point = shape_derivatives(kind, point.natural);
+            let (of_point, at_point) = shape(kind, point.natural);
+            values.extend_from_slice(&of_point[..kind.nodes()]);
             for direction in 0..kind.dimension() {
                 derivatives.extend(at_point[..kind.nodes()].iter().map(|d| d[direction]));
             }
@@ -55,15 +88,15 @@ pub(super) struct Tables {
     pub(super) natural_mass: Vec<f64>,
 }
 
-static TABLES: [OnceLock<Tables>; ContinuumKind::ALL.len()] = [const { OnceLock::new() }; ContinuumKind::ALL.len()];
+static TABLES: [OnceLock<Tables>; ElementKind::COUNT] = [const { OnceLock::new() }; ElementKind::COUNT];
 
 /// The tables of a kind, made at the first call.
-pub(super) fn tables(kind: ContinuumKind) -> &'static Tables {
+pub(super) fn tables(kind: ElementKind) -> &'static Tables {
     TABLES[kind as usize].get_or_init(|| Tables::new(kind))
 }
 
 impl Tables {
-    fn new(kind: ContinuumKind) -> Self {
+    fn new(kind: ElementKind) -> Self {
         let unweighted = |&natural: &[f64; 3]| QuadraturePoint { natural, weight: 0.0 };
         let nodes: Vec<_> = kind.natural_nodes().iter().map(unweighted).collect();
         let mut natural_mass = vec![0.0; kind.nodes() * kind.nodes()];

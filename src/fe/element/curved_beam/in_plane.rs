@@ -56,11 +56,6 @@ impl CurvedBeam {
         element
     }
 
-    /// Half the included angle, rad.
-    pub(crate) fn half_angle(&self) -> f64 {
-        self.half_angle
-    }
-
     /// Whether a rigid motion of both nodes strains nothing; that of the polynomial element does.
     pub(crate) fn is_exact_for_rigid_motions(&self) -> bool {
         matches!(self.field, Field::ExactArc(_))

@@ -76,11 +76,6 @@ impl OutOfPlaneArc {
         element
     }
 
-    /// Half the included angle, rad.
-    pub(crate) fn half_angle(&self) -> f64 {
-        self.half_angle
-    }
-
     /// Stiffness matrix [6 x 6] in N/m, N and N m.
     pub fn stiffness(&self) -> &Matrix6<f64> {
         self.solved.stiffness()

@@ -1,6 +1,7 @@
 //! The beam that the rings of a section make together.
 
-use super::layer::{RingLayer, SectionError, check};
+use super::layer::{RingLayer, check};
+use crate::fe::material::MaterialError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -89,12 +90,13 @@ impl BeamSection {
     /// carries shear. Moments of mass have the arms of the plane's rule.
     ///
     /// # Errors
-    /// [`SectionError`] naming the section and the quantity.
-    pub fn combine(layers: &[RingLayer], bond: Bond) -> Result<Self, SectionError> {
+    /// [`MaterialError`] naming the section and the quantity.
+    pub fn combine(layers: &[RingLayer], bond: Bond) -> Result<Self, MaterialError> {
         for (index, layer) in layers.iter().enumerate() {
             check(index, layer)?;
         }
-        let first = layers.first().ok_or(SectionError::Empty)?;
+        let first =
+            layers.first().ok_or_else(|| MaterialError::Refused("a ring needs at least one section".to_owned()))?;
         let sum = |term: &dyn Fn(&RingLayer) -> f64| layers.iter().map(term).sum::<f64>();
         let axial_stiffness = |layer: &RingLayer| layer.material.young * layer.area;
         let centroid = sum(&|layer| axial_stiffness(layer) * layer.radius) / sum(&axial_stiffness);

@@ -1,8 +1,7 @@
 //! One ring of a section: its area, its second moments and its torsion constant.
 
-use super::super::Material;
+use super::super::{Material, MaterialError};
 use std::f64::consts::{FRAC_PI_2, PI};
-use thiserror::Error;
 
 /// One ring of a section: its own area, second moment and radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,26 +22,6 @@ pub struct RingLayer {
     /// Shear coefficient kappa in (0, 1], for shear in the plane and out of it; 5/6 for a rectangle
     /// (Timoshenko's first value).
     pub shear_coefficient: f64,
-}
-
-/// A section that is no section.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SectionError {
-    /// No ring given.
-    #[error("a ring needs at least one section")]
-    Empty,
-    /// A quantity out of its range.
-    #[error("ring section {index}: {quantity} must be {rule}, found {value}")]
-    OutOfRange {
-        /// Which section, from 0.
-        index: usize,
-        /// Name of the quantity.
-        quantity: &'static str,
-        /// The value found.
-        value: f64,
-        /// What it must be.
-        rule: &'static str,
-    },
 }
 
 impl RingLayer {
@@ -94,7 +73,7 @@ fn rectangle_torsion([first, second]: [f64; 2]) -> f64 {
     long * short.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * short / long * sum)
 }
 
-pub(super) fn check(index: usize, layer: &RingLayer) -> Result<(), SectionError> {
+pub(super) fn check(index: usize, layer: &RingLayer) -> Result<(), MaterialError> {
     let positive = [
         ("area", layer.area),
         ("inertia", layer.inertia),
@@ -103,18 +82,17 @@ pub(super) fn check(index: usize, layer: &RingLayer) -> Result<(), SectionError>
     ];
     let given = [("axial_inertia", layer.axial_inertia), ("torsion", layer.torsion)];
     let given = given.into_iter().filter_map(|(quantity, value)| Some((quantity, value?)));
+    let refused = |quantity: &str, rule: &str, value: f64| {
+        let message = format!("ring section {index}: {quantity} must be {rule}, found {value}");
+        Err(MaterialError::Refused(message))
+    };
     for (quantity, value) in positive.into_iter().chain(given) {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(SectionError::OutOfRange { index, quantity, value, rule: "positive and finite" });
+            return refused(quantity, "positive and finite", value);
         }
     }
     if layer.shear_coefficient > 1.0 {
-        return Err(SectionError::OutOfRange {
-            index,
-            quantity: "shear_coefficient",
-            value: layer.shear_coefficient,
-            rule: "at most 1",
-        });
+        return refused("shear_coefficient", "at most 1", layer.shear_coefficient);
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ mod beam;
 mod layer;
 
 pub use beam::{BeamSection, Bond, OutOfPlaneSection, RadiusRule};
-pub use layer::{RingLayer, SectionError};
+pub use layer::RingLayer;
 
 #[cfg(test)]
 mod tests;

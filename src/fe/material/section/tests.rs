@@ -1,7 +1,7 @@
 //! Published sections, parts put together, and every rule with its message.
 
 use super::*;
-use crate::fe::material::Material;
+use crate::fe::material::{Material, MaterialError};
 
 fn steel_in_aluminium() -> [RingLayer; 2] {
     let layer = |young, density, area, inertia, radius| RingLayer {
@@ -61,7 +61,10 @@ fn a_section_out_of_range_is_named() {
     layers[1].area = -1.0;
     let error = BeamSection::combine(&layers, Bond::Composite).expect_err("negative area");
     assert_eq!(error.to_string(), "ring section 1: area must be positive and finite, found -1");
-    assert_eq!(BeamSection::combine(&[], Bond::Composite), Err(SectionError::Empty));
+    assert_eq!(
+        BeamSection::combine(&[], Bond::Composite),
+        Err(MaterialError::Refused("a ring needs at least one section".to_owned()))
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! A position in the bytes of a file: words, lines, and the place that messages name.
 
-use super::{MshError, Place};
+use super::MshError;
+use std::fmt;
 
 /// How the numbers of a file are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,12 +38,12 @@ impl<'a> Cursor<'a> {
     }
 
     /// Where the number or line read last began. Lines are counted now, not on the way.
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> String {
         if self.is_binary() {
-            return Place::Byte(self.mark);
+            return format!("byte {}", self.mark);
         }
         let before = &self.bytes[..self.mark];
-        Place::Line(1 + before.iter().filter(|&&byte| byte == b'\n').count())
+        format!("line {}", 1 + before.iter().filter(|&&byte| byte == b'\n').count())
     }
 
     /// Makes the current position the place that messages name.
@@ -115,21 +116,25 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    pub(super) fn malformed(&self, expected: impl Into<String>, found: &[u8]) -> MshError {
-        MshError::Malformed {
-            section: self.section.clone(),
-            place: self.place(),
-            expected: expected.into(),
-            found: quoted(found),
-        }
+    /// What is wrong where the number or line read last began.
+    #[cold]
+    pub(super) fn fault(&self, what: impl fmt::Display) -> MshError {
+        MshError(format!("${}, {}: {what}", self.section, self.place()))
     }
 
-    pub(super) fn truncated(&self, expected: impl Into<String>) -> MshError {
-        MshError::Truncated { section: self.section.clone(), expected: expected.into() }
+    pub(super) fn malformed(&self, expected: impl fmt::Display, found: &[u8]) -> MshError {
+        self.fault(format_args!("expected {expected}, found {}", quoted(found)))
     }
 
-    pub(super) fn feature(&self, feature: &'static str, advice: &'static str) -> MshError {
-        MshError::Feature { section: self.section.clone(), place: self.place(), feature, advice }
+    /// The file ends before what was expected.
+    #[cold]
+    pub(super) fn truncated(&self, expected: impl fmt::Display) -> MshError {
+        MshError(format!("the file ends inside ${}: expected {expected}; is it complete?", self.section))
+    }
+
+    /// A feature of gmsh that is not read, and what to do about it.
+    pub(super) fn feature(&self, feature: &str, advice: &str) -> MshError {
+        self.fault(format_args!("{feature} cannot be read; {advice}"))
     }
 }
 

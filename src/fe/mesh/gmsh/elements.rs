@@ -4,7 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::nodes::{dimension, not_as_announced, not_too_large, tag_range};
+use super::nodes::{dimension, no_elements, not_as_announced, not_too_large, tag_range};
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
@@ -56,7 +56,7 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
         return Err(not_as_announced(cursor, "elements", announced, listed));
     }
     match listed {
-        0 => Err(MshError::NoElements),
+        0 => Err(no_elements()),
         _ => Ok(blocks),
     }
 }
@@ -69,8 +69,7 @@ pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Res
     }
     not_too_large(cursor, "an element tag", tag)?;
     if !seen.insert(tag) {
-        let place = cursor.place();
-        return Err(MshError::DuplicateElement { place, tag });
+        return Err(cursor.fault(format_args!("element tag {tag} occurs a second time: expected every tag once")));
     }
     Ok(())
 }
@@ -80,7 +79,9 @@ pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Res
 pub(super) fn node_index(cursor: &Cursor<'_>, nodes: &NodeIndex, element: u64, node: u64) -> Result<usize, MshError> {
     match nodes.get(node) {
         Some(index) => Ok(index),
-        None => Err(MshError::DanglingNode { place: cursor.place(), element, node }),
+        None => {
+            Err(cursor.fault(format_args!("element {element} refers to node {node}: expected a tag listed in $Nodes")))
+        }
     }
 }
 
@@ -93,8 +94,7 @@ pub(super) fn check_not_repeated<T: PartialEq>(
     [element, node]: [u64; 2],
 ) -> Result<(), MshError> {
     if earlier.contains(&index) {
-        let place = cursor.place();
-        return Err(MshError::RepeatedNode { place, element, node });
+        return Err(cursor.fault(format_args!("element {element} has the node {node} twice: expected different nodes")));
     }
     Ok(())
 }
@@ -107,5 +107,31 @@ fn kind(cursor: &mut Cursor<'_>, entity: Entity) -> Result<ElementKind, MshError
 
 /// An element type that the program has no element for; MSH 2.2 gives the type before the entity.
 pub(super) fn unknown_kind(cursor: &Cursor<'_>, gmsh_type: i32, entity: Option<Entity>) -> MshError {
-    MshError::UnsupportedElement { place: cursor.place(), gmsh_type, entity }
+    let (name, advice) = unsupported(gmsh_type);
+    let on_entity =
+        entity.map_or(String::new(), |Entity { dimension, tag }| format!(" on entity {tag} of dimension {dimension}"));
+    let known: Vec<&str> = ElementKind::all().map(ElementKind::name).collect();
+    let known = known.join(", ");
+    cursor.fault(format_args!("element type {gmsh_type} ({name}){on_entity}: expected one of {known}; {advice}"))
+}
+
+/// Highest element type number in gmsh 4.15 (`GmshDefines.h`).
+const LAST_GMSH_TYPE: i32 = 140;
+
+/// Name of a gmsh element type that the program does not read, and what to do about it.
+fn unsupported(gmsh_type: i32) -> (&'static str, &'static str) {
+    let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
+    let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
+                   Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
+    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
+    match gmsh_type {
+        7 => ("Pyramid5", pyramid),
+        10 => ("Quad9", complete),
+        12 => ("Hex27", complete),
+        13 => ("Wedge18", complete),
+        14 => ("Pyramid14", pyramid),
+        19 => ("Pyramid13", pyramid),
+        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
+        _ => ("unknown to gmsh", "is the file damaged?"),
+    }
 }

@@ -5,6 +5,7 @@
 use super::MshError;
 use super::cursor::Cursor;
 use super::elements::{check_not_repeated, check_tag, node_index, unknown_kind};
+use super::nodes::no_elements;
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::ElementKind;
@@ -91,7 +92,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed,
         false => reader.ascii(count)?,
     }
     match count {
-        0 => Err(MshError::NoElements),
+        0 => Err(no_elements()),
         _ => Ok(reader.listed),
     }
 }
@@ -129,11 +130,7 @@ impl Reader<'_, '_> {
     }
 
     fn tag(&mut self) -> Result<u64, MshError> {
-        let found = self.cursor.int("an element tag")?;
-        let tag = u64::try_from(found).map_err(|_| {
-            let expected = "an element tag, greater than 0";
-            self.cursor.malformed(expected, found.to_string().as_bytes())
-        })?;
+        let tag = self.cursor.unsigned_int("an element tag", "an element tag, greater than 0")?;
         check_tag(self.cursor, &mut self.seen, tag)?;
         Ok(tag)
     }
@@ -145,8 +142,7 @@ impl Reader<'_, '_> {
 
     fn tag_count(&mut self) -> Result<usize, MshError> {
         let what = "the number of tags of an element";
-        let found = self.cursor.int(what)?;
-        let count = u64::try_from(found).map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+        let count = self.cursor.unsigned_int(what, what)?;
         let number_bytes = if self.cursor.is_binary() { 4 } else { 2 };
         self.cursor.check_count(what, count, number_bytes)
     }
@@ -166,8 +162,7 @@ impl Reader<'_, '_> {
         let connectivity = &mut self.listed.connectivity;
         for read in 0..kind.nodes() {
             let what = "the tag of a node of an element";
-            let found = self.cursor.int(what)?;
-            let node = u64::try_from(found).map_err(|_| self.cursor.malformed(what, found.to_string().as_bytes()))?;
+            let node = self.cursor.unsigned_int(what, what)?;
             // a node has an index below u32::MAX
             let index = node_index(self.cursor, self.nodes, tag, node)? as u32;
             let earlier = &connectivity[connectivity.len() - read..];

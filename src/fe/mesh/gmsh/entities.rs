@@ -37,7 +37,9 @@ impl Physical {
 
     /// Reads entities of one dimension with mshio.
     fn parse(&mut self, file: &[u8]) -> Result<(), MshError> {
-        let parsed = mshio::parse_msh_bytes(file).map_err(|error| MshError::Reader { what: reader_message(&error) })?;
+        let parsed = mshio::parse_msh_bytes(file).map_err(|error| {
+            MshError(format!("{}: expected what the MSH 4.1 format prescribes", reader_message(&error)))
+        })?;
         if let Some(entities) = &parsed.data.entities {
             for point in &entities.points {
                 self.add(0, point.tag, &point.physical_tags);

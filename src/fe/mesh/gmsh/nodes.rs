@@ -34,8 +34,7 @@ impl NodeTable {
             .filter(|&index| index < u32::MAX)
             .ok_or_else(|| cursor.feature("a mesh of more than 4294967295 nodes", "mesh more coarsely"))?;
         if !self.index.insert(tag, index) {
-            let place = cursor.place();
-            return Err(MshError::DuplicateNode { place, tag });
+            return Err(cursor.fault(format_args!("node tag {tag} occurs a second time: expected every tag once")));
         }
         self.tags.push(tag);
         Ok(())
@@ -48,8 +47,10 @@ impl NodeTable {
         for x in &mut node {
             let found = cursor.float("a coordinate of a node")?;
             if !found.is_finite() {
-                let (place, tag) = (cursor.place(), self.tags[self.coordinates.len()]);
-                return Err(MshError::NotFinite { place, tag, found });
+                let tag = self.tags[self.coordinates.len()];
+                return Err(
+                    cursor.fault(format_args!("node {tag} has the coordinate {found}: expected a finite number"))
+                );
             }
             *x = found * metres;
         }
@@ -59,10 +60,16 @@ impl NodeTable {
 
     fn complete(self) -> Result<Self, MshError> {
         match self.tags.is_empty() {
-            true => Err(MshError::NoElements),
+            true => Err(no_elements()),
             false => Ok(self),
         }
     }
+}
+
+/// A mesh without nodes or elements.
+pub(super) fn no_elements() -> MshError {
+    let question = "is a Physical group defined, is the geometry meshed?";
+    MshError(format!("the mesh has no elements: expected at least one ({question})"))
 }
 
 /// Nodes of MSH 4.1; a file unit is so many metres.
@@ -102,9 +109,7 @@ pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
     let count = cursor.text_count("the number of nodes", Item::new(0, 1, 3))?;
     let mut nodes = NodeTable::for_count(count);
     for _ in 0..count {
-        let found = cursor.int("a node tag")?;
-        let tag = u64::try_from(found)
-            .map_err(|_| cursor.malformed("a node tag, greater than 0", found.to_string().as_bytes()))?;
+        let tag = cursor.unsigned_int("a node tag", "a node tag, greater than 0")?;
         nodes.add_tag(cursor, tag)?;
         nodes.add_coordinates(cursor, metres)?;
     }

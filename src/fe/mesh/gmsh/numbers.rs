@@ -71,6 +71,13 @@ impl Cursor<'_> {
         }
     }
 
+    /// An int that is not negative; messages about one that is say what was expected.
+    #[inline]
+    pub(super) fn unsigned_int(&mut self, what: &'static str, expected: &str) -> Result<u64, MshError> {
+        let found = self.int(what)?;
+        u64::try_from(found).map_err(|_| self.malformed(expected, found.to_string().as_bytes()))
+    }
+
     /// gmsh's double; may be infinite or not a number.
     #[inline]
     pub(super) fn float(&mut self, what: &'static str) -> Result<f64, MshError> {
@@ -98,12 +105,10 @@ impl Cursor<'_> {
         let remaining = self.rest().len();
         // one more: nothing need follow the last number
         let most = remaining / item_bytes.max(1) + 1;
-        usize::try_from(declared).ok().filter(|&count| count <= most).ok_or_else(|| MshError::Count {
-            section: self.section.clone(),
-            place: self.place(),
-            what: what.to_owned(),
-            declared,
-            remaining,
+        usize::try_from(declared).ok().filter(|&count| count <= most).ok_or_else(|| {
+            self.fault(format_args!(
+                "{declared} announced as {what}, but only {remaining} bytes follow; is the file complete?"
+            ))
         })
     }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::BoundingBox;
+use super::nodes::BoundingBox;
 use crate::fe::mesh::Mesh;
 
 /// Elements joined by common nodes, and joined to no others.

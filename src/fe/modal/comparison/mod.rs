@@ -5,7 +5,6 @@
 //! that the agreement of all pairs together is largest.
 
 mod assignment;
-mod clusters;
 mod pairing;
 mod points;
 mod subspace;

@@ -2,9 +2,8 @@
 
 use super::super::ModalError;
 use super::assignment::assignment;
-use super::clusters::{clusters, joined};
 use super::points::{ModeSet, PointMatch, matched_points};
-use super::subspace::{basis, mac, squared_cosines};
+use super::subspace::{basis, clusters, joined, mac, squared_cosines};
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::DMatrix;
 use serde::Serialize;

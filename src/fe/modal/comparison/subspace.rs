@@ -1,4 +1,4 @@
-//! Angles between the spaces that two groups of shapes span.
+//! Modes whose frequencies are so close that only the space that they span means something, and angles between such spaces.
 
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::DMatrix;
@@ -55,4 +55,76 @@ pub(super) fn squared_cosines(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<f64> {
     let mut squares: Vec<f64> = values.iter().map(|s| (s * s).min(1.0)).collect();
     squares.sort_by(|x, y| y.total_cmp(x));
     squares
+}
+
+/// Ratio of frequencies below which one counts as zero beside the next. A list from a measurement or another program has
+/// neither energies nor bounds; round-off leaves 1e-7 and less of the first elastic frequency.
+const ZERO: f64 = 1e-5;
+
+/// Lists of modes, by ascending frequency, in which each follows the one before within the relative gap. Modes without
+/// stiffness (zero, or round-off beside the next frequency) are one cluster, whatever their gaps.
+pub(super) fn clusters(frequencies_hz: &[f64], gap: f64) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..frequencies_hz.len()).collect();
+    order.sort_by(|&a, &b| frequencies_hz[a].total_cmp(&frequencies_hz[b]));
+    let ascending = |place: usize| frequencies_hz[order[place]];
+    let without = |&count: &usize| ascending(count - 1) < ZERO * ascending(count);
+    let rigid = (1..order.len()).rfind(without).unwrap_or(0);
+    let mut found: Vec<Vec<usize>> = Vec::new();
+    for (place, &mode) in order.iter().enumerate() {
+        let joins = place > 0 && {
+            let [before, own] = [order[place - 1], mode].map(|mode| frequencies_hz[mode]);
+            place < rigid || (place != rigid && own - before <= gap * own)
+        };
+        match found.last_mut().filter(|_| joins) {
+            Some(cluster) => cluster.push(mode),
+            None => found.push(vec![mode]),
+        }
+    }
+    found
+}
+
+/// Joins those of `clusters` that lie in one and the same cluster of the other set: a doublet that imperfections have split
+/// there and not here. `home` gives the cluster of the other set in which a cluster lies, and `sizes` the number
+/// of modes of those.
+pub(super) fn joined(clusters: Vec<Vec<usize>>, home: &[Option<usize>], sizes: &[usize]) -> Vec<Vec<usize>> {
+    let mut found: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
+    for (cluster, &home) in clusters.into_iter().zip(home) {
+        let room = home.and_then(|home| sizes.get(home)).copied().unwrap_or(0);
+        let mate = found
+            .iter_mut()
+            .find(|(other, modes)| home.is_some() && *other == home && modes.len() + cluster.len() <= room);
+        match mate {
+            Some((_, modes)) => modes.extend(cluster),
+            None => found.push((home, cluster)),
+        }
+    }
+    found.into_iter().map(|(_, modes)| modes).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{clusters, joined};
+
+    #[test]
+    fn close_modes_are_one_cluster() {
+        let found = clusters(&[500.2, 100.0, 100.05, 100.1, 500.0, 300.0], 1e-3);
+        assert_eq!(found, [vec![1, 2, 3], vec![5], vec![4, 0]]);
+        assert_eq!(clusters(&[1.0, 2.0], 0.0), [[0], [1]]);
+        assert!(clusters(&[], 1e-3).is_empty());
+    }
+
+    #[test]
+    fn modes_without_stiffness_are_one_cluster() {
+        let found = clusters(&[1e-4, 3e-5, 0.0, 812.0, 900.0], 1e-3);
+        assert_eq!(found, [vec![2, 1, 0], vec![3], vec![4]]);
+        assert_eq!(clusters(&[0.0, 0.0], 1e-3), [[0, 1]]);
+    }
+
+    #[test]
+    fn parts_of_a_doublet_are_joined() {
+        let clusters = vec![vec![0], vec![1], vec![2], vec![3]];
+        let home = [Some(0), Some(0), Some(1), Some(0)];
+        let found = joined(clusters, &home, &[2, 1]);
+        assert_eq!(found, [vec![0, 1], vec![2], vec![3]]);
+    }
 }

@@ -1,9 +1,8 @@
 //! How far frequencies of a mesh are from those of an infinitely fine one, from two meshes or more.
 
-mod fit;
 mod richardson;
 
-pub use richardson::{Behaviour, Convergence, MeshLevels, mode_convergence, relative_mesh_size, richardson};
+pub use richardson::{Behaviour, Convergence, MeshLevels, richardson};
 
 #[cfg(test)]
 mod tests;

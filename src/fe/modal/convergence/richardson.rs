@@ -2,7 +2,6 @@
 
 use super::super::ModalError;
 use super::super::error::{check_count, check_finite};
-use super::fit::{Law, law_past_many, limit_of_two, order_of_three};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -92,13 +91,6 @@ impl Convergence {
     }
 }
 
-/// Size of a mesh relative to others of the same body, from its number of elements: `n^(-1/d)`; `None` for no elements
-/// or no dimension.
-pub fn relative_mesh_size(elements: usize, dimension: usize) -> Option<f64> {
-    let known = elements > 0 && dimension > 0;
-    known.then(|| (elements as f64).powf(-1.0 / dimension as f64))
-}
-
 /// Limit of a value that was computed on several meshes, and its uncertainty.
 ///
 /// With `f = f_0 + c h^p`: two meshes take the formal order, three give their own, more are fitted by least squares
@@ -118,31 +110,6 @@ pub fn richardson(levels: &MeshLevels, values: &[f64]) -> Result<Convergence, Mo
     let h: Vec<f64> = order.iter().map(|&mesh| levels.sizes[mesh]).collect();
     let f: Vec<f64> = order.iter().map(|&mesh| values[mesh]).collect();
     Ok(Sequence { h: &h, f: &f, formal: levels.formal_order }.convergence())
-}
-
-/// [`richardson`] for modes: `frequencies_hz` by mesh and mode, `modes` with the index of one and the same mode on every
-/// mesh (by order in the list, or from [`ModalComparison`](super::super::ModalComparison)).
-///
-/// # Errors
-/// As [`richardson`]; [`ModalError::Shape`] for a mode that a mesh has not.
-pub fn mode_convergence(
-    levels: &MeshLevels,
-    frequencies_hz: &[Vec<f64>],
-    modes: &[Vec<usize>],
-) -> Result<Vec<Convergence>, ModalError> {
-    check_count("lists of frequencies", levels.sizes.len(), frequencies_hz.len())?;
-    let of_mode = |own: &Vec<usize>| {
-        check_count("meshes of a mode", frequencies_hz.len(), own.len())?;
-        let values = own.iter().zip(frequencies_hz).map(|(&mode, list)| {
-            list.get(mode).copied().ok_or(ModalError::Shape {
-                what: "modes of a mesh",
-                expected: mode + 1,
-                found: list.len(),
-            })
-        });
-        richardson(levels, &values.collect::<Result<Vec<f64>, _>>()?)
-    };
-    modes.iter().map(of_mode).collect()
 }
 
 impl MeshLevels {
@@ -257,4 +224,100 @@ impl Sequence<'_> {
     fn without_limit(&self, behaviour: Behaviour, uncertainty: f64) -> Convergence {
         Convergence { finest: self.f[0], estimate: None, order: None, uncertainty, safety_factor: None, behaviour }
     }
+}
+
+/// Orders that are looked for. Below the first a sequence does not converge to speak of.
+const ORDERS: [f64; 2] = [0.05, 20.0];
+
+/// Steps of a bisection or of a golden section: each leaves 0.5 or 0.62 of the range.
+const STEPS: usize = 80;
+
+/// A law and how well it holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Law {
+    /// p.
+    pub order: f64,
+    /// f_0.
+    pub limit: f64,
+    /// Standard deviation of the values from the law; 0 for three values.
+    pub deviation: f64,
+    /// Distance of the finest value from the law.
+    pub finest: f64,
+}
+
+/// Order p of three values at sizes h_1 < h_2 < h_3, from `(f_3 - f_2) / (f_2 - f_1) = (h_3^p - h_2^p) / (h_2^p - h_1^p)`;
+/// `None` if there is none between 0.05 and 20.
+///
+/// The right side rises with p, from `ln(h_3/h_2) / ln(h_2/h_1)` at 0. Source: Roache (1994), for any ratio of sizes.
+fn order_of_three(h: [f64; 3], f: [f64; 3]) -> Option<f64> {
+    let ratio = (f[2] - f[1]) / (f[1] - f[0]);
+    let excess = |p: f64| {
+        let [a, b] = [h[1] / h[0], h[2] / h[1]].map(|r: f64| p * r.ln());
+        // (h_3^p - h_2^p) / (h_2^p - h_1^p), with h_2^p taken out
+        b.exp_m1() / -(-a).exp_m1() - ratio
+    };
+    let [mut low, mut high] = ORDERS;
+    if !ratio.is_finite() || excess(low) > 0.0 || excess(high) < 0.0 {
+        return None;
+    }
+    for _ in 0..STEPS {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// The limit that a given order leaves between the two finest values: `f_1 + (f_1 - f_2) / ((h_2/h_1)^p - 1)`.
+fn limit_of_two(h: [f64; 2], f: [f64; 2], order: f64) -> f64 {
+    f[0] + (f[0] - f[1]) / (order * (h[1] / h[0]).ln()).exp_m1()
+}
+
+/// Weighted least squares past four values or more, weights 1/h so that fine meshes count more (Eca and Hoekstra 2014).
+/// `None` if the best order lies at the end of the range.
+fn law_past_many(h: &[f64], f: &[f64]) -> Option<Law> {
+    let error = |order: f64| with_order(h, f, order).1;
+    let [mut low, mut high] = ORDERS;
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    for _ in 0..STEPS {
+        let [a, b] = [high - golden * (high - low), low + golden * (high - low)];
+        if error(a) < error(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    let order = 0.5 * (low + high);
+    let margin = 1e-3;
+    if order < ORDERS[0] + margin || order > ORDERS[1] - margin {
+        return None;
+    }
+    let (law, _) = with_order(h, f, order);
+    law.limit.is_finite().then_some(law)
+}
+
+/// The best law of a given order, and the weighted sum of its squares.
+fn with_order(h: &[f64], f: &[f64], order: f64) -> (Law, f64) {
+    let finest = h.iter().copied().fold(f64::INFINITY, f64::min);
+    let base = f.first().copied().unwrap_or(0.0);
+    let terms = || h.iter().zip(f).map(|(h, f)| (finest / h, (order * (h / finest).ln()).exp(), f - base));
+    let total: f64 = terms().map(|(weight, ..)| weight).sum();
+    let mean_x = terms().map(|(weight, x, _)| weight * x).sum::<f64>() / total;
+    let mean_y = terms().map(|(weight, _, y)| weight * y).sum::<f64>() / total;
+    let xx: f64 = terms().map(|(weight, x, _)| weight * (x - mean_x).powi(2)).sum();
+    let xy: f64 = terms().map(|(w, x, y)| w * (x - mean_x) * (y - mean_y)).sum();
+    let slope = xy / xx;
+    let at_zero = mean_y - slope * mean_x;
+    let squares: f64 = terms().map(|(w, x, y)| w * (y - at_zero - slope * x).powi(2)).sum();
+    let freedom = f.len().saturating_sub(3).max(1) as f64;
+    let law = Law {
+        order,
+        limit: base + at_zero,
+        deviation: (squares / total * f.len() as f64 / freedom).sqrt(),
+        finest: (at_zero + slope).abs(),
+    };
+    (law, squares)
 }

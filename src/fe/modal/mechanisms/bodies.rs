@@ -1,13 +1,8 @@
 //! Bodies of a housing: elements that hang together through whole faces, edges in the plane.
 
-use crate::fe::mesh::{ElementKind, Sets};
-use crate::fe::model::{HousingModel, Ring, continuum_kind};
+use crate::fe::mesh::{FaceCorners, Sets};
+use crate::fe::model::{HousingModel, Ring};
 use std::collections::BTreeMap;
-
-/// A face by its sorted corners; `NO_CORNER` fills up.
-type Corners = [u32; 4];
-
-const NO_CORNER: u32 = u32::MAX;
 
 const NO_BODY: u32 = u32::MAX;
 
@@ -94,18 +89,11 @@ pub(super) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Body of each element, numbered as met. A mesh has fewer than 2^32 - 1 nodes and elements, which the reader sees to.
 fn joined_through_faces(model: &HousingModel) -> Vec<u32> {
-    let mut faces: Vec<(Corners, u32)> = Vec::new();
+    let mut faces: Vec<(FaceCorners, u32)> = Vec::new();
     for (number, element) in (0..).zip(model.elements.iter()) {
         let nodes = model.elements.nodes(element);
-        let kind = ElementKind::all().find(|&kind| continuum_kind(kind) == Some(element.kind));
-        for face in kind.map_or(&[][..], ElementKind::faces) {
-            let mut corners = [NO_CORNER; 4];
-            let local = &face.nodes[..face.kind.corners()];
-            for (corner, &local) in corners.iter_mut().zip(local) {
-                *corner = nodes[local] as u32;
-            }
-            corners.sort_unstable();
-            faces.push((corners, number));
+        for face in element.kind.faces() {
+            faces.push((face.sorted_corners(nodes), number));
         }
     }
     faces.sort_unstable();

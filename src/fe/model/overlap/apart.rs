@@ -2,21 +2,9 @@
 
 use super::bodies::{Bodies, at};
 use super::facets::Facet;
+use crate::fe::model::nodal::TiedNode;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
-
-/// A node that a link ties to a face.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::fe::model) struct Tied<'t> {
-    /// Its index.
-    pub node: usize,
-    /// Nodes of the face.
-    pub face: &'t [usize],
-    /// The nearest point of the face, m.
-    pub foot: [f64; 3],
-    /// Size of the face, m.
-    pub size: f64,
-}
 
 /// Nodes of a tie that are farther from the face that they follow than flat faces miss a curved surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +63,7 @@ impl Bodies<'_> {
     pub(in crate::fe::model) fn apart(
         &self,
         between: &[String; 2],
-        tied: &[Tied],
+        tied: &[(usize, &TiedNode)],
         tags: &[u64],
         density: &[f64],
     ) -> Option<Apart> {
@@ -91,7 +79,7 @@ impl Bodies<'_> {
         let is_plane = self.solids.first()?.kind.dimension() == 2;
         let mut found: Option<Apart> = None;
         let mut heights: BTreeMap<usize, f64> = BTreeMap::new();
-        for &Tied { node, face, foot, size } in tied {
+        for &(node, TiedNode { nodes: face, foot, size, .. }) in tied {
             let corners = match face.len() {
                 3 if is_plane => 2,
                 6 => 3,
@@ -100,7 +88,7 @@ impl Bodies<'_> {
             };
             let corners = &face[..corners];
             let facet = at_corners.get(&sorted(corners));
-            let gap = Vector3::from(self.points[node]) - Vector3::from(foot);
+            let gap = Vector3::from(self.points[node]) - Vector3::from(*foot);
             let distance = gap.norm();
             let of_face = corners.iter().map(|&corner| reach[corner]).fold(0.0, f64::max);
             let limit = self.tolerance + reach[node] + of_face;
@@ -124,7 +112,7 @@ impl Bodies<'_> {
             apart.inside += usize::from(height < -limit);
             if distance > apart.distance {
                 apart.distance = distance;
-                apart.share = distance / size;
+                apart.share = distance / *size;
                 apart.tag = tags[node];
                 apart.place = self.points[node];
             }

@@ -1,9 +1,8 @@
 //! The elements that are searched, with the names of their parts.
 
-use super::boxes::Bounds;
 use crate::fe::element::continuum::measure;
-use crate::fe::mesh::{ElementKind, Mesh};
-use crate::fe::model::elements::{HousingElements, continuum_kind, element_kind};
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
+use crate::fe::model::elements::HousingElements;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
@@ -51,8 +50,7 @@ impl<'m> Bodies<'m> {
             }
         }
         let own = mesh.blocks.iter().zip(&part);
-        let own = own.filter(|(block, _)| continuum_kind(block.kind).is_some());
-        let own = own.filter(|(block, _)| Some(block.kind.dimension()) == dimension);
+        let own = own.filter(|(block, _)| block.kind.dimension() >= 2 && Some(block.kind.dimension()) == dimension);
         let solids = own.flat_map(|(block, parts)| {
             let each = block.elements().zip(&block.tags).zip(parts);
             each.map(|((nodes, &tag), &part)| Solid { tag, kind: block.kind, nodes, part })
@@ -68,7 +66,7 @@ impl<'m> Bodies<'m> {
     ) -> Self {
         let solids = elements.iter().map(|element| Solid {
             tag: element.tag,
-            kind: element_kind(element.kind),
+            kind: element.kind,
             nodes: elements.nodes(element),
             part: element.part,
         });
@@ -77,7 +75,7 @@ impl<'m> Bodies<'m> {
 
     fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
         let corners = solids.iter().flat_map(|solid| solid.corners());
-        let extent = Bounds::of(corners.map(|&node| points[node]), 0.0);
+        let extent = BoundingBox::of(corners.map(|&node| points[node]));
         let tolerance = match solids.is_empty() {
             true => 0.0,
             false => SAME_PLACE * extent.diagonal(),
@@ -102,7 +100,7 @@ impl<'m> Bodies<'m> {
 
     /// Area (m^2) of a plane element, volume (m^3) of a solid; `None` for one that is inverted, folded or without size.
     pub(super) fn size(&self, solid: &Solid) -> Option<f64> {
-        measure(continuum_kind(solid.kind)?, &self.coordinates(solid)).ok()
+        measure(solid.kind, &self.coordinates(solid)).ok()
     }
 
     pub(super) fn names(&self, parts: [usize; 2]) -> [String; 2] {

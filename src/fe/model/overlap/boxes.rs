@@ -1,53 +1,30 @@
 //! Boxes in a tree: which of many hold a point.
 
+use crate::fe::mesh::BoundingBox;
+
 /// Most boxes in a leaf.
 const LEAF: usize = 8;
 
-/// A box with sides along the axes, m.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
-    pub low: [f64; 3],
-    pub high: [f64; 3],
-}
-
-impl Bounds {
-    /// The smallest that holds these points, grown by `reach` (m) to all sides.
-    pub(super) fn of(points: impl Iterator<Item = [f64; 3]>, reach: f64) -> Self {
-        let mut found = Self::empty();
-        points.for_each(|point| found.add(point, point));
-        Self { low: found.low.map(|x| x - reach), high: found.high.map(|x| x + reach) }
-    }
-
-    /// Length of the diagonal, m.
-    pub(super) fn diagonal(&self) -> f64 {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
-        x.hypot(y).hypot(z)
-    }
-
-    fn empty() -> Self {
-        Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] }
-    }
-
-    fn add(&mut self, low: [f64; 3], high: [f64; 3]) {
-        for axis in 0..3 {
-            self.low[axis] = self.low[axis].min(low[axis]);
-            self.high[axis] = self.high[axis].max(high[axis]);
-        }
+impl BoundingBox {
+    /// Grown by `reach` (m) to all sides.
+    pub(super) fn grown(self, reach: f64) -> Self {
+        Self { min: self.min.map(|x| x - reach), max: self.max.map(|x| x + reach) }
     }
 
     fn holds(&self, point: [f64; 3], reach: f64) -> bool {
-        (0..3).all(|axis| self.low[axis] - reach <= point[axis] && point[axis] <= self.high[axis] + reach)
+        (0..3).all(|axis| self.min[axis] - reach <= point[axis] && point[axis] <= self.max[axis] + reach)
     }
 
-    fn middle(&self, axis: usize) -> f64 {
-        0.5 * (self.low[axis] + self.high[axis])
+    /// Middle between both sides along an axis, m.
+    pub(super) fn middle(&self, axis: usize) -> f64 {
+        0.5 * (self.min[axis] + self.max[axis])
     }
 }
 
 /// A branch, whose left part is the node behind it, or a leaf.
 #[derive(Debug)]
 struct Node {
-    bounds: Bounds,
+    bounds: BoundingBox,
     /// Places in the order, of a leaf.
     range: std::ops::Range<u32>,
     /// Index of the right part; none of a leaf.
@@ -58,13 +35,13 @@ struct Node {
 #[derive(Debug)]
 pub(super) struct BoxTree {
     /// In the order, so that a leaf's lie side by side.
-    boxes: Vec<Bounds>,
+    boxes: Vec<BoundingBox>,
     order: Vec<u32>,
     nodes: Vec<Node>,
 }
 
 impl BoxTree {
-    pub(super) fn new(boxes: Vec<Bounds>) -> Self {
+    pub(super) fn new(boxes: Vec<BoundingBox>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::new();
         if !boxes.is_empty() {
@@ -99,18 +76,15 @@ impl BoxTree {
 }
 
 /// Adds the node of a part of the order that begins at `first`, and those below it.
-fn split(boxes: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<Node>) {
-    let mut bounds = Bounds::empty();
-    for &index in order.iter() {
-        let own = &boxes[index as usize];
-        bounds.add(own.low, own.high);
-    }
+fn split(boxes: &[BoundingBox], order: &mut [u32], first: u32, nodes: &mut Vec<Node>) {
+    let ends = order.iter().flat_map(|&index| [boxes[index as usize].min, boxes[index as usize].max]);
+    let bounds = BoundingBox::of(ends);
     let number = nodes.len();
     nodes.push(Node { bounds, range: first..first + order.len() as u32, right: None });
     if order.len() <= LEAF {
         return;
     }
-    let side = |axis: usize| bounds.high[axis] - bounds.low[axis];
+    let side = |axis: usize| bounds.max[axis] - bounds.min[axis];
     let axis = (1..3).fold(0, |long, axis| if side(axis) > side(long) { axis } else { long });
     let half = order.len() / 2;
     order.select_nth_unstable_by(half, |&a, &b| {

@@ -1,9 +1,10 @@
 //! Bodies that reach into one another between the centres of all their elements.
 
 use super::bodies::{Bodies, Solid, at, both};
-use super::boxes::{Bounds, BoxTree};
+use super::boxes::BoxTree;
 use super::outline::normal;
 use super::{Overlap, Touching};
+use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -86,8 +87,7 @@ impl Bodies<'_> {
         let pairs = outer.par_iter().flat_map_iter(|&index| {
             let solid = &self.solids[index];
             let own = self.bounds(solid);
-            let middle = [0, 1, 2].map(|axis| 0.5 * (own.low[axis] + own.high[axis]));
-            let sides = [0, 1, 2].map(|axis| own.high[axis] - own.low[axis]);
+            let (middle, sides) = ([0, 1, 2].map(|axis| own.middle(axis)), own.extent());
             let mut found = Vec::new();
             tree.visit(middle, 0.5 * sides.into_iter().fold(0.0, f64::max), |other| {
                 let of_other = &self.solids[other];
@@ -121,7 +121,7 @@ impl Bodies<'_> {
                 pairs,
                 depth,
                 tags: deepest.map(|index| self.solids[index].tag),
-                place: [0, 1, 2].map(|axis| 0.5 * (a.low[axis].max(b.low[axis]) + a.high[axis].min(b.high[axis]))),
+                place: [0, 1, 2].map(|axis| 0.5 * (a.min[axis].max(b.min[axis]) + a.max[axis].min(b.max[axis]))),
             }
         });
         let known = overlaps.iter().map(|overlap| &overlap.parts);
@@ -131,9 +131,9 @@ impl Bodies<'_> {
         found.filter(|crossing| !known.contains(&&crossing.parts)).collect()
     }
 
-    fn bounds(&self, solid: &Solid) -> Bounds {
+    fn bounds(&self, solid: &Solid) -> BoundingBox {
         let corners = solid.corners().iter();
-        Bounds::of(corners.map(|&node| self.points[node]), 0.0)
+        BoundingBox::of(corners.map(|&node| self.points[node]))
     }
 
     /// The least distance that would part two elements, if that is more than round-off, m.

@@ -1,9 +1,12 @@
-//! Elements that stand on the corners of another one.
+//! Elements that stand on the corners of another one, and elements of first order beside those of second order on the same
+//! edges, which come apart between the corners.
 
 use super::bodies::{Bodies, Solid, at, both};
+use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Elements that stand on the corners of one before them: their mass and stiffness would count twice.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -80,6 +83,111 @@ impl Bodies<'_> {
         [0, 1, 2].map(|axis| {
             let sum: f64 = nodes.iter().map(|&node| self.points[node][axis]).sum();
             sum / nodes.len() as f64
+        })
+    }
+}
+
+/// Edges on which elements do not have the same middle node.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MixedOrders {
+    /// How many, > 0.
+    pub edges: usize,
+    /// Tags of two elements with the first of these edges.
+    pub tags: [u64; 2],
+    /// Names of the parts of these two.
+    pub parts: [String; 2],
+    /// Centre of that edge, m.
+    pub place: [f64; 3],
+}
+
+impl MixedOrders {
+    /// What they are, in words.
+    pub fn sentence(&self) -> String {
+        let [first, second] = self.tags;
+        format!(
+            "{} without a middle node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
+            match self.edges {
+                1 => "1 edge is".to_owned(),
+                count => format!("{count} edges are"),
+            },
+            both(&self.parts),
+            at(self.place)
+        )
+    }
+}
+
+/// The middle node of an edge of first order. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+const NO_NODE: u32 = u32::MAX;
+
+/// Edges of an element: the corners in order, and the middle node.
+fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
+    kind.edges().map(|(ends, middle)| {
+        let [a, b] = ends.map(|local| nodes[local] as u32);
+        let middle = middle.map_or(NO_NODE, |local| nodes[local] as u32);
+        [a.min(b), a.max(b), middle]
+    })
+}
+
+impl Bodies<'_> {
+    fn has_middle_nodes(&self) -> bool {
+        self.solids.iter().any(|solid| solid.kind.order() == 2)
+    }
+
+    /// The edges on which elements do not have the same middle node; `None` if there are none.
+    pub(crate) fn mixed_orders(&self) -> Option<MixedOrders> {
+        if !self.has_middle_nodes() {
+            return None;
+        }
+        let solids = self.solids.par_iter().enumerate();
+        let mut all: Vec<([u32; 3], u32)> = solids
+            .flat_map_iter(|(index, solid)| edges(solid.kind, solid.nodes).map(move |edge| (edge, index as u32)))
+            .collect();
+        all.par_sort_unstable();
+        let apart = all.chunk_by(|a, b| a.0[..2] == b.0[..2]).filter(|same| same[0].0[2] != same[same.len() - 1].0[2]);
+        let same = apart.clone().next()?;
+        let pair = [same[0].1, same[same.len() - 1].1];
+        let mut pair = pair.map(|index| &self.solids[index as usize]);
+        pair.sort_unstable_by_key(|solid| solid.tag);
+        Some(MixedOrders {
+            edges: apart.count(),
+            tags: pair.map(|solid| solid.tag),
+            parts: self.names(pair.map(|solid| solid.part)),
+            place: self.mean(&[same[0].0[0] as usize, same[0].0[1] as usize]),
+        })
+    }
+
+    /// The edges of a group of curves or faces that lack the middle node of the elements there; the first tag is that of the
+    /// group's element, and both parts are that of the other.
+    pub(in crate::fe::model) fn without_middle_nodes(&self, mesh: &Mesh, group: &PhysicalGroup) -> Option<MixedOrders> {
+        if !self.has_middle_nodes() {
+            return None;
+        }
+        let mut of_group: BTreeMap<[u32; 2], (u32, u64)> = BTreeMap::new();
+        for id in &group.elements {
+            let block = &mesh.blocks[id.block];
+            for [a, b, middle] in edges(block.kind, block.element(id.index).unwrap_or_default()) {
+                let entry = of_group.entry([a, b]).or_insert((middle, block.tags[id.index]));
+                if middle == NO_NODE {
+                    *entry = (middle, block.tags[id.index]);
+                }
+            }
+        }
+        let mut found: BTreeMap<[u32; 2], (u64, &Solid)> = BTreeMap::new();
+        for solid in self.solids.iter().filter(|solid| solid.kind.order() == 2) {
+            for [a, b, middle] in edges(solid.kind, solid.nodes) {
+                if let Some(&(own, tag)) = of_group.get(&[a, b])
+                    && own != middle
+                {
+                    found.entry([a, b]).or_insert((tag, solid));
+                }
+            }
+        }
+        let (ends, (tag, solid)) = found.first_key_value()?;
+        Some(MixedOrders {
+            edges: found.len(),
+            tags: [*tag, solid.tag],
+            parts: self.names([solid.part; 2]),
+            place: self.mean(&ends.map(|node| node as usize)),
         })
     }
 }

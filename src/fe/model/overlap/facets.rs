@@ -2,14 +2,12 @@
 
 use super::bodies::Bodies;
 use super::outline::{centre, normal};
-use crate::fe::mesh::Sets;
+use crate::fe::mesh::{FaceCorners, Sets};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Largest angle between two facets of one smooth surface, as a cosine (60 degrees); beyond it is an edge of the body.
 const SMOOTH: f64 = 0.5;
-
-const NO_CORNER: u32 = u32::MAX;
 
 /// A face of one element and of no other, by its corners; an edge in the plane.
 #[derive(Debug)]
@@ -46,17 +44,11 @@ impl Bodies<'_> {
     /// of each element: those that hang together through whole faces have one.
     pub(super) fn outer_faces(&self) -> (Vec<(usize, u8)>, Vec<usize>) {
         let faces = self.solids.par_iter().enumerate();
-        let mut faces: Vec<([u32; 4], u32, u8)> = faces
+        let mut faces: Vec<(FaceCorners, u32, u8)> = faces
             .flat_map_iter(|(index, solid)| {
-                (0..).zip(solid.kind.faces()).map(move |(number, face)| {
-                    let mut corners = [NO_CORNER; 4];
-                    let local = &face.nodes[..face.kind.corners()];
-                    for (slot, &local) in corners.iter_mut().zip(local) {
-                        *slot = solid.nodes[local] as u32;
-                    }
-                    corners.sort_unstable();
-                    (corners, index as u32, number)
-                })
+                (0..)
+                    .zip(solid.kind.faces())
+                    .map(move |(number, face)| (face.sorted_corners(solid.nodes), index as u32, number))
             })
             .collect();
         faces.par_sort_unstable();

@@ -1,9 +1,10 @@
 //! Bodies that lie in one another: elements whose centre is within another element.
 
 use super::bodies::{Bodies, at, both};
-use super::boxes::{Bounds, BoxTree};
+use super::boxes::BoxTree;
 use super::doubled::sorted_corners;
 use super::outline::{centre, holds};
+use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -75,7 +76,7 @@ impl Bodies<'_> {
         }
         let bounds = self.solids.par_iter().map(|solid| {
             let points = solid.nodes.iter().map(|&node| self.points[node]);
-            Bounds::of(points, 0.0)
+            BoundingBox::of(points)
         });
         let tree = BoxTree::new(bounds.collect());
         let centres = self.solids.par_iter().map(|solid| centre(self, solid));

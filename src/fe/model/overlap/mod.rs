@@ -17,17 +17,14 @@ mod crossing;
 mod doubled;
 mod facets;
 mod inside;
-mod orders;
 mod outline;
 #[cfg(test)]
 mod tests;
 mod touching;
 
 pub use apart::Apart;
-pub(super) use apart::Tied;
 pub use bodies::Bodies;
 pub use crossing::Crossing;
-pub use doubled::Doubled;
+pub use doubled::{Doubled, MixedOrders};
 pub use inside::{Overlap, OverlapRule};
-pub use orders::MixedOrders;
 pub use touching::Touching;

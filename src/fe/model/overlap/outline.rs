@@ -1,9 +1,8 @@
 //! What an element fills, by the planes of its faces.
 
 use super::bodies::{Bodies, Solid};
-use crate::fe::element::continuum::{ContinuumKind, shape_values, surface_shape};
+use crate::fe::element::continuum::shape_values;
 use crate::fe::mesh::{ElementKind, Face};
-use crate::fe::model::elements::{continuum_kind, surface_kind};
 use nalgebra::Vector3;
 
 /// How far behind the plane of each face a point must be, relative to the element's own centre, to be within it.
@@ -13,24 +12,18 @@ const DEPTH: f64 = 0.01;
 /// Centre of an element, where its natural coordinates have the mean of the corners: also of curved elements it lies
 /// within.
 pub(super) fn centre(bodies: &Bodies, solid: &Solid) -> Vector3<f64> {
-    let Some(kind) = continuum_kind(solid.kind) else {
-        return Vector3::from(bodies.mean(solid.corners()));
-    };
-    let values = shape_values(kind, natural_centre(kind));
-    blended(bodies, solid.nodes, &values)
+    blended(bodies, solid.kind, solid.nodes)
 }
 
-fn natural_centre(kind: ContinuumKind) -> [f64; 3] {
+/// The point of an element or a face where its natural coordinates have the mean of the corners.
+fn blended(bodies: &Bodies, kind: ElementKind, nodes: &[usize]) -> Vector3<f64> {
     let corners = &kind.natural_nodes()[..kind.corners()];
-    [0, 1, 2].map(|axis| {
+    let natural = [0, 1, 2].map(|axis| {
         let sum: f64 = corners.iter().map(|corner| corner[axis]).sum();
         sum / corners.len() as f64
-    })
-}
-
-fn blended(bodies: &Bodies, nodes: &[usize], values: &[f64]) -> Vector3<f64> {
-    let terms = nodes.iter().zip(values);
-    terms.fold(Vector3::zeros(), |sum, (&node, &value)| sum + Vector3::from(bodies.points[node]) * value)
+    });
+    let terms = nodes.iter().zip(shape_values(kind, natural));
+    terms.fold(Vector3::zeros(), |sum, (&node, value)| sum + Vector3::from(bodies.points[node]) * value)
 }
 
 /// Normal of a face by its corners, as long as twice its area; of an edge in the plane, as long as the edge. Its sign is
@@ -81,14 +74,7 @@ fn plane(bodies: &Bodies, solid: &Solid, face: &Face) -> (Vector3<f64>, Vector3<
 impl Bodies<'_> {
     /// The middle of a face of an element on the face's own curve.
     pub(super) fn middle(&self, solid: &Solid, face: &Face) -> Vector3<f64> {
-        let natural = match face.kind {
-            ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0; 2],
-            _ => [0.0; 2],
-        };
         let nodes: Vec<usize> = face.nodes.iter().map(|&local| solid.nodes[local]).collect();
-        match surface_kind(face.kind) {
-            Some(kind) => blended(self, &nodes, &surface_shape(kind, natural).0),
-            None => Vector3::from(self.mean(&nodes)),
-        }
+        blended(self, face.kind, &nodes)
     }
 }

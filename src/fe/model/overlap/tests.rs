@@ -1,7 +1,8 @@
 //! Bodies with known faults, and sound ones that must not be blamed.
 
-use super::boxes::{Bounds, BoxTree};
+use super::boxes::BoxTree;
 use super::{Bodies, Doubled};
+use crate::fe::mesh::BoundingBox;
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 use std::f64::consts::{PI, TAU};
 
@@ -238,11 +239,11 @@ fn the_tree_finds_the_boxes_of_a_point() {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(state) / f64::from(u32::MAX)
     };
-    let boxes: Vec<Bounds> = (0..500)
+    let boxes: Vec<BoundingBox> = (0..500)
         .map(|_| {
             let low = [random(), random(), random()];
             let high = low.map(|x| x + 0.2 * random());
-            Bounds::of([low, high].into_iter(), 0.0)
+            BoundingBox::of([low, high].into_iter())
         })
         .collect();
     let tree = BoxTree::new(boxes.clone());
@@ -252,8 +253,8 @@ fn the_tree_finds_the_boxes_of_a_point() {
         let mut found = Vec::new();
         tree.visit(point, reach, |index| found.push(index));
         found.sort_unstable();
-        let inside = |bounds: &Bounds| {
-            (0..3).all(|axis| (bounds.low[axis] - reach..=bounds.high[axis] + reach).contains(&point[axis]))
+        let inside = |bounds: &BoundingBox| {
+            (0..3).all(|axis| (bounds.min[axis] - reach..=bounds.max[axis] + reach).contains(&point[axis]))
         };
         let expected: Vec<usize> = (0..boxes.len()).filter(|&index| inside(&boxes[index])).collect();
         assert_eq!(found, expected);

@@ -1,9 +1,10 @@
 //! Faces that lie on each other and have no nodes in common.
 
 use super::bodies::{Bodies, at, both};
-use super::boxes::{Bounds, BoxTree};
+use super::boxes::BoxTree;
 use super::facets::Facet;
 use super::outline::{centre, holds};
+use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -92,7 +93,7 @@ impl Bodies<'_> {
         // with the whole element behind it: the face of another body may have sunk into it
         let bounds = facets.iter().map(|facet| {
             let nodes = self.solids[facet.solid].nodes.iter();
-            Bounds::of(nodes.map(|&node| self.points[node]), facet.reach)
+            BoundingBox::of(nodes.map(|&node| self.points[node])).grown(facet.reach)
         });
         let tree = BoxTree::new(bounds.collect());
         let order = tree.order().par_iter();

@@ -1,6 +1,6 @@
 //! Strain energy of a ring's shapes, element by element and spring by spring.
 
-use super::{NODE_DOF, Ring};
+use super::{Ring, RingSpring};
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::{Matrix6, Vector6};
 
@@ -11,23 +11,6 @@ pub struct RingStrain {
     pub beams: DenseMatrix,
     /// In the springs [count x count].
     pub springs: DenseMatrix,
-}
-
-/// A spring to the ground: `stiffness (row . d)^2 / 2`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RingSpring {
-    pub dofs: [usize; NODE_DOF],
-    pub row: [f64; NODE_DOF],
-    /// N/m, > 0.
-    pub stiffness: f64,
-}
-
-impl RingSpring {
-    /// Displacement of the attachment for the ring displacements `d`, m.
-    pub(crate) fn stretch(&self, d: &[f64]) -> f64 {
-        let pairs = self.dofs.iter().zip(&self.row);
-        pairs.map(|(&dof, factor)| factor * d[dof]).sum()
-    }
 }
 
 impl Ring {

@@ -1,8 +1,10 @@
 //! The ring in space: rigid motions, continuity, and the plane ring inside it.
 
 use super::*;
-use crate::fe::material::{Bond, Material, RadiusRule, RingLayer};
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::numerics::linalg::symmetric_generalised_eigen;
+use std::f64::consts::{PI, TAU};
 
 /// The published ring pair, whose masses lie off the reference radius.
 fn layers() -> [RingLayer; 2] {

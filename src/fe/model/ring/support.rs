@@ -58,7 +58,7 @@ impl Ring {
     /// `offset omega x e_r` in space.
     ///
     /// # Errors
-    /// [`RingError::EmptySupport`].
+    /// [`RingError`] for a support that no node stands on.
     pub fn add_support(&mut self, support: &RingSupport) -> Result<(), RingError> {
         let angles = self.nodes_between(support.from, support.to)?;
         let share = match support.share {
@@ -88,7 +88,7 @@ impl Ring {
     /// is rigid.
     ///
     /// # Errors
-    /// [`RingError::EmptySupport`].
+    /// [`RingError`] for a support that no node stands on.
     pub fn add_radial_support(&mut self, support: &RadialSupport) -> Result<(), RingError> {
         for (node, angle) in self.nodes_between(support.from, support.to)? {
             let (sin, cos) = angle.sin_cos();
@@ -124,12 +124,11 @@ impl Ring {
         let angles: Vec<(usize, f64)> =
             (0..self.nodes).map(|node| (node, self.node_angle(node))).filter(|&(_, angle)| inside(angle)).collect();
         if angles.is_empty() {
-            return Err(RingError::EmptySupport {
-                from_deg: from.to_degrees(),
-                to_deg: to.to_degrees(),
-                nodes: self.nodes,
-                spacing_deg: 360.0 / self.nodes as f64,
-            });
+            let (from, to, spacing) = (from.to_degrees(), to.to_degrees(), 360.0 / self.nodes as f64);
+            return Err(RingError(format!(
+                "no ring node stands between {from} and {to} degrees (half-open); the {} nodes are {spacing} degrees apart",
+                self.nodes
+            )));
         }
         Ok(angles)
     }

@@ -1,8 +1,10 @@
 //! Rigid motions, supports and their errors in the plane.
 
 use super::*;
-use crate::fe::material::{Bond, Material, RadiusRule, RingLayer};
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::numerics::linalg::symmetric_generalised_eigen;
+use std::f64::consts::{PI, TAU};
 
 fn ring(nodes: usize, kind: RingInterpolation) -> Ring {
     let layer = RingLayer {

@@ -18,7 +18,11 @@ const SEMIDEFINITE: f64 = -1e-9;
 /// modes, of which residuals are below 1e-5 and errors of orthogonality below the square of that.
 const BLOCK: f64 = 1e-8;
 
-pub(super) fn checks(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
+/// Checks of the matrices alone: they hold for a superelement from anywhere.
+///
+/// # Errors
+/// What the dense eigenvalue solver reports.
+pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
     let (k, m) = (&element.stiffness, &element.mass);
     let (b, n) = (element.interface_dof, element.order());
     let lowest_k = symmetric_eigen(&scaled(k))?;

@@ -16,7 +16,7 @@ pub(super) struct Window {
 
 impl Window {
     /// # Errors
-    /// [`FrfError::Band`]; [`FrfError::NotCovered`] if the frequencies, ascending, do not reach the band's ends.
+    /// [`FrfError`] if the frequencies, ascending, do not reach the band's ends.
     pub(super) fn new(frequencies_hz: &[f64], band_hz: [f64; 2]) -> Result<Self, FrfError> {
         let [low, high] = check_band(band_hz)?;
         check_frequencies(frequencies_hz)?;
@@ -25,7 +25,9 @@ impl Window {
             _ => (f64::NAN, f64::NAN),
         };
         if !(first <= low && high <= last) {
-            return Err(FrfError::NotCovered { low, high, first, last });
+            return Err(FrfError(format!(
+                "the band {low} Hz to {high} Hz is not covered by the response, which goes from {first} Hz to {last} Hz"
+            )));
         }
         let mut weights = Vec::new();
         for (place, pair) in frequencies_hz.windows(2).enumerate() {
@@ -48,7 +50,10 @@ impl Window {
 }
 
 pub(super) fn check_band([low, high]: [f64; 2]) -> Result<[f64; 2], FrfError> {
-    if low >= 0.0 && low < high && high.is_finite() { Ok([low, high]) } else { Err(FrfError::Band { low, high }) }
+    if low >= 0.0 && low < high && high.is_finite() {
+        return Ok([low, high]);
+    }
+    Err(FrfError(format!("a band goes from a frequency of zero or more to a higher one, found {low} Hz to {high} Hz")))
 }
 
 /// A variant's response over frequency.
@@ -79,7 +84,7 @@ pub struct RankedVariant {
 /// Mean square of `|H|` over a band, `int |H|^2 df / (high - low)`, by the trapezoidal rule on a list of any spacing.
 ///
 /// # Errors
-/// [`FrfError::Shape`], [`FrfError::Band`], [`FrfError::Frequency`], [`FrfError::Order`], [`FrfError::NotCovered`].
+/// [`FrfError`].
 pub(crate) fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [f64; 2]) -> Result<f64, FrfError> {
     same("number of magnitudes", frequencies_hz.len(), magnitudes.len())?;
     let window = Window::new(frequencies_hz, band_hz)?;
@@ -90,14 +95,14 @@ pub(crate) fn energy_mean(frequencies_hz: &[f64], magnitudes: &[f64], band_hz: [
 /// order given. `reference` in the unit of H, > 0.
 ///
 /// # Errors
-/// As [`energy_mean`]; [`FrfError::Grid`] for the reference.
+/// As [`energy_mean`]; [`FrfError`] for the reference.
 pub(crate) fn rank_in_band(
     variants: &[BandVariant<'_>],
     band_hz: [f64; 2],
     reference: f64,
 ) -> Result<Vec<RankedVariant>, FrfError> {
     if !(reference > 0.0 && reference.is_finite()) {
-        return Err(FrfError::Grid { what: "the reference of a level", rule: "positive and finite", value: reference });
+        return Err(FrfError(format!("the reference of a level must be positive and finite, found {reference}")));
     }
     let mut ranked = Vec::with_capacity(variants.len());
     for (index, variant) in variants.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Damping given mode by mode.
 
 use super::FrfError;
+use super::error::{check_frequencies, wrong_coefficient};
 use super::system::same;
 use std::f64::consts::TAU;
 
@@ -27,8 +28,8 @@ impl ModalDamping {
     /// alpha of Rayleigh damping and nothing of a ratio.
     ///
     /// # Errors
-    /// [`FrfError::Ratio`], [`FrfError::Coefficient`], [`FrfError::NoPoints`], [`FrfError::Frequency`],
-    /// [`FrfError::Order`]; [`FrfError::Shape`] for another number of ratios than modes.
+    /// [`FrfError`],
+    /// [`FrfError`] for another number of ratios than modes.
     pub(crate) fn rates(&self, omegas: &[f64]) -> Result<Vec<f64>, FrfError> {
         let of_ratio = |ratio: f64, omega: f64| 2.0 * ratio * omega;
         match self {
@@ -39,7 +40,7 @@ impl ModalDamping {
             Self::Rayleigh { alpha, beta } => {
                 for (name, value) in [("alpha", *alpha), ("beta", *beta)] {
                     if !(value >= 0.0 && value.is_finite()) {
-                        return Err(FrfError::Coefficient { name, value });
+                        return Err(wrong_coefficient(name, value));
                     }
                 }
                 Ok(omegas.iter().map(|w| alpha + beta * w * w).collect())
@@ -56,7 +57,7 @@ impl ModalDamping {
             }
             Self::Points(points) => {
                 let frequencies: Vec<f64> = points.iter().map(|point| point.0).collect();
-                super::error::check_frequencies(&frequencies)?;
+                check_frequencies(&frequencies)?;
                 for &(_, ratio) in points {
                     check_ratio(ratio)?;
                 }
@@ -65,14 +66,17 @@ impl ModalDamping {
                     .iter()
                     .map(|&omega| at(omega).map(|ratio| of_ratio(ratio, omega)))
                     .collect::<Option<_>>()
-                    .ok_or(FrfError::NoPoints)
+                    .ok_or_else(|| FrfError("damping ratios over frequency need at least one point".to_owned()))
             }
         }
     }
 }
 
 fn check_ratio(ratio: f64) -> Result<(), FrfError> {
-    if (0.0..1.0).contains(&ratio) { Ok(()) } else { Err(FrfError::Ratio { ratio }) }
+    if (0.0..1.0).contains(&ratio) {
+        return Ok(());
+    }
+    Err(FrfError(format!("a damping ratio must be zero or more and below 1, found {ratio}")))
 }
 
 fn interpolated(points: &[(f64, f64)], hz: f64) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! Responses by a complex factorisation at each frequency, exact for any damping.
 
-use super::error::check_frequencies;
+use super::error::{check_frequencies, unbounded};
 use super::{FrequencyResponse, FrfError, FrfPaths, ReducedSystem};
 use crate::numerics::linalg::{ComplexMatrix, complex_columns, complex_solve};
 use faer::c64;
@@ -14,7 +14,7 @@ const LARGEST_UNCERTAINTY: f64 = 1e-4;
 /// what is computed for one does not depend on their number.
 ///
 /// # Errors
-/// [`FrfError::Shape`], [`FrfError::Frequency`], [`FrfError::Order`]; [`FrfError::Unbounded`] at the lowest frequency at
+/// [`FrfError`] at the lowest frequency at
 /// which the system is singular.
 pub fn direct_response(
     system: &ReducedSystem,
@@ -30,7 +30,7 @@ pub fn direct_response(
         .map(|&hz| {
             let found = complex_solve(&dynamic_stiffness(system, TAU * hz), &loads)?;
             if found.uncertainty > LARGEST_UNCERTAINTY {
-                return Err(FrfError::Unbounded { hz });
+                return Err(unbounded(hz));
             }
             Ok((&sensors * &found.x, found.uncertainty))
         })

@@ -2,6 +2,7 @@
 
 use super::FrfError;
 use super::band::check_band;
+use super::error::{wrong_coefficient, wrong_frequency};
 
 /// A resonance to be resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,24 +33,18 @@ const SAME: f64 = 1e-9;
 /// ascending, each once, all within the band.
 ///
 /// # Errors
-/// [`FrfError::Band`], [`FrfError::Grid`], [`FrfError::Frequency`] and [`FrfError::Coefficient`] of a resonance.
+/// [`FrfError`] of a resonance.
 pub(crate) fn frequency_list(grid: &FrequencyGrid, resonances: &[Resonance]) -> Result<Vec<f64>, FrfError> {
     let [low, high] = check_band(grid.band_hz)?;
     for (what, value) in
         [("the number of intervals", grid.intervals), ("the number of points in a bandwidth", grid.points_a_bandwidth)]
     {
         if value == 0 {
-            let rule = "one or more";
-            let value = 0.0;
-            return Err(FrfError::Grid { what, rule, value });
+            return Err(FrfError(format!("{what} must be one or more, found 0")));
         }
     }
     if !(grid.reach >= 0.0 && grid.reach.is_finite()) {
-        return Err(FrfError::Grid {
-            what: "the reach in bandwidths",
-            rule: "zero or more and finite",
-            value: grid.reach,
-        });
+        return Err(FrfError(format!("the reach in bandwidths must be zero or more and finite, found {}", grid.reach)));
     }
     let step = (high - low) / grid.intervals as f64;
     let mut list: Vec<f64> = (0..grid.intervals).map(|place| low + place as f64 * step).collect();
@@ -70,10 +65,10 @@ pub(crate) fn frequency_list(grid: &FrequencyGrid, resonances: &[Resonance]) -> 
 fn around(grid: &FrequencyGrid, resonance: &Resonance) -> Result<Vec<f64>, FrfError> {
     let Resonance { frequency_hz: centre, ratio } = *resonance;
     if !(centre >= 0.0 && centre.is_finite()) {
-        return Err(FrfError::Frequency { hz: centre });
+        return Err(wrong_frequency(centre));
     }
     if !(ratio >= 0.0 && ratio.is_finite()) {
-        return Err(FrfError::Coefficient { name: "ratio", value: ratio });
+        return Err(wrong_coefficient("ratio", ratio));
     }
     let step = 2.0 * ratio * centre / grid.points_a_bandwidth as f64;
     if step <= SAME * centre {

@@ -18,8 +18,8 @@ mod response;
 mod share;
 mod system;
 
+pub(crate) use band::rank_in_band;
 pub use band::{BandVariant, RankedVariant};
-pub(crate) use band::{energy_mean, rank_in_band};
 pub use damping::ModalDamping;
 pub use direct::direct_response;
 pub use error::FrfError;

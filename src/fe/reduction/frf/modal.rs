@@ -11,7 +11,7 @@
 //! Exact but for the statics of R where damping does not couple modes (Ewins, Modal Testing, 2nd ed. (2000), sections 2.4 to
 //! 2.6); where it does, the coupling is neglected and measured.
 
-use super::error::check_frequencies;
+use super::error::{check_frequencies, unbounded};
 use super::response::check_path;
 use super::{FrequencyResponse, FrfError, FrfPaths, ModalDamping, ReducedSystem};
 use crate::numerics::linalg::{ComplexMatrix, DenseCholesky, DenseMatrix, acting_generalised_eigen};
@@ -54,7 +54,7 @@ impl ModalBasis {
     /// All modes of a system, by a dense solver.
     ///
     /// # Errors
-    /// [`FrfError::Linalg`].
+    /// [`FrfError`].
     pub fn new(system: &ReducedSystem) -> Result<Self, FrfError> {
         let spectrum = acting_generalised_eigen(system.stiffness(), system.mass())?;
         let count = spectrum.values.iter().take_while(|value| value.is_finite()).count();
@@ -101,8 +101,8 @@ impl ModalSuperposition {
     /// the system's own damping matrices in modal coordinates.
     ///
     /// # Errors
-    /// [`FrfError::TooManyModes`], [`FrfError::Shape`], what [`ModalDamping::rates`] refuses;
-    /// [`FrfError::Linalg`] for the statics of motions without mass.
+    /// [`FrfError`], what [`ModalDamping::rates`] refuses;
+    /// [`FrfError`] for the statics of motions without mass.
     pub fn new(
         system: &ReducedSystem,
         basis: &ModalBasis,
@@ -113,8 +113,7 @@ impl ModalSuperposition {
         system.check(paths)?;
         let available = basis.squared.len();
         if kept > available {
-            let asked = kept;
-            return Err(FrfError::TooManyModes { asked, available });
+            return Err(FrfError(format!("{kept} modes asked for, but the system has only {available} with mass")));
         }
         let mut rates = damping.rates(&basis.omegas)?;
         rates.truncate(kept);
@@ -201,7 +200,7 @@ impl ModalSuperposition {
     /// not depend on their number.
     ///
     /// # Errors
-    /// [`FrfError::Frequency`], [`FrfError::Order`], [`FrfError::Unbounded`].
+    /// [`FrfError`].
     pub fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, FrfError> {
         check_frequencies(frequencies_hz)?;
         let (sensors, loads) = (self.seen.nrows(), self.driven.ncols());
@@ -223,7 +222,7 @@ impl ModalSuperposition {
     /// the last row is the residual. The columns add up to the path's receptance.
     ///
     /// # Errors
-    /// [`FrfError::NoSuchPath`], and as [`ModalSuperposition::response`].
+    /// [`FrfError`], and as [`ModalSuperposition::response`].
     pub(crate) fn contributions(
         &self,
         sensor: usize,
@@ -257,7 +256,7 @@ impl ModalSuperposition {
             // an undamped mode is known to round-off of its own frequency; a rigid one of that of the first elastic ones
             let certain = f64::EPSILON / LARGEST_UNCERTAINTY * self.squared[mode].abs();
             let rigid = omega == 0.0 && self.squared[mode] <= RIGID * self.elastic();
-            if stiffness.norm() <= certain || rigid { Err(FrfError::Unbounded { hz }) } else { Ok(1.0 / stiffness) }
+            if stiffness.norm() <= certain || rigid { Err(unbounded(hz)) } else { Ok(1.0 / stiffness) }
         };
         (0..self.modes()).map(of).collect()
     }

@@ -41,7 +41,7 @@ impl FrequencyResponse {
     /// A response from receptances [s x p] at each frequency, for data that come from elsewhere.
     ///
     /// # Errors
-    /// [`FrfError::Shape`], [`FrfError::Frequency`], [`FrfError::Order`].
+    /// [`FrfError`].
     pub fn new(frequencies_hz: Vec<f64>, receptance: Vec<ComplexMatrix>) -> Result<Self, FrfError> {
         super::error::check_frequencies(&frequencies_hz)?;
         same("number of receptances", frequencies_hz.len(), receptance.len())?;
@@ -72,7 +72,7 @@ impl FrequencyResponse {
     /// One path over frequency.
     ///
     /// # Errors
-    /// [`FrfError::NoSuchPath`].
+    /// [`FrfError`].
     pub fn path(&self, sensor: usize, load: usize, quantity: FrfQuantity) -> Result<Vec<c64>, FrfError> {
         let (sensors, loads) = self.receptance.first().map_or((0, 0), |first| (first.nrows(), first.ncols()));
         check_path("sensor", sensor, sensors)?;
@@ -85,7 +85,7 @@ impl FrequencyResponse {
     /// `other` [s x p]; both over the same frequencies.
     ///
     /// # Errors
-    /// [`FrfError::Shape`].
+    /// [`FrfError`].
     pub fn largest_difference(&self, other: &Self) -> Result<DenseMatrix, FrfError> {
         same("number of frequencies", other.receptance.len(), self.receptance.len())?;
         let (sensors, loads) = other.receptance.first().map_or((0, 0), |first| (first.nrows(), first.ncols()));
@@ -107,5 +107,5 @@ impl FrequencyResponse {
 }
 
 pub(super) fn check_path(what: &'static str, index: usize, count: usize) -> Result<(), FrfError> {
-    if index < count { Ok(()) } else { Err(FrfError::NoSuchPath { what, index, count }) }
+    if index < count { Ok(()) } else { Err(FrfError(format!("{what} {index} asked for, there are {count}"))) }
 }

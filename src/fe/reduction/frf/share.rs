@@ -38,7 +38,7 @@ impl ModalSuperposition {
     /// `frequencies_hz` that cover the band.
     ///
     /// # Errors
-    /// [`FrfError::Band`], [`FrfError::NotCovered`], and as [`ModalSuperposition::contributions`].
+    /// [`FrfError`], and as [`ModalSuperposition::contributions`].
     pub(crate) fn shares(
         &self,
         sensor: usize,

@@ -26,7 +26,7 @@ impl ReducedSystem {
     /// A system without damping from stiffness and mass [n x n].
     ///
     /// # Errors
-    /// [`FrfError::Shape`].
+    /// [`FrfError`].
     pub fn new(stiffness: DenseMatrix, mass: DenseMatrix) -> Result<Self, FrfError> {
         let order = stiffness.nrows();
         square("stiffness", &stiffness, order)?;
@@ -37,7 +37,7 @@ impl ReducedSystem {
     /// Adds viscous damping c [n x n], N s/m, to what there is.
     ///
     /// # Errors
-    /// [`FrfError::Shape`].
+    /// [`FrfError`].
     pub fn with_viscous(mut self, viscous: DenseMatrix) -> Result<Self, FrfError> {
         square("viscous damping", &viscous, self.order())?;
         self.viscous = Some(match self.viscous {
@@ -50,7 +50,7 @@ impl ReducedSystem {
     /// Adds structural damping k_s [n x n], N/m (sum of loss factor times stiffness), to what there is.
     ///
     /// # Errors
-    /// [`FrfError::Shape`].
+    /// [`FrfError`].
     pub fn with_structural(mut self, structural: DenseMatrix) -> Result<Self, FrfError> {
         square("structural damping", &structural, self.order())?;
         self.structural = Some(match self.structural {
@@ -63,11 +63,11 @@ impl ReducedSystem {
     /// Adds `alpha m + beta k` to the viscous damping; alpha in 1/s, beta in s, both >= 0.
     ///
     /// # Errors
-    /// [`FrfError::Coefficient`].
+    /// [`FrfError`].
     pub fn with_rayleigh(self, alpha: f64, beta: f64) -> Result<Self, FrfError> {
         for (name, value) in [("alpha", alpha), ("beta", beta)] {
             if !(value >= 0.0 && value.is_finite()) {
-                return Err(FrfError::Coefficient { name, value });
+                return Err(super::error::wrong_coefficient(name, value));
             }
         }
         let damping = &self.mass * Scale(alpha) + &self.stiffness * Scale(beta);
@@ -112,5 +112,5 @@ fn square(what: &'static str, matrix: &DenseMatrix, order: usize) -> Result<(), 
 }
 
 pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<(), FrfError> {
-    if found == expected { Ok(()) } else { Err(FrfError::Shape { what, expected, found }) }
+    if found == expected { Ok(()) } else { Err(FrfError(format!("{what}: expected {expected}, found {found}"))) }
 }

@@ -1,4 +1,14 @@
-//! Gauss-Jacobi rules on [-1, 1], by Newton's method.
+//! Points of rules, and Gauss-Jacobi rules on [-1, 1], by Newton's method.
+
+/// A point of a rule.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct QuadraturePoint {
+    /// Natural coordinates (xi, eta, zeta); zeros beyond the rule's dimension.
+    pub natural: [f64; 3],
+    /// Weight; the weights of a rule sum to the natural size: 2 (line), 1/2 (triangle), 4 (square),
+    /// 1/6 (tetrahedron), 8 (cube), 1 (wedge).
+    pub weight: f64,
+}
 
 /// One point of a rule on [-1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]

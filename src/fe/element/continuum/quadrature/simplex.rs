@@ -1,7 +1,6 @@
 //! Rules on the natural triangle and tetrahedron.
 
-use super::QuadraturePoint;
-use super::line::{Gauss, gauss};
+use super::line::{Gauss, QuadraturePoint, gauss};
 
 const THIRD: f64 = 1.0 / 3.0;
 const SIXTH: f64 = 1.0 / 6.0;

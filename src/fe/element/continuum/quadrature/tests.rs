@@ -38,18 +38,18 @@ fn powers(total: i32, dimension: i32) -> Vec<[i32; 3]> {
 #[test]
 fn simplex_rules_are_exact_to_their_degree_and_no_further() {
     let rules = [
-        (QuadratureRule::TRIANGLE_1.points().to_vec(), 2, 1, 1),
-        (QuadratureRule::TRIANGLE_3.points().to_vec(), 2, 2, 3),
-        (QuadratureRule::TRIANGLE_6.points().to_vec(), 2, 4, 6),
-        (QuadratureRule::TRIANGLE_12.points().to_vec(), 2, 6, 12),
+        (QuadratureRule::Triangle1.points().to_vec(), 2, 1, 1),
+        (QuadratureRule::Triangle3.points().to_vec(), 2, 2, 3),
+        (QuadratureRule::Triangle6.points().to_vec(), 2, 4, 6),
+        (QuadratureRule::Triangle12.points().to_vec(), 2, 6, 12),
         (conical_triangle(5), 2, 9, 25),
         (conical_tetrahedron(2), 3, 3, 8),
-        (QuadratureRule::TETRAHEDRON_1.points().to_vec(), 3, 1, 1),
-        (QuadratureRule::TETRAHEDRON_4.points().to_vec(), 3, 2, 4),
-        (QuadratureRule::TETRAHEDRON_14.points().to_vec(), 3, 5, 14),
-        (QuadratureRule::TETRAHEDRON_24.points().to_vec(), 3, 6, 24),
+        (QuadratureRule::Tetrahedron1.points().to_vec(), 3, 1, 1),
+        (QuadratureRule::Tetrahedron4.points().to_vec(), 3, 2, 4),
+        (QuadratureRule::Tetrahedron14.points().to_vec(), 3, 5, 14),
+        (QuadratureRule::Tetrahedron24.points().to_vec(), 3, 6, 24),
         (conical_tetrahedron(3), 3, 5, 27),
-        (QuadratureRule::TETRAHEDRON_64.points().to_vec(), 3, 7, 64),
+        (QuadratureRule::Tetrahedron64.points().to_vec(), 3, 7, 64),
     ];
     for (points, dimension, degree, count) in rules {
         assert_eq!(points.len(), count);
@@ -71,14 +71,14 @@ fn simplex_rules_are_exact_to_their_degree_and_no_further() {
 #[test]
 fn product_rules_are_exact_to_their_degree_and_no_further() {
     let rules = [
-        (QuadratureRule::LINE_4, 1, 7),
-        (QuadratureRule::SQUARE_2X2, 2, 3),
-        (QuadratureRule::SQUARE_3X3, 2, 5),
-        (QuadratureRule::SQUARE_4X4, 2, 7),
-        (QuadratureRule::CUBE_2X2X2, 3, 3),
-        (QuadratureRule::CUBE_3X3X3, 3, 5),
-        (QuadratureRule::CUBE_4X4X4, 3, 7),
-        (QuadratureRule::CUBE_5X5X5, 3, 9),
+        (QuadratureRule::Line4, 1, 7),
+        (QuadratureRule::Square2, 2, 3),
+        (QuadratureRule::Square3, 2, 5),
+        (QuadratureRule::Square4, 2, 7),
+        (QuadratureRule::Cube2, 3, 3),
+        (QuadratureRule::Cube3, 3, 5),
+        (QuadratureRule::Cube4, 3, 7),
+        (QuadratureRule::Cube5, 3, 9),
     ];
     for (rule, dimension, degree) in rules {
         let moment = |p: [i32; 3]| {
@@ -103,10 +103,10 @@ fn product_rules_are_exact_to_their_degree_and_no_further() {
 #[test]
 fn wedge_rules_are_exact_to_their_degrees() {
     let rules = [
-        (QuadratureRule::WEDGE_3X2, 2, 3),
-        (QuadratureRule::WEDGE_6X3, 4, 5),
-        (QuadratureRule::WEDGE_12X4, 6, 7),
-        (QuadratureRule::WEDGE_25X5, 9, 9),
+        (QuadratureRule::Wedge3x2, 2, 3),
+        (QuadratureRule::Wedge6x3, 4, 5),
+        (QuadratureRule::Wedge12x4, 6, 7),
+        (QuadratureRule::Wedge25x5, 9, 9),
     ];
     for (rule, triangle, line) in rules {
         for total in 0..=triangle {
@@ -125,10 +125,10 @@ fn wedge_rules_are_exact_to_their_degrees() {
 #[test]
 fn points_are_inside_and_weights_positive() {
     for points in [
-        QuadratureRule::TETRAHEDRON_14.points(),
-        QuadratureRule::TETRAHEDRON_24.points(),
-        QuadratureRule::TETRAHEDRON_64.points(),
-        QuadratureRule::WEDGE_25X5.points(),
+        QuadratureRule::Tetrahedron14.points(),
+        QuadratureRule::Tetrahedron24.points(),
+        QuadratureRule::Tetrahedron64.points(),
+        QuadratureRule::Wedge25x5.points(),
     ] {
         for p in points {
             assert!(p.weight > 0.0 && p.natural[0] > 0.0 && p.natural[1] > 0.0);

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Outcome, PLAIN};
-use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, PlaneAssumption, stiffness};
+use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption, stiffness};
 use crate::fe::material::{ElasticMaterial, Material};
+use crate::fe::mesh::ElementKind;
 
 const LENGTH: f64 = 1.0;
 const HEIGHT: f64 = 0.05;
@@ -13,7 +14,7 @@ const ELEMENTS: usize = 4;
 
 /// Deflection of the end of a cantilever under an end moment, one layer of elements, over `M L^2 / (2 E I)`.
 fn deflection(
-    kind: ContinuumKind,
+    kind: ElementKind,
     poisson: f64,
     formulation: Formulation,
     slant: f64,
@@ -81,7 +82,7 @@ fn deflection(
 /// Slenderness 20 in one layer of four elements. The bound is round-off times the condition of a slender beam.
 #[test]
 fn one_layer_bends_as_beam_theory_says() -> Outcome {
-    for kind in [ContinuumKind::Quad4, ContinuumKind::Hex8] {
+    for kind in [ElementKind::Quad4, ElementKind::Hex8] {
         for poisson in [0.0, 0.33] {
             let found = deflection(kind, poisson, Formulation::default(), 0.0)?;
             assert!((found - 1.0).abs() < 1e-9, "{kind:?} nu {poisson}: {found}");
@@ -97,7 +98,7 @@ fn one_layer_bends_as_beam_theory_says() -> Outcome {
 /// pass the patch test), but more than twice as softly with the modes.
 #[test]
 fn slanted_elements_stiffen() -> Outcome {
-    for kind in [ContinuumKind::Quad4, ContinuumKind::Hex8] {
+    for kind in [ElementKind::Quad4, ElementKind::Hex8] {
         let modes = deflection(kind, 0.0, Formulation::default(), 0.5)?;
         let plain = deflection(kind, 0.0, PLAIN, 0.5)?;
         assert!(modes > 2.0 * plain && modes < 1.0, "{kind:?}: {modes} {plain}");

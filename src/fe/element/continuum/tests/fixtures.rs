@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::quadrature::{conical_tetrahedron, conical_triangle, cube, product, square};
-use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
+use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
+use crate::fe::mesh::ElementKind;
 
 pub(super) const THICKNESS: f64 = 4e-3;
 /// A unidirectional carbon laminate.
@@ -18,7 +19,7 @@ pub(super) fn aluminium() -> Result<ElasticMaterial, MaterialError> {
 }
 
 /// The laminate; turned about z for plane elements, about all axes for solids.
-pub(super) fn laminate(kind: ContinuumKind) -> Result<ElasticMaterial, MaterialError> {
+pub(super) fn laminate(kind: ElementKind) -> Result<ElasticMaterial, MaterialError> {
     let (x, y) = match kind.dimension() {
         2 => ([0.8, 0.6, 0.0], [-0.6, 0.8, 0.0]),
         _ => ([0.8, 0.6, 0.3], [-0.2, 0.8, 0.5]),
@@ -32,7 +33,7 @@ pub(super) fn laminate_along(x: [f64; 3], y: [f64; 3]) -> Result<ElasticMaterial
 
 /// What an element of this kind can be made of: plane stress and plane strain, or solid.
 pub(super) fn properties(
-    kind: ContinuumKind,
+    kind: ElementKind,
     material: &ElasticMaterial,
 ) -> Result<Vec<ContinuumProperties>, ElementError> {
     if kind.dimension() == 3 {
@@ -45,7 +46,7 @@ pub(super) fn properties(
 }
 
 /// Of both materials.
-pub(super) fn all_properties(kind: ContinuumKind) -> Result<Vec<ContinuumProperties>, Box<dyn std::error::Error>> {
+pub(super) fn all_properties(kind: ElementKind) -> Result<Vec<ContinuumProperties>, Box<dyn std::error::Error>> {
     let mut all = properties(kind, &aluminium()?)?;
     all.extend(properties(kind, &laminate(kind)?)?);
     Ok(all)
@@ -53,7 +54,7 @@ pub(super) fn all_properties(kind: ContinuumKind) -> Result<Vec<ContinuumPropert
 
 /// An affine picture of the natural element: a general triangle or tetrahedron, a parallelepiped, a straight
 /// prism.
-pub(super) fn straight(kind: ContinuumKind) -> Vec<[f64; 3]> {
+pub(super) fn straight(kind: ElementKind) -> Vec<[f64; 3]> {
     let place = |&[x, y, z]: &[f64; 3]| {
         let plane = [1.1 * x + 0.2 * y + 0.3, 0.9 * y - 0.15 * x - 0.2];
         match kind.dimension() {
@@ -65,21 +66,21 @@ pub(super) fn straight(kind: ContinuumKind) -> Vec<[f64; 3]> {
 }
 
 /// Corners moved by up to 0.12, middle nodes in the middle of their straight edges.
-pub(super) fn distorted(kind: ContinuumKind) -> Vec<[f64; 3]> {
+pub(super) fn distorted(kind: ElementKind) -> Vec<[f64; 3]> {
     let mut coords = straight(kind);
     for (i, node) in coords[..kind.corners()].iter_mut().enumerate() {
         for (d, value) in node[..kind.dimension()].iter_mut().enumerate() {
             *value += 0.12 * (7.0 * i as f64 + 3.0 * d as f64 + 1.0).sin();
         }
     }
-    for (&[a, b], i) in kind.edges().iter().zip(kind.corners()..) {
+    for (&[a, b], i) in kind.middle_edges().iter().zip(kind.corners()..) {
         coords[i] = [0, 1, 2].map(|d| 0.5 * (coords[a][d] + coords[b][d]));
     }
     coords
 }
 
 /// The distorted element with its middle nodes, if there are any, moved by up to 0.04.
-pub(super) fn curved(kind: ContinuumKind) -> Vec<[f64; 3]> {
+pub(super) fn curved(kind: ElementKind) -> Vec<[f64; 3]> {
     let mut coords = distorted(kind);
     for (i, node) in coords.iter_mut().enumerate().skip(kind.corners()) {
         for (d, value) in node[..kind.dimension()].iter_mut().enumerate() {
@@ -90,34 +91,35 @@ pub(super) fn curved(kind: ContinuumKind) -> Vec<[f64; 3]> {
 }
 
 /// Three shapes for quadratic kinds, two for linear ones.
-pub(super) fn elements(kind: ContinuumKind) -> Vec<Vec<[f64; 3]>> {
+pub(super) fn elements(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
     let mut all = vec![straight(kind), distorted(kind)];
-    if !kind.edges().is_empty() {
+    if !kind.middle_edges().is_empty() {
         all.push(curved(kind));
     }
     all
 }
 
 /// A rule far beyond every degree that occurs: 12 points a direction.
-pub(super) fn very_fine(kind: ContinuumKind) -> Vec<QuadraturePoint> {
-    use ContinuumKind::{Hex8, Hex20, Quad4, Quad8, Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
+pub(super) fn very_fine(kind: ElementKind) -> Vec<QuadraturePoint> {
+    use ElementKind::{Hex8, Hex20, Quad4, Quad8, Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
     match kind {
         Tri3 | Tri6 => conical_triangle(12),
         Quad4 | Quad8 => square(12),
         Tet4 | Tet10 => conical_tetrahedron(12),
         Hex8 | Hex20 => cube(12),
         Wedge6 | Wedge15 => product(&conical_triangle(12), 12, 2),
+        _ => Vec::new(),
     }
 }
 
 /// A displacement field at the nodes.
-pub(super) fn field(kind: ContinuumKind, coords: &[[f64; 3]], u: impl Fn([f64; 3]) -> [f64; 3]) -> DVector<f64> {
+pub(super) fn field(kind: ElementKind, coords: &[[f64; 3]], u: impl Fn([f64; 3]) -> [f64; 3]) -> DVector<f64> {
     let values: Vec<f64> = coords.iter().flat_map(|&x| u(x).into_iter().take(kind.dimension())).collect();
     DVector::from_vec(values)
 }
 
 /// Three rigid motions of the plane or six of space.
-pub(super) fn rigid_motions(kind: ContinuumKind, coords: &[[f64; 3]]) -> Vec<DVector<f64>> {
+pub(super) fn rigid_motions(kind: ElementKind, coords: &[[f64; 3]]) -> Vec<DVector<f64>> {
     let motion = |which: usize| {
         field(kind, coords, move |[x, y, z]| match which {
             0 => [1.0, 0.0, 0.0],
@@ -134,7 +136,7 @@ pub(super) fn rigid_motions(kind: ContinuumKind, coords: &[[f64; 3]]) -> Vec<DVe
 
 /// The mass matrix of the degrees of freedom.
 pub(super) fn mass(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
 ) -> Result<DMatrix<f64>, ElementError> {

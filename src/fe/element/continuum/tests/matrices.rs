@@ -8,13 +8,14 @@ use super::fixtures::{
     mass, properties, rigid_motions, straight, very_fine,
 };
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::dispatch::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
-use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, measure, nodal_mass, stiffness};
+use crate::fe::element::continuum::table::for_kind;
+use crate::fe::element::continuum::{ContinuumProperties, Formulation, measure, nodal_mass, stiffness};
 use crate::fe::material::{ElasticMaterial, OrthotropicMaterial};
+use crate::fe::mesh::ElementKind;
 
-pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
+pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
     for p in all_properties(kind)? {
         for coords in elements(kind) {
             symmetry(kind, &coords, &p, formulation)?;
@@ -32,7 +33,7 @@ pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
 }
 
 fn symmetry(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     p: &ContinuumProperties,
     formulation: Formulation,
@@ -50,7 +51,7 @@ fn symmetry(
 /// rounded to 1e-16 of it: 1e-14 of both. The smallest elastic eigenvalue is that of the shape, 1e-4 of the
 /// largest at worst here.
 fn rigid_motions_and_no_other_mechanism(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     p: &ContinuumProperties,
     formulation: Formulation,
@@ -71,12 +72,12 @@ fn rigid_motions_and_no_other_mechanism(
 
 /// The mass met by a translation, and no motion without mass.
 fn mass_is_density_times_volume(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     p: &ContinuumProperties,
 ) -> Result<(), ElementError> {
     let m = mass(kind, coords, p)?;
-    let expected = p.density() * p.thickness() * measure(kind, coords)?;
+    let expected = p.density * p.thickness * measure(kind, coords)?;
     for d in 0..kind.dimension() {
         let translation = field(kind, coords, |_| [0, 1, 2].map(|i| f64::from(u8::from(i == d))));
         let found = translation.dot(&(&m * &translation));
@@ -88,16 +89,16 @@ fn mass_is_density_times_volume(
 }
 
 /// Against 12 points a direction, on straight, distorted and curved elements.
-fn mass_is_exact(kind: ContinuumKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<(), ElementError> {
+fn mass_is_exact(kind: ElementKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<(), ElementError> {
     let fine = fine_mass(kind, coords, p)?;
     let error = (nodal_mass(kind, coords, p)? - &fine).amax() / fine.amax();
     assert!(error < 1e-14, "{kind:?}: {error:e}");
     Ok(())
 }
 
-fn fine_mass(kind: ContinuumKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<DMatrix<f64>, ElementError> {
+fn fine_mass(kind: ElementKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<DMatrix<f64>, ElementError> {
     fn integrate<const N: usize, const D: usize>(
-        kind: ContinuumKind,
+        kind: ElementKind,
         coords: &[[f64; 3]],
         density: f64,
         out: &mut [f64],
@@ -107,13 +108,13 @@ fn fine_mass(kind: ContinuumKind, coords: &[[f64; 3]], p: &ContinuumProperties) 
         crate::fe::element::continuum::mass::integrate::<N, D>(kind, coords, &placed, density, &table, out)
     }
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
-    let density = p.density() * p.thickness();
+    let density = p.density * p.thickness;
     for_kind!(kind, integrate(kind, coords, density, out.as_mut_slice()))?;
     Ok(out)
 }
 
 /// The straight element as simplices, by corners.
-fn simplices(kind: ContinuumKind) -> &'static [&'static [usize]] {
+fn simplices(kind: ElementKind) -> &'static [&'static [usize]] {
     match kind.name().trim_end_matches(char::is_numeric) {
         "Tri" => &[&[0, 1, 2]],
         "Quad" => &[&[0, 1, 2], &[0, 2, 3]],
@@ -137,7 +138,7 @@ fn simplex_measure(x: &[[f64; 3]]) -> f64 {
 
 /// A rotation meets `rho int |w x r|^2 dV`, by hand. Over a simplex with n
 /// corners `int x_i x_j dV = V / (n (n + 1)) (sum_a x_ai x_aj + sum_a x_ai sum_a x_aj)`.
-fn inertia_about_the_axes(kind: ContinuumKind, p: &ContinuumProperties) -> Result<(), ElementError> {
+fn inertia_about_the_axes(kind: ElementKind, p: &ContinuumProperties) -> Result<(), ElementError> {
     let coords = straight(kind);
     let mut moments = [0.0; 3];
     let mut volume = 0.0;
@@ -162,7 +163,7 @@ fn inertia_about_the_axes(kind: ContinuumKind, p: &ContinuumProperties) -> Resul
             continue;
         };
         let found = motion.dot(&(&m * motion));
-        let expected = p.density() * p.thickness() * second;
+        let expected = p.density * p.thickness * second;
         assert!((found / expected - 1.0).abs() < 1e-14, "{kind:?}: {found} {expected}");
     }
     Ok(())
@@ -171,7 +172,7 @@ fn inertia_about_the_axes(kind: ContinuumKind, p: &ContinuumProperties) -> Resul
 /// Energy of uniform strains, by hand from the definition of the constants: strains under given stresses in
 /// material axes, `1/2 sigma . eps V`. On every shape: the volume is integrated exactly, but for the four-point
 /// rule on curved Tet10.
-fn uniform_strain_energy(kind: ContinuumKind, formulation: Formulation, orthotropic: bool) -> Outcome {
+fn uniform_strain_energy(kind: ElementKind, formulation: Formulation, orthotropic: bool) -> Outcome {
     let (material, young, poisson, shear, axes) = if orthotropic {
         let material = laminate(kind)?;
         let ElasticMaterial::Orthotropic(constants) = material else {
@@ -189,7 +190,7 @@ fn uniform_strain_energy(kind: ContinuumKind, formulation: Formulation, orthotro
     for (which, p) in properties(kind, &material)?.iter().enumerate() {
         for coords in shapes {
             let k = stiffness(kind, coords, p, formulation)?;
-            let volume = p.thickness() * measure(kind, coords)?;
+            let volume = p.thickness * measure(kind, coords)?;
             for stress in [[3.0, 0.0], [0.0, 2.0], [1.0, -1.5]] {
                 for slip in [0.0, 0.7] {
                     let [x, y] = stress;
@@ -234,7 +235,7 @@ fn displacement(axes: [[f64; 3]; 3], eps: [f64; 6], at: [f64; 3]) -> [f64; 3] {
 }
 
 /// A turned element of a turned material has the turned stiffness.
-fn rotation(kind: ContinuumKind, formulation: Formulation, orthotropic: bool) -> Outcome {
+fn rotation(kind: ElementKind, formulation: Formulation, orthotropic: bool) -> Outcome {
     let (sin, cos) = 0.7_f64.sin_cos();
     let about_z = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]];
     let about_x = [[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]];

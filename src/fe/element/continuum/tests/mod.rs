@@ -11,7 +11,8 @@ mod rules;
 mod shapes;
 mod surface;
 
-use super::{ContinuumKind, Formulation, Integration, LinearFormulation};
+use super::{Formulation, Integration, LinearFormulation};
+use crate::fe::mesh::ElementKind;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -24,7 +25,7 @@ macro_rules! harness {
     ($($name:ident: $kind:ident, $formulation:expr;)*) => {$(
         #[test]
         fn $name() -> Outcome {
-            let (kind, formulation) = (ContinuumKind::$kind, $formulation);
+            let (kind, formulation) = (ElementKind::$kind, $formulation);
             shapes::check(kind);
             matrices::check(kind, formulation)?;
             patch::check(kind, formulation)?;

@@ -13,7 +13,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fixtures::{all_properties, field};
 use super::{FOUR_POINT, Outcome};
-use crate::fe::element::continuum::{ContinuumKind, ContinuumProperties, Formulation, stiffness};
+use crate::fe::element::continuum::{ContinuumProperties, Formulation, stiffness};
+use crate::fe::mesh::ElementKind;
 
 /// Nodes, elements, and which nodes are on the boundary.
 struct Patch {
@@ -22,10 +23,10 @@ struct Patch {
     outer: Vec<bool>,
 }
 
-pub(super) fn check(kind: ContinuumKind, formulation: Formulation) -> Outcome {
+pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
     let straight = build(kind, 0.0);
     // small enough that nothing folds: tetrahedra have the shortest edges
-    let bulge = if kind == ContinuumKind::Tet10 { 0.01 } else { 0.02 };
+    let bulge = if kind == ElementKind::Tet10 { 0.01 } else { 0.02 };
     let curved = build(kind, bulge);
     for p in all_properties(kind)? {
         let error = error(kind, &p, formulation, &straight)?;
@@ -63,7 +64,7 @@ fn triangles([a, b, c, d]: [usize; 4]) -> [[usize; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-fn plane_cells(kind: ContinuumKind) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+fn plane_cells(kind: ElementKind) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
     let nodes = PLANE.map(|[x, y]| [x, y, 0.0]).to_vec();
     let cells = if kind.corners() == 3 {
         let cut = PLANE_CELLS.into_iter().flat_map(triangles);
@@ -97,7 +98,7 @@ fn wedge_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
 
 /// Corners 0 to 7 of the cube outside, 8 to 15 inside.
 fn hexahedron_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
-    let natural = &ContinuumKind::Hex8.natural_nodes();
+    let natural = &ElementKind::Hex8.natural_nodes();
     let mut nodes: Vec<[f64; 3]> = natural.iter().map(|n| n.map(|v| 0.5 * (v + 1.0))).collect();
     nodes.extend(CUBE);
     let mut cells = vec![(8..16).collect()];
@@ -133,7 +134,7 @@ fn tetrahedron_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
 }
 
 /// The patch of a kind, with the middle nodes of inner edges moved by `bulge`.
-fn build(kind: ContinuumKind, bulge: f64) -> Patch {
+fn build(kind: ElementKind, bulge: f64) -> Patch {
     let (mut nodes, cells) = match kind.corners() {
         3 => plane_cells(kind),
         4 if kind.dimension() == 2 => plane_cells(kind),
@@ -150,7 +151,7 @@ fn build(kind: ContinuumKind, bulge: f64) -> Patch {
     let mut elements = Vec::new();
     for cell in cells {
         let mut element = cell.clone();
-        for &[a, b] in kind.edges() {
+        for &[a, b] in kind.middle_edges() {
             let (a, b) = (cell[a].min(cell[b]), cell[a].max(cell[b]));
             element.push(*middles.entry((a, b)).or_insert_with(|| {
                 let mut middle = [0, 1, 2].map(|d| 0.5 * (nodes[a][d] + nodes[b][d]));
@@ -171,7 +172,7 @@ fn build(kind: ContinuumKind, bulge: f64) -> Patch {
 
 /// The largest error inside, relative to the largest displacement.
 fn error(
-    kind: ContinuumKind,
+    kind: ElementKind,
     p: &ContinuumProperties,
     formulation: Formulation,
     patch: &Patch,

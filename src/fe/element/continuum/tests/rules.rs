@@ -5,22 +5,23 @@ use nalgebra::DMatrix;
 use super::Outcome;
 use super::fixtures::{aluminium, distorted, properties, very_fine};
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::dispatch::for_kind;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
+use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::{
-    ContinuumKind, ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
+    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
 };
+use crate::fe::mesh::ElementKind;
 
 /// The stiffness by any points.
 fn by_points(
-    kind: ContinuumKind,
+    kind: ElementKind,
     coords: &[[f64; 3]],
     p: &ContinuumProperties,
     points: &[QuadraturePoint],
 ) -> Result<DMatrix<f64>, ElementError> {
     fn integrate<const N: usize, const D: usize>(
-        kind: ContinuumKind,
+        kind: ElementKind,
         coords: &[[f64; 3]],
         p: &ContinuumProperties,
         points: &[QuadraturePoint],
@@ -38,7 +39,7 @@ fn by_points(
 /// Straight triangles and tetrahedra: the cheap rule, the full one, and a very fine one.
 #[test]
 fn straight_simplices_do_not_depend_on_the_rule() -> Outcome {
-    use ContinuumKind::{Tet4, Tet10, Tri3, Tri6};
+    use ElementKind::{Tet4, Tet10, Tri3, Tri6};
     for kind in [Tri3, Tri6, Tet4, Tet10] {
         let coords = distorted(kind);
         for p in properties(kind, &aluminium()?)? {
@@ -56,7 +57,7 @@ fn straight_simplices_do_not_depend_on_the_rule() -> Outcome {
 /// rule.
 #[test]
 fn straightness_has_no_step() -> Outcome {
-    let kind = ContinuumKind::Tet10;
+    let kind = ElementKind::Tet10;
     let p = properties(kind, &aluminium()?)?[0];
     let straight = distorted(kind);
     let k = stiffness(kind, &straight, &p, Formulation::default())?;
@@ -78,10 +79,10 @@ fn straightness_has_no_step() -> Outcome {
 
 /// A quadratic element on a bore of radius 1, `degrees` round it, as long along the bore as round it, and
 /// `height` times that in the radial direction. Edges on the bore are curved, all others straight.
-fn on_a_bore(kind: ContinuumKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
+fn on_a_bore(kind: ElementKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
     let arc = degrees.to_radians();
     let simplex = kind.is_simplex();
-    let wedge = kind == ContinuumKind::Wedge15;
+    let wedge = kind == ElementKind::Wedge15;
     let unit = |value: f64, is_unit: bool| if is_unit { value } else { 0.5 * (value + 1.0) };
     let place = |&[xi, eta, zeta]: &[f64; 3]| {
         let radius = 1.0 + height * arc * unit(xi, simplex || wedge);
@@ -91,7 +92,7 @@ fn on_a_bore(kind: ContinuumKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
     };
     let corners = &kind.natural_nodes()[..kind.corners()];
     let mut coords: Vec<[f64; 3]> = corners.iter().map(place).collect();
-    for &[a, b] in kind.edges() {
+    for &[a, b] in kind.middle_edges() {
         let (p, q) = (coords[a], coords[b]);
         let mut middle = [0, 1, 2].map(|d| 0.5 * (p[d] + q[d]));
         if [p, q].iter().all(|x| (x[0].hypot(x[1]) - 1.0).abs() < 1e-9) {
@@ -105,7 +106,7 @@ fn on_a_bore(kind: ContinuumKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
 
 /// Error of a rule on a bore's element, relative to 12 points a direction (norms of the stiffness).
 fn rule_error(
-    kind: ContinuumKind,
+    kind: ElementKind,
     (degrees, height): (f64, f64),
     rule: QuadratureRule,
 ) -> Result<f64, Box<dyn std::error::Error>> {
@@ -116,18 +117,18 @@ fn rule_error(
     Ok((k - &fine).norm() / fine.norm())
 }
 
-/// The numbers in the documentation of [`ContinuumKind::stiffness_rule`].
+/// The numbers in the documentation of [`ElementKind::stiffness_rule`].
 #[test]
 fn curved_tet10_is_converged() -> Outcome {
     let candidates = [
-        (QuadratureRule::TETRAHEDRON_4, [1.4e-3, 2.8e-3, 5.9e-3]),
-        (QuadratureRule::TETRAHEDRON_14, [5.3e-9, 1.2e-7, 3.6e-6]),
-        (QuadratureRule::TETRAHEDRON_24, [4.9e-11, 2.3e-9, 1.7e-7]),
+        (QuadratureRule::Tetrahedron4, [1.4e-3, 2.8e-3, 5.9e-3]),
+        (QuadratureRule::Tetrahedron14, [5.3e-9, 1.2e-7, 3.6e-6]),
+        (QuadratureRule::Tetrahedron24, [4.9e-11, 2.3e-9, 1.7e-7]),
     ];
     for (rule, errors) in candidates {
         for (degrees, expected) in [5.0, 10.0, 20.0].into_iter().zip(errors) {
             let shape = (degrees, 1.0);
-            let found = rule_error(ContinuumKind::Tet10, shape, rule)?;
+            let found = rule_error(ElementKind::Tet10, shape, rule)?;
             let near = (found / expected - 1.0).abs() < 0.1;
             assert!(near, "{rule:?} {shape:?}: {found:.1e} documented {expected:.1e}");
         }
@@ -138,13 +139,13 @@ fn curved_tet10_is_converged() -> Outcome {
 /// Tri6 and the rules of the others likewise; a coarser rule would be seen.
 #[test]
 fn other_curved_elements_are_as_documented() -> Outcome {
-    use ContinuumKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
+    use ElementKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
     for (kind, expected) in [(Tet10, 2.3e-9), (Tri6, 3.1e-6), (Quad8, 2.9e-4), (Hex20, 2.6e-4), (Wedge15, 9.4e-5)] {
         let found = rule_error(kind, (10.0, 1.0), kind.stiffness_rule())?;
         let near = (found / expected - 1.0).abs() < 0.1;
         assert!(near, "{kind:?}: {found:.1e} documented {expected:.1e}");
     }
-    let coarse = rule_error(Tri6, (10.0, 1.0), QuadratureRule::TRIANGLE_3)?;
+    let coarse = rule_error(Tri6, (10.0, 1.0), QuadratureRule::Triangle3)?;
     assert!(coarse > 1e-3, "three points would do: {coarse:e}");
     Ok(())
 }

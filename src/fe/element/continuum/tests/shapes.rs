@@ -1,15 +1,16 @@
 //! Shape functions: partition of unity, nodal property, derivatives.
 
-use crate::fe::element::continuum::{ContinuumKind, shape_derivatives, shape_values};
+use crate::fe::element::continuum::{shape_derivatives, shape_values};
+use crate::fe::mesh::ElementKind;
 
-pub(super) fn check(kind: ContinuumKind) {
+pub(super) fn check(kind: ElementKind) {
     counts(kind);
     partition_of_unity(kind);
     nodal_property(kind);
     derivatives_against_differences(kind);
 }
 
-fn counts(kind: ContinuumKind) {
+fn counts(kind: ElementKind) {
     assert_eq!(kind.nodes(), kind.natural_nodes().len());
     assert_eq!(kind.dof(), kind.nodes() * kind.dimension());
     let digits: String = kind.name().chars().filter(char::is_ascii_digit).collect();
@@ -22,8 +23,8 @@ fn counts(kind: ContinuumKind) {
 /// otherwise.
 #[test]
 fn middle_nodes_are_in_gmshs_order() {
-    use ContinuumKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
-    let cases: [(ContinuumKind, usize, [f64; 3]); 14] = [
+    use ElementKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
+    let cases: [(ElementKind, usize, [f64; 3]); 14] = [
         (Tri6, 5, [0.0, 0.5, 0.0]),
         (Quad8, 7, [-1.0, 0.0, 0.0]),
         (Tet10, 6, [0.0, 0.5, 0.0]),
@@ -47,7 +48,7 @@ fn middle_nodes_are_in_gmshs_order() {
 }
 
 /// Points all over the natural element: means of its corners with changing weights.
-fn samples(kind: ContinuumKind) -> Vec<[f64; 3]> {
+fn samples(kind: ElementKind) -> Vec<[f64; 3]> {
     let corners = &kind.natural_nodes()[..kind.corners()];
     let point = |k: usize| {
         let weight = |i: usize| (1.3 * k as f64 + 2.1 * i as f64).sin().powi(4);
@@ -61,7 +62,7 @@ fn samples(kind: ContinuumKind) -> Vec<[f64; 3]> {
 }
 
 /// Sums of 20 terms of order 1: 1e-14 is their rounding.
-fn partition_of_unity(kind: ContinuumKind) {
+fn partition_of_unity(kind: ElementKind) {
     for point in samples(kind) {
         let values = shape_values(kind, point);
         let sum: f64 = values.iter().sum();
@@ -74,7 +75,7 @@ fn partition_of_unity(kind: ContinuumKind) {
     }
 }
 
-fn nodal_property(kind: ContinuumKind) {
+fn nodal_property(kind: ElementKind) {
     for (i, &point) in kind.natural_nodes().iter().enumerate() {
         for (j, value) in shape_values(kind, point).into_iter().enumerate() {
             let expected = if i == j { 1.0 } else { 0.0 };
@@ -85,7 +86,7 @@ fn nodal_property(kind: ContinuumKind) {
 }
 
 /// Central differences of quadratic (in one direction) functions are exact but for rounding, 1e-16 / h.
-fn derivatives_against_differences(kind: ContinuumKind) {
+fn derivatives_against_differences(kind: ElementKind) {
     let h = 1e-5;
     for point in samples(kind) {
         let exact = shape_derivatives(kind, point);

@@ -2,30 +2,31 @@
 
 use super::Outcome;
 use super::fixtures::message;
-use crate::fe::element::continuum::{SurfaceKind, surface_matrix, surface_shape, surface_weights};
+use crate::fe::element::continuum::{shape, surface_matrix, surface_weights};
+use crate::fe::mesh::ElementKind;
 
 /// Reference: Zienkiewicz and Taylor, volume 1: uniform load on straight-edged faces.
 #[test]
 fn flat_surfaces_have_the_textbook_weights() -> Outcome {
     // the natural coordinates, blown up and turned in space: lengths by 2, areas by 4
     let place = |[x, y]: [f64; 2]| [2.0 * (0.6 * x - 0.8 * y), 5.0, 2.0 * (0.8 * x + 0.6 * y)];
-    let natural = |kind: SurfaceKind| -> Vec<[f64; 2]> {
+    let natural = |kind: ElementKind| -> Vec<[f64; 2]> {
         match kind {
-            SurfaceKind::Line2 | SurfaceKind::Line3 => vec![[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]],
-            SurfaceKind::Tri3 | SurfaceKind::Tri6 => {
-                super::ContinuumKind::Tri6.natural_nodes().iter().map(|n| [n[0], n[1]]).collect()
+            ElementKind::Line2 | ElementKind::Line3 => vec![[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]],
+            ElementKind::Tri3 | ElementKind::Tri6 => {
+                ElementKind::Tri6.natural_nodes().iter().map(|n| [n[0], n[1]]).collect()
             }
-            _ => super::ContinuumKind::Quad8.natural_nodes().iter().map(|n| [n[0], n[1]]).collect(),
+            _ => ElementKind::Quad8.natural_nodes().iter().map(|n| [n[0], n[1]]).collect(),
         }
     };
-    let cases: [(SurfaceKind, f64, &[f64]); 6] = [
-        (SurfaceKind::Line2, 4.0, &[0.5; 2]),
-        (SurfaceKind::Line3, 4.0, &[1.0 / 6.0, 1.0 / 6.0, 4.0 / 6.0]),
-        (SurfaceKind::Tri3, 2.0, &[1.0 / 3.0; 3]),
-        (SurfaceKind::Tri6, 2.0, &[0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0]),
-        (SurfaceKind::Quad4, 16.0, &[0.25; 4]),
+    let cases: [(ElementKind, f64, &[f64]); 6] = [
+        (ElementKind::Line2, 4.0, &[0.5; 2]),
+        (ElementKind::Line3, 4.0, &[1.0 / 6.0, 1.0 / 6.0, 4.0 / 6.0]),
+        (ElementKind::Tri3, 2.0, &[1.0 / 3.0; 3]),
+        (ElementKind::Tri6, 2.0, &[0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0]),
+        (ElementKind::Quad4, 16.0, &[0.25; 4]),
         (
-            SurfaceKind::Quad8,
+            ElementKind::Quad8,
             16.0,
             &[-1.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
         ),
@@ -38,7 +39,7 @@ fn flat_surfaces_have_the_textbook_weights() -> Outcome {
             assert!((weight - size * share).abs() < 1e-14 * size, "{kind:?}: {weights:?}");
         }
         for (i, &at) in natural(kind).iter().take(kind.nodes()).enumerate() {
-            for (j, value) in surface_shape(kind, at).0.into_iter().enumerate() {
+            for (j, value) in shape(kind, [at[0], at[1], 0.0]).0.into_iter().enumerate() {
                 let expected = if i == j { 1.0 } else { 0.0 };
                 assert!((value - expected).abs() < 1e-15, "{kind:?} N_{j} at node {i}: {value}");
             }
@@ -50,14 +51,14 @@ fn flat_surfaces_have_the_textbook_weights() -> Outcome {
 #[test]
 fn derivatives_against_differences() {
     let h = 1e-5;
-    for kind in SurfaceKind::ALL {
+    for kind in ElementKind::all().filter(|kind| (1..=2).contains(&kind.dimension())) {
         let at = [0.21, 0.34];
-        let derivatives = surface_shape(kind, at).1;
+        let derivatives = shape(kind, [at[0], at[1], 0.0]).1;
         for d in 0..2 {
             let (mut plus, mut minus) = (at, at);
             plus[d] += h;
             minus[d] -= h;
-            let (plus, minus) = (surface_shape(kind, plus).0, surface_shape(kind, minus).0);
+            let (plus, minus) = (shape(kind, [plus[0], plus[1], 0.0]).0, shape(kind, [minus[0], minus[1], 0.0]).0);
             for i in 0..8 {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
                 assert!((difference - derivatives[i][d]).abs() < 1e-10, "{kind:?} {i} {d}");
@@ -73,7 +74,7 @@ fn curved_edge_has_the_length_of_its_parabola() -> Outcome {
     let half_angle = 10.0_f64.to_radians();
     let (sin, cos) = half_angle.sin_cos();
     let nodes = [[0.6 * sin, 0.8 * sin, cos], [-0.6 * sin, -0.8 * sin, cos], [0.0, 0.0, 1.0]];
-    let weights = surface_weights(SurfaceKind::Line3, &nodes)?;
+    let weights = surface_weights(ElementKind::Line3, &nodes)?;
     let (c, h) = (sin, 1.0 - cos);
     let length = c.hypot(2.0 * h) + c * c / (2.0 * h) * (2.0 * h / c).asinh();
     let total: f64 = weights.iter().sum();
@@ -107,8 +108,8 @@ fn curved_faces_have_the_area_of_their_parabola() -> Outcome {
     let area = |kind, coords: &[[f64; 3]]| -> Result<f64, Box<dyn std::error::Error>> {
         Ok(surface_weights(kind, coords)?.iter().sum())
     };
-    let one = area(SurfaceKind::Quad8, &quad)? / (0.5 * length) - 1.0;
-    let triangles = area(SurfaceKind::Tri6, &lower)? + area(SurfaceKind::Tri6, &upper)?;
+    let one = area(ElementKind::Quad8, &quad)? / (0.5 * length) - 1.0;
+    let triangles = area(ElementKind::Tri6, &lower)? + area(ElementKind::Tri6, &upper)?;
     let two = triangles / (0.5 * length) - 1.0;
     assert!(one.abs() < 2e-10 && two.abs() < 2e-10, "{one:e} {two:e}");
     Ok(())
@@ -117,17 +118,17 @@ fn curved_faces_have_the_area_of_their_parabola() -> Outcome {
 #[test]
 fn every_rule_fires_with_its_message() {
     let message = |kind, coords: &[[f64; 3]]| message(surface_weights(kind, coords));
-    assert_eq!(message(SurfaceKind::Line2, &[[0.0; 3]]), "a Line2 element has 2 nodes, found 1");
+    assert_eq!(message(ElementKind::Line2, &[[0.0; 3]]), "a Line2 element has 2 nodes, found 1");
     assert_eq!(
-        message(SurfaceKind::Line2, &[[0.5, 0.25, 0.0]; 2]),
+        message(ElementKind::Line2, &[[0.5, 0.25, 0.0]; 2]),
         "the Line2 edge at (5.000000e-1, 2.500000e-1, 0.000000e0) m has no length"
     );
     assert_eq!(
-        message(SurfaceKind::Tri3, &[[1.0, 0.0, 0.0], [2.0, 0.1, 0.0], [3.0, 0.2, 0.0]]),
+        message(ElementKind::Tri3, &[[1.0, 0.0, 0.0], [2.0, 0.1, 0.0], [3.0, 0.2, 0.0]]),
         "the Tri3 surface at (1.000000e0, 0.000000e0, 0.000000e0) m has no area"
     );
     assert_eq!(
-        message(SurfaceKind::Line2, &[[0.0; 3], [f64::NAN, 0.0, 1.0]]),
+        message(ElementKind::Line2, &[[0.0; 3], [f64::NAN, 0.0, 1.0]]),
         "node 1 of the Line2 element has the coordinates (NaN, 0, 1) m: expected finite numbers"
     );
 }
@@ -136,13 +137,13 @@ fn every_rule_fires_with_its_message() {
 /// an edge of length 3 has 3/3 on the diagonal and 3/6 beside it.
 #[test]
 fn consistent_shares_are_positive() -> Outcome {
-    for kind in SurfaceKind::ALL {
+    for kind in ElementKind::all().filter(|kind| (1..=2).contains(&kind.dimension())) {
         let flat: Vec<[f64; 3]> = match kind {
-            SurfaceKind::Line2 | SurfaceKind::Line3 => {
+            ElementKind::Line2 | ElementKind::Line3 => {
                 vec![[0.0; 3], [3.0, 0.0, 0.0], [1.5, 0.0, 0.0]]
             }
-            SurfaceKind::Tri3 | SurfaceKind::Tri6 => super::ContinuumKind::Tri6.natural_nodes().to_vec(),
-            _ => super::ContinuumKind::Quad8.natural_nodes().to_vec(),
+            ElementKind::Tri3 | ElementKind::Tri6 => ElementKind::Tri6.natural_nodes().to_vec(),
+            _ => ElementKind::Quad8.natural_nodes().to_vec(),
         };
         let coords = &flat[..kind.nodes()];
         let (matrix, weights) = (surface_matrix(kind, coords)?, surface_weights(kind, coords)?);
@@ -151,7 +152,7 @@ fn consistent_shares_are_positive() -> Outcome {
         }
         let lowest = matrix.clone().symmetric_eigenvalues().min();
         assert!(lowest > 1e-3 * matrix.trace() / kind.nodes() as f64, "{kind:?}: {lowest}");
-        if kind == SurfaceKind::Line2 {
+        if kind == ElementKind::Line2 {
             assert!((matrix[(0, 0)] - 1.0).abs() < 1e-14 && (matrix[(0, 1)] - 0.5).abs() < 1e-14);
         }
     }

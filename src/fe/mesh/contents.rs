@@ -1,0 +1,192 @@
+//! What a mesh is made of: nodes, blocks of elements, physical groups, and how its file was written.
+
+use super::{ElementKind, MeshError};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::fmt;
+use std::path::PathBuf;
+
+/// A checked mesh in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Coordinates (x, y, z) of each node, m.
+    pub nodes: Vec<[f64; 3]>,
+    /// gmsh's tag of each node, unique, > 0.
+    pub node_tags: Vec<u64>,
+    /// Elements, one kind and one geometrical entity a block, in the order of the file.
+    pub blocks: Vec<ElementBlock>,
+    /// Physical groups, by dimension, then by tag.
+    pub groups: Vec<PhysicalGroup>,
+    /// How the file was written.
+    pub format: MshFormat,
+    /// The file that it was read from.
+    pub source: PathBuf,
+}
+
+/// A geometrical entity of the CAD model behind the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct Entity {
+    /// 0 point, 1 curve, 2 surface, 3 volume.
+    pub dimension: usize,
+    /// gmsh's tag, unique within its dimension.
+    pub tag: i32,
+}
+
+/// Which element of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct ElementId {
+    /// Index into the mesh's blocks.
+    pub block: usize,
+    /// Index into the block's elements.
+    pub index: usize,
+}
+
+/// Elements of one kind on one entity.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ElementBlock {
+    /// Their kind.
+    pub kind: ElementKind,
+    /// gmsh's tag of each element, unique in the mesh, > 0.
+    pub tags: Vec<u64>,
+    /// Node indices from 0, `kind.nodes()` an element, gmsh's order.
+    pub connectivity: Vec<usize>,
+    /// The entity that they lie on.
+    pub entity: Entity,
+}
+
+impl ElementBlock {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.tags.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.tags.is_empty()
+    }
+
+    /// Node indices of each element in turn.
+    pub fn elements(&self) -> impl ExactSizeIterator<Item = &[usize]> {
+        self.connectivity.chunks_exact(self.kind.nodes())
+    }
+
+    /// Node indices of one element, if there is one of this index.
+    pub fn element(&self, index: usize) -> Option<&[usize]> {
+        self.elements().nth(index)
+    }
+
+    /// Node indices of an element that is known to exist.
+    pub(super) fn nodes_of(&self, index: usize) -> &[usize] {
+        let nodes = self.kind.nodes();
+        &self.connectivity[index * nodes..][..nodes]
+    }
+}
+
+/// A named part of a mesh: gmsh's physical group.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PhysicalGroup {
+    /// Its name; the tag in digits if gmsh gave it none.
+    pub name: String,
+    /// 0 points, 1 curves, 2 surfaces, 3 volumes.
+    pub dimension: usize,
+    /// gmsh's tag, unique within its dimension, > 0.
+    pub tag: i32,
+    /// Indices of its nodes, sorted, each once.
+    pub nodes: Vec<usize>,
+    /// Its elements, in the order of the mesh.
+    pub elements: Vec<ElementId>,
+}
+
+/// Version of gmsh's MSH format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub enum MshVersion {
+    /// 2.2, which gmsh wrote until version 3 and many programs still write.
+    #[serde(rename = "2.2")]
+    V22,
+    /// 4.1, which gmsh has written since version 4.1.
+    #[serde(rename = "4.1")]
+    V41,
+}
+
+/// Version and encoding of an MSH file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, JsonSchema)]
+pub struct MshFormat {
+    /// Version of the format.
+    #[schemars(with = "String")]
+    pub version: MshVersion,
+    /// Binary numbers, not decimal digits.
+    pub binary: bool,
+}
+
+impl fmt::Display for MshVersion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::V22 => "2.2",
+            Self::V41 => "4.1",
+        })
+    }
+}
+
+impl fmt::Display for MshFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let encoding = if self.binary { "binary" } else { "ASCII" };
+        write!(f, "MSH {} {encoding}", self.version)
+    }
+}
+
+impl Mesh {
+    /// The elements of one dimension (0 points to 3 volumes), in the order of the mesh.
+    pub(crate) fn element_ids(&self, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
+        let blocks = self.blocks.iter().enumerate();
+        blocks
+            .filter(move |(_, block)| block.kind.dimension() == dimension)
+            .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
+    }
+
+    /// The physical group of this name; case matters.
+    ///
+    /// # Errors
+    /// [`MeshError::UnknownGroup`] with the nearest name and all names, [`MeshError::AmbiguousGroup`] if
+    /// several groups share the name, [`MeshError::EmptyGroup`] if it has no elements.
+    pub fn group(&self, name: &str) -> Result<&PhysicalGroup, MeshError> {
+        let found: Vec<&PhysicalGroup> = self.groups.iter().filter(|g| g.name == name).collect();
+        let (path, name) = (self.source.clone(), name.to_owned());
+        match found.as_slice() {
+            [] => Err(MeshError::UnknownGroup {
+                nearest: self.nearest_group_name(&name),
+                known: self.groups.iter().map(|group| group.name.clone()).collect(),
+                path,
+                name,
+            }),
+            [group] if group.elements.is_empty() => Err(MeshError::EmptyGroup { path, name }),
+            [group] => Ok(group),
+            several => Err(MeshError::AmbiguousGroup {
+                path,
+                name,
+                groups: several.iter().map(|group| [group.dimension as i32, group.tag]).collect(),
+            }),
+        }
+    }
+
+    /// The name with the fewest edits (Damerau-Levenshtein, case ignored) from the one given.
+    fn nearest_group_name(&self, name: &str) -> Option<String> {
+        let wanted = name.to_lowercase();
+        self.groups
+            .iter()
+            .map(|group| &group.name)
+            .min_by_key(|known| strsim::damerau_levenshtein(&known.to_lowercase(), &wanted))
+            .cloned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_named_as_gmsh_names_them() {
+        let format = MshFormat { version: MshVersion::V22, binary: true };
+        assert_eq!(format.to_string(), "MSH 2.2 binary");
+        assert_eq!(MshVersion::V41.to_string(), "4.1");
+    }
+}

@@ -1,0 +1,176 @@
+//! What a mesh contains, in numbers: elements by kind, physical groups, and which elements are in several or in none.
+
+use super::nodes::{self, BoundingBox, DuplicateNodes, UnusedNodes};
+use super::parts::{self, Part};
+use crate::fe::mesh::{ElementId, ElementKind, Mesh, MshFormat};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// How many elements of a kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct KindCount {
+    /// The kind.
+    pub kind: ElementKind,
+    /// Elements of it, > 0.
+    pub count: usize,
+}
+
+/// Contents of a mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Inventory {
+    /// Version and encoding of the file.
+    pub format: MshFormat,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of nodes that no element uses: `unused.count`.
+    pub unused_nodes: usize,
+    /// Nodes that no element uses.
+    pub unused: UnusedNodes,
+    /// Nodes in the same place.
+    pub duplicates: DuplicateNodes,
+    /// Extent of the nodes.
+    pub bounding_box: BoundingBox,
+    /// Highest dimension of an element: 2 for a plane mesh, 3 for solids.
+    pub dimension: usize,
+    /// Elements by kind, in the order of [`ElementKind`], kinds that occur only.
+    pub elements: Vec<KindCount>,
+    /// Physical groups in the order of the mesh.
+    pub groups: Vec<GroupSummary>,
+    /// Pairs of groups of one dimension that share elements, in the order of the mesh.
+    pub overlaps: Vec<GroupOverlap>,
+    /// Elements of the highest dimension in no group: the mesh was saved with `Mesh.SaveAll`, and they would
+    /// get no material.
+    pub ungrouped_elements: usize,
+    /// Connected parts of the elements of the highest dimension, largest first: more than one is a part that
+    /// hangs in the air, unless something is meant to join them.
+    pub parts: Vec<Part>,
+}
+
+impl Mesh {
+    /// Counts and extent of this mesh, and what is often wrong with one.
+    pub fn inventory(&self) -> Inventory {
+        let bounding_box = BoundingBox::of(self.nodes.iter().copied());
+        let dimension = self.blocks.iter().map(|block| block.kind.dimension());
+        let dimension = dimension.max().unwrap_or(0);
+        let unused = nodes::unused(self);
+        Inventory {
+            format: self.format,
+            nodes: self.nodes.len(),
+            unused_nodes: unused.count,
+            unused,
+            duplicates: nodes::duplicates(self, &bounding_box),
+            bounding_box,
+            dimension,
+            elements: counted(self.blocks.iter().map(|block| (block.kind, block.len()))),
+            groups: summaries(self),
+            overlaps: overlaps(self),
+            ungrouped_elements: ungrouped(self, dimension),
+            parts: parts::parts(self, dimension),
+        }
+    }
+}
+
+/// Elements by kind, in the order of [`ElementKind`], kinds that occur only.
+fn counted(blocks: impl Iterator<Item = (ElementKind, usize)>) -> Vec<KindCount> {
+    let mut counts: Vec<KindCount> = ElementKind::all().map(|kind| KindCount { kind, count: 0 }).collect();
+    for (kind, count) in blocks {
+        // the table of kinds is in the order of the enum
+        counts[kind as usize].count += count;
+    }
+    counts.retain(|entry| entry.count > 0);
+    counts
+}
+
+/// A physical group in numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct GroupSummary {
+    /// Name, or the tag in digits.
+    pub name: String,
+    /// 0 points, 1 curves, 2 surfaces, 3 volumes.
+    pub dimension: usize,
+    /// gmsh's tag.
+    pub tag: i32,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of elements.
+    pub elements: usize,
+    /// Its elements by kind, kinds that occur only.
+    pub kinds: Vec<KindCount>,
+}
+
+/// Two groups of one dimension that share elements: which material would those have?
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct GroupOverlap {
+    /// Dimension of both.
+    pub dimension: usize,
+    /// Their tags, smaller first.
+    pub tags: [i32; 2],
+    /// Their names.
+    pub names: [String; 2],
+    /// Elements that are in both, > 0.
+    pub elements: usize,
+}
+
+fn summaries(mesh: &Mesh) -> Vec<GroupSummary> {
+    let groups = mesh.groups.iter();
+    groups
+        .map(|group| GroupSummary {
+            name: group.name.clone(),
+            dimension: group.dimension,
+            tag: group.tag,
+            nodes: group.nodes.len(),
+            elements: group.elements.len(),
+            kinds: counted(group.elements.iter().map(|id| (mesh.blocks[id.block].kind, 1))),
+        })
+        .collect()
+}
+
+fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
+    let mut found = Vec::new();
+    for (position, group) in mesh.groups.iter().enumerate() {
+        let others = mesh.groups[position + 1..].iter();
+        for other in others.take_while(|other| other.dimension == group.dimension) {
+            let elements = common(&group.elements, &other.elements);
+            if elements > 0 {
+                found.push(GroupOverlap {
+                    dimension: group.dimension,
+                    tags: [group.tag, other.tag],
+                    names: [group.name.clone(), other.name.clone()],
+                    elements,
+                });
+            }
+        }
+    }
+    found
+}
+
+/// How many elements two sorted lists share.
+fn common(a: &[ElementId], b: &[ElementId]) -> usize {
+    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
+    let mut count = 0;
+    while let (Some(first), Some(second)) = (a.peek(), b.peek()) {
+        match first.cmp(second) {
+            std::cmp::Ordering::Less => drop(a.next()),
+            std::cmp::Ordering::Greater => drop(b.next()),
+            std::cmp::Ordering::Equal => {
+                count += 1;
+                a.next();
+                b.next();
+            }
+        }
+    }
+    count
+}
+
+/// Elements of a dimension that no group holds.
+fn ungrouped(mesh: &Mesh, dimension: usize) -> usize {
+    let blocks = mesh.blocks.iter();
+    let mut grouped: Vec<Vec<bool>> = blocks.map(|block| vec![false; block.len()]).collect();
+    for id in mesh.groups.iter().flat_map(|group| &group.elements) {
+        grouped[id.block][id.index] = true;
+    }
+    let own = mesh.blocks.iter().zip(&grouped);
+    own.filter(|(block, _)| block.kind.dimension() == dimension)
+        .map(|(_, grouped)| grouped.iter().filter(|grouped| !**grouped).count())
+        .sum()
+}
