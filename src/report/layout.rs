@@ -151,12 +151,13 @@ impl<'a> Layout<'a> {
 
 fn check_length(plot: &Plot, curve: &Curve) -> Result<(), ReportError> {
     match &curve.x {
-        Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError::CurveLength {
-            plot: plot.title.clone(),
-            curve: curve.name.clone(),
-            abscissas: x.len(),
-            ordinates: curve.y.len(),
-        }),
+        Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError(format!(
+            "plot \"{}\": curve \"{}\" has {} abscissas for {} ordinates",
+            plot.title,
+            curve.name,
+            x.len(),
+            curve.y.len()
+        ))),
         _ => Ok(()),
     }
 }
@@ -167,7 +168,7 @@ fn checked(plot: &Plot, axis: &Axis, [from, to]: [f64; 2]) -> Result<[f64; 2], R
     if from.is_finite() && to.is_finite() && from < to && positive {
         Ok([from, to])
     } else {
-        Err(ReportError::Range { plot: plot.title.clone(), axis: axis.label.clone(), from, to })
+        Err(ReportError(format!("plot \"{}\": axis \"{}\" cannot show {from} to {to}", plot.title, axis.label)))
     }
 }
 
@@ -192,7 +193,8 @@ fn extent(
     if found[0] <= found[1] || fixed && plot.curves.is_empty() {
         Ok(found)
     } else {
-        Err(ReportError::EmptyPlot { plot: plot.title.clone() })
+        let what = "has nothing to draw: no finite point (positive on a logarithmic axis) in its range";
+        Err(ReportError(format!("plot \"{}\" {what}", plot.title)))
     }
 }
 

@@ -82,6 +82,7 @@ pub enum CellLook {
 }
 
 /// A table. Every row has one cell a column.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// What the table shows.
@@ -118,6 +119,11 @@ impl Cell {
     /// A cell with a number, written with so many significant digits (1 to 17), not judged. Files get it whole.
     pub fn number(value: f64, digits: usize) -> Self {
         Self::text(significant(value, digits)).value(value)
+    }
+
+    /// A cell with a number as [`Cell::number`], or a dash where there is none.
+    pub fn number_or_dash(value: Option<f64>, digits: usize) -> Self {
+        value.map_or_else(|| Self::text("–"), |value| Self::number(value, digits))
     }
 
     /// A badge: "pass", "fail", or a dash where nothing was judged.
@@ -164,21 +170,24 @@ impl Table {
     }
 
     /// The table with each row tied to the mode that it speaks of, in the order of the report's shapes.
-    #[must_use]
     pub fn showing_modes(mut self, modes: impl IntoIterator<Item = Option<usize>>) -> Self {
         self.modes = modes.into_iter().collect();
         self
     }
 
     /// The table with a row more.
-    #[must_use]
     pub fn row(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
         self.rows.push(cells.into_iter().collect());
         self
     }
 
+    /// The table with more rows.
+    pub fn rows<R: IntoIterator<Item = Cell>>(mut self, rows: impl IntoIterator<Item = R>) -> Self {
+        self.rows.extend(rows.into_iter().map(|cells| cells.into_iter().collect()));
+        self
+    }
+
     /// The table with a footnote more.
-    #[must_use]
     pub fn footnote(mut self, text: impl Into<String>) -> Self {
         self.footnotes.push(text.into());
         self
@@ -217,22 +226,13 @@ impl Table {
     /// Whether each row fits the columns and each reference its footnote.
     pub(super) fn check(&self) -> Result<(), ReportError> {
         for (row, cells) in (1..).zip(&self.rows) {
+            let fail = |what: String| Err(ReportError(format!("table \"{}\": row {row} {what}", self.caption)));
             if cells.len() != self.columns.len() {
-                return Err(ReportError::RowLength {
-                    table: self.caption.clone(),
-                    row,
-                    found: cells.len(),
-                    expected: self.columns.len(),
-                });
+                return fail(format!("has {} cells, the table has {} columns", cells.len(), self.columns.len()));
             }
             let missing = |footnote: &usize| *footnote == 0 || *footnote > self.footnotes.len();
             if let Some(footnote) = cells.iter().filter_map(|c| c.footnote).find(missing) {
-                return Err(ReportError::Footnote {
-                    table: self.caption.clone(),
-                    row,
-                    footnote,
-                    footnotes: self.footnotes.len(),
-                });
+                return fail(format!("points to footnote {footnote}, the table has {}", self.footnotes.len()));
             }
         }
         Ok(())
