@@ -10,15 +10,14 @@ mod condensation;
 mod housings;
 mod orders;
 mod paper;
-mod section;
+pub(crate) mod section;
 mod signals;
 mod simulation;
 mod structured_mesh;
 mod suite;
-mod summary;
 
 pub use built_in::{BEAM_CASE, BEARING};
-pub(crate) use section::{Check, SectionResult};
+pub(crate) use section::SectionResult;
+pub use section::{Check, VerifyResult};
 pub use structured_mesh::{BODY, StructuredMesh};
 pub(crate) use suite::suite;
-pub use summary::VerifyResult;

@@ -23,7 +23,7 @@ const TWO_BALLS: [&str; 2] = [BASE, "bearing.formulation=consistent"];
 const ONE_BALL: [&str; 3] = [TWO_BALLS[0], TWO_BALLS[1], "bearing.first_ball_deg=270"];
 
 /// Where the choices behind the built-in case are studied.
-const STUDY: &str = "The paper does not report all choices behind its eigenfrequencies: `cargo run --release --example paper_readings` (in the source tree) computes 155,520 readings of it, and finds those that fit.";
+const STUDY: &str = "The paper does not report all choices behind its eigenfrequencies. The example paper_readings computes 155,520 readings of it and finds those that fit: `cargo run --release --example paper_readings` in the source tree.";
 
 /// Carries the section out.
 ///
@@ -83,7 +83,7 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
     let kind = |unit, reason| Kind {
         unit,
         source: "an independent computation: Harris, Rolling Bearing Analysis, (6.23) to (6.41), elliptic integrals of SciPy",
-        assumptions: "Table 1's radii, grooves concave across the rolling direction, inner race convex and outer race concave along it; ball and races of steel, 206 GPa, nu 0.3.",
+        assumptions: "Table 1's radii; grooves concave across the rolling direction. The inner race is convex along it, the outer race concave. Ball and races of steel, 206 GPa, nu 0.3.",
         reason,
     };
     let k = kind("N/m^1.5", "The reference has four digits and is asked to 0.1 %.");
@@ -153,7 +153,7 @@ fn frequencies(result: &ModesResult) -> Vec<Check> {
     let kind = Kind {
         unit: "Hz",
         source: "Tadina & Boltezar 2011, section 4.2",
-        assumptions: "The built-in case examples/tadina2011/beam.toml: the source's own equations (misprints put right), k from the geometry, rings that slip on each other but bend about their common centroid, no shear, housing ring 4 mm wide, steel 210 and aluminium 72 GPa, springs in x and y on the housing ring's centre line, two balls under the load, at rest. One of many readings: see the example paper_readings.",
+        assumptions: "The built-in case examples/tadina2011/beam.toml: the source's own equations (misprints put right), k from the geometry. Rings slip on each other but bend about their common centroid, without shear. The housing ring is 4 mm wide; steel has 210 GPa, aluminium 72 GPa. Springs in x and y stand on the housing ring's centre line. Two balls are under the load, at rest. One of many readings: see the example paper_readings.",
         reason: "The source gives two to three digits and says \"around\": half a unit of 8.2 kHz is 0.6 %, of 36 kHz 1.4 %.",
     };
     let expected = result.base.expected.iter();
@@ -211,7 +211,7 @@ fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, Verific
     let kind = |unit, source, reason| Kind {
         unit,
         source,
-        assumptions: "Consistent equations, Table 1's bearing with k from the geometry, ring on its springs at the housing ring's centre line, shaft of 0.15 kg at rest, 9.81 m/s^2.",
+        assumptions: "Consistent equations; Table 1's bearing with k from the geometry. The ring is on its springs at the housing ring's centre line. The shaft of 0.15 kg is at rest, 9.81 m/s^2.",
         reason,
     };
     let share = weight / (2.0 * (0.5 * spacing).cos());

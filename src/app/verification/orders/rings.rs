@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::super::beams::ring;
-use super::{Family, Series, VerificationError};
+use super::{Family, Series};
+use crate::app::verification::section::VerificationError;
 use crate::numerics::linalg::symmetric_generalised_eigen;
 
 /// Elements of the coarsest ring; each of the others has twice as many as the one before.
