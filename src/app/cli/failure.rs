@@ -9,8 +9,6 @@ use super::{AnalyzeError, ExportError, InitError, ResultsError};
 use crate::app::case::CaseError;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::printable;
-use crate::app::studies::chart::ChartError;
-use crate::app::studies::sweep::SweepError;
 use crate::files::FileError;
 
 /// Why a command did not end well.
@@ -120,32 +118,14 @@ pub enum CliError {
     /// No case file could be made.
     #[error(transparent)]
     Init(Box<InitError>),
-    /// A chart could not be made.
-    #[error(transparent)]
-    Chart(Box<ChartError>),
-    /// A sweep cannot be planned or not go on.
-    #[error(transparent)]
-    Sweep(Box<SweepError>),
     /// A built-in check could not be carried out.
     #[error(transparent)]
     Verification(Box<dyn std::error::Error + Send + Sync>),
 }
 
-impl From<SweepError> for CliError {
-    fn from(error: SweepError) -> Self {
-        Self::Sweep(Box::new(error))
-    }
-}
-
 impl From<InitError> for CliError {
     fn from(error: InitError) -> Self {
         Self::Init(Box::new(error))
-    }
-}
-
-impl From<ChartError> for CliError {
-    fn from(error: ChartError) -> Self {
-        Self::Chart(Box::new(error))
     }
 }
 
@@ -180,8 +160,6 @@ impl CliError {
             | Self::ResumeAnew => 2,
             Self::Stage(error) if error.is_input() => 2,
             Self::Export(error) if error.is_input() => 2,
-            Self::Chart(error) if error.is_input() => 2,
-            Self::Sweep(error) if error.is_input() => 2,
             Self::File(_)
             | Self::StandardOutput(_)
             | Self::BadAnswer { .. }
@@ -189,8 +167,6 @@ impl CliError {
             | Self::Signals(_)
             | Self::Stage(_)
             | Self::Export(_)
-            | Self::Chart(_)
-            | Self::Sweep(_)
             | Self::Threads(_)
             | Self::Verification(_) => 1,
         }
@@ -205,8 +181,6 @@ impl CliError {
             Self::Export(error) => error.help(),
             Self::Analyze(error) => error.help(),
             Self::Init(error) => error.help(),
-            Self::Chart(error) => error.help(),
-            Self::Sweep(error) => error.help(),
             Self::Busy { .. } => Some("wait for its end, or choose another folder with --out".to_owned()),
             Self::Results(error) => error.help(),
             Self::ResultExists { .. } => {
@@ -245,7 +219,7 @@ mod tests {
     use std::path::PathBuf;
 
     use super::super::analyze::Missing;
-    use super::{AnalyzeError, ChartError, CliError, ExportError, InitError, ResultsError, SweepError};
+    use super::{AnalyzeError, CliError, ExportError, InitError, ResultsError};
     use crate::app::case::Case;
     use crate::app::error::{ComputeError, UnfinishedError};
     use crate::files::FileError;
@@ -386,44 +360,6 @@ mod tests {
                 "error: out/a: nothing says which bearing it is\n\
                  help: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
             ),
-            (
-                CliError::from(ChartError::TooShort { found: 1e-4, band_hz: 4e4, needed: 5e-4 }),
-                2,
-                "error: transient.end - transient.start is 0.0001 s: a chart in the band up to 40000 Hz needs at least 0.0005 s\n\
-                 help: a later transient.end, by at least 0.0005 s after transient.start\n",
-            ),
-            (
-                CliError::from(ChartError::NoReference {
-                    method: "dop853",
-                    start_s: 2.3,
-                    reason: "the solution blew up".to_owned(),
-                }),
-                1,
-                "error: the reference by dop853 failed at the start at 2.3 s: the solution blew up\n\
-                 help: `plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere\n",
-            ),
-            (
-                CliError::from(SweepError::InTheWay { folder: path() }),
-                2,
-                "error: out/a holds a sweep\n\
-                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
-            ),
-            (
-                CliError::from(SweepError::Changed {
-                    folder: path(),
-                    changes: vec!["another text of the case file".to_owned()],
-                }),
-                2,
-                "error: the sweep in out/a was begun with something else: another text of the case file\n\
-                 help: go on with what it was begun with, or begin anew with --force\n",
-            ),
-            (
-                CliError::from(SweepError::NoPlan { folder: path(), plan: PathBuf::from("out/a/sweep/plan.json") }),
-                2,
-                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
-                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
-            ),
-            (CliError::from(SweepError::Io { path: path(), source: source() }), 1, "error: out/a: full\n"),
             (
                 CliError::Verification("the built-in case has no bearing".into()),
                 1,

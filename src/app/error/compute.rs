@@ -22,12 +22,20 @@ use crate::report::ReportError;
 use crate::signal::SignalError;
 use crate::signal::diagnosis::DiagnosisError;
 use crate::system::SystemError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Failure of a stage.
 #[derive(Debug, Error)]
 pub enum ComputeError {
+    /// Input that nothing can be computed with.
+    #[error("{what}")]
+    Input {
+        /// What is wrong, and where.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
     /// The case file.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -382,6 +390,14 @@ pub enum ComputeError {
     /// The report.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A study, or one of its files, that failed.
+    #[error("{what}")]
+    Failed {
+        /// What happened, and where.
+        what: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
 }
 
 impl From<ModalError> for ComputeError {
@@ -395,6 +411,22 @@ impl From<ModalError> for ComputeError {
 }
 
 impl ComputeError {
+    /// Wrong input, and what to do about it.
+    pub(crate) fn input(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Input { what: what.into(), help: Some(help.into()) }
+    }
+
+    /// A study that failed, and what to do about it.
+    pub(crate) fn failed(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Failed { what: what.into(), help: Some(help.into()) }
+    }
+
+    /// A file or folder that the system does not let read or write.
+    pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Failed { what: format!("{}: {source}", path.display()), help: None }
+    }
+
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
         Self::InterfaceHeld { displacements: nodes.held.len(), holders: nodes.holders(model) }
@@ -403,6 +435,7 @@ impl ComputeError {
     /// What to do about it, where the message does not say it already.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Input { help, .. } => help.clone(),
             Self::Case(error) => error.help(),
             Self::Measured(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
@@ -434,6 +467,7 @@ impl ComputeError {
             Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(
                 "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned(),
             ),
+            Self::Failed { help, .. } => help.clone(),
             Self::MeshChanged { .. } => {
                 Some("run the command again when the mesh is complete".to_owned())
             }
@@ -459,7 +493,7 @@ impl ComputeError {
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
             Self::Unfinished(error) => error.is_input(),
-            Self::Interrupted { .. } | Self::Columns(ColumnError::File(_)) => false,
+            Self::Failed { .. } | Self::Interrupted { .. } | Self::Columns(ColumnError::File(_)) => false,
             Self::MeshChanged { .. } | Self::Series(_) | Self::Format(_) | Self::Report(_) => false,
             _ => true,
         }

@@ -1,8 +1,8 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
-use super::systems::Ready;
+use super::starts::{Ready, perturb};
 use super::trace::{Failure, simulate};
-use super::{Settings, Start, perturb};
+use super::{Settings, Start};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::numerics::series::TimeSeries;

@@ -1,12 +1,11 @@
 //! What `chart.json` says.
 
 use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Point, PointError, StabilitySummary, StartReference,
-    parameter_of,
+    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, StabilitySummary,
+    StartReference,
 };
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
-use crate::app::scene::RunModel;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -100,16 +99,6 @@ pub struct MethodParameter {
     /// Its step or tolerance.
     #[serde(flatten)]
     pub parameter: Parameter,
-}
-
-/// What of a model is refined, and how far.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Parameter {
-    /// Length of a step, s.
-    StepS(f64),
-    /// Relative tolerance of a step.
-    Tolerance(f64),
 }
 
 /// The reference from one start.
@@ -268,7 +257,7 @@ impl Chart {
                     point,
                     method: self.points[point].method(),
                     model: self.points[point].model_name(),
-                    parameter: Parameter::of(&self.points[point].model),
+                    parameter: self.points[point].parameter(),
                     kind: failure.kind.name(),
                     reason: &failure.reason,
                 })
@@ -287,7 +276,7 @@ impl Chart {
         PointSummary {
             method: point.method(),
             model: point.model_name(),
-            parameter: Parameter::of(&point.model),
+            parameter: point.parameter(),
             wall_s: point.wall_s,
             below_floor: self.below_floor(point),
             error: ErrorSummary::of(&point.error),
@@ -305,15 +294,6 @@ impl Chart {
             point: of.point,
             figures: figures.ok().map(|all| all.iter().map(summary).collect()),
             reason: figures.err().map(String::as_str),
-        }
-    }
-}
-
-impl Parameter {
-    fn of(model: &RunModel) -> Self {
-        match parameter_of(model) {
-            ("tolerance", tolerance) => Self::Tolerance(tolerance),
-            (_, step_s) => Self::StepS(step_s),
         }
     }
 }
