@@ -52,7 +52,6 @@ impl Table {
     }
 
     /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
-    #[must_use]
     pub(crate) fn csv_name(&self) -> String {
         format!("{}.csv", plain_name(&self.caption, "table"))
     }
@@ -78,7 +77,6 @@ pub(super) fn plain_name(text: &str, or: &str) -> String {
 impl Report {
     /// Name and content ([`Table::to_csv`]) of each table's file, in the order and with the numbers of the page; names
     /// begin with the folder of [`Report::tables_in`].
-    #[must_use]
     pub(crate) fn csv_files(&self) -> Vec<(String, String)> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
         let tables = blocks.filter_map(|block| match block {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::layout::{AxisView, BAR_ROOM, Layout};
+use super::layout::{AxisView, BAR_ROOM, Layout, checked};
 use super::palette::{VIRIDIS, hex, viridis};
 use super::plot::{Plot, Raster};
 use super::{ReportError, svg};
@@ -29,7 +29,7 @@ impl Raster {
             return Err(ReportError(format!("plot \"{title}\": {what}")));
         }
         let range = self.colours.range.unwrap_or([f64::NAN; 2]);
-        AxisView::checked(plot, &self.colours, range)
+        Ok(AxisView::new(&self.colours, checked(plot, &self.colours, range)?))
     }
 
     /// The picture as a PNG in a data address, its highest row first.

@@ -121,9 +121,9 @@ impl Cell {
         Self::text(significant(value, digits)).value(value)
     }
 
-    /// A cell with a number as [`Cell::number`], or a dash where there is none.
-    pub fn number_or_dash(value: Option<f64>, digits: usize) -> Self {
-        value.map_or_else(|| Self::text("–"), |value| Self::number(value, digits))
+    /// The same, or a text where there is no number.
+    pub(crate) fn number_or(value: Option<f64>, digits: usize, otherwise: &str) -> Self {
+        value.map_or_else(|| Self::text(otherwise), |value| Self::number(value, digits))
     }
 
     /// A badge: "pass", "fail", or a dash where nothing was judged.
@@ -143,7 +143,6 @@ impl Cell {
     }
 
     /// The cell with a verdict.
-    #[must_use]
     pub(crate) fn judged(mut self, verdict: Verdict) -> Self {
         self.verdict = verdict;
         self
@@ -181,10 +180,9 @@ impl Table {
         self
     }
 
-    /// The table with more rows.
-    pub fn rows<R: IntoIterator<Item = Cell>>(mut self, rows: impl IntoIterator<Item = R>) -> Self {
-        self.rows.extend(rows.into_iter().map(|cells| cells.into_iter().collect()));
-        self
+    /// The table with rows more.
+    pub(crate) fn rows<R: IntoIterator<Item = Cell>>(self, rows: impl IntoIterator<Item = R>) -> Self {
+        rows.into_iter().fold(self, Self::row)
     }
 
     /// The table with a footnote more.

@@ -1,9 +1,8 @@
 //! The still pictures of a view: the mesh with its groups, and the first mode shapes side by side.
 
-use super::camera::{Camera, NAMES};
+use super::camera::{Camera, NAMES, Vector, bounds};
 use super::picture::{self, BANDS, Colouring, Frame};
 use super::surface::Surface;
-use super::vector::{Vector, bounds};
 use super::view::ModeShapeView;
 use crate::report::palette;
 use crate::report::svg::{self, ScaleBar};

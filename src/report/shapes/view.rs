@@ -2,19 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::vector::diagonal;
+use super::camera::{UpAxis, diagonal};
 use crate::report::number::significant;
 use crate::report::{ReportError, palette};
-
-/// Direction that points up in the standard views.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum UpAxis {
-    /// y up; the front view looks along -z.
-    Y,
-    /// z up; the front view looks along +y.
-    #[default]
-    Z,
-}
 
 /// Which figures a view makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -207,7 +197,6 @@ impl ModeShapeView {
 
     /// The view without the points that nothing of it uses, such as those inside a solid. Its figures are the same. A view with
     /// an index that points at nothing stays as it is; [`check`](Self::check) names the index.
-    #[must_use]
     pub(crate) fn without_unused_points(mut self) -> Self {
         let mut used = vec![false; self.points.len()];
         let corners = self.triangles.iter().flat_map(|triangle| triangle.corners);
