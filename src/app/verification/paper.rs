@@ -31,10 +31,7 @@ const STUDY: &str = "The paper does not report all choices behind its eigenfrequ
 /// [`VerificationError`] if a built-in case cannot be computed; a number that is wrong is no error.
 pub(super) fn paper(watch: &impl Watch) -> Result<SectionResult, VerificationError> {
     watch.stage("closed forms");
-    let mut checks = orders()?;
-    checks.extend(contacts()?);
-    checks.extend(sphere()?);
-    checks.extend(second_bearing()?);
+    let mut checks = [orders()?, contacts()?, sphere()?, second_bearing()?].concat();
     watch.stage("frequencies");
     let base = compute(&[BASE])?;
     watch.fraction(1.0 / 3.0);
@@ -87,17 +84,13 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
         reason,
     };
     let k = kind("N/m^1.5", "The reference has four digits and is asked to 0.1 %.");
+    let in_series = kind("N/m^1.5", "Half a unit in the last of three digits.");
     let shape = kind("", "Half a unit in the reference's last digit.");
     let (inner, outer) = (contacts.inner, contacts.outer);
     Ok(vec![
         k.check("Hertz stiffness, inner race", inner.stiffness, 1.257e10, 1e-3),
         k.check("Hertz stiffness, outer race", outer.stiffness, 1.129e10, 1e-3),
-        kind("N/m^1.5", "Half a unit in the last of three digits.").check(
-            "Both contacts in series",
-            contacts.stiffness().series(),
-            4.21e9,
-            0.5e-2 / 4.21,
-        ),
+        in_series.check("Both contacts in series", contacts.stiffness().series(), 4.21e9, 0.5e-2 / 4.21),
         shape.check("Curvature difference F, inner race", inner.curvature_difference, 0.9451, 0.5e-4 / 0.9451),
         shape.check("Curvature difference F, outer race", outer.curvature_difference, 0.8470, 0.5e-4 / 0.8470),
         shape.check("Ellipticity, inner race", inner.ellipticity, 9.818, 0.5e-3 / 9.818),
@@ -118,15 +111,11 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
         reason,
     };
     let exact = "Seven digits are given; 1e-6.";
+    let force = kind("N", "Half a unit in the last of five digits.");
     Ok(vec![
         kind("N/m^1.5", exact).check("Sphere on a flat: stiffness", contact.stiffness, 1.087_857e10, 1e-6),
         kind("m", exact).check("Sphere on a flat: indentation", peak.indentation, 1.171_042e-5, 1e-6),
-        kind("N", "Half a unit in the last of five digits.").check(
-            "Sphere on a flat: force",
-            peak.force,
-            435.94,
-            0.5e-2 / 435.94,
-        ),
+        force.check("Sphere on a flat: force", peak.force, 435.94, 0.5e-2 / 435.94),
         kind("s", exact).check("Sphere on a flat: contact time", peak.contact_time, 3.446_700e-5, 1e-6),
     ])
 }

@@ -199,7 +199,7 @@ impl SectionResult {
             [
                 Cell::text(&row.name),
                 Cell::number(row.computed, 5),
-                Cell::number_or_dash(row.source_value, 4),
+                Cell::number_or(row.source_value, 4, "–"),
                 Cell::text(&row.unit),
                 Cell::text(&row.assumptions),
             ]

@@ -15,16 +15,19 @@ use crate::numerics::Watch;
 /// # Errors
 /// [`VerificationError`] if something built in cannot be computed; a number that is wrong is no error.
 pub(crate) fn suite(full: bool, watch: &impl Watch) -> Result<Vec<SectionResult>, VerificationError> {
-    watch.stage("beams");
-    let mut sections = vec![beams()?];
-    watch.stage("housings");
-    sections.push(housings()?);
-    watch.stage("condensation");
-    sections.push(condensation()?);
-    watch.stage("simulation");
-    sections.push(simulation()?);
-    watch.stage("signals");
-    sections.push(signals()?);
+    type Section = fn() -> Result<SectionResult, VerificationError>;
+    let stages: [(&str, Section); 5] = [
+        ("beams", beams),
+        ("housings", housings),
+        ("condensation", condensation),
+        ("simulation", simulation),
+        ("signals", signals),
+    ];
+    let mut sections = Vec::new();
+    for (stage, section) in stages {
+        watch.stage(stage);
+        sections.push(section()?);
+    }
     sections.push(paper(watch)?);
     if full {
         watch.stage("orders");

@@ -74,7 +74,7 @@ impl Family {
                     Cell::text(&series.name),
                     Cell::number(size, 4),
                     Cell::number(error, 3),
-                    Cell::number_or_dash(order, 4),
+                    Cell::number_or(order, 4, "–"),
                 ]
             })
         });
