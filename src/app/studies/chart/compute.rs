@@ -219,7 +219,7 @@ fn statistics(
             return Err(failure.clone());
         }
         let model = &point.model;
-        Ok(compare(&run(systems.of(model)?, model)?, by))
+        Ok(compare(&run(systems.of(model)?, model)?, by, settings.target))
     };
     points
         .into_iter()

@@ -2,7 +2,7 @@
 
 use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
-use super::{Chart, GROWTHS, ModelStatistics, Parameter, Point};
+use super::{Chart, GROWTHS, Parameter, Point};
 use crate::app::case::Case;
 use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
@@ -103,12 +103,12 @@ fn point_row(first: Cell, point: &Point) -> Vec<Cell> {
         first,
         Cell::text(point.method()),
         Cell::text(point.model_name()),
-        Cell::number_or_dash(step, 3),
-        Cell::number_or_dash(tolerance, 2),
-        Cell::number_or_dash(point.wall_s, 3),
-        Cell::number_or_dash(error.map(|error| error.mean), 2),
-        Cell::number_or_dash(error.map(|error| error.deviation), 2),
-        Cell::number_or_dash(error.map(|error| error.largest), 2),
+        Cell::number_or(step, 3, "–"),
+        Cell::number_or(tolerance, 2, "–"),
+        Cell::number_or(point.wall_s, 3, "–"),
+        Cell::number_or(error.map(|error| error.mean), 2, "–"),
+        Cell::number_or(error.map(|error| error.deviation), 2, "–"),
+        Cell::number_or(error.map(|error| error.largest), 2, "–"),
     ]
 }
 
@@ -196,12 +196,13 @@ fn reference_section(chart: &Chart) -> Section {
         [
             Cell::text(fixed(start.start.time_s, 5)).value(start.start.time_s),
             Cell::number(1e3 * start.horizon_s, 3),
-            Cell::number_or_dash(start.growth.rate_per_s().map(|rate| 1e-3 * rate), 2),
+            Cell::number_or(start.growth.rate_per_s().map(|rate| 1e-3 * rate), 2, "–"),
             Cell::number(start.disagreement, 2),
             Cell::text(start.refinements.to_string()),
         ]
     }));
     let rate = reference.growth_rate_per_s();
+    let rate = rate.map(|rate| format!("{} times a millisecond", significant((1e-3 * rate).exp(), 3)));
     Section::new("Reference and horizon")
         .paragraph(format!(
             "Two methods of different kind integrate the fullest model: all {} modes, balls with inertia. They are refined, start by start, until their signals differ by less than a hundredth of the target over the horizon. The horizon is the time in which the distance of a solution from one that began a little beside it grows to {} times what it was at the start: an error made there has then become one of the signal's size if it was as large as the target. Signals are compared point by point inside it alone.",
@@ -220,14 +221,8 @@ fn reference_section(chart: &Chart) -> Section {
                 ms(reference.least_horizon_s()),
                 ms(chart.settings.span_s)
             )),
-            Fact::new(
-                "Growth",
-                rate.map_or_else(
-                    || "none".to_owned(),
-                    |rate| format!("{} times a millisecond", significant((1e-3 * rate).exp(), 3)),
-                ),
-            )
-            .note("mean over the starts of a straight line through the logarithm"),
+            Fact::new("Growth", rate.unwrap_or_else(|| "none".to_owned()))
+                .note("mean over the starts of a straight line through the logarithm"),
         ])
         .plot(growth(chart))
         .plot(between_methods(chart))
@@ -243,7 +238,7 @@ fn statistics_section(chart: &Chart) -> Section {
     ));
     for of in &chart.statistics {
         section = match &of.figures {
-            Ok(figures) => section.table(figures_table(chart, of, figures)),
+            Ok(figures) => section.table(figures_table(named(chart, of.point), figures)),
             Err(reason) => section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point))),
         };
     }
@@ -254,24 +249,24 @@ fn named(chart: &Chart, place: usize) -> &'static str {
     if place == chart.chosen { "The program's choice" } else { "The source's method" }
 }
 
-fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]) -> Table {
+fn figures_table(what: &str, figures: &[ComparedFigure]) -> Table {
     let rows = figures.iter().map(|figure| {
         let with_error = |estimate: &super::Estimate| {
             let text = format!("{} ± {}", significant(estimate.mean, 4), significant(estimate.standard_error, 2));
             Cell::text(text).value(estimate.mean)
         };
-        let errors = Cell::number(figure.standard_errors(), 2);
+        let errors = Cell::number(figure.standard_errors, 2);
         [
             Cell::text(&figure.name),
             Cell::text(crate::report::pretty_unit(figure.unit)),
             with_error(&figure.own),
             with_error(&figure.reference),
             with_error(&figure.difference),
-            if figure.differs(chart.settings.target) { errors.judged(Verdict::Bad) } else { errors },
+            if figure.differs { errors.judged(Verdict::Bad) } else { errors },
         ]
     });
     Table::new(
-        format!("{} against the reference", named(chart, of.point)),
+        format!("{what} against the reference"),
         [
             Column::text("Figure"),
             Column::text("Unit"),

@@ -198,27 +198,13 @@ pub struct ModelStatisticsSummary<'a> {
     /// Index from 0 of its point.
     pub point: usize,
     /// The figures; `None` where there are none.
-    pub figures: Option<Vec<FigureSummary<'a>>>,
+    pub figures: Option<&'a [ComparedFigure]>,
     /// Why there are none.
     pub reason: Option<&'a str>,
 }
 
-/// A figure of a model against that of the reference.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct FigureSummary<'a> {
-    /// The figure.
-    #[serde(flatten)]
-    pub figure: &'a ComparedFigure,
-    /// Mean difference in its standard errors.
-    #[schemars(with = "Option<f64>")]
-    pub standard_errors: f64,
-    /// Whether it differs by more than chance and the target.
-    pub differs: bool,
-}
-
 impl Chart {
     /// What `chart.json` says of it; `case` is the case that it was computed of.
-    #[must_use]
     pub(crate) fn summary<'a>(&'a self, case: &'a Case) -> ChartSummary<'a> {
         let (reference, settings) = (&self.reference, &self.settings);
         let starts = reference.starts.iter();
@@ -267,7 +253,7 @@ impl Chart {
             over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
             statistics: StatisticsSummary {
                 seconds: settings.statistics_s,
-                models: self.statistics.iter().map(|of| self.figures(of)).collect(),
+                models: self.statistics.iter().map(ModelStatisticsSummary::of).collect(),
             },
         }
     }
@@ -282,19 +268,12 @@ impl Chart {
             error: ErrorSummary::of(&point.error),
         }
     }
+}
 
-    fn figures<'a>(&self, of: &'a ModelStatistics) -> ModelStatisticsSummary<'a> {
-        let summary = |figure: &'a ComparedFigure| FigureSummary {
-            figure,
-            standard_errors: figure.standard_errors(),
-            differs: figure.differs(self.settings.target),
-        };
-        let figures = of.figures.as_ref();
-        ModelStatisticsSummary {
-            point: of.point,
-            figures: figures.ok().map(|all| all.iter().map(summary).collect()),
-            reason: figures.err().map(String::as_str),
-        }
+impl<'a> ModelStatisticsSummary<'a> {
+    fn of(of: &'a ModelStatistics) -> Self {
+        let figures = of.figures.as_deref();
+        Self { point: of.point, figures: figures.ok(), reason: figures.err().map(String::as_str) }
     }
 }
 

@@ -59,7 +59,6 @@ impl Axis {
     }
 
     /// The key as a name for columns and arrays: `[0]` as `.0`, quotes left out.
-    #[must_use]
     pub(crate) fn name(&self) -> String {
         plain_name(&self.key)
     }
@@ -72,7 +71,6 @@ impl Axis {
     }
 
     /// The values as numbers; `None` unless all of them are finite ones.
-    #[must_use]
     pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
         let number = |value: &String| value.parse().ok().filter(|number: &f64| number.is_finite());
         self.values.iter().map(number).collect()

@@ -25,7 +25,6 @@ pub struct Output {
 /// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `peak`, `kurtosis` and `named` (the parts that
 /// are called damaged), the estimated error, the equilibrium's shaft position and largest force, times. Of modes: mass,
 /// frequencies `frequency.k`, and `loaded.k` where contacts are linearised.
-#[must_use]
 pub(crate) fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
     match command {
         SweptCommand::Run => of_run(result),

@@ -27,7 +27,6 @@ pub enum SweptCommand {
 
 impl SweptCommand {
     /// The command's name on the command line; its result file is `NAME.json`.
-    #[must_use]
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
@@ -36,7 +35,6 @@ impl SweptCommand {
     }
 
     /// What a case is to be used for at each point.
-    #[must_use]
     pub(crate) fn purpose(self) -> Purpose {
         match self {
             Self::Run => Purpose::Run,
@@ -112,13 +110,11 @@ impl Plan {
     }
 
     /// Number of points: the product of the axes' lengths.
-    #[must_use]
     pub(crate) fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
     /// A point by its number, 1 to [`Plan::count`].
-    #[must_use]
     pub(crate) fn point(&self, number: usize) -> SweepPoint {
         let mut rest = number.saturating_sub(1);
         let mut places = vec![0; self.axes.len()];
@@ -189,7 +185,6 @@ impl Plan {
     }
 
     /// The folder of a point in that of the sweep.
-    #[must_use]
     pub(crate) fn folder(&self, sweep: &Path, number: usize) -> PathBuf {
         // as many digits as the last one has, so that lists of files are in order
         let digits = self.count().to_string().len();
@@ -197,7 +192,6 @@ impl Plan {
     }
 
     /// What is not the same in another plan, in words.
-    #[must_use]
     pub(crate) fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = self.identity.changes(&now.identity);
         if self.command != now.command {

@@ -10,7 +10,6 @@ const MOST_CURVES: usize = 12;
 /// The report of a sweep: what was varied, plots of its figures, points that are not done, the table.
 ///
 /// `command` is the command line that computes it again.
-#[must_use]
 pub(crate) fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report {
     let done = result.count(PointState::Done);
     let all = result.points.len();

@@ -100,16 +100,15 @@ impl SweepResult {
                 Some(result) if state.has_result() => outputs_of(plan.command, result),
                 _ => Vec::new(),
             };
-            let told = result.as_ref().and_then(|result| result["warnings"].as_array());
-            let told = told.into_iter().flatten().filter_map(Value::as_str);
-            Ok(PointResult { warnings: told.map(str::to_owned).collect(), point, state, record, outputs })
+            let warnings = result.as_ref().and_then(|result| result["warnings"].as_array());
+            let warnings = warnings.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
+            Ok(PointResult { point, state, record, outputs, warnings })
         });
         let points = points.collect::<Result<_, ComputeError>>()?;
         Ok(Self { plan, points })
     }
 
     /// Number of points in a state.
-    #[must_use]
     pub(crate) fn count(&self, state: PointState) -> usize {
         let points = self.points.iter();
         points.filter(|point| point.state == state).count()
@@ -122,7 +121,6 @@ impl SweepResult {
     }
 
     /// What the points' results warn of, in the order in which it first occurs.
-    #[must_use]
     pub(crate) fn warnings(&self) -> Vec<PointWarning> {
         let mut all: Vec<PointWarning> = Vec::new();
         for point in &self.points {
@@ -183,7 +181,6 @@ impl SweepResult {
     }
 
     /// The table: a row a point.
-    #[must_use]
     pub(crate) fn table(&self) -> Table {
         let columns = self.columns();
         let mut heads = vec![Column::number("point", "")];
@@ -194,7 +191,7 @@ impl SweepResult {
         Table::new("Points", heads).rows(self.points.iter().enumerate().map(|(row, point)| {
             let number = point.point.number;
             let cells = columns.iter().map(move |column| match &column.values {
-                Values::Numbers(numbers) => Cell::number_or_dash(Some(numbers[row]).filter(|x| x.is_finite()), 5),
+                Values::Numbers(numbers) => Cell::number_or(Some(numbers[row]).filter(|x| x.is_finite()), 5, "–"),
                 Values::Texts(texts) => Cell::text(texts[row].clone()),
             });
             std::iter::once(Cell::text(number.to_string()).value(number as f64)).chain(cells)

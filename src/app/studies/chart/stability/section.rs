@@ -5,7 +5,6 @@ use crate::app::case::Case;
 use crate::report::{Cell, Column, Report, Section, Table, significant};
 
 /// A report of the map alone; `command` is the line that made it.
-#[must_use]
 pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str) -> Report {
     Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Stability of the integration methods")
@@ -13,7 +12,6 @@ pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str
 }
 
 /// Picture, resonance and tables.
-#[must_use]
 pub(crate) fn stability_section(stability: &Stability) -> Section {
     let [kept, all] = stability.modes;
     Section::new("Stability map")
@@ -40,7 +38,7 @@ fn names(of: &ConditionStability, method: &MethodStability) -> [Cell; 2] {
 
 /// A time in microseconds, or a dash.
 fn microseconds(seconds: Option<f64>) -> Cell {
-    Cell::number_or_dash(seconds.map(|seconds| 1e6 * seconds), 3)
+    Cell::number_or(seconds.map(|seconds| 1e6 * seconds), 3, "–")
 }
 
 /// What stands where nothing was computed or found.
@@ -62,7 +60,7 @@ fn limits(stability: &Stability) -> Table {
         let values = [
             microseconds(method.predicted_limit_s),
             microseconds(method.measured_limit_s),
-            Cell::number_or_dash(limits.map(|(predicted, measured)| measured / predicted), 3),
+            Cell::number_or(limits.map(|(predicted, measured)| measured / predicted), 3, "–"),
             Cell::text(method.note.as_deref().unwrap_or("")),
         ];
         names(of, method).into_iter().chain(values).collect::<Vec<_>>()

@@ -45,7 +45,6 @@ pub struct ConditionSummary<'a> {
 
 impl Stability {
     /// What `stability.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> StabilitySummary<'_> {
         let [modes, of_modes] = self.modes;
         StabilitySummary {
