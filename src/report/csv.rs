@@ -23,12 +23,8 @@ impl Table {
     /// ```
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let judged: Vec<bool> = (0..self.columns.len())
-            .map(|k| {
-                let cells = self.rows.iter().filter_map(|row| row.get(k));
-                cells.into_iter().any(is_judged)
-            })
-            .collect();
+        let is_judged = |k: usize| self.rows.iter().filter_map(|row| row.get(k)).any(is_judged);
+        let judged: Vec<bool> = (0..self.columns.len()).map(is_judged).collect();
         let mut header = Vec::new();
         for (column, judged) in self.columns.iter().zip(&judged) {
             header.push(quoted(&guarded(&title(column))));

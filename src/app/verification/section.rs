@@ -93,16 +93,16 @@ impl Check {
     }
 }
 
-/// What `verify.json` says of the errors of one quantity over ever finer sizes.
+/// Errors of one quantity over ever finer sizes, and their orders of convergence; as `verify.json` has them.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OrdersSummary {
-    /// What it is.
+    /// What it is; what stands before a comma is shared by quantities of a kind.
     pub name: String,
     /// What a size is.
     pub size: &'static str,
     /// Unit of the sizes.
     pub unit: &'static str,
-    /// Sizes, falling.
+    /// Sizes of elements (as a part of the body's) or of steps, falling.
     pub sizes: Vec<f64>,
     /// Relative errors, as many.
     pub relative_errors: Vec<f64>,
@@ -110,6 +110,9 @@ pub struct OrdersSummary {
     pub orders: Vec<f64>,
     /// Order that theory gives.
     pub theory: f64,
+    /// Largest relative difference of the order on the last refinement from it.
+    #[serde(skip)]
+    pub(super) limit: f64,
 }
 
 /// The result of `plummer verify`.

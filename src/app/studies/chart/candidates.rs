@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Spectral radius of generalized-alpha, as the program's own choice.
 const SPECTRAL_RADIUS: f64 = 0.8;
 
-/// Longest and shortest steps, in halvings of the output interval: two to eight are 1.2e-6 to 2e-8 s in a band up to 40 kHz.
+/// Longest and, full and quick, shortest steps, in halvings of the output interval: two to eight are 1.2e-6 to 2e-8 s in a band up to 40 kHz.
 /// A quick chart ends earlier.
 const LONGEST_STEP: i32 = 2;
 const SHORTEST_STEP: [i32; 2] = [8, 6];

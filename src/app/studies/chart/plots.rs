@@ -114,7 +114,7 @@ pub(crate) fn between_methods(chart: &Chart) -> Plot {
     let growths: Vec<&Growth> = starts.iter().map(|start| &start.between).collect();
     let times = growths.first().map(|growth| growth.times_s());
     let times = times.unwrap_or_default();
-    let at = |window: usize| growths.iter().map(move |growth| growth.distances()[window]);
+    let at = |window: usize| growths.iter().map(move |growth| growth.distances[window]);
     let mean = |window| at(window).sum::<f64>() / growths.len() as f64;
     let largest = |window| at(window).fold(0.0, f64::max);
     let windows = || 0..times.len();

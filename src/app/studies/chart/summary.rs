@@ -286,8 +286,8 @@ impl<'a> StartSummary<'a> {
             refinements: start.refinements,
             growth_rate_per_s: start.growth.rate_per_s(),
             time_s: start.growth.times_s(),
-            perturbed: start.growth.distances(),
-            methods: start.between.distances(),
+            perturbed: &start.growth.distances,
+            methods: &start.between.distances,
         }
     }
 }

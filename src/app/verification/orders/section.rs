@@ -20,10 +20,9 @@ pub(crate) fn orders() -> Result<SectionResult, VerificationError> {
     for family in &families {
         report = report.table(family.table()).plot(family.plot());
     }
-    let orders = families.iter().flat_map(Family::summary).collect();
     let mut section = SectionResult::of_checks(TITLE, checks);
     section.report = vec![report];
-    section.orders = Some(orders);
+    section.orders = Some(families.into_iter().flat_map(|family| family.series).collect());
     Ok(section)
 }
 
