@@ -10,9 +10,10 @@ use serde::Serialize;
 /// Spectral radius of generalized-alpha, as the program's own choice.
 const SPECTRAL_RADIUS: f64 = 0.8;
 
-/// Longest and, full and quick, shortest steps, in halvings of the output interval: two to eight are 1.2e-6 to 2e-8 s in a band up to 40 kHz.
-/// A quick chart ends earlier.
+/// Longest step, in halvings of the output interval: 1.2e-6 s in a band up to 40 kHz.
 const LONGEST_STEP: i32 = 2;
+
+/// Shortest step of a full and of a quick chart, in halvings of the output interval: eight are 2e-8 s in a band up to 40 kHz.
 const SHORTEST_STEP: [i32; 2] = [8, 6];
 
 /// How many of the longest steps are tried of the implicit method in all modes.

@@ -132,16 +132,13 @@ pub(crate) fn between_methods(chart: &Chart) -> Plot {
 
 /// The starts with the shortest and the longest horizon, what to call them, and their colours.
 fn extremes(chart: &Chart) -> Vec<(usize, &'static str, usize)> {
-    let starts = chart.reference.starts.iter().enumerate();
+    let starts = || chart.reference.starts.iter().enumerate();
     let by_horizon = |a: &(usize, &super::StartReference), b: &(usize, &super::StartReference)| {
         a.1.horizon_s.total_cmp(&b.1.horizon_s)
     };
-    let shortest = starts.clone().min_by(by_horizon);
-    let longest = starts.max_by(by_horizon);
-    [shortest.map(|(place, _)| (place, "shortest horizon", 1)), longest.map(|(place, _)| (place, "longest", 0))]
-        .into_iter()
-        .flatten()
-        .collect()
+    let shortest = (starts().min_by(by_horizon), "shortest horizon", 1);
+    let longest = (starts().max_by(by_horizon), "longest", 0);
+    [shortest, longest].into_iter().filter_map(|(start, name, colour)| Some((start?.0, name, colour))).collect()
 }
 
 /// Zeros, which a logarithm has no place for, as gaps.
