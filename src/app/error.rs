@@ -20,7 +20,7 @@ use crate::report::ReportError;
 use crate::signal::SignalError;
 use crate::signal::diagnosis::DiagnosisError;
 use crate::system::SystemError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Failure of a stage.
@@ -409,6 +409,17 @@ impl ComputeError {
     /// What to do with a run that cannot go on.
     pub(crate) const ANEW: &'static str = "begin anew with --force";
 
+    /// A study that failed, and what to do about it.
+    pub(crate) fn failed(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Failed { what: what.into(), help: Some(help.into()) }
+    }
+
+    /// A file or folder that the system does not let read or write.
+    pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Failed { what: format!("{}: {source}", path.display()), help: None }
+    }
+
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
         Self::InterfaceHeld { displacements: nodes.held.len(), holders: nodes.holders(model) }
@@ -448,6 +459,7 @@ impl ComputeError {
             Self::Compared { source, .. } if matches!(**source, ModalError::TooFewPoints { .. }) => Some(
                 "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned(),
             ),
+            Self::Failed { help, .. } => help.clone(),
             Self::MeshChanged { .. } => {
                 Some("run the command again when the mesh is complete".to_owned())
             }

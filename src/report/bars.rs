@@ -32,6 +32,7 @@ pub struct BarSeries {
 }
 
 /// A bar chart: a group of bars, one of each series, over each label.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Bars {
     /// What it shows.
@@ -67,7 +68,6 @@ impl Bars {
     }
 
     /// The chart with a series more.
-    #[must_use]
     pub fn series(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
         self.series.push(BarSeries { name: name.into(), values });
         self

@@ -142,16 +142,12 @@ impl Numbers {
     /// Nothing numbered yet; the budgets shared among what the sections hold.
     pub(super) fn new(sections: &[Section], table_files: Option<&TableFiles>) -> Self {
         let blocks = || sections.iter().flat_map(|s| &s.blocks);
-        let plots = blocks().filter_map(|block| match block {
-            Block::Plot(plot) => Some(plot.as_ref()),
-            _ => None,
-        });
         Self {
             figure: 0,
             table: 0,
             table_files: table_files.cloned(),
             live: 0,
-            curve_share: embed::share(plots),
+            curve_share: embed::share(blocks().filter_map(Block::plot)),
             shapes_share: SHAPES_BUDGET / blocks().filter(|b| is_live(b)).count().max(1),
         }
     }
@@ -250,8 +246,8 @@ fn shapes_view<'a>(view: &'a ModeShapeView, numbers: &mut Numbers) -> Result<Sha
     let surface = Surface::of(view);
     let with_mesh = view.figures != ShapeFigures::Modes || view.modes.is_empty();
     let mesh = with_mesh.then(|| {
-        let picture = shapes::mesh_picture(view, &surface);
-        MeshFigure { number: next(&mut numbers.figure), svg: picture.svg, edges: picture.edges }
+        let (svg, edges) = shapes::mesh_picture(view, &surface);
+        MeshFigure { number: next(&mut numbers.figure), svg, edges }
     });
     let modes = shows_modes(view).then(|| modes_figure(view, &surface, numbers)).transpose()?;
     Ok(ShapesView { title: &view.title, caption: view.caption.as_deref(), legend: shapes::legend(view), mesh, modes })

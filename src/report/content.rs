@@ -22,6 +22,7 @@ use super::table::{Table, Verdict};
 /// assert!(html.contains("Ring on 36 springs."));
 /// # Ok::<(), plummer::report::ReportError>(())
 /// ```
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Title of the page.
@@ -75,6 +76,7 @@ pub struct MeshFile {
 /// let head = Document::new().case("pedestal.toml").mesh("pedestal.msh", None).signed_by("Prepared by");
 /// assert_eq!(head.signatures, ["Prepared by"]);
 /// ```
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Document {
     /// Case file.
@@ -97,6 +99,7 @@ pub struct Headline {
 }
 
 /// A numbered part of a report.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Title of the section.
@@ -131,6 +134,7 @@ pub enum Block {
 }
 
 /// A property of the model: name, value, and where it comes from or what it means.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fact {
     /// What it is.
@@ -148,10 +152,19 @@ impl Fact {
     }
 
     /// The property with a remark or a source.
-    #[must_use]
     pub(crate) fn note(mut self, note: impl Into<String>) -> Self {
         self.note = Some(note.into());
         self
+    }
+}
+
+impl Block {
+    /// The plot, if it is one.
+    pub(super) fn plot(&self) -> Option<&Plot> {
+        match self {
+            Self::Plot(plot) => Some(plot),
+            _ => None,
+        }
     }
 }
 
@@ -162,68 +175,57 @@ impl Section {
     }
 
     /// The section with a piece more.
-    #[must_use]
     pub(crate) fn block(mut self, block: Block) -> Self {
         self.blocks.push(block);
         self
     }
 
     /// The section with a paragraph more.
-    #[must_use]
     pub fn paragraph(self, text: impl Into<String>) -> Self {
         self.block(Block::Paragraph(text.into()))
     }
 
     /// The section with a list of properties more.
-    #[must_use]
     pub fn facts(self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.block(Block::Facts(facts.into_iter().collect()))
     }
 
     /// The section with a table more.
-    #[must_use]
     pub fn table(self, table: Table) -> Self {
         self.block(Block::Table(table))
     }
 
     /// The section with a plot more.
-    #[must_use]
     pub fn plot(self, plot: Plot) -> Self {
         self.block(Block::Plot(Box::new(plot)))
     }
 
     /// The section with a drawing more.
-    #[must_use]
     pub(crate) fn drawing(self, drawing: Drawing) -> Self {
         self.block(Block::Drawing(drawing))
     }
 
     /// The section with a structure in space more.
-    #[must_use]
     pub fn shapes(self, view: ModeShapeView) -> Self {
         self.block(Block::Shapes(Box::new(view)))
     }
 
     /// The section with a bar chart more.
-    #[must_use]
     pub fn bars(self, bars: Bars) -> Self {
         self.block(Block::Bars(bars))
     }
 
     /// The section with a chart of spans more.
-    #[must_use]
     pub fn spans(self, spans: Spans) -> Self {
         self.block(Block::Spans(spans))
     }
 
     /// The section with a map of steps more.
-    #[must_use]
     pub(crate) fn step_map(self, map: StepMap) -> Self {
         self.block(Block::StepMap(map))
     }
 
     /// The section with a matrix in colours more.
-    #[must_use]
     pub fn matrix(self, matrix: Matrix) -> Self {
         self.block(Block::Matrix(matrix))
     }
@@ -249,7 +251,6 @@ impl Report {
     }
 
     /// The report with a line under its title.
-    #[must_use]
     pub(crate) fn subtitle(mut self, text: impl Into<String>) -> Self {
         self.subtitle = Some(text.into());
         self
@@ -257,56 +258,48 @@ impl Report {
 
     /// The report with its tables as files beside it, `FOLDER/PREFIX-NUMBER-CAPTION.csv`; [`Report::csv_files`] gives
     /// their contents.
-    #[must_use]
     pub fn tables_in(mut self, folder: impl Into<String>, prefix: impl Into<String>) -> Self {
         self.table_files = Some(TableFiles { folder: folder.into(), prefix: prefix.into() });
         self
     }
 
     /// The report with its date, as it is to be printed.
-    #[must_use]
     pub fn date(mut self, text: impl Into<String>) -> Self {
         self.date = Some(text.into());
         self
     }
 
     /// The report with where its results come from and who answers for them.
-    #[must_use]
     pub fn document(mut self, document: Document) -> Self {
         self.document = Some(document);
         self
     }
 
     /// The report with its result as a whole: what was judged, the outcome in a few words, and the verdict.
-    #[must_use]
     pub fn judgement(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
         self.judgement = Some(Headline { label: label.into(), value: value.into(), verdict });
         self
     }
 
     /// The report with a figure more on top.
-    #[must_use]
     pub(crate) fn headline(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
         self.headlines.push(Headline { label: label.into(), value: value.into(), verdict });
         self
     }
 
     /// The report with a section more.
-    #[must_use]
     pub fn section(mut self, section: Section) -> Self {
         self.sections.push(section);
         self
     }
 
     /// The report with an assumption more.
-    #[must_use]
     pub fn assumption(mut self, text: impl Into<String>) -> Self {
         self.assumptions.push(text.into());
         self
     }
 
     /// The report with a warning more.
-    #[must_use]
     pub(crate) fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
         self
@@ -315,27 +308,23 @@ impl Report {
 
 impl Document {
     /// A head without entries.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The head with the case file.
-    #[must_use]
     pub fn case(mut self, path: impl Into<String>) -> Self {
         self.case = Some(path.into());
         self
     }
 
     /// The head with a mesh file more.
-    #[must_use]
     pub fn mesh(mut self, path: impl Into<String>, hash: Option<String>) -> Self {
         self.meshes.push(MeshFile { path: path.into(), hash });
         self
     }
 
     /// The head with a line more to be signed.
-    #[must_use]
     pub fn signed_by(mut self, role: impl Into<String>) -> Self {
         self.signatures.push(role.into());
         self

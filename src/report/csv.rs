@@ -23,12 +23,8 @@ impl Table {
     /// ```
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let judged: Vec<bool> = (0..self.columns.len())
-            .map(|k| {
-                let cells = self.rows.iter().filter_map(|row| row.get(k));
-                cells.into_iter().any(is_judged)
-            })
-            .collect();
+        let is_judged = |k: usize| self.rows.iter().filter_map(|row| row.get(k)).any(is_judged);
+        let judged: Vec<bool> = (0..self.columns.len()).map(is_judged).collect();
         let mut header = Vec::new();
         for (column, judged) in self.columns.iter().zip(&judged) {
             header.push(quoted(&guarded(&title(column))));
@@ -52,7 +48,6 @@ impl Table {
     }
 
     /// A file name for the table, from its caption: small letters, digits and hyphens, ending in ".csv".
-    #[must_use]
     pub(crate) fn csv_name(&self) -> String {
         format!("{}.csv", plain_name(&self.caption, "table"))
     }
@@ -78,7 +73,6 @@ pub(super) fn plain_name(text: &str, or: &str) -> String {
 impl Report {
     /// Name and content ([`Table::to_csv`]) of each table's file, in the order and with the numbers of the page; names
     /// begin with the folder of [`Report::tables_in`].
-    #[must_use]
     pub(crate) fn csv_files(&self) -> Vec<(String, String)> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
         let tables = blocks.filter_map(|block| match block {

@@ -59,6 +59,7 @@ pub enum Symbol {
 }
 
 /// A curve. Ordinates that are not finite are gaps.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Name in the legend; one without a name is not in it.
@@ -100,14 +101,12 @@ impl Curve {
     }
 
     /// The curve in another style.
-    #[must_use]
     pub fn style(mut self, style: CurveStyle) -> Self {
         self.style = style;
         self
     }
 
     /// The curve as points with a symbol.
-    #[must_use]
     pub(crate) fn points(mut self, symbol: Symbol) -> Self {
         self.style = CurveStyle::Points;
         self.symbol = symbol;
@@ -115,14 +114,12 @@ impl Curve {
     }
 
     /// The curve in a colour of the palette, counted from 0.
-    #[must_use]
     pub(crate) fn colour(mut self, colour: usize) -> Self {
         self.colour = Some(colour);
         self
     }
 
     /// The curve with what each of its points is.
-    #[must_use]
     pub(crate) fn labels(mut self, labels: Vec<String>) -> Self {
         self.labels = labels;
         self
@@ -130,7 +127,6 @@ impl Curve {
 
     /// The part of the curve with abscissas in `from` ..= `to`, such as the low end of a long spectrum: what is not
     /// shown need not be embedded.
-    #[must_use]
     pub(crate) fn within(mut self, from: f64, to: f64) -> Self {
         let keep: Vec<usize> = (0..self.y.len()).filter(|k| (from..=to).contains(&self.x_at(*k))).collect();
         self.y = keep.iter().map(|k| self.y[*k]).collect();

@@ -30,7 +30,6 @@ pub(crate) struct Thinner {
 
 impl Thinner {
     /// For so many values, of which at most `most` (at least 2) stay.
-    #[must_use]
     pub(crate) fn new(length: usize, most: usize) -> Self {
         let most = most.max(2);
         let bucket = if length <= most { 0 } else { length.div_ceil(most / 2) };

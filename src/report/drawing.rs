@@ -88,7 +88,6 @@ pub struct Drawing {
 
 impl Point {
     /// The point at a distance `radius` (m) and angle (rad) from this one.
-    #[must_use]
     pub(crate) fn polar(self, radius: f64, angle_rad: f64) -> Self {
         Self { x: self.x + radius * angle_rad.cos(), y: self.y + radius * angle_rad.sin() }
     }

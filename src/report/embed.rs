@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::curve::{Abscissa, Curve, CurveStyle};
 use super::layout::{AxisView, Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
 use super::palette::COLOURS;
-use super::plot::{Axis, Family, Plot, is_positive};
+use super::plot::{Axis, Family, Level, Plot, is_positive};
 use super::svg_plot::colour;
 use super::{ReportError, decimate};
 
@@ -35,7 +35,7 @@ struct PlotData<'a> {
     markers: Vec<MarkerData<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     families: Vec<FamilyData<'a>>,
-    levels: Vec<LevelData<'a>>,
+    levels: Vec<Level>,
     /// Edges of the picture, whose address the script takes from the SVG.
     #[serde(skip_serializing_if = "Option::is_none")]
     raster: Option<RasterData>,
@@ -101,12 +101,6 @@ struct MarkerData<'a> {
     at: f64,
     label: &'a str,
     colour: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct LevelData<'a> {
-    at: f64,
-    label: &'a str,
 }
 
 /// In shown units.
@@ -179,7 +173,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
             })
             .collect(),
         families: family_data(plot, &layout.x),
-        levels: levels.map(|level| LevelData { at: level.at / layout.y.factor, label: &level.label }).collect(),
+        levels: levels.map(|level| Level { at: level.at / layout.y.factor, label: level.label.clone() }).collect(),
         raster: plot.raster.as_ref().map(|raster| RasterData {
             x: raster.x.map(|x| x / layout.x.factor),
             y: raster.y.map(|y| y / layout.y.factor),
@@ -190,7 +184,8 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
 
 /// Data as JSON that may stand inside a script element.
 pub(super) fn for_script(title: &str, data: &impl Serialize) -> Result<String, ReportError> {
-    let json = serde_json::to_string(data).map_err(|source| ReportError::Embed { plot: title.to_owned(), source })?;
+    let failed = |error| ReportError(format!("\"{title}\": data cannot be embedded: {error}"));
+    let json = serde_json::to_string(data).map_err(failed)?;
     // "</script" or "<!--" in a name would end the element.
     Ok(json.replace('<', "\\u003c"))
 }

@@ -81,12 +81,8 @@ impl AxisView {
         if self.log { ticks::log(self.low, self.high, wanted) } else { ticks::linear(self.low, self.high, wanted) }
     }
 
-    /// The view of a range given by the caller.
-    pub(super) fn checked(plot: &Plot, axis: &Axis, range: [f64; 2]) -> Result<Self, ReportError> {
-        Ok(Self::new(axis, checked(plot, axis, range)?))
-    }
-
-    fn new(axis: &Axis, [low, high]: [f64; 2]) -> Self {
+    /// The view of a range that the axis can show, in its unit.
+    pub(super) fn new(axis: &Axis, [low, high]: [f64; 2]) -> Self {
         let log = axis.scale == Scale::Log;
         // powers of ten need no prefix; a logarithmic axis of less than a decade has none
         let powers = log && high >= 10.0 * low;
@@ -151,23 +147,24 @@ impl<'a> Layout<'a> {
 
 fn check_length(plot: &Plot, curve: &Curve) -> Result<(), ReportError> {
     match &curve.x {
-        Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError::CurveLength {
-            plot: plot.title.clone(),
-            curve: curve.name.clone(),
-            abscissas: x.len(),
-            ordinates: curve.y.len(),
-        }),
+        Abscissa::Points(x) if x.len() != curve.y.len() => Err(ReportError(format!(
+            "plot \"{}\": curve \"{}\" has {} abscissas for {} ordinates",
+            plot.title,
+            curve.name,
+            x.len(),
+            curve.y.len()
+        ))),
         _ => Ok(()),
     }
 }
 
 /// A range given by the caller, if the axis can show it.
-fn checked(plot: &Plot, axis: &Axis, [from, to]: [f64; 2]) -> Result<[f64; 2], ReportError> {
+pub(super) fn checked(plot: &Plot, axis: &Axis, [from, to]: [f64; 2]) -> Result<[f64; 2], ReportError> {
     let positive = axis.scale == Scale::Linear || from > 0.0;
     if from.is_finite() && to.is_finite() && from < to && positive {
         Ok([from, to])
     } else {
-        Err(ReportError::Range { plot: plot.title.clone(), axis: axis.label.clone(), from, to })
+        Err(ReportError(format!("plot \"{}\": axis \"{}\" cannot show {from} to {to}", plot.title, axis.label)))
     }
 }
 
@@ -192,7 +189,8 @@ fn extent(
     if found[0] <= found[1] || fixed && plot.curves.is_empty() {
         Ok(found)
     } else {
-        Err(ReportError::EmptyPlot { plot: plot.title.clone() })
+        let what = "has nothing to draw: no finite point (positive on a logarithmic axis) in its range";
+        Err(ReportError(format!("plot \"{}\" {what}", plot.title)))
     }
 }
 

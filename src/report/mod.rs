@@ -7,6 +7,8 @@
 //! in a browser one turns and animates them. Every table offers itself as CSV. All text is escaped. A report's content is kept
 //! as a file too ([`Report::to_record`]), so that a later version can draw it again.
 //!
+//! Read [`Report`] first, which shows how a page is put together.
+//!
 //! **Limitations**: plots have one x axis and one y axis; drawings are plane; mode shapes are real.
 
 mod bars;

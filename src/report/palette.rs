@@ -3,26 +3,24 @@
 /// Red, green and blue, 0 to 255.
 pub(super) type Rgb = [u8; 3];
 
+/// Colours written as in CSS.
+const fn colours<const N: usize>(hex: [u32; N]) -> [Rgb; N] {
+    let mut colours = [[0; 3]; N];
+    let mut k = 0;
+    while k < N {
+        let [_, r, g, b] = hex[k].to_be_bytes();
+        colours[k] = [r, g, b];
+        k += 1;
+    }
+    colours
+}
+
 /// Viridis at k / 15: perceptually uniform, readable in grey and by the colour-blind (S. van der Walt, N. Smith,
 /// matplotlib 1.5, 2015, public domain).
-pub(super) const VIRIDIS: [Rgb; 16] = [
-    [0x44, 0x01, 0x54],
-    [0x48, 0x1a, 0x6c],
-    [0x47, 0x2f, 0x7d],
-    [0x41, 0x44, 0x87],
-    [0x39, 0x56, 0x8c],
-    [0x31, 0x68, 0x8e],
-    [0x2a, 0x78, 0x8e],
-    [0x23, 0x88, 0x8e],
-    [0x1f, 0x98, 0x8b],
-    [0x22, 0xa8, 0x84],
-    [0x35, 0xb7, 0x79],
-    [0x54, 0xc5, 0x68],
-    [0x7a, 0xd1, 0x51],
-    [0xa5, 0xdb, 0x36],
-    [0xd2, 0xe2, 0x1b],
-    [0xfd, 0xe7, 0x25],
-];
+pub(super) const VIRIDIS: [Rgb; 16] = colours([
+    0x44_01_54, 0x48_1a_6c, 0x47_2f_7d, 0x41_44_87, 0x39_56_8c, 0x31_68_8e, 0x2a_78_8e, 0x23_88_8e, 0x1f_98_8b,
+    0x22_a8_84, 0x35_b7_79, 0x54_c5_68, 0x7a_d1_51, 0xa5_db_36, 0xd2_e2_1b, 0xfd_e7_25,
+]);
 
 /// White to dark blue, by even steps of lightness.
 const BLUES: [Rgb; 5] = [[255, 255, 255], [206, 221, 236], [142, 178, 212], [75, 125, 175], [20, 61, 110]];
@@ -34,18 +32,10 @@ pub(super) const SERIES: [&str; 6] = ["#1f5a99", "#c8511b", "#2e7d4f", "#7b4ea3"
 pub(super) const COLOURS: usize = SERIES.len();
 
 /// Colours of groups: muted, of similar lightness, told apart in print.
-const GROUPS: [Rgb; 10] = [
-    [0x8f, 0xae, 0xcb],
-    [0xe0, 0xa0, 0x6c],
-    [0x9b, 0xbf, 0x8f],
-    [0xc9, 0x94, 0xb5],
-    [0xd6, 0xc1, 0x6b],
-    [0x7f, 0xbf, 0xc0],
-    [0xd9, 0x8a, 0x86],
-    [0xa9, 0x9f, 0xd1],
-    [0xb0, 0xa0, 0x8c],
-    [0xb4, 0xbb, 0xc2],
-];
+const GROUPS: [Rgb; 10] = colours([
+    0x8f_ae_cb, 0xe0_a0_6c, 0x9b_bf_8f, 0xc9_94_b5, 0xd6_c1_6b, 0x7f_bf_c0, 0xd9_8a_86, 0xa9_9f_d1, 0xb0_a0_8c,
+    0xb4_bb_c2,
+]);
 
 /// Colour of thick lines.
 pub(super) const LINE: Rgb = [0xc8, 0x3a, 0x1b];

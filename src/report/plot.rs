@@ -14,6 +14,7 @@ pub enum Scale {
 }
 
 /// One axis of a plot.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What it shows ("Frequency").
@@ -27,6 +28,7 @@ pub struct Axis {
 }
 
 /// A vertical line with a label, such as an expected defect frequency.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
     /// Where, in the x axis' unit.
@@ -47,6 +49,7 @@ pub struct Level {
 }
 
 /// A plot.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
     /// What it shows.
@@ -73,6 +76,7 @@ pub struct Plot {
 
 /// A fundamental whose harmonics k f, k = 1, 2, ..., the reader can mark in the page, read and move together. Drawings and
 /// prints without a script do not show it; fixed lines are [`Marker`](super::Marker)s.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Family {
     /// What it belongs to ("outer race").
@@ -101,7 +105,6 @@ impl Family {
     }
 
     /// The family with side lines, `spacing` in the x axis' unit.
-    #[must_use]
     pub fn sides(mut self, name: impl Into<String>, spacing: f64) -> Self {
         let name = name.into();
         self.sides = Some(Sides { name, spacing });
@@ -140,21 +143,18 @@ impl Axis {
     }
 
     /// The axis on a logarithmic scale.
-    #[must_use]
     pub(crate) fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
     }
 
     /// A logarithmic axis over so many decades below `largest`, in its unit.
-    #[must_use]
     pub(crate) fn decades_below(self, largest: f64, decades: f64) -> Self {
         let least = largest * 10_f64.powf(-decades);
         self.log().range(least, largest)
     }
 
     /// The axis from `from` to `to`, in its unit.
-    #[must_use]
     pub fn range(mut self, from: f64, to: f64) -> Self {
         self.range = Some([from, to]);
         self
@@ -168,7 +168,6 @@ impl Marker {
     }
 
     /// The line in the colour of a family.
-    #[must_use]
     pub(crate) fn family(mut self, family: usize) -> Self {
         self.family = family;
         self
@@ -193,21 +192,18 @@ impl Plot {
     }
 
     /// The plot with a curve more.
-    #[must_use]
     pub fn curve(mut self, curve: Curve) -> Self {
         self.curves.push(curve);
         self
     }
 
     /// The plot with a vertical line more.
-    #[must_use]
     pub fn marker(mut self, marker: Marker) -> Self {
         self.markers.push(marker);
         self
     }
 
     /// The plot with a horizontal line more, in the y axis' unit.
-    #[must_use]
     pub(crate) fn level(mut self, at: f64, label: impl Into<String>) -> Self {
         let label = label.into();
         self.levels.push(Level { at, label });
@@ -215,28 +211,24 @@ impl Plot {
     }
 
     /// The plot taller than usual.
-    #[must_use]
     pub(crate) fn tall(mut self) -> Self {
         self.tall = true;
         self
     }
 
     /// The plot with a picture under its curves.
-    #[must_use]
     pub(crate) fn raster(mut self, raster: Raster) -> Self {
         self.raster = Some(raster);
         self
     }
 
     /// The plot with a caption.
-    #[must_use]
     pub fn caption(mut self, text: impl Into<String>) -> Self {
         self.caption = Some(text.into());
         self
     }
 
     /// The plot with a family more that the reader can mark.
-    #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.families.push(family);
         self

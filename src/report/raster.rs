@@ -5,7 +5,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::layout::{AxisView, BAR_ROOM, Layout};
+use super::layout::{AxisView, BAR_ROOM, Layout, checked};
 use super::palette::{VIRIDIS, hex, viridis};
 use super::plot::{Plot, Raster};
 use super::{ReportError, svg};
@@ -20,18 +20,16 @@ impl Raster {
     /// A view of the colours, with checked range and shape.
     ///
     /// # Errors
-    /// [`ReportError::Raster`], [`ReportError::Range`].
+    /// [`ReportError`] for values that do not fill rows, or a range that the scale cannot show.
     fn view(&self, plot: &Plot) -> Result<AxisView, ReportError> {
         let fits = self.columns > 0 && !self.values.is_empty();
         if !fits || !self.values.len().is_multiple_of(self.columns) {
-            return Err(ReportError::Raster {
-                plot: plot.title.clone(),
-                values: self.values.len(),
-                columns: self.columns,
-            });
+            let (title, values, columns) = (&plot.title, self.values.len(), self.columns);
+            let what = format!("{values} values do not fill rows of {columns}, which must be at least one");
+            return Err(ReportError(format!("plot \"{title}\": {what}")));
         }
         let range = self.colours.range.unwrap_or([f64::NAN; 2]);
-        AxisView::checked(plot, &self.colours, range)
+        Ok(AxisView::new(&self.colours, checked(plot, &self.colours, range)?))
     }
 
     /// The picture as a PNG in a data address, its highest row first.
@@ -46,7 +44,7 @@ impl Raster {
             .collect();
         let height = self.values.len() / self.columns;
         let png = png(&pixels, [self.columns, height])
-            .map_err(|source| ReportError::Picture { plot: plot.title.clone(), source })?;
+            .map_err(|_| ReportError(format!("plot \"{}\": its picture cannot be made", plot.title)))?;
         Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
     }
 }

@@ -38,15 +38,11 @@ impl Report {
     /// As [`Plot::to_svg`].
     pub(crate) fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
         let blocks = self.sections.iter().flat_map(|section| &section.blocks);
-        let plots = blocks.filter_map(|block| match block {
-            Block::Plot(plot) => Some(plot.as_ref()),
-            _ => None,
-        });
         let file = |(number, plot): (usize, &Plot)| {
             let name = plain_name(&plot.title, "plot");
             Ok((format!("{prefix}-{number}-{name}.svg"), plot.to_svg()?))
         };
-        (1..).zip(plots).map(file).collect()
+        (1..).zip(blocks.filter_map(Block::plot)).map(file).collect()
     }
 }
 

@@ -40,7 +40,6 @@ pub enum StepState {
 
 impl StepState {
     /// In results and reports.
-    #[must_use]
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Stable => "stable",

@@ -55,7 +55,10 @@ impl View {
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
         // Not "<= 0": an empty drawing has an extent of minus infinity, a wrong one NaN.
         if !(finite && width.max(height) > 0.0) {
-            return Err(ReportError::Extent { drawing: drawing.title.clone() });
+            return Err(ReportError(format!(
+                "drawing \"{}\" has no extent or a coordinate that is not finite",
+                drawing.title
+            )));
         }
         let scale = f64::min(MODEL[0] / width, MODEL[1] / height);
         Ok(Self {

@@ -82,6 +82,7 @@ pub enum CellLook {
 }
 
 /// A table. Every row has one cell a column.
+#[must_use]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// What the table shows.
@@ -142,7 +143,6 @@ impl Cell {
     }
 
     /// The cell with a verdict.
-    #[must_use]
     pub(crate) fn judged(mut self, verdict: Verdict) -> Self {
         self.verdict = verdict;
         self
@@ -169,27 +169,23 @@ impl Table {
     }
 
     /// The table with each row tied to the mode that it speaks of, in the order of the report's shapes.
-    #[must_use]
     pub fn showing_modes(mut self, modes: impl IntoIterator<Item = Option<usize>>) -> Self {
         self.modes = modes.into_iter().collect();
         self
     }
 
     /// The table with a row more.
-    #[must_use]
     pub fn row(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
         self.rows.push(cells.into_iter().collect());
         self
     }
 
     /// The table with rows more.
-    #[must_use]
     pub(crate) fn rows<R: IntoIterator<Item = Cell>>(self, rows: impl IntoIterator<Item = R>) -> Self {
         rows.into_iter().fold(self, Self::row)
     }
 
     /// The table with a footnote more.
-    #[must_use]
     pub fn footnote(mut self, text: impl Into<String>) -> Self {
         self.footnotes.push(text.into());
         self
@@ -228,22 +224,13 @@ impl Table {
     /// Whether each row fits the columns and each reference its footnote.
     pub(super) fn check(&self) -> Result<(), ReportError> {
         for (row, cells) in (1..).zip(&self.rows) {
+            let fail = |what: String| Err(ReportError(format!("table \"{}\": row {row} {what}", self.caption)));
             if cells.len() != self.columns.len() {
-                return Err(ReportError::RowLength {
-                    table: self.caption.clone(),
-                    row,
-                    found: cells.len(),
-                    expected: self.columns.len(),
-                });
+                return fail(format!("has {} cells, the table has {} columns", cells.len(), self.columns.len()));
             }
             let missing = |footnote: &usize| *footnote == 0 || *footnote > self.footnotes.len();
             if let Some(footnote) = cells.iter().filter_map(|c| c.footnote).find(missing) {
-                return Err(ReportError::Footnote {
-                    table: self.caption.clone(),
-                    row,
-                    footnote,
-                    footnotes: self.footnotes.len(),
-                });
+                return fail(format!("points to footnote {footnote}, the table has {}", self.footnotes.len()));
             }
         }
         Ok(())

@@ -19,9 +19,8 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use plummer::bearing::{
-    BearingDimensions, BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile, SpeedProfile,
-};
+use plummer::app::verification::BEARING;
+use plummer::bearing::{BearingGeometry, Cage, ContactMaterial, RaceContacts, SlipProfile, SpeedProfile};
 use plummer::fe::assembly::{CoupledMatrices, SystemMatrices};
 use plummer::fe::element::continuum::PlaneAssumption;
 use plummer::fe::element::curved_beam::RingInterpolation;
@@ -109,16 +108,7 @@ pub fn paper_structure(nodes: usize, offset: f64) -> Structure {
 
 /// The source's bearing at zero speed, k from its geometry at 206 GPa, ball 0 at `first_deg`.
 pub fn paper_bearing(first_deg: f64, formulation: Formulation) -> BearingSetup {
-    let geometry = BearingGeometry::new(BearingDimensions {
-        balls: 7,
-        ball_radius: 1e-3,
-        ball_mass: 3.29e-5,
-        inner_race_radius: 2.754e-3,
-        outer_race_radius: 4.7565e-3,
-        inner_groove_radius: 1.04e-3,
-        outer_groove_radius: 1.07e-3,
-    })
-    .unwrap();
+    let geometry = BearingGeometry::new(BEARING).unwrap();
     let steel = ContactMaterial { young: 206e9, poisson: 0.3 };
     BearingSetup {
         cage: rolling_cage(&geometry, first_deg, 0.0),

@@ -8,8 +8,8 @@ use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::studies::chart::{
-    Chart, ChartResult, Condition, Effort, Point, chart_report, compute_chart, compute_stability, stability_section,
-    work_precision,
+    Chart, ChartResult, Condition, Effort, Parameter, Point, chart_report, compute_chart, compute_stability,
+    stability_section, work_precision,
 };
 use crate::report::significant;
 
@@ -135,13 +135,16 @@ fn summary(result: &Chart) -> String {
 }
 
 fn line(point: &Point) -> String {
-    let (name, value) = point.parameter();
+    let parameter = match point.parameter() {
+        Parameter::StepS(step) => format!("step_s {}", significant(step, 3)),
+        Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 3)),
+    };
     let error = match &point.error {
         Ok(error) => format!("error {} (+- {})", significant(error.mean, 2), significant(error.deviation, 2)),
         Err(failure) => failure.reason.clone(),
     };
     let wall = point.wall_s.map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
-    format!("  {wall} s/s  {}, {}, {name} {}: {error}", point.method(), point.model_name(), significant(value, 3))
+    format!("  {wall} s/s  {}, {}, {parameter}: {error}", point.method(), point.model_name())
 }
 
 #[cfg(test)]

@@ -8,8 +8,6 @@ use thiserror::Error;
 use crate::app::case::CaseError;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::printable;
-use crate::app::studies::chart::ChartError;
-use crate::app::studies::sweep::SweepError;
 use crate::files::FileError;
 use crate::formats::FormatError;
 
@@ -85,18 +83,6 @@ impl From<ComputeError> for CliError {
     }
 }
 
-impl From<ChartError> for CliError {
-    fn from(error: ChartError) -> Self {
-        Self { is_input: error.is_input(), what: error.to_string(), help: error.help() }
-    }
-}
-
-impl From<SweepError> for CliError {
-    fn from(error: SweepError) -> Self {
-        Self { is_input: error.is_input(), what: error.to_string(), help: error.help() }
-    }
-}
-
 impl From<FileError> for CliError {
     fn from(error: FileError) -> Self {
         Self::failed(error.to_string())
@@ -116,7 +102,7 @@ mod tests {
     use std::io;
     use std::path::PathBuf;
 
-    use super::{ChartError, CliError, FormatError, SweepError};
+    use super::{CliError, FormatError};
     use crate::app::case::Case;
     use crate::app::error::ComputeError;
     use crate::files::FileError;
@@ -161,44 +147,6 @@ mod tests {
                 2,
                 "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
             ),
-            (
-                CliError::from(ChartError::TooShort { found: 1e-4, band_hz: 4e4, needed: 5e-4 }),
-                2,
-                "error: transient.end - transient.start is 0.0001 s: a chart in the band up to 40000 Hz needs at least 0.0005 s\n\
-                 help: a later transient.end, by at least 0.0005 s after transient.start\n",
-            ),
-            (
-                CliError::from(ChartError::NoReference {
-                    method: "dop853",
-                    start_s: 2.3,
-                    reason: "the solution blew up".to_owned(),
-                }),
-                1,
-                "error: the reference by dop853 failed at the start at 2.3 s: the solution blew up\n\
-                 help: `plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere\n",
-            ),
-            (
-                CliError::from(SweepError::InTheWay { folder: path() }),
-                2,
-                "error: out/a holds a sweep\n\
-                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
-            ),
-            (
-                CliError::from(SweepError::Changed {
-                    folder: path(),
-                    changes: vec!["another text of the case file".to_owned()],
-                }),
-                2,
-                "error: the sweep in out/a was begun with something else: another text of the case file\n\
-                 help: go on with what it was begun with, or begin anew with --force\n",
-            ),
-            (
-                CliError::from(SweepError::NoPlan { folder: path(), plan: PathBuf::from("out/a/sweep/plan.json") }),
-                2,
-                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
-                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
-            ),
-            (CliError::from(SweepError::Io { path: path(), source: source() }), 1, "error: out/a: full\n"),
             (
                 CliError::from(FormatError::from(FileError::Write { path: path(), source: source() })),
                 1,

@@ -46,12 +46,12 @@ fn conclude(
     let result = VerifyResult {
         head: result_head("verify", progress, wall_s, Some(&files.tables)),
         full,
-        checks: checks.iter().map(|check| check.summary()).collect(),
+        checks: checks.clone(),
         information: information.collect(),
         orders: sections.iter().find_map(|section| section.orders.as_deref()),
     };
     let (path, json) = folder.write_json("verify.json", &result)?;
-    let failed: Vec<String> = checks.iter().filter(|check| !check.ok()).map(|check| check.line()).collect();
+    let failed: Vec<String> = checks.iter().filter(|check| !check.ok).map(|check| check.line()).collect();
     Ok(Outcome {
         summary: summary(sections),
         result: json,
@@ -68,14 +68,14 @@ fn conclude(
 
 fn report(sections: &[SectionResult], command: &str) -> Report {
     let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok()).count();
+    let good = checks().filter(|check| check.ok).count();
     let total = checks().count();
     let verdict = crate::report::Verdict::of(good == total);
     let mut report = Report::new("Verification", command, env!("CARGO_PKG_VERSION"))
         .subtitle("The program against published numbers and closed forms")
         .judgement("Checks", format!("{good} of {total} pass"), verdict);
     for section in sections {
-        let good = section.checks.iter().filter(|check| check.ok()).count();
+        let good = section.checks.iter().filter(|check| check.ok).count();
         let value = format!("{good} of {}", section.checks.len());
         let verdict = crate::report::Verdict::of(good == section.checks.len());
         report = report.headline(&section.title, value, verdict);
@@ -97,7 +97,7 @@ fn summary(sections: &[SectionResult]) -> String {
         }
     }
     let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok()).count();
+    let good = checks().filter(|check| check.ok).count();
     lines.push(format!("{good} of {} checks pass", checks().count()));
     lines.join("\n")
 }
@@ -106,27 +106,16 @@ fn summary(sections: &[SectionResult]) -> String {
 mod tests {
     use super::*;
     use crate::app::cli::Visibility;
+    use crate::app::verification::section::Kind;
     use crate::report::Section;
     use serde_json::Value;
 
     fn section(reference: f64) -> SectionResult {
-        let check = |name: &str, reference| Check {
-            name: name.to_owned(),
-            section: "Numbers".to_owned(),
-            computed: 2.0,
-            reference,
-            unit: "N".to_owned(),
-            source: "hand".to_owned(),
-            assumptions: "none".to_owned(),
-            limit: 0.01,
-            reason: "two digits".to_owned(),
-        };
+        let kind = Kind { unit: "N", source: "hand", assumptions: "none", reason: "two digits" };
+        let check = |name: &str, reference| kind.check(name, 2.0, reference, 0.01);
         SectionResult {
-            title: "Numbers".to_owned(),
-            checks: vec![check("right", 2.0), check("judged", reference)],
-            information: Vec::new(),
             report: vec![Section::new("").paragraph("Told beside.")],
-            orders: None,
+            ..SectionResult::of_checks("Numbers", vec![check("right", 2.0), check("judged", reference)])
         }
     }
 

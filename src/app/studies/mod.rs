@@ -1,4 +1,4 @@
-//! Studies that run one case many times.
+//! Studies that run one case many times: in comes a case with what is varied, out go tables, plots and a report.
 //!
 //! - [`chart`]: speed against accuracy over methods, steps and sizes of the model, and the stability map;
 //! - [`sweep`]: other values of the case's keys, one table.

@@ -21,10 +21,8 @@ const ELEMENTS: usize = 36;
 /// # Errors
 /// [`VerificationError`] if a ring cannot be computed.
 pub(super) fn beams() -> Result<SectionResult, VerificationError> {
-    let mut checks = free_ring()?;
-    checks.extend(thin_pinched()?);
-    checks.extend(thick_pinched()?);
-    Ok(SectionResult::of_checks(TITLE, checks))
+    let checks = [free_ring()?, thin_pinched()?, thick_pinched()?];
+    Ok(SectionResult::of_checks(TITLE, checks.concat()))
 }
 
 /// A ring of so many elements, of radius 1 m, 0.1 m wide and 1 / slenderness thick.

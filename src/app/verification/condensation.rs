@@ -144,7 +144,7 @@ fn statics(housing: &Housing, k: &SparseMatrix) -> Result<Check, VerificationErr
     let reduced = structure.static_response(&load(structure.dof()))?;
     let at =
         |x: &DenseMatrix| -> f64 { rows.dofs.iter().zip(rows.radial).map(|(&row, factor)| factor * x[(row, 0)]).sum() };
-    let assumptions = format!("{MODEL}, on springs; no fixed-interface mode; radial force of 1 N at 63 degrees.");
+    let assumptions = format!("{MODEL}, on springs. No fixed-interface mode; radial force of 1 N at 63 degrees.");
     let kind = Kind {
         unit: "m",
         source: "the model that is not reduced, through the same tie",
@@ -164,7 +164,7 @@ fn mass() -> Result<Vec<Check>, VerificationError> {
         (motion.transpose() * &element.mass * &motion)[(0, 0)]
     };
     let drawn = PI * (RADII[1].powi(2) - RADII[0].powi(2)) * WIDTH * 2700.0;
-    let assumptions = format!("{MODEL}, free; 10 fixed-interface modes; mass in a rigid translation.");
+    let assumptions = format!("{MODEL}, free. 10 fixed-interface modes; mass in a rigid translation.");
     let kind = |source, reason| Kind { unit: "kg", source, assumptions: &assumptions, reason };
     let own =
         kind("the mesh's own mass", "Constraint modes carry rigid motions to rounding times the condition of K_ii.");

@@ -2,7 +2,7 @@
 //!
 //! `suite` carries out all sections. Each is a function that gives a `SectionResult`: curved beams, whole housings, condensation,
 //! simulation, signals, the numbers of Tadina & Boltezar (2011), orders of convergence. Meshes and cases that they need are part of
-//! the program. Which readings of the paper give its eigenfrequencies is studied by the example `paper_readings`.
+//! the program. Read `section` first. Which readings of the paper give its eigenfrequencies is studied by the example `paper_readings`.
 
 mod beams;
 mod built_in;
@@ -10,15 +10,14 @@ mod condensation;
 mod housings;
 mod orders;
 mod paper;
-mod section;
+pub(crate) mod section;
 mod signals;
 mod simulation;
 mod structured_mesh;
 mod suite;
-mod summary;
 
 pub use built_in::{BEAM_CASE, BEARING};
-pub(crate) use section::{Check, SectionResult};
+pub(crate) use section::SectionResult;
+pub use section::{Check, VerifyResult};
 pub use structured_mesh::{BODY, StructuredMesh};
 pub(crate) use suite::suite;
-pub use summary::VerifyResult;

@@ -23,7 +23,7 @@ const TWO_BALLS: [&str; 2] = [BASE, "bearing.formulation=consistent"];
 const ONE_BALL: [&str; 3] = [TWO_BALLS[0], TWO_BALLS[1], "bearing.first_ball_deg=270"];
 
 /// Where the choices behind the built-in case are studied.
-const STUDY: &str = "The paper does not report all choices behind its eigenfrequencies: `cargo run --release --example paper_readings` (in the source tree) computes 155,520 readings of it, and finds those that fit.";
+const STUDY: &str = "The paper does not report all choices behind its eigenfrequencies. The example paper_readings computes 155,520 readings of it and finds those that fit: `cargo run --release --example paper_readings` in the source tree.";
 
 /// Carries the section out.
 ///
@@ -31,10 +31,7 @@ const STUDY: &str = "The paper does not report all choices behind its eigenfrequ
 /// [`VerificationError`] if a built-in case cannot be computed; a number that is wrong is no error.
 pub(super) fn paper(watch: &impl Watch) -> Result<SectionResult, VerificationError> {
     watch.stage("closed forms");
-    let mut checks = orders()?;
-    checks.extend(contacts()?);
-    checks.extend(sphere()?);
-    checks.extend(second_bearing()?);
+    let mut checks = [orders()?, contacts()?, sphere()?, second_bearing()?].concat();
     watch.stage("frequencies");
     let base = compute(&[BASE])?;
     watch.fraction(1.0 / 3.0);
@@ -83,21 +80,17 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
     let kind = |unit, reason| Kind {
         unit,
         source: "an independent computation: Harris, Rolling Bearing Analysis, (6.23) to (6.41), elliptic integrals of SciPy",
-        assumptions: "Table 1's radii, grooves concave across the rolling direction, inner race convex and outer race concave along it; ball and races of steel, 206 GPa, nu 0.3.",
+        assumptions: "Table 1's radii; grooves concave across the rolling direction. The inner race is convex along it, the outer race concave. Ball and races of steel, 206 GPa, nu 0.3.",
         reason,
     };
     let k = kind("N/m^1.5", "The reference has four digits and is asked to 0.1 %.");
+    let in_series = kind("N/m^1.5", "Half a unit in the last of three digits.");
     let shape = kind("", "Half a unit in the reference's last digit.");
     let (inner, outer) = (contacts.inner, contacts.outer);
     Ok(vec![
         k.check("Hertz stiffness, inner race", inner.stiffness, 1.257e10, 1e-3),
         k.check("Hertz stiffness, outer race", outer.stiffness, 1.129e10, 1e-3),
-        kind("N/m^1.5", "Half a unit in the last of three digits.").check(
-            "Both contacts in series",
-            contacts.stiffness().series(),
-            4.21e9,
-            0.5e-2 / 4.21,
-        ),
+        in_series.check("Both contacts in series", contacts.stiffness().series(), 4.21e9, 0.5e-2 / 4.21),
         shape.check("Curvature difference F, inner race", inner.curvature_difference, 0.9451, 0.5e-4 / 0.9451),
         shape.check("Curvature difference F, outer race", outer.curvature_difference, 0.8470, 0.5e-4 / 0.8470),
         shape.check("Ellipticity, inner race", inner.ellipticity, 9.818, 0.5e-3 / 9.818),
@@ -118,15 +111,11 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
         reason,
     };
     let exact = "Seven digits are given; 1e-6.";
+    let force = kind("N", "Half a unit in the last of five digits.");
     Ok(vec![
         kind("N/m^1.5", exact).check("Sphere on a flat: stiffness", contact.stiffness, 1.087_857e10, 1e-6),
         kind("m", exact).check("Sphere on a flat: indentation", peak.indentation, 1.171_042e-5, 1e-6),
-        kind("N", "Half a unit in the last of five digits.").check(
-            "Sphere on a flat: force",
-            peak.force,
-            435.94,
-            0.5e-2 / 435.94,
-        ),
+        force.check("Sphere on a flat: force", peak.force, 435.94, 0.5e-2 / 435.94),
         kind("s", exact).check("Sphere on a flat: contact time", peak.contact_time, 3.446_700e-5, 1e-6),
     ])
 }
@@ -153,7 +142,7 @@ fn frequencies(result: &ModesResult) -> Vec<Check> {
     let kind = Kind {
         unit: "Hz",
         source: "Tadina & Boltezar 2011, section 4.2",
-        assumptions: "The built-in case examples/tadina2011/beam.toml: the source's own equations (misprints put right), k from the geometry, rings that slip on each other but bend about their common centroid, no shear, housing ring 4 mm wide, steel 210 and aluminium 72 GPa, springs in x and y on the housing ring's centre line, two balls under the load, at rest. One of many readings: see the example paper_readings.",
+        assumptions: "The built-in case examples/tadina2011/beam.toml: the source's own equations (misprints put right), k from the geometry. Rings slip on each other but bend about their common centroid, without shear. The housing ring is 4 mm wide; steel has 210 GPa, aluminium 72 GPa. Springs in x and y stand on the housing ring's centre line. Two balls are under the load, at rest. One of many readings: see the example paper_readings.",
         reason: "The source gives two to three digits and says \"around\": half a unit of 8.2 kHz is 0.6 %, of 36 kHz 1.4 %.",
     };
     let expected = result.base.expected.iter();
@@ -211,7 +200,7 @@ fn ball_pass(two: &ModesResult, one: &ModesResult) -> Result<Vec<Check>, Verific
     let kind = |unit, source, reason| Kind {
         unit,
         source,
-        assumptions: "Consistent equations, Table 1's bearing with k from the geometry, ring on its springs at the housing ring's centre line, shaft of 0.15 kg at rest, 9.81 m/s^2.",
+        assumptions: "Consistent equations; Table 1's bearing with k from the geometry. The ring is on its springs at the housing ring's centre line. The shaft of 0.15 kg is at rest, 9.81 m/s^2.",
         reason,
     };
     let share = weight / (2.0 * (0.5 * spacing).cos());

@@ -1,5 +1,6 @@
 //! What a section of the suite hands on: checks, what is told beside them, and its part of the report.
 
+use crate::app::commands::result::ResultHead;
 use crate::report::{Cell, Column, Section, Table, Verdict, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -7,41 +8,48 @@ use serde::Serialize;
 /// Why a built-in check could not be carried out: an error of what is part of the program, which no user can set right.
 pub(crate) type VerificationError = Box<dyn std::error::Error + Send + Sync>;
 
-/// A number that was computed, what it ought to be, and under which assumptions both are the same thing.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Check {
+/// A number that was computed, what it ought to be, and under which assumptions both are the same thing; as `verify.json` has it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Check {
     /// What it is.
-    pub(crate) name: String,
+    pub name: String,
     /// The section that it belongs to.
-    pub(crate) section: String,
+    pub section: String,
     /// The program's value, in `unit`.
-    pub(crate) computed: f64,
+    #[schemars(with = "Option<f64>")]
+    pub computed: f64,
     /// What it is compared with, in `unit`; not zero.
-    pub(crate) reference: f64,
+    pub reference: f64,
     /// Unit of both; empty for none.
-    pub(crate) unit: String,
+    pub unit: String,
     /// Where the reference comes from.
-    pub(crate) source: String,
+    pub source: String,
     /// What was assumed, in words.
-    pub(crate) assumptions: String,
+    pub assumptions: String,
+    /// (computed - reference) / reference.
+    #[schemars(with = "Option<f64>")]
+    pub relative_error: f64,
     /// Largest magnitude of the relative error that passes.
-    pub(crate) limit: f64,
+    pub limit: f64,
     /// Why this limit.
-    pub(crate) reason: String,
+    pub limit_reason: String,
+    /// Whether it passes; a value that is no number does not.
+    pub ok: bool,
 }
 
 /// What all checks of a kind have in common.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Kind<'a> {
-    pub(super) unit: &'a str,
-    pub(super) source: &'a str,
-    pub(super) assumptions: &'a str,
-    pub(super) reason: &'a str,
+pub(crate) struct Kind<'a> {
+    pub(crate) unit: &'a str,
+    pub(crate) source: &'a str,
+    pub(crate) assumptions: &'a str,
+    pub(crate) reason: &'a str,
 }
 
 impl Kind<'_> {
     /// A check of this kind; its section is told by [`SectionResult::of_checks`].
-    pub(super) fn check(&self, name: &str, computed: f64, reference: f64, limit: f64) -> Check {
+    pub(crate) fn check(&self, name: &str, computed: f64, reference: f64, limit: f64) -> Check {
+        let relative_error = (computed - reference) / reference;
         Check {
             name: name.to_owned(),
             section: String::new(),
@@ -50,8 +58,10 @@ impl Kind<'_> {
             unit: self.unit.to_owned(),
             source: self.source.to_owned(),
             assumptions: self.assumptions.to_owned(),
+            relative_error,
             limit,
-            reason: self.reason.to_owned(),
+            limit_reason: self.reason.to_owned(),
+            ok: relative_error.abs() <= limit,
         }
     }
 }
@@ -74,89 +84,25 @@ pub struct Information {
 }
 
 impl Check {
-    /// (computed - reference) / reference.
-    pub(crate) fn relative_error(&self) -> f64 {
-        (self.computed - self.reference) / self.reference
-    }
-
-    /// Whether it passes; a value that is no number does not.
-    pub(crate) fn ok(&self) -> bool {
-        self.relative_error().abs() <= self.limit
-    }
-
     /// One line for a reader.
     pub(crate) fn line(&self) -> String {
         format!(
             "{}: {:.6e} {} against {:.6e} ({}), {:+.2e}, limit {:.1e}",
-            self.name,
-            self.computed,
-            self.unit,
-            self.reference,
-            self.source,
-            self.relative_error(),
-            self.limit
+            self.name, self.computed, self.unit, self.reference, self.source, self.relative_error, self.limit
         )
     }
 }
 
-/// A check with its verdict, as `verify.json` has it.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct CheckSummary<'a> {
-    /// What it is.
-    pub name: &'a str,
-    /// The section that it belongs to.
-    pub section: &'a str,
-    /// The program's value, in `unit`.
-    #[schemars(with = "Option<f64>")]
-    pub computed: f64,
-    /// What it is compared with, in `unit`.
-    pub reference: f64,
-    /// Unit of both; empty for none.
-    pub unit: &'a str,
-    /// Where the reference comes from.
-    pub source: &'a str,
-    /// What was assumed, in words.
-    pub assumptions: &'a str,
-    /// (computed - reference) / reference.
-    #[schemars(with = "Option<f64>")]
-    pub relative_error: f64,
-    /// Largest magnitude of the relative error that passes.
-    pub limit: f64,
-    /// Why this limit.
-    pub limit_reason: &'a str,
-    /// Whether it passes.
-    pub ok: bool,
-}
-
-impl Check {
-    /// What `verify.json` says of it.
-    pub(crate) fn summary(&self) -> CheckSummary<'_> {
-        CheckSummary {
-            name: &self.name,
-            section: &self.section,
-            computed: self.computed,
-            reference: self.reference,
-            unit: &self.unit,
-            source: &self.source,
-            assumptions: &self.assumptions,
-            relative_error: self.relative_error(),
-            limit: self.limit,
-            limit_reason: &self.reason,
-            ok: self.ok(),
-        }
-    }
-}
-
-/// What `verify.json` says of the errors of one quantity over ever finer sizes.
+/// Errors of one quantity over ever finer sizes, and their orders of convergence; as `verify.json` has them.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OrdersSummary {
-    /// What it is.
+    /// What it is; what stands before a comma is shared by quantities of a kind.
     pub name: String,
     /// What a size is.
     pub size: &'static str,
     /// Unit of the sizes.
     pub unit: &'static str,
-    /// Sizes, falling.
+    /// Sizes of elements (as a part of the body's) or of steps, falling.
     pub sizes: Vec<f64>,
     /// Relative errors, as many.
     pub relative_errors: Vec<f64>,
@@ -164,6 +110,26 @@ pub struct OrdersSummary {
     pub orders: Vec<f64>,
     /// Order that theory gives.
     pub theory: f64,
+    /// Largest relative difference of the order on the last refinement from it.
+    #[serde(skip)]
+    pub(super) limit: f64,
+}
+
+/// The result of `plummer verify`.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct VerifyResult<'a> {
+    /// What all results have.
+    #[serde(flatten)]
+    pub head: ResultHead,
+    /// Whether orders of convergence are in it.
+    pub full: bool,
+    /// Numbers with a verdict.
+    pub checks: Vec<&'a Check>,
+    /// Numbers without.
+    pub information: Vec<&'a Information>,
+    /// Orders of convergence; absent without `--full`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orders: Option<&'a [OrdersSummary]>,
 }
 
 /// A section of the suite, carried out.
@@ -183,7 +149,7 @@ pub(crate) struct SectionResult {
 
 impl SectionResult {
     /// A section of checks alone.
-    pub(super) fn of_checks(title: &str, mut checks: Vec<Check>) -> Self {
+    pub(crate) fn of_checks(title: &str, mut checks: Vec<Check>) -> Self {
         for check in &mut checks {
             title.clone_into(&mut check.section);
         }
@@ -201,40 +167,25 @@ impl SectionResult {
             Column::number("Limit", "%"),
             Column::text("Verdict"),
         ];
-        let mut table = Table::new(format!("{}: checks", self.title), columns);
-        for check in &self.checks {
-            let error = 100.0 * check.relative_error();
-            table = table.row([
+        Table::new(format!("{}: checks", self.title), columns).rows(self.checks.iter().map(|check| {
+            let error = 100.0 * check.relative_error;
+            [
                 Cell::text(&check.name),
                 Cell::number(check.computed, 6),
                 Cell::number(check.reference, 6),
                 Cell::text(&check.unit),
                 Cell::text(signed(error)).value(error),
                 Cell::number(100.0 * check.limit, 2),
-                Cell::badge(Verdict::of(check.ok())),
-            ]);
-        }
-        table
+                Cell::badge(Verdict::of(check.ok)),
+            ]
+        }))
     }
 
     /// What stands behind each check.
-    pub(crate) fn assumption_table(&self) -> Table {
-        let columns = [
-            Column::text("Check"),
-            Column::text("Reference from"),
-            Column::text("Assumptions"),
-            Column::text("Why this limit"),
-        ];
-        let mut table = Table::new(format!("{}: assumptions", self.title), columns);
-        for check in &self.checks {
-            table = table.row([
-                Cell::text(&check.name),
-                Cell::text(&check.source),
-                Cell::text(&check.assumptions),
-                Cell::text(&check.reason),
-            ]);
-        }
-        table
+    fn assumption_table(&self) -> Table {
+        let columns = ["Check", "Reference from", "Assumptions", "Why this limit"].map(Column::text);
+        let rows = self.checks.iter().map(|c| [&c.name, &c.source, &c.assumptions, &c.limit_reason].map(Cell::text));
+        Table::new(format!("{}: assumptions", self.title), columns).rows(rows)
     }
 
     /// What is told and not judged; `None` if there is nothing.
@@ -246,16 +197,16 @@ impl SectionResult {
             Column::text("Unit"),
             Column::text("Assumptions"),
         ];
-        let mut table = Table::new(format!("{}: for information", self.title), columns);
-        for row in &self.information {
-            table = table.row([
+        let table = Table::new(format!("{}: for information", self.title), columns);
+        let table = table.rows(self.information.iter().map(|row| {
+            [
                 Cell::text(&row.name),
                 Cell::number(row.computed, 5),
-                row.source_value.map_or_else(|| Cell::text("–"), |value| Cell::number(value, 4)),
+                Cell::number_or(row.source_value, 4, "–"),
                 Cell::text(&row.unit),
                 Cell::text(&row.assumptions),
-            ]);
-        }
+            ]
+        }));
         (!self.information.is_empty()).then_some(table)
     }
 
@@ -287,21 +238,12 @@ mod tests {
 
     #[test]
     fn the_limit_decides_and_what_is_no_number_fails() {
-        let check = |computed, limit| Check {
-            name: "n".to_owned(),
-            section: "s".to_owned(),
-            computed,
-            reference: -2.0,
-            unit: "N".to_owned(),
-            source: "hand".to_owned(),
-            assumptions: String::new(),
-            limit,
-            reason: String::new(),
-        };
-        assert!(check(-2.25, 0.125).ok() && check(-1.75, 0.125).ok());
-        assert!(!check(-2.25, 0.12).ok() && !check(2.0, 0.5).ok());
-        assert!(!check(f64::NAN, 1.0).ok());
-        let json = serde_json::to_value(check(-2.25, 0.1).summary()).unwrap();
+        let kind = Kind { unit: "N", source: "hand", assumptions: "", reason: "" };
+        let check = |computed, limit| kind.check("n", computed, -2.0, limit);
+        assert!(check(-2.25, 0.125).ok && check(-1.75, 0.125).ok);
+        assert!(!check(-2.25, 0.12).ok && !check(2.0, 0.5).ok);
+        assert!(!check(f64::NAN, 1.0).ok);
+        let json = serde_json::to_value(check(-2.25, 0.1)).unwrap();
         assert_eq!(json["relative_error"], 0.125);
         assert_eq!(json["ok"], false);
     }

@@ -22,11 +22,7 @@ const DENT: &str =
 /// # Errors
 /// [`VerificationError`] if a signal cannot be formed or analysed.
 pub(super) fn signals() -> Result<SectionResult, VerificationError> {
-    let mut checks = sine()?;
-    checks.extend(filter()?);
-    checks.extend(modulation()?);
-    checks.extend(dent()?);
-    Ok(SectionResult::of_checks(TITLE, checks))
+    Ok(SectionResult::of_checks(TITLE, [sine()?, filter()?, modulation()?, dent()?].concat()))
 }
 
 /// Half a second at 100 kHz.
@@ -48,19 +44,11 @@ fn sine() -> Result<Vec<Check>, VerificationError> {
         reason,
     };
     let of = |pick: fn(&crate::signal::Peak) -> f64| peak.as_ref().map_or(f64::NAN, pick);
+    let frequency = kind("Hz", "An eighth of the bins' distance over the frequency: 1e-4.");
+    let amplitude = kind("m/s^2", "A bin beside the top of Hann's main lobe, 4 Hz wide, loses up to 2e-3.");
     Ok(vec![
-        kind("Hz", "An eighth of the bins' distance over the frequency: 1e-4.").check(
-            "Sine: frequency of the peak",
-            of(|peak| peak.frequency_hz),
-            hz,
-            1e-4,
-        ),
-        kind("m/s^2", "A bin beside the top of Hann's main lobe, 4 Hz wide, loses up to 2e-3.").check(
-            "Sine: amplitude of the peak",
-            of(|peak| peak.amplitude),
-            2.0,
-            3e-3,
-        ),
+        frequency.check("Sine: frequency of the peak", of(|peak| peak.frequency_hz), hz, 1e-4),
+        amplitude.check("Sine: amplitude of the peak", of(|peak| peak.amplitude), 2.0, 3e-3),
     ])
 }
 
@@ -81,19 +69,11 @@ fn filter() -> Result<Vec<Check>, VerificationError> {
         assumptions: "High-pass of order 4 at 5 kHz, a sine of 5 kHz, 100 kHz; once forward, and forward and backward.",
         reason: "The filter starts in the first quarter, which is left out: rounding is left.",
     };
+    let causal = rms(&filter.causal(&signal)?) * SQRT_2;
+    let zero_phase = rms(&filter.zero_phase(&signal)?) * SQRT_2;
     Ok(vec![
-        kind.check(
-            "Butterworth: gain at the cut-off, causal",
-            rms(&filter.causal(&signal)?) * SQRT_2,
-            0.5_f64.sqrt(),
-            1e-9,
-        ),
-        kind.check(
-            "Butterworth: gain at the cut-off, zero phase",
-            rms(&filter.zero_phase(&signal)?) * SQRT_2,
-            0.5,
-            1e-9,
-        ),
+        kind.check("Butterworth: gain at the cut-off, causal", causal, 0.5_f64.sqrt(), 1e-9),
+        kind.check("Butterworth: gain at the cut-off, zero phase", zero_phase, 0.5, 1e-9),
     ])
 }
 
@@ -108,19 +88,12 @@ fn modulation() -> Result<Vec<Check>, VerificationError> {
         assumptions: "0.5 s at 100 kHz; the modulus of the analytic signal, its spectrum with a Hann window.",
         reason,
     };
+    let (hz, depth) = peak.map_or((f64::NAN, f64::NAN), |peak| (peak.frequency_hz, peak.amplitude));
+    let frequency = kind("Hz", "An eighth of the bins' distance of 0.19 Hz.");
+    let amplitude = kind("m/s^2", "A bin beside the top of Hann's main lobe.");
     Ok(vec![
-        kind("Hz", "An eighth of the bins' distance of 0.19 Hz.").check(
-            "Envelope: frequency of the modulation",
-            peak.as_ref().map_or(f64::NAN, |peak| peak.frequency_hz),
-            56.0,
-            5e-4,
-        ),
-        kind("m/s^2", "A bin beside the top of Hann's main lobe.").check(
-            "Envelope: depth of the modulation",
-            peak.as_ref().map_or(f64::NAN, |peak| peak.amplitude),
-            0.4,
-            3e-3,
-        ),
+        frequency.check("Envelope: frequency of the modulation", hz, 56.0, 5e-4),
+        amplitude.check("Envelope: depth of the modulation", depth, 0.4, 3e-3),
     ])
 }
 
@@ -146,7 +119,7 @@ fn dent() -> Result<Vec<Check>, VerificationError> {
     let kind = Kind {
         unit: "per shaft turn",
         source: "kinematics: N/2 (1 - d/D), Harris, chapter 8",
-        assumptions: "The source's bearing with its dent in the outer race, play of 2.5 um, 20 Hz, 0.4 s; the order where the envelope's lines fit best.",
+        assumptions: "The source's bearing with its dent in the outer race, play of 2.5 um, 20 Hz, 0.4 s. The order is the one where the envelope's lines fit best.",
         reason: "Half the resolution of 8 turns, over four harmonics and the order: 1 %.",
     };
     let found = found.unwrap_or(f64::NAN);

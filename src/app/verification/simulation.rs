@@ -20,9 +20,7 @@ const TITLE: &str = "Simulation";
 /// # Errors
 /// [`VerificationError`] if a simulation cannot be carried out.
 pub(super) fn simulation() -> Result<SectionResult, VerificationError> {
-    let mut checks = sphere()?;
-    checks.extend(energy()?);
-    Ok(SectionResult::of_checks(TITLE, checks))
+    Ok(SectionResult::of_checks(TITLE, [sphere()?, energy()?].concat()))
 }
 
 /// A sphere over a flat.

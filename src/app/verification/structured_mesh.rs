@@ -39,7 +39,6 @@ impl StructuredMesh {
     }
 
     /// Half steps of a node from the origin, along each axis.
-    #[must_use]
     pub(crate) fn steps(&self, node: usize) -> [usize; 3] {
         let [a, b, _] = self.half_steps.map(|n| n + 1);
         [node % a, node / a % b, node / a / b]

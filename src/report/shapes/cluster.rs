@@ -4,8 +4,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::camera::bounds;
 use super::surface::{Surface, SurfaceLine, renumbered, rotated};
-use super::vector::bounds;
 
 /// Cells an edge of the grid at most.
 const MOST_CELLS: f64 = 65_536.0;

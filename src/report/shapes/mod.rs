@@ -13,11 +13,11 @@ mod picture;
 pub(crate) mod samples;
 mod stills;
 mod surface;
-mod vector;
 mod view;
 
+pub use camera::UpAxis;
 pub(super) use pack::{Packed, compressed, pack};
 pub(super) use stills::{Still, bar as colour_bar, mesh_picture, stills};
 pub(super) use surface::Surface;
 pub(super) use view::{LegendEntry, legend};
-pub use view::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle, UpAxis};
+pub use view::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle};

@@ -13,9 +13,8 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
-use super::camera::{Camera, NAMES};
+use super::camera::{Camera, NAMES, bounds, diagonal};
 use super::surface::{Surface, SurfaceLine};
-use super::vector::{bounds, diagonal};
 use super::view::{LegendEntry, ModeShapeView, legend};
 use crate::report::embed::for_script;
 use crate::report::number::fixed;

@@ -3,10 +3,9 @@
 
 use std::fmt::Write;
 
-use super::camera::Camera;
+use super::camera::{Camera, Vector, bounds, cross, diagonal, dot, magnitude, minus, unit};
 use super::depth::{DepthBuffer, Spot};
 use super::surface::Surface;
-use super::vector::{Vector, bounds, cross, diagonal, dot, magnitude, minus, unit};
 use crate::report::palette::{self, Rgb};
 
 /// Colours from no displacement to the largest.
@@ -255,8 +254,8 @@ fn pair([x, y]: [i64; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::camera::UpAxis;
     use super::super::samples::cube;
-    use super::super::view::UpAxis;
     use super::*;
 
     fn frame(surface: &Surface) -> Frame {

@@ -1,9 +1,8 @@
 //! The still pictures of a view: the mesh with its groups, and the first mode shapes side by side.
 
-use super::camera::{Camera, NAMES};
+use super::camera::{Camera, NAMES, Vector, bounds};
 use super::picture::{self, BANDS, Colouring, Frame};
 use super::surface::Surface;
-use super::vector::{Vector, bounds};
 use super::view::ModeShapeView;
 use crate::report::palette;
 use crate::report::svg::{self, ScaleBar};
@@ -22,14 +21,6 @@ const TRIAD: f64 = 34.0;
 
 const SHAPE: &str = "class=\"shape\"";
 
-/// The mesh with its groups.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::report) struct MeshPicture {
-    pub(in crate::report) svg: String,
-    /// How the elements' edges are shown, in words.
-    pub(in crate::report) edges: &'static str,
-}
-
 /// A mode shape in a still picture.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub(in crate::report) struct Still {
@@ -38,8 +29,8 @@ pub(in crate::report) struct Still {
     note: String,
 }
 
-/// Draws the mesh in its groups' colours, with the axes and a scale bar.
-pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -> MeshPicture {
+/// Draws the mesh in its groups' colours, with the axes and a scale bar; beside it a sentence on the elements' edges.
+pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -> (String, &'static str) {
     let thin = surface.thinned(MESH_POINTS);
     let camera = chosen(view, &thin);
     let frame = Frame::fit(&thin.points, camera, MESH_SIZE, [34.0, 0.0]);
@@ -51,14 +42,11 @@ pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -
     triad(&mut out, &camera);
     scale_bar(&mut out, &frame);
     out.push_str("</svg>");
-    MeshPicture {
-        svg: out,
-        edges: if fine {
-            "Thin lines are the edges of the elements."
-        } else {
-            "The edges of the elements are too close together to be drawn."
-        },
-    }
+    let edges = match fine {
+        true => "Thin lines are the edges of the elements.",
+        false => "The edges of the elements are too close together to be drawn.",
+    };
+    (out, edges)
 }
 
 /// Draws the first mode shapes, each to its own largest displacement.
@@ -179,7 +167,7 @@ mod tests {
     fn the_mesh_has_axes_and_a_scale() {
         let mut view = cube(4, 0);
         view.title = "A <b> & c".to_owned();
-        let picture = mesh_picture(&view, &Surface::of(&view));
+        let (svg, edges) = mesh_picture(&view, &Surface::of(&view));
         for text in [
             "aria-label=\"A &lt;b&gt; &amp; c: mesh and groups\"",
             ">x</text>",
@@ -188,9 +176,9 @@ mod tests {
             "class=\"fine\"",
             ">0.5 m along x, y, z</text>",
         ] {
-            assert!(picture.svg.contains(text), "{text}");
+            assert!(svg.contains(text), "{text}");
         }
-        assert!(picture.edges.starts_with("Thin lines"));
+        assert!(edges.starts_with("Thin lines"));
     }
 
     #[test]
@@ -198,9 +186,9 @@ mod tests {
         let view = cube(120, 1);
         let surface = Surface::of(&view);
         assert_eq!(surface.triangles.len(), 172_800);
-        let mesh = mesh_picture(&view, &surface);
-        assert!(mesh.svg.len() < 900_000, "{}", mesh.svg.len());
-        assert!(!mesh.svg.contains("class=\"fine\""));
+        let (svg, _) = mesh_picture(&view, &surface);
+        assert!(svg.len() < 900_000, "{}", svg.len());
+        assert!(!svg.contains("class=\"fine\""));
         let mode = &stills(&view, &surface)[0];
         assert!(mode.svg.len() < 400_000, "{}", mode.svg.len());
     }

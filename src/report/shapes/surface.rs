@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 
-use super::vector::{Vector, bounds, cross, dot, magnitude, minus, unit};
+use super::camera::{Vector, bounds, cross, dot, magnitude, minus, unit};
 use super::view::ModeShapeView;
 
 /// A line through points of the surface.

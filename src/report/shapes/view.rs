@@ -2,19 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::vector::diagonal;
+use super::camera::{UpAxis, diagonal};
 use crate::report::number::significant;
 use crate::report::{ReportError, palette};
-
-/// Direction that points up in the standard views.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum UpAxis {
-    /// y up; the front view looks along -z.
-    Y,
-    /// z up; the front view looks along +y.
-    #[default]
-    Z,
-}
 
 /// Which figures a view makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -152,14 +142,13 @@ impl ModeShapeView {
     /// Checks that there is a surface, that every index points at something, and that all numbers are finite.
     ///
     /// # Errors
-    /// [`ReportError::EmptyShape`], [`ReportError::ShapeIndex`], [`ReportError::ShapeLength`] or
-    /// [`ReportError::ShapeNumber`].
+    /// [`ReportError`] that names the first that is wrong.
     pub fn check(&self) -> Result<(), ReportError> {
         let extent = diagonal(&self.points);
         if self.triangles.is_empty() || extent <= 0.0 {
-            return Err(ReportError::EmptyShape { view: self.title.clone() });
+            return Err(ReportError(format!("shape \"{}\" has no surface with an extent", self.title)));
         }
-        let number = |what: &str| ReportError::ShapeNumber { view: self.title.clone(), what: what.to_owned() };
+        let number = |what: &str| ReportError(format!("shape \"{}\": {what} is not a number in range", self.title));
         if !extent.is_finite() || !self.points.iter().flatten().all(|v| v.is_finite()) {
             return Err(number("a coordinate"));
         }
@@ -168,13 +157,12 @@ impl ModeShapeView {
         }
         self.check_indices()?;
         for mode in &self.modes {
-            if mode.displacement.len() != self.points.len() {
-                return Err(ReportError::ShapeLength {
-                    view: self.title.clone(),
-                    mode: mode.label.clone(),
-                    found: mode.displacement.len(),
-                    expected: self.points.len(),
-                });
+            let [found, expected] = [mode.displacement.len(), self.points.len()];
+            if found != expected {
+                let (view, mode) = (&self.title, &mode.label);
+                return Err(ReportError(format!(
+                    "shape \"{view}\": mode \"{mode}\" has {found} displacements for {expected} points"
+                )));
             }
             let finite = mode.displacement.iter().flatten().all(|v| v.is_finite());
             if !finite || !mode.frequency_hz.is_finite() {
@@ -189,7 +177,7 @@ impl ModeShapeView {
             if index < count {
                 return Ok(());
             }
-            Err(ReportError::ShapeIndex { view: self.title.clone(), what, index, count })
+            Err(ReportError(format!("shape \"{}\": {what} is {index}, there are {count}", self.title)))
         };
         let points = self.points.len();
         for triangle in &self.triangles {
@@ -209,7 +197,6 @@ impl ModeShapeView {
 
     /// The view without the points that nothing of it uses, such as those inside a solid. Its figures are the same. A view with
     /// an index that points at nothing stays as it is; [`check`](Self::check) names the index.
-    #[must_use]
     pub(crate) fn without_unused_points(mut self) -> Self {
         let mut used = vec![false; self.points.len()];
         let corners = self.triangles.iter().flat_map(|triangle| triangle.corners);

@@ -12,11 +12,11 @@ use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt, write_atomic};
-use crate::app::case::Case;
+use crate::app::case::{Case, CaseError};
+use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, ScriptsSummary, SweepError, SweepResult, TaskSummary, slurm_scripts, sweep_report,
-    write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepResult, TaskSummary, slurm_scripts, sweep_report, write_sweep_npz,
 };
 use crate::report::Document;
 use points::Workers;
@@ -54,9 +54,7 @@ pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome
 /// Plans a sweep, or goes on with one, computes its points and merges them; or writes job scripts.
 fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     let case = Case::load(&asked.from, &options.set)?;
-    let axes = asked.vary.iter().map(|argument| {
-        Axis::parse(argument).map_err(|problem| SweepError::Axis { argument: argument.clone(), problem })
-    });
+    let axes = asked.vary.iter().map(|argument| Axis::parse(argument));
     let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
     check_points(&plan, &case)?;
     let folder = OutputFolder::of(&case, options);
@@ -68,8 +66,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
         if !changes.is_empty() {
-            let folder = folder.path().to_owned();
-            return Err(SweepError::Changed { folder, changes }.into());
+            return Err(changed(folder.path(), &changes).into());
         }
     } else {
         begin(&plan, &folder, options.force)?;
@@ -96,8 +93,7 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     let case = Case::load(&plan.case, &plan.set)?;
     let changes = plan.changes(&Plan::new(&case, plan.command, plan.axes.clone())?);
     if !changes.is_empty() {
-        let folder = folder.path().to_owned();
-        return Err(SweepError::Changed { folder, changes }.into());
+        return Err(changed(folder.path(), &changes).into());
     }
     let points = folder.path().join(POINTS);
     progress.stage("points");
@@ -137,9 +133,9 @@ fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
             }
         }
     }
-    first.map_or(Ok(()), |(number, error)| {
-        let source = Box::new(error);
-        Err(SweepError::NoCase { number, source }.into())
+    first.map_or(Ok(()), |(number, error): (usize, CaseError)| {
+        let what = format!("no point of the sweep is a valid case; point {number}: {error}");
+        Err(ComputeError::Input { what, help: error.help() }.into())
     })
 }
 
@@ -148,8 +144,7 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     let points = folder.path().join(POINTS);
     let file = points.join(PLAN);
     if file.exists() && !force {
-        let folder = folder.path().to_owned();
-        return Err(SweepError::InTheWay { folder }.into());
+        return Err(in_the_way(folder.path()).into());
     }
     folder.claim("sweep", force)?;
     if file.exists() {
@@ -161,17 +156,44 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     write_atomic(&file, format!("{text}\n").as_bytes())
 }
 
-fn read_plan(folder: &OutputFolder) -> Result<Plan, SweepError> {
+fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
     let plan = folder.path().join(POINTS).join(PLAN);
     let text = match fs::read(&plan) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let folder = folder.path().to_owned();
-            return Err(SweepError::NoPlan { folder, plan });
+            return Err(no_plan(folder.path(), &plan));
         }
-        Err(source) => return Err(SweepError::Io { path: plan, source }),
+        Err(error) => return Err(ComputeError::io(&plan)(error)),
     };
-    serde_json::from_slice(&text).map_err(|error| SweepError::Plan { plan, message: error.to_string() })
+    serde_json::from_slice(&text).map_err(|error| {
+        let what = format!("{} is no plan of a sweep: {error}", plan.display());
+        ComputeError::Input { what, help: None }
+    })
+}
+
+/// The error of a folder that holds a sweep already.
+fn in_the_way(folder: &Path) -> ComputeError {
+    ComputeError::input(
+        format!("{} holds a sweep", folder.display()),
+        "go on with --resume, replace it with --force, or choose another folder with --out",
+    )
+}
+
+/// The error of a folder whose sweep is another one.
+fn changed(folder: &Path, changes: &[String]) -> ComputeError {
+    let changes = changes.join("; ");
+    ComputeError::input(
+        format!("the sweep in {} was begun with something else: {changes}", folder.display()),
+        "go on with what it was begun with, or begin anew with --force",
+    )
+}
+
+/// The error of a folder without a plan.
+fn no_plan(folder: &Path, plan: &Path) -> ComputeError {
+    ComputeError::input(
+        format!("{} holds no sweep: there is no plan {}", folder.display(), plan.display()),
+        "name the folder that `plummer sweep CASE.toml --vary ...` wrote",
+    )
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
@@ -182,7 +204,7 @@ fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outco
     let result = SweepResult::collect(plan, &folder.path().join(POINTS))?;
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
     let npz = folder.path().join("sweep.npz");
-    write_sweep_npz(&npz, &result).map_err(SweepError::from)?;
+    write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
     let command = command_line(&result.plan);
     let document = Document::new().case(case.source.path.display().to_string());
     let report = sweep_report(&case.title, &result, &command).document(document);
@@ -242,8 +264,7 @@ fn verdict(result: &SweepResult) -> Result<(), CliError> {
 }
 
 fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Options) -> Result<Outcome, CliError> {
-    let absolute =
-        |path: &Path| std::path::absolute(path).map_err(|source| SweepError::Io { path: path.to_owned(), source });
+    let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
     let scripts = slurm_scripts(&program, &absolute(folder.path())?, tasks, threads);
@@ -294,4 +315,41 @@ fn again(case: &Case, asked: &SweepArguments, options: &Options) -> String {
         line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
     }
     line + " --resume"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CliError, ComputeError, Path, changed, in_the_way, no_plan};
+
+    #[test]
+    fn each_error_has_its_exit_code_and_its_lines() {
+        let folder = Path::new("out/a");
+        for (error, code, lines) in [
+            (
+                in_the_way(folder),
+                2,
+                "error: out/a holds a sweep\n\
+                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
+            ),
+            (
+                changed(folder, &["another text of the case file".to_owned()]),
+                2,
+                "error: the sweep in out/a was begun with something else: another text of the case file\n\
+                 help: go on with what it was begun with, or begin anew with --force\n",
+            ),
+            (
+                no_plan(folder, Path::new("out/a/sweep/plan.json")),
+                2,
+                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
+                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
+            ),
+            (ComputeError::io(folder)(std::io::Error::other("full")), 1, "error: out/a: full\n"),
+        ] {
+            let error = CliError::from(error);
+            assert_eq!(error.exit_code(), code, "{error}");
+            let mut written = Vec::new();
+            error.report(&mut written);
+            assert_eq!(String::from_utf8(written).unwrap(), lines);
+        }
+    }
 }

@@ -12,7 +12,8 @@ use super::super::output::is_taken;
 use super::super::{CliError, Options, write_atomic};
 use super::Share;
 use crate::app::commands::run::unfinished::{StopRequest, UnfinishedRun};
-use crate::app::studies::sweep::{Plan, PointRecord, SweepError, SweepPoint, SweptCommand};
+use crate::app::error::ComputeError;
+use crate::app::studies::sweep::{Plan, PointRecord, SweepPoint, SweptCommand};
 use crate::files;
 
 /// Pause between two looks at a process.
@@ -23,9 +24,9 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// This program.
 ///
 /// # Errors
-/// [`SweepError::Io`] if the system does not say where it is.
-pub(super) fn program() -> Result<PathBuf, SweepError> {
-    std::env::current_exe().map_err(|source| SweepError::Io { path: "plummer".into(), source })
+/// [`ComputeError::Failed`] if the system does not say where it is.
+pub(super) fn program() -> Result<PathBuf, ComputeError> {
+    std::env::current_exe().map_err(ComputeError::io(Path::new("plummer")))
 }
 
 /// So many processes at once, so many threads each.
@@ -42,8 +43,8 @@ impl Workers {
     /// threads.
     ///
     /// # Errors
-    /// [`SweepError::Io`] if the system does not say where this program is.
-    pub(super) fn new(options: &Options, points: usize, stop: StopRequest) -> Result<Self, SweepError> {
+    /// [`ComputeError::Failed`] if the system does not say where this program is.
+    pub(super) fn new(options: &Options, points: usize, stop: StopRequest) -> Result<Self, ComputeError> {
         let cores = match options.threads {
             Some(threads) => threads.get(),
             None => thread::available_parallelism().map_or(1, usize::from),
@@ -120,10 +121,7 @@ impl Workers {
             return Ok(true);
         }
         let begun = Instant::now();
-        let io = |path: &Path| {
-            let path = path.to_owned();
-            move |source| SweepError::Io { path, source }
-        };
+        let io = ComputeError::io;
         let name = folder.strip_prefix(sweep).unwrap_or(&folder);
         files::make_below(sweep, name).map_err(io(&folder))?;
         // of an earlier try

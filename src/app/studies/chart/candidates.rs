@@ -4,14 +4,17 @@ use super::{Effort, Settings};
 use crate::app::scene::RunModel;
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Spectral radius of generalized-alpha, as the program's own choice.
 const SPECTRAL_RADIUS: f64 = 0.8;
 
-/// Longest and shortest steps, in halvings of the output interval: two to eight are 1.2e-6 to 2e-8 s in a band up to 40 kHz.
-/// A quick chart ends earlier.
-const STEPS: [i32; 2] = [2, 8];
-const QUICK_LAST_STEP: i32 = 6;
+/// Longest step, in halvings of the output interval: 1.2e-6 s in a band up to 40 kHz.
+const LONGEST_STEP: i32 = 2;
+
+/// Shortest step of a full and of a quick chart, in halvings of the output interval: eight are 2e-8 s in a band up to 40 kHz.
+const SHORTEST_STEP: [i32; 2] = [8, 6];
 
 /// How many of the longest steps are tried of the implicit method in all modes.
 const IMPLICIT_STEPS: usize = 4;
@@ -29,15 +32,13 @@ const FORCE_TOLERANCES: [f64; 6] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 /// Kept modes, in units of the band's highest frequency.
 const BANDS: [f64; 4] = [1.0, 2.0, 3.0, 6.0];
 
-/// Candidates of one method on one model, from the roughest to the finest.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Family {
-    pub(super) models: Vec<RunModel>,
-}
-
-/// The families that a chart tries; `frequencies_hz` are those of all modes, ascending, and `source` is the source paper's
+/// The families that a chart tries, each the candidates of one method on one model from the roughest to the finest; `frequencies_hz` are those of all modes, ascending, and `source` is the source paper's
 /// method as it is used there.
-pub(super) fn families(settings: &Settings, frequencies_hz: &[f64], [chosen, source]: &[RunModel; 2]) -> Vec<Family> {
+pub(super) fn families(
+    settings: &Settings,
+    frequencies_hz: &[f64],
+    [chosen, source]: &[RunModel; 2],
+) -> Vec<Vec<RunModel>> {
     let all = (ModeSelection::All, false);
     let kept = |bands: f64, residual| (ModeSelection::UpTo(bands * settings.band_hz), residual);
     // the basis on which all methods are compared beside that of all modes
@@ -48,50 +49,28 @@ pub(super) fn families(settings: &Settings, frequencies_hz: &[f64], [chosen, sou
         bases.extend(others.flat_map(|bands| [kept(bands, true), kept(bands, false)]));
     }
     let bases = distinct(bases, frequencies_hz);
-    let [longest, shortest] = STEPS;
-    let shortest = match settings.effort {
-        Effort::Full => shortest,
-        Effort::Quick => QUICK_LAST_STEP,
+    let with_inertia = RunModel { balls_inertia: BallsInertia::Dynamic, ..*chosen };
+    let fixed = |method, (modes, residual)| -> Vec<RunModel> {
+        let steps = (LONGEST_STEP..=settings.effort.pick(SHORTEST_STEP))
+            .map(|halvings| settings.interval() * 0.5_f64.powi(halvings));
+        steps.map(|step| RunModel { modes, residual, method, step, ..with_inertia }).collect()
     };
-    let fixed = |method, (modes, residual)| Family {
-        models: (longest..=shortest)
-            .map(|halvings| RunModel {
-                modes,
-                residual,
-                balls_inertia: BallsInertia::Dynamic,
-                method,
-                step: settings.interval() * 0.5_f64.powi(halvings),
-            })
-            .collect(),
+    let by_tolerance = |(modes, residual)| -> Vec<RunModel> {
+        // fine enough that nothing folds into the band
+        let step = settings.interval() / 16.0;
+        let methods = TOLERANCES.map(|tolerance| Method::Dop853 { tolerance, events: true });
+        methods.map(|method| RunModel { modes, residual, method, step, ..with_inertia }).to_vec()
     };
-    let by_tolerance = |(modes, residual)| Family {
-        models: TOLERANCES
-            .map(|tolerance| RunModel {
-                modes,
-                residual,
-                balls_inertia: BallsInertia::Dynamic,
-                method: Method::Dop853 { tolerance, events: true },
-                // fine enough that nothing folds into the band
-                step: settings.interval() / 16.0,
-            })
-            .to_vec(),
-    };
-    let halved = |(modes, residual)| Family {
-        models: FORCE_TOLERANCES
-            .map(|tolerance| RunModel {
-                modes,
-                residual,
-                method: Method::ExponentialAdams { tolerance: Some(tolerance) },
-                ..*chosen
-            })
-            .to_vec(),
+    let adams_by_tolerance = |(modes, residual)| -> Vec<RunModel> {
+        let methods = FORCE_TOLERANCES.map(|tolerance| Method::ExponentialAdams { tolerance: Some(tolerance) });
+        methods.map(|method| RunModel { modes, residual, method, ..*chosen }).to_vec()
     };
     let mut families = Vec::new();
     let adams = Method::ExponentialAdams { tolerance: None };
     for method in [Method::Exponential, adams] {
         families.extend(bases.iter().map(|&basis| fixed(method, basis)));
     }
-    families.extend(bases.iter().map(|&basis| halved(basis)));
+    families.extend(bases.iter().map(|&basis| adams_by_tolerance(basis)));
     let alpha = Method::GeneralizedAlpha { spectral_radius: SPECTRAL_RADIUS };
     let others = [Method::NewmarkExplicit, Method::Newmark, alpha, Method::Splitting];
     families.extend(others.map(|method| fixed(method, usual)));
@@ -99,14 +78,12 @@ pub(super) fn families(settings: &Settings, frequencies_hz: &[f64], [chosen, sou
     if settings.effort == Effort::Full {
         // a step of it solves for all modes: what is shorter would take longer than all others together
         let mut implicit = fixed(Method::Newmark, all);
-        implicit.models.truncate(IMPLICIT_STEPS);
+        implicit.truncate(IMPLICIT_STEPS);
         families.push(implicit);
         families.push(by_tolerance(all));
-        families.push(Family {
-            models: SOURCE_STEPS.map(|times| RunModel { step: times * source.step, ..*source }).to_vec(),
-        });
+        families.push(SOURCE_STEPS.map(|times| RunModel { step: times * source.step, ..*source }).to_vec());
     } else {
-        families.push(Family { models: vec![*source] });
+        families.push(vec![*source]);
     }
     families
 }
@@ -140,13 +117,25 @@ pub(super) fn model_name(model: &RunModel) -> String {
     if model.residual { format!("{modes} + residual") } else { modes }
 }
 
-/// What of a model is refined, and how far: `step_s` (s), or `tolerance`.
-pub(crate) fn parameter_of(model: &RunModel) -> (&'static str, f64) {
-    match model.method {
-        Method::Dop853 { tolerance, .. } | Method::ExponentialAdams { tolerance: Some(tolerance) } => {
-            ("tolerance", tolerance)
+/// What of a model is refined, and how far.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Parameter {
+    /// Length of a step, s.
+    StepS(f64),
+    /// Relative tolerance of a step.
+    Tolerance(f64),
+}
+
+impl Parameter {
+    /// That of a model.
+    pub(super) fn of(model: &RunModel) -> Self {
+        match model.method {
+            Method::Dop853 { tolerance, .. } | Method::ExponentialAdams { tolerance: Some(tolerance) } => {
+                Self::Tolerance(tolerance)
+            }
+            _ => Self::StepS(model.step),
         }
-        _ => ("step_s", model.step),
     }
 }
 

@@ -3,12 +3,13 @@
 use super::candidates::families;
 use super::points::{self, Point, PointError, evaluate, measure, point};
 use super::reference::models;
+use super::starts::{Ready, Systems};
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
-use super::systems::{Ready, Systems};
-use super::{ChartError, Effort, Failure, Reference, Settings, Start, Starts, pareto_front};
+use super::{Effort, Failure, Reference, Settings, Start, Starts};
 use crate::app::case::{self, Case, ModesKept, RunCase, StepLength};
 use crate::app::commands::analyze::AskedBand;
 use crate::app::commands::run::choice::ModelChoice;
+use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
 use rayon::prelude::*;
@@ -65,12 +66,12 @@ impl Chart {
 /// Computes the chart of a case.
 ///
 /// # Errors
-/// [`ChartError`]; a candidate that fails is no error but an omission.
+/// [`ComputeError`]; a candidate that fails is no error but an omission.
 pub(crate) fn compute_chart(
     run: RunCase<'_>,
     effort: Effort,
     watch: &(impl Watch + Sync),
-) -> Result<Chart, ChartError> {
+) -> Result<Chart, ComputeError> {
     let RunCase { case, transient: asked, .. } = run;
     let scene = Scene::with_all_modes(run, watch)?;
     let settings = Settings::of(run, effort)?;
@@ -79,7 +80,7 @@ pub(crate) fn compute_chart(
     watch.stage("reference");
     let progress = Counter::new(watch, starts.starts.len());
     let reference = Reference::find(&scene, &starts, &settings, || progress.done())?;
-    let chosen = |transient: &case::Transient| -> Result<RunModel, ChartError> {
+    let chosen = |transient: &case::Transient| -> Result<RunModel, ComputeError> {
         let run = RunCase { transient, ..run };
         Ok(ModelChoice::of_case(run, &scene)?.model)
     };
@@ -170,6 +171,24 @@ fn front(points: &[Point], floor: f64) -> Vec<usize> {
     places.map(|place| measured[place].0).collect()
 }
 
+/// Places of the points (cost, error) that none other beats: no other costs at most as much and errs at most as much, one
+/// of the two less. In order of cost; of equal points the first.
+fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    let key = |place: usize| points[place];
+    order.sort_by(|&a, &b| {
+        let ((cost_a, error_a), (cost_b, error_b)) = (key(a), key(b));
+        cost_a.total_cmp(&cost_b).then(error_a.total_cmp(&error_b))
+    });
+    let mut least = f64::INFINITY;
+    order.retain(|&place| {
+        let beaten = key(place).1 >= least;
+        least = least.min(key(place).1);
+        !beaten
+    });
+    order
+}
+
 /// Statistics of points against the reference's second method, which is the cheaper one, with its first step.
 fn statistics(
     case: &Case,
@@ -200,7 +219,7 @@ fn statistics(
             return Err(failure.clone());
         }
         let model = &point.model;
-        Ok(compare(&run(systems.of(model)?, model)?, by))
+        Ok(compare(&run(systems.of(model)?, model)?, by, settings.target))
     };
     points
         .into_iter()
@@ -224,5 +243,34 @@ impl<'a, W: Watch> Counter<'a, W> {
     pub(super) fn done(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.watch.fraction(done as f64 / self.count as f64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_none_beats_is_on_the_front() {
+        let points = [
+            (4.0, 1e-4),
+            (1.0, 1e-1),
+            (2.0, 1e-2),
+            // dearer and worse than the second
+            (3.0, 2e-2),
+            // as dear as the second and worse
+            (2.0, 5e-2),
+            // dearer and as good as the first
+            (5.0, 1e-4),
+            // as the first
+            (4.0, 1e-4),
+        ];
+        assert_eq!(pareto_front(&points), [1, 2, 0]);
+    }
+
+    #[test]
+    fn nothing_and_one() {
+        assert!(pareto_front(&[]).is_empty());
+        assert_eq!(pareto_front(&[(1.0, 1.0)]), [0]);
     }
 }

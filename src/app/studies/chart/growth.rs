@@ -15,7 +15,8 @@ use crate::signal::SignalError;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Growth {
     window_s: f64,
-    distances: Vec<f64>,
+    /// In each window, in units of the reference's root mean square over the span.
+    pub(super) distances: Vec<f64>,
 }
 
 impl Growth {
@@ -37,11 +38,6 @@ impl Growth {
     /// Ends of the windows since the start, s.
     pub(crate) fn times_s(&self) -> Vec<f64> {
         (1..=self.distances.len()).map(|window| window as f64 * self.window_s).collect()
-    }
-
-    /// Distance in each window, in units of the reference's root mean square over the span.
-    pub(crate) fn distances(&self) -> &[f64] {
-        &self.distances
     }
 
     /// Distance at the start: that of the first window in which there is one. `None`: the two are the same throughout.

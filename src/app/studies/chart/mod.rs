@@ -2,8 +2,8 @@
 //!
 //! [`compute_chart`] goes through it: [`Starts`] over a ball pass; the [`Reference`] of two methods of different kind that
 //! are refined until they agree; the [`Growth`] of small perturbations, and with it the horizon inside which signals can be
-//! compared point by point; the [`Point`]s; the front of those that none beats ([`pareto_front`]); and beyond the horizon
-//! statistics over an ensemble ([`compare`]). [`chart_report`] shows it.
+//! compared point by point; the [`Point`]s; the front of those that none beats; and beyond the horizon
+//! statistics over an ensemble. [`chart_report`] shows it.
 //!
 //! Beside it [`compute_stability`] asks which steps each method can take at all, under which conditions.
 //!
@@ -13,10 +13,7 @@
 mod candidates;
 mod compute;
 mod effort;
-mod error;
-mod front;
 mod growth;
-mod perturbation;
 mod plots;
 mod points;
 #[cfg(test)]
@@ -27,31 +24,26 @@ mod stability;
 mod starts;
 mod statistics;
 mod summary;
-mod systems;
 mod trace;
 
-pub(crate) use candidates::parameter_of;
+pub use candidates::Parameter;
 pub(crate) use compute::compute_chart;
 pub use compute::{Chart, ModelStatistics};
 pub use effort::{Effort, Settings};
-pub use error::ChartError;
-pub(crate) use front::pareto_front;
 pub use growth::Growth;
-pub(crate) use perturbation::perturb;
-pub(crate) use plots::{between_methods, growth, work_precision};
+pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
 pub(crate) use report::chart_report;
 pub use stability::{
-    Condition, ConditionStability, ConditionSummary, MethodStability, MethodSummary, Stability, StabilityModel,
-    StabilitySummary, StepRecord, Window,
+    Condition, ConditionStability, ConditionSummary, MethodStability, Stability, StabilityModel, StabilitySummary,
+    StepRecord, Window,
 };
 pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure};
-pub(crate) use statistics::{compare, figures};
 pub use summary::{
-    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, FigureSummary, MethodParameter, ModelStatisticsSummary,
-    OmissionSummary, OverAllStarts, Parameter, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
+    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, ModelStatisticsSummary, OmissionSummary,
+    OverAllStarts, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
 };
 pub use trace::{Failure, FailureKind, Trace};

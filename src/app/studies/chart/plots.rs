@@ -1,6 +1,6 @@
 //! The chart as plots.
 
-use super::{Chart, Growth, Point};
+use super::{Chart, Growth, Parameter, Point};
 use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Symbol, fixed, significant};
 
 /// Methods in the order of the legend, their colour and symbol. What solves its equations has squares, what chooses its
@@ -30,39 +30,20 @@ pub(crate) fn work_precision(chart: &Chart) -> Plot {
     .caption(format!(
         "Mean error of the accelerations up to {} kHz over {} starts. The line joins the points that none beats in both. Ring: what the program chooses by itself; frame: the source paper's method, all modes and its step. Below the floor, the difference of the two reference methods, nothing can be told.",
         significant(chart.settings.band_hz / 1e3, 3),
-        reference
-            .starts
-            .len()
-            .div_ceil(chart.settings.point_stride())
+        reference.starts.len().div_ceil(chart.settings.point_stride())
     ));
-    let curve = |points: &[&Point]| -> (Abscissa, Vec<f64>, Vec<String>) {
-        let measured = points.iter().filter_map(|point| {
-            let (wall, error) = point.measured()?;
-            Some((wall, (error, label(point))))
-        });
-        let (walls, rest): (Vec<f64>, Vec<(f64, String)>) = measured.unzip();
-        let (errors, labels) = rest.into_iter().unzip();
-        (Abscissa::Points(walls), errors, labels)
-    };
-    let front: Vec<&Point> = chart.front.iter().map(|&k| &chart.points[k]).collect();
-    let (x, y, _) = curve(&front);
-    if !y.is_empty() {
-        plot = plot.curve(Curve::new("front", x, y).colour(MARK));
-    }
+    let front = chart.front.iter().map(|&place| &chart.points[place]);
+    plot.curves.extend(measured("front", front).map(|curve| curve.colour(MARK)));
     for (name, colour, symbol) in METHODS {
-        let of = chart.points.iter().filter(|point| point.method() == name);
-        let (x, y, labels) = curve(&of.collect::<Vec<_>>());
-        if !y.is_empty() {
-            plot = plot.curve(Curve::new(name, x, y).points(symbol).colour(colour).labels(labels));
-        }
+        let points = || chart.points.iter().filter(|point| point.method() == name);
+        let labels = points().filter(|point| point.measured().is_some()).map(label).collect();
+        plot.curves.extend(measured(name, points()).map(|curve| curve.points(symbol).colour(colour).labels(labels)));
     }
     for (name, place, symbol) in
         [("program's choice", chart.chosen, Symbol::Ring), ("source's method", chart.source, Symbol::Frame)]
     {
-        let (x, y, _) = curve(&[&chart.points[place]]);
-        if !y.is_empty() {
-            plot = plot.curve(Curve::new(name, x, y).points(symbol).colour(MARK));
-        }
+        let point = std::iter::once(&chart.points[place]);
+        plot.curves.extend(measured(name, point).map(|curve| curve.points(symbol).colour(MARK)));
     }
     if reference.disagreement > 0.0 {
         let floor = significant(reference.disagreement, 2);
@@ -72,12 +53,17 @@ pub(crate) fn work_precision(chart: &Chart) -> Plot {
     plot.level(chart.settings.target, format!("target {target}"))
 }
 
+/// Errors of points over their wall times; `None` if none of them has both.
+fn measured<'a>(name: &str, points: impl Iterator<Item = &'a Point>) -> Option<Curve> {
+    let (walls, errors): (Vec<f64>, Vec<f64>) = points.filter_map(Point::measured).unzip();
+    (!errors.is_empty()).then(|| Curve::new(name, Abscissa::Points(walls), errors))
+}
+
 /// What a point is, in a line.
 pub(super) fn label(point: &Point) -> String {
-    let (name, value) = point.parameter();
-    let value = match name {
-        "step_s" => format!("step {} µs", significant(1e6 * value, 3)),
-        _ => format!("{name} {}", significant(value, 2)),
+    let value = match point.parameter() {
+        Parameter::StepS(step) => format!("step {} µs", significant(1e6 * step, 3)),
+        Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 2)),
     };
     let (wall, error) = point.measured().unwrap_or((f64::NAN, f64::NAN));
     format!(
@@ -92,7 +78,7 @@ pub(super) fn label(point: &Point) -> String {
 /// Distance of nearby solutions over time, by start.
 pub(crate) fn growth(chart: &Chart) -> Plot {
     let starts = &chart.reference.starts;
-    let plot = Plot::new(
+    let mut plot = Plot::new(
         "Growth of a small perturbation",
         Axis::new("Time since the start", "s"),
         Axis::new("Distance over that at the start", "").log(),
@@ -104,7 +90,6 @@ pub(crate) fn growth(chart: &Chart) -> Plot {
     ))
     .level(1.0 / chart.settings.target, "1 / target");
     let colours = extremes(chart);
-    let mut plot = plot;
     for (place, start) in starts.iter().enumerate() {
         let curve = Curve::new(
             format!("{} s", fixed(start.start.time_s, 5)),
@@ -129,7 +114,7 @@ pub(crate) fn between_methods(chart: &Chart) -> Plot {
     let growths: Vec<&Growth> = starts.iter().map(|start| &start.between).collect();
     let times = growths.first().map(|growth| growth.times_s());
     let times = times.unwrap_or_default();
-    let at = |window: usize| growths.iter().map(move |growth| growth.distances()[window]);
+    let at = |window: usize| growths.iter().map(move |growth| growth.distances[window]);
     let mean = |window| at(window).sum::<f64>() / growths.len() as f64;
     let largest = |window| at(window).fold(0.0, f64::max);
     let windows = || 0..times.len();
@@ -147,16 +132,13 @@ pub(crate) fn between_methods(chart: &Chart) -> Plot {
 
 /// The starts with the shortest and the longest horizon, what to call them, and their colours.
 fn extremes(chart: &Chart) -> Vec<(usize, &'static str, usize)> {
-    let starts = chart.reference.starts.iter().enumerate();
+    let starts = || chart.reference.starts.iter().enumerate();
     let by_horizon = |a: &(usize, &super::StartReference), b: &(usize, &super::StartReference)| {
         a.1.horizon_s.total_cmp(&b.1.horizon_s)
     };
-    let shortest = starts.clone().min_by(by_horizon);
-    let longest = starts.max_by(by_horizon);
-    [shortest.map(|(place, _)| (place, "shortest horizon", 1)), longest.map(|(place, _)| (place, "longest", 0))]
-        .into_iter()
-        .flatten()
-        .collect()
+    let shortest = (starts().min_by(by_horizon), "shortest horizon", 1);
+    let longest = (starts().max_by(by_horizon), "longest", 0);
+    [shortest, longest].into_iter().filter_map(|(start, name, colour)| Some((start?.0, name, colour))).collect()
 }
 
 /// Zeros, which a logarithm has no place for, as gaps.

@@ -1,9 +1,9 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
-use super::candidates::{Family, model_name, parameter_of};
-use super::systems::{Ready, Systems};
+use super::candidates::{Parameter, model_name};
+use super::starts::{Ready, Systems};
 use super::trace::{Failure, FailureKind, Trace, simulate};
-use super::{Reference, Settings, StartReference};
+use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
 use crate::app::scene::{RunModel, Scene};
 use rayon::prelude::*;
@@ -76,9 +76,9 @@ impl Point {
         model_name(&self.model)
     }
 
-    /// "step_s" or "tolerance", and its value.
-    pub(crate) fn parameter(&self) -> (&'static str, f64) {
-        parameter_of(&self.model)
+    /// Its step or tolerance.
+    pub(crate) fn parameter(&self) -> Parameter {
+        Parameter::of(&self.model)
     }
 
     /// Cost and mean error of a point that has both.
@@ -92,11 +92,11 @@ const FINE: f64 = 0.01;
 
 /// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
 /// or until the error is far below the target or at the floor. Starts in parallel.
-pub(super) fn evaluate(scene: &Scene, family: &Family, reference: &Reference, settings: &Settings) -> Vec<Point> {
-    let mut points: Vec<Point> = Vec::with_capacity(family.models.len());
+pub(super) fn evaluate(scene: &Scene, family: &[RunModel], reference: &Reference, settings: &Settings) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::with_capacity(family.len());
     let mut means: Vec<f64> = Vec::new();
     let mut systems = Systems::new(scene);
-    for model in &family.models {
+    for model in family {
         let point = point(systems.of(model), model, reference, settings);
         let (mean, refused) = match &point.error {
             Ok(error) => (Some(error.mean), false),
@@ -231,9 +231,7 @@ fn error_of(
 fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
     let count = starts.len() as f64;
     let errors: Vec<f64> = starts.iter().map(|start| start.over_horizon).collect();
-    let mean = errors.iter().sum::<f64>() / count;
-    let squares = errors.iter().map(|error| (error - mean).powi(2));
-    let deviation = (squares.sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
+    let Estimate { mean, deviation, .. } = Estimate::of(&errors);
     let largest = errors.iter().copied().fold(0.0, f64::max);
     if mean < TOO_INACCURATE {
         let mut by_growth = [GrowthError::default(); GROWTHS.len()];

@@ -1,6 +1,5 @@
 //! Candidates on a small scene: the same whatever the number of threads, and what fails is told.
 
-use super::candidates::Family;
 use super::points::{Point, evaluate, over_all_starts};
 use super::{Effort, FailureKind, Reference, Settings, Starts};
 use crate::app::case::Case;
@@ -18,7 +17,7 @@ fn small() -> (Scene, Settings) {
     (Scene::build(run, &Unwatched).unwrap(), settings)
 }
 
-fn all_modes(method: Method, steps: &[f64]) -> Family {
+fn all_modes(method: Method, steps: &[f64]) -> Vec<RunModel> {
     let model = |step: &f64| RunModel {
         modes: ModeSelection::All,
         residual: false,
@@ -26,7 +25,7 @@ fn all_modes(method: Method, steps: &[f64]) -> Family {
         method,
         step: *step,
     };
-    Family { models: steps.iter().map(model).collect() }
+    steps.iter().map(model).collect()
 }
 
 #[test]
@@ -91,7 +90,7 @@ fn marked_points_take_every_start_and_others_some() {
     let halves = [0, 1].map(|first| {
         let mut half = reference.clone();
         half.starts = half.starts.into_iter().skip(first).step_by(2).collect();
-        over_all_starts(&scene, &family.models[0], &half, &settings).unwrap().mean
+        over_all_starts(&scene, &family[0], &half, &settings).unwrap().mean
     });
     assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
     let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;

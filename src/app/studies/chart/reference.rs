@@ -1,8 +1,9 @@
 //! What the chart measures by: two methods of different kind on the fullest model, refined until they agree.
 
-use super::systems::Ready;
+use super::starts::{Ready, perturb};
 use super::trace::{Failure, Trace};
-use super::{ChartError, Growth, Settings, Start, Starts};
+use super::{Growth, Settings, Start, Starts};
+use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
@@ -59,13 +60,13 @@ impl Reference {
     /// Finds the reference of every start, in parallel; `done` is called after each.
     ///
     /// # Errors
-    /// [`ChartError::NoReference`] if a method fails, [`ChartError::Stage`] for signals that cannot be compared.
+    /// [`ComputeError::Failed`] if a method fails; that of signals that cannot be compared.
     pub fn find(
         scene: &Scene,
         starts: &Starts,
         settings: &Settings,
         done: impl Fn() + Sync,
-    ) -> Result<Self, ChartError> {
+    ) -> Result<Self, ComputeError> {
         let [by, _] = models(settings, 0);
         let system = Ready::new(scene, scene.system(&by)?);
         let found = starts.starts.par_iter().map(|start| {
@@ -126,17 +127,14 @@ pub(super) fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
     ]
 }
 
-fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartReference, ChartError> {
+fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartReference, ComputeError> {
     let (span, window) = (settings.span_s, settings.window_s);
-    let run = |model: &RunModel, perturbation: f64| -> Result<Trace, ChartError> {
+    let run = |model: &RunModel, perturbation: f64| -> Result<Trace, ComputeError> {
         let (system, mut state) = system.at(start);
         let seed = settings.ensemble.seed;
-        super::perturb(&mut state, perturbation, seed, start.number);
-        Trace::simulate(system, state, model, settings, span).map_err(|failure: Failure| ChartError::NoReference {
-            method: model.method.name(),
-            start_s: start.time_s,
-            reason: failure.reason,
-        })
+        perturb(&mut state, perturbation, seed, start.number);
+        let failed = |failure: Failure| no_reference(model.method.name(), start.time_s, &failure.reason);
+        Trace::simulate(system, state, model, settings, span).map_err(failed)
     };
     let [mut by, mut beside] = models(settings, 0);
     let mut witness = run(&beside, 0.0)?;
@@ -161,5 +159,29 @@ fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartR
         refinements += 1;
         [by, beside] = models(settings, refinements);
         witness = run(&beside, 0.0)?;
+    }
+}
+
+/// The error of a method that failed from the start at `start_s` (s): there is nothing to compare with.
+fn no_reference(method: &str, start_s: f64, reason: &str) -> ComputeError {
+    ComputeError::failed(
+        format!("the reference by {method} failed at the start at {start_s} s: {reason}"),
+        "`plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::no_reference;
+
+    #[test]
+    fn a_reference_that_fails_is_not_the_input() {
+        let error = no_reference("dop853", 2.3, "the solution blew up");
+        assert!(!error.is_input());
+        assert_eq!(error.to_string(), "the reference by dop853 failed at the start at 2.3 s: the solution blew up");
+        assert_eq!(
+            error.help().unwrap(),
+            "`plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere"
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
-use super::{Chart, GROWTHS, ModelStatistics, Point};
+use super::{Chart, GROWTHS, Parameter, Point};
 use crate::app::case::Case;
 use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
@@ -19,13 +19,10 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
             significant(chart.settings.target, 2)
         ));
     }
-    for text in &chart.scene.doubts {
-        report = report.warning(text);
-    }
-    for text in &chart.starts.left_out {
-        report = report.warning(format!("Left out: {text}"));
-    }
-    report = report
+    report.warnings.extend(chart.scene.doubts.iter().cloned());
+    report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
+    report.assumptions = assumptions(case, Some(&chart.scene.setup));
+    report
         .section(
             Section::new("Speed against accuracy")
                 .plot(work_precision(chart))
@@ -40,23 +37,18 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         .section(
             Section::new("Model")
                 .facts(model_facts(case, &chart.scene.stage, true))
-                .table(bearing_table(
-                    &chart.scene.setup,
-                    &chart.scene.contacts,
-                    Some(&chart.scene.equilibrium),
-                )),
-        );
-    for text in assumptions(case, Some(&chart.scene.setup)) {
-        report = report.assumption(text);
-    }
-    report
+                .table(bearing_table(&chart.scene.setup, &chart.scene.contacts, Some(&chart.scene.equilibrium))),
+        )
         .assumption("Every run begins at rest in the equilibrium of its own instant; what follows of switching on unbalance and speed is part of the comparison.")
         .assumption("Wall times are medians of short runs on one thread of this machine, which may have had other work.")
 }
 
+fn ms(seconds: f64) -> String {
+    format!("{} ms", significant(1e3 * seconds, 3))
+}
+
 fn headlines(report: Report, chart: &Chart) -> Report {
     let reference = &chart.reference;
-    let ms = |seconds: f64| format!("{} ms", significant(1e3 * seconds, 3));
     let mut report = report
         .headline(
             "Floor: difference of the reference methods",
@@ -102,22 +94,21 @@ fn point_table(caption: &str, first: Column) -> Table {
 }
 
 fn point_row(first: Cell, point: &Point) -> Vec<Cell> {
-    let number =
-        |value: Option<f64>, digits| value.map_or_else(|| Cell::text("–"), |value| Cell::number(value, digits));
-    let (name, value) = point.parameter();
-    let step = (name == "step_s").then_some(1e6 * value);
-    let tolerance = (name == "tolerance").then_some(value);
+    let (step, tolerance) = match point.parameter() {
+        Parameter::StepS(step) => (Some(1e6 * step), None),
+        Parameter::Tolerance(tolerance) => (None, Some(tolerance)),
+    };
     let error = point.error.as_ref().ok();
     vec![
         first,
         Cell::text(point.method()),
         Cell::text(point.model_name()),
-        number(step, 3),
-        number(tolerance, 2),
-        number(point.wall_s, 3),
-        number(error.map(|error| error.mean), 2),
-        number(error.map(|error| error.deviation), 2),
-        number(error.map(|error| error.largest), 2),
+        Cell::number_or(step, 3, "–"),
+        Cell::number_or(tolerance, 2, "–"),
+        Cell::number_or(point.wall_s, 3, "–"),
+        Cell::number_or(error.map(|error| error.mean), 2, "–"),
+        Cell::number_or(error.map(|error| error.deviation), 2, "–"),
+        Cell::number_or(error.map(|error| error.largest), 2, "–"),
     ]
 }
 
@@ -148,10 +139,8 @@ fn marked(chart: &Chart) -> Vec<(&Point, String)> {
 }
 
 fn marked_table(chart: &Chart) -> Table {
-    let mut table = point_table("Points that none beats, and those to compare with", Column::text("What"));
-    for (point, what) in marked(chart) {
-        table = table.row(point_row(Cell::text(what), point));
-    }
+    let mut table = point_table("Points that none beats, and those to compare with", Column::text("What"))
+        .rows(marked(chart).into_iter().map(|(point, what)| point_row(Cell::text(what), point)));
     if chart.settings.point_stride() > 1 {
         let [chosen, source] = &chart.over_all_starts;
         for (what, place, error) in [
@@ -176,32 +165,24 @@ fn growth_table(chart: &Chart) -> Table {
         columns.push(Column::number(name, ""));
     }
     columns.push(Column::number("Over the horizon", ""));
-    let table = Table::new("Error while nearby solutions part", columns);
-    let rows = marked(chart).into_iter();
-    rows.fold(table, |table, (point, what)| {
-        let Ok(error) = &point.error else {
-            return table;
-        };
-        let means = error.by_growth.iter().map(|part| part.mean);
-        let means = means.chain([error.mean]);
-        let mut cells = vec![Cell::text(what), Cell::text(point.method()), Cell::text(point.model_name())];
-        cells.extend(means.map(|mean| Cell::number(mean, 2)));
-        table.row(cells)
-    })
+    let rows = marked(chart).into_iter().filter_map(|(point, what)| {
+        let error = point.error.as_ref().ok()?;
+        let means = error.by_growth.iter().map(|part| part.mean).chain([error.mean]);
+        let texts = [Cell::text(what), Cell::text(point.method()), Cell::text(point.model_name())];
+        Some(texts.into_iter().chain(means.map(|mean| Cell::number(mean, 2))).collect::<Vec<_>>())
+    });
+    Table::new("Error while nearby solutions part", columns).rows(rows)
 }
 
 fn reference_section(chart: &Chart) -> Section {
     let reference = &chart.reference;
     let [by, beside] = &reference.models;
-    let of = |model| {
-        let (name, value) = super::parameter_of(model);
-        match name {
-            "step_s" => format!("{}, step {} s", model.method.name(), significant(value, 3)),
-            _ => format!("{}, {name} {}", model.method.name(), significant(value, 2)),
-        }
+    let of = |model| match Parameter::of(model) {
+        Parameter::StepS(step) => format!("{}, step {} s", model.method.name(), significant(step, 3)),
+        Parameter::Tolerance(part) => format!("{}, tolerance {}", model.method.name(), significant(part, 2)),
     };
     let factor = 1.0 / chart.settings.target;
-    let mut starts = Table::new(
+    let starts = Table::new(
         "Starts",
         [
             Column::number("At", "s"),
@@ -210,18 +191,18 @@ fn reference_section(chart: &Chart) -> Section {
             Column::number("Difference of the methods", ""),
             Column::number("Refinements", ""),
         ],
-    );
-    for start in &reference.starts {
-        let rate = start.growth.rate_per_s();
-        starts = starts.row([
+    )
+    .rows(reference.starts.iter().map(|start| {
+        [
             Cell::text(fixed(start.start.time_s, 5)).value(start.start.time_s),
             Cell::number(1e3 * start.horizon_s, 3),
-            rate.map_or_else(|| Cell::text("–"), |rate| Cell::number(1e-3 * rate, 2)),
+            Cell::number_or(start.growth.rate_per_s().map(|rate| 1e-3 * rate), 2, "–"),
             Cell::number(start.disagreement, 2),
             Cell::text(start.refinements.to_string()),
-        ]);
-    }
+        ]
+    }));
     let rate = reference.growth_rate_per_s();
+    let rate = rate.map(|rate| format!("{} times a millisecond", significant((1e-3 * rate).exp(), 3)));
     Section::new("Reference and horizon")
         .paragraph(format!(
             "Two methods of different kind integrate the fullest model: all {} modes, balls with inertia. They are refined, start by start, until their signals differ by less than a hundredth of the target over the horizon. The horizon is the time in which the distance of a solution from one that began a little beside it grows to {} times what it was at the start: an error made there has then become one of the signal's size if it was as large as the target. Signals are compared point by point inside it alone.",
@@ -233,32 +214,15 @@ fn reference_section(chart: &Chart) -> Section {
             Fact::new("Beside it", of(beside)),
             Fact::new("Their difference", significant(reference.disagreement, 2))
                 .note("mean over the starts, each over its horizon: the floor"),
-            Fact::new(
-                "Starts",
-                format!(
-                    "{} over {} ms",
-                    reference.starts.len(),
-                    significant(1e3 * chart.starts.spread_s, 3)
-                ),
-            )
-            .note("over one ball pass, or what the case simulates"),
-            Fact::new(
-                "Horizon",
-                format!("{} ms", significant(1e3 * reference.mean_horizon_s(), 3)),
-            )
-            .note(format!(
-                "mean; least {} ms; the span is {} ms",
-                significant(1e3 * reference.least_horizon_s(), 3),
-                significant(1e3 * chart.settings.span_s, 3)
+            Fact::new("Starts", format!("{} over {}", reference.starts.len(), ms(chart.starts.spread_s)))
+                .note("over one ball pass, or what the case simulates"),
+            Fact::new("Horizon", ms(reference.mean_horizon_s())).note(format!(
+                "mean; least {}; the span is {}",
+                ms(reference.least_horizon_s()),
+                ms(chart.settings.span_s)
             )),
-            Fact::new(
-                "Growth",
-                rate.map_or_else(
-                    || "none".to_owned(),
-                    |rate| format!("{} times a millisecond", significant((1e-3 * rate).exp(), 3)),
-                ),
-            )
-            .note("mean over the starts of a straight line through the logarithm"),
+            Fact::new("Growth", rate.unwrap_or_else(|| "none".to_owned()))
+                .note("mean over the starts of a straight line through the logarithm"),
         ])
         .plot(growth(chart))
         .plot(between_methods(chart))
@@ -267,14 +231,14 @@ fn reference_section(chart: &Chart) -> Section {
 
 fn statistics_section(chart: &Chart) -> Section {
     let mut section = Section::new("Statistics beyond the horizon").paragraph(format!(
-        "Runs of {} ms from every start, perturbed; figures of the first sensor, mean and standard error over the runs. The difference is taken start by start, so that what the starts have in common does not count; it is marked where it is beyond {BEYOND_CHANCE} of its standard errors and beyond the target too ({} %; levels {} dB).",
-        significant(1e3 * chart.settings.statistics_s, 3),
+        "Runs of {} from every start, perturbed; figures of the first sensor, mean and standard error over the runs. The difference is taken start by start, so that what the starts have in common does not count; it is marked where it is beyond {BEYOND_CHANCE} of its standard errors and beyond the target too ({} %; levels {} dB).",
+        ms(chart.settings.statistics_s),
         significant(100.0 * chart.settings.target, 2),
         significant(20.0 * (1.0 + chart.settings.target).log10(), 2)
     ));
     for of in &chart.statistics {
         section = match &of.figures {
-            Ok(figures) => section.table(figures_table(chart, of, figures)),
+            Ok(figures) => section.table(figures_table(named(chart, of.point), figures)),
             Err(reason) => section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point))),
         };
     }
@@ -285,9 +249,24 @@ fn named(chart: &Chart, place: usize) -> &'static str {
     if place == chart.chosen { "The program's choice" } else { "The source's method" }
 }
 
-fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]) -> Table {
-    let mut table = Table::new(
-        format!("{} against the reference", named(chart, of.point)),
+fn figures_table(what: &str, figures: &[ComparedFigure]) -> Table {
+    let rows = figures.iter().map(|figure| {
+        let with_error = |estimate: &super::Estimate| {
+            let text = format!("{} ± {}", significant(estimate.mean, 4), significant(estimate.standard_error, 2));
+            Cell::text(text).value(estimate.mean)
+        };
+        let errors = Cell::number(figure.standard_errors, 2);
+        [
+            Cell::text(&figure.name),
+            Cell::text(crate::report::pretty_unit(figure.unit)),
+            with_error(&figure.own),
+            with_error(&figure.reference),
+            with_error(&figure.difference),
+            if figure.differs { errors.judged(Verdict::Bad) } else { errors },
+        ]
+    });
+    Table::new(
+        format!("{what} against the reference"),
         [
             Column::text("Figure"),
             Column::text("Unit"),
@@ -296,28 +275,16 @@ fn figures_table(chart: &Chart, of: &ModelStatistics, figures: &[ComparedFigure]
             Column::number("Difference", ""),
             Column::number("In standard errors", ""),
         ],
-    );
-    for figure in figures {
-        let errors = figure.standard_errors();
-        let with_error = |estimate: &super::Estimate| {
-            let text = format!("{} ± {}", significant(estimate.mean, 4), significant(estimate.standard_error, 2));
-            Cell::text(text).value(estimate.mean)
-        };
-        let judged = Cell::number(errors, 2);
-        table = table.row([
-            Cell::text(&figure.name),
-            Cell::text(crate::report::pretty_unit(figure.unit)),
-            with_error(&figure.own),
-            with_error(&figure.reference),
-            with_error(&figure.difference),
-            if figure.differs(chart.settings.target) { judged.judged(Verdict::Bad) } else { judged },
-        ]);
-    }
-    table
+    )
+    .rows(rows)
 }
 
 fn omissions_section(chart: &Chart) -> Section {
-    let mut table = Table::new(
+    let section = Section::new("Omissions");
+    if chart.omissions().next().is_none() {
+        return section.paragraph("Every candidate that was tried has a point.");
+    }
+    let table = Table::new(
         "Omissions",
         [
             Column::text("Method"),
@@ -326,43 +293,33 @@ fn omissions_section(chart: &Chart) -> Section {
             Column::text("What"),
             Column::text("Why"),
         ],
-    );
-    let mut count = 0;
-    for (place, failure) in chart.omissions() {
+    )
+    .rows(chart.omissions().map(|(place, failure)| {
         let point = &chart.points[place];
-        let (name, value) = point.parameter();
-        table = table.row([
+        let parameter = match point.parameter() {
+            Parameter::StepS(step) => Cell::text(format!("{} µs", significant(1e6 * step, 3))).value(step),
+            Parameter::Tolerance(tolerance) => Cell::number(tolerance, 2),
+        };
+        [
             Cell::text(point.method()),
             Cell::text(point.model_name()),
-            Cell::text(match name {
-                "step_s" => format!("{} µs", significant(1e6 * value, 3)),
-                _ => significant(value, 2),
-            })
-            .value(value),
+            parameter,
             Cell::text(failure.kind.name()),
             Cell::text(&failure.reason),
-        ]);
-        count += 1;
-    }
-    let section = Section::new("Omissions");
-    if count == 0 {
-        section.paragraph("Every candidate that was tried has a point.")
-    } else {
-        section
-            .paragraph("What was tried and has no point in the chart. Within a method and a model steps are refined from the longest on, until that brings nothing more.")
-            .table(table)
-    }
+        ]
+    }));
+    section
+        .paragraph("What was tried and has no point in the chart. Within a method and a model steps are refined from the longest on, until that brings nothing more.")
+        .table(table)
 }
 
 fn points_table(chart: &Chart) -> Table {
-    let mut table = point_table("Points", Column::text("Omitted"));
-    for point in &chart.points {
+    point_table("Points", Column::text("Omitted")).rows(chart.points.iter().map(|point| {
         let omitted = match &point.error {
             Ok(_) if chart.below_floor(point) => "below the floor",
             Ok(_) => "",
             Err(failure) => failure.kind.name(),
         };
-        table = table.row(point_row(Cell::text(omitted), point));
-    }
-    table
+        point_row(Cell::text(omitted), point)
+    }))
 }

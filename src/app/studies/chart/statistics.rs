@@ -1,8 +1,8 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
-use super::systems::Ready;
+use super::starts::{Ready, perturb};
 use super::trace::{Failure, simulate};
-use super::{Settings, Start, perturb};
+use super::{Settings, Start};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::numerics::series::TimeSeries;
@@ -52,22 +52,22 @@ pub struct ComparedFigure {
     pub reference: Estimate,
     /// Of their difference, start by start: what the starts have in common does not count.
     pub difference: Estimate,
+    /// Mean difference in its standard errors; zero where there is no difference at all.
+    #[schemars(with = "Option<f64>")]
+    pub standard_errors: f64,
+    /// Whether it differs by more than chance and the target.
+    pub differs: bool,
 }
 
 impl ComparedFigure {
-    /// Mean difference in its standard errors; zero where there is no difference at all.
-    pub(crate) fn standard_errors(&self) -> f64 {
-        if self.difference.standard_error > 0.0 { self.difference.mean / self.difference.standard_error } else { 0.0 }
-    }
-
     /// Whether the model's figure differs by more than chance (three standard errors) and by more than a relative
     /// `target`; levels by as many decibels as that makes.
-    pub(crate) fn differs(&self, target: f64) -> bool {
+    fn differs_by(&self, target: f64) -> bool {
         let limit = match self.unit {
             "dB" => 20.0 * (1.0 + target).log10(),
             _ => target * self.reference.mean.abs(),
         };
-        self.standard_errors().abs() > BEYOND_CHANCE && self.difference.mean.abs() > limit
+        self.standard_errors.abs() > BEYOND_CHANCE && self.difference.mean.abs() > limit
     }
 }
 
@@ -163,8 +163,8 @@ pub(super) struct FigureSettings {
     pub(super) high_pass_hz: Option<f64>,
 }
 
-/// Figures of an ensemble against those of the reference from the same starts.
-pub(crate) fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>]) -> Vec<ComparedFigure> {
+/// Figures of an ensemble against those of the reference from the same starts; `target` is the relative error that is good enough.
+pub(super) fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>], target: f64) -> Vec<ComparedFigure> {
     let Some(first) = reference.first() else {
         return Vec::new();
     };
@@ -175,13 +175,19 @@ pub(crate) fn compare(own: &[Vec<Figure>], reference: &[Vec<Figure>]) -> Vec<Com
         .map(|(place, figure)| {
             let (own, reference) = (column(own, place), column(reference, place));
             let difference: Vec<f64> = own.iter().zip(&reference).map(|(a, b)| a - b).collect();
-            ComparedFigure {
+            let difference = Estimate::of(&difference);
+            let has_scatter = difference.standard_error > 0.0;
+            let mut compared = ComparedFigure {
                 name: figure.name.clone(),
                 unit: figure.unit,
                 own: Estimate::of(&own),
                 reference: Estimate::of(&reference),
-                difference: Estimate::of(&difference),
-            }
+                difference,
+                standard_errors: if has_scatter { difference.mean / difference.standard_error } else { 0.0 },
+                differs: false,
+            };
+            compared.differs = compared.differs_by(target);
+            compared
         })
         .collect()
 }
@@ -210,21 +216,21 @@ mod tests {
             let figure = |value: &f64| Figure { name: "kurtosis".to_owned(), unit: "", value: *value };
             values.iter().map(|value| vec![figure(value)]).collect()
         };
-        let found = compare(&runs(&[1.5, 10.5, 100.8]), &runs(&[1.0, 10.0, 100.0]));
+        let found = compare(&runs(&[1.5, 10.5, 100.8]), &runs(&[1.0, 10.0, 100.0]), 0.015);
         // differences 0.5, 0.5, 0.8: mean 0.6, standard error 0.1
         assert!((found[0].difference.mean - 0.6).abs() < 1e-12);
-        assert!((found[0].standard_errors() - 6.0).abs() < 1e-9);
+        assert!((found[0].standard_errors - 6.0).abs() < 1e-9);
         assert!(found[0].own.standard_error > 30.0);
         // 0.6 of a mean of 37: 1.6 %
-        assert!(found[0].differs(0.015) && !found[0].differs(0.017));
+        assert!(found[0].differs && found[0].differs_by(0.015) && !found[0].differs_by(0.017));
         let level = ComparedFigure { unit: "dB", ..found[0].clone() };
         // 0.6 dB: 7.15 %
-        assert!(level.differs(0.071) && !level.differs(0.072));
-        let chance = compare(&runs(&[2.0, 10.0]), &runs(&[1.0, 10.0]));
-        assert!(!chance[0].differs(0.01));
-        let same = compare(&runs(&[1.0, 2.0]), &runs(&[1.0, 2.0]));
-        assert!(same[0].standard_errors() <= 0.0);
-        assert!(compare(&[], &[]).is_empty());
+        assert!(level.differs_by(0.071) && !level.differs_by(0.072));
+        let chance = compare(&runs(&[2.0, 10.0]), &runs(&[1.0, 10.0]), 0.01);
+        assert!(!chance[0].differs);
+        let same = compare(&runs(&[1.0, 2.0]), &runs(&[1.0, 2.0]), 0.01);
+        assert!(same[0].standard_errors <= 0.0);
+        assert!(compare(&[], &[], 0.01).is_empty());
     }
 
     #[test]

@@ -1,12 +1,11 @@
 //! What `chart.json` says.
 
 use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Point, PointError, StabilitySummary, StartReference,
-    parameter_of,
+    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, StabilitySummary,
+    StartReference,
 };
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
-use crate::app::scene::RunModel;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -100,16 +99,6 @@ pub struct MethodParameter {
     /// Its step or tolerance.
     #[serde(flatten)]
     pub parameter: Parameter,
-}
-
-/// What of a model is refined, and how far.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Parameter {
-    /// Length of a step, s.
-    StepS(f64),
-    /// Relative tolerance of a step.
-    Tolerance(f64),
 }
 
 /// The reference from one start.
@@ -209,27 +198,13 @@ pub struct ModelStatisticsSummary<'a> {
     /// Index from 0 of its point.
     pub point: usize,
     /// The figures; `None` where there are none.
-    pub figures: Option<Vec<FigureSummary<'a>>>,
+    pub figures: Option<&'a [ComparedFigure]>,
     /// Why there are none.
     pub reason: Option<&'a str>,
 }
 
-/// A figure of a model against that of the reference.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct FigureSummary<'a> {
-    /// The figure.
-    #[serde(flatten)]
-    pub figure: &'a ComparedFigure,
-    /// Mean difference in its standard errors.
-    #[schemars(with = "Option<f64>")]
-    pub standard_errors: f64,
-    /// Whether it differs by more than chance and the target.
-    pub differs: bool,
-}
-
 impl Chart {
     /// What `chart.json` says of it; `case` is the case that it was computed of.
-    #[must_use]
     pub(crate) fn summary<'a>(&'a self, case: &'a Case) -> ChartSummary<'a> {
         let (reference, settings) = (&self.reference, &self.settings);
         let starts = reference.starts.iter();
@@ -268,7 +243,7 @@ impl Chart {
                     point,
                     method: self.points[point].method(),
                     model: self.points[point].model_name(),
-                    parameter: Parameter::of(&self.points[point].model),
+                    parameter: self.points[point].parameter(),
                     kind: failure.kind.name(),
                     reason: &failure.reason,
                 })
@@ -278,7 +253,7 @@ impl Chart {
             over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
             statistics: StatisticsSummary {
                 seconds: settings.statistics_s,
-                models: self.statistics.iter().map(|of| self.figures(of)).collect(),
+                models: self.statistics.iter().map(ModelStatisticsSummary::of).collect(),
             },
         }
     }
@@ -287,34 +262,18 @@ impl Chart {
         PointSummary {
             method: point.method(),
             model: point.model_name(),
-            parameter: Parameter::of(&point.model),
+            parameter: point.parameter(),
             wall_s: point.wall_s,
             below_floor: self.below_floor(point),
             error: ErrorSummary::of(&point.error),
         }
     }
-
-    fn figures<'a>(&self, of: &'a ModelStatistics) -> ModelStatisticsSummary<'a> {
-        let summary = |figure: &'a ComparedFigure| FigureSummary {
-            figure,
-            standard_errors: figure.standard_errors(),
-            differs: figure.differs(self.settings.target),
-        };
-        let figures = of.figures.as_ref();
-        ModelStatisticsSummary {
-            point: of.point,
-            figures: figures.ok().map(|all| all.iter().map(summary).collect()),
-            reason: figures.err().map(String::as_str),
-        }
-    }
 }
 
-impl Parameter {
-    fn of(model: &RunModel) -> Self {
-        match parameter_of(model) {
-            ("tolerance", tolerance) => Self::Tolerance(tolerance),
-            (_, step_s) => Self::StepS(step_s),
-        }
+impl<'a> ModelStatisticsSummary<'a> {
+    fn of(of: &'a ModelStatistics) -> Self {
+        let figures = of.figures.as_deref();
+        Self { point: of.point, figures: figures.ok(), reason: figures.err().map(String::as_str) }
     }
 }
 
@@ -327,8 +286,8 @@ impl<'a> StartSummary<'a> {
             refinements: start.refinements,
             growth_rate_per_s: start.growth.rate_per_s(),
             time_s: start.growth.times_s(),
-            perturbed: start.growth.distances(),
-            methods: start.between.distances(),
+            perturbed: &start.growth.distances,
+            methods: &start.between.distances,
         }
     }
 }

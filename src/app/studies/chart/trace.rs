@@ -95,11 +95,6 @@ impl Trace {
         Ok(Self::of(signals?))
     }
 
-    /// The signals, one a sensor.
-    pub(crate) fn signals(&self) -> &[TimeSeries] {
-        &self.signals
-    }
-
     /// Root of the sum of the sensors' mean squares over the time since the start from `from` to `to` (s).
     ///
     /// # Errors

@@ -2,9 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::app::case::split_argument;
+use crate::app::error::ComputeError;
 
 /// Most values of one key.
 const MOST_VALUES: usize = 100_000;
@@ -18,34 +18,8 @@ pub struct Axis {
     pub values: Vec<String>,
 }
 
-/// Why `KEY=VALUES` says nothing.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum AxisProblem {
-    /// There is no `=` in it, or no key before it.
-    #[error("expected KEY=VALUES, found no `=` with a key before it")]
-    NoKey,
-    /// A value is empty.
-    #[error("value {place} is empty")]
-    Empty {
-        /// Which one, from 1.
-        place: usize,
-    },
-    /// A bracket or a quote does not close.
-    #[error("found `{found}`, expected its brackets and quotes to close")]
-    Open {
-        /// The value as written.
-        found: String,
-    },
-    /// What looks like a range is none.
-    #[error("found the range `{found}`: {reason}")]
-    Range {
-        /// As written.
-        found: String,
-        /// What is wrong with it.
-        reason: &'static str,
-    },
-}
+/// What to write after `--vary`.
+pub(super) const EXAMPLES: &str = "for example: --vary bearing.radial_play=1e-6,2e-6, --vary 'bearing.defects[0].depth=5e-6:20e-6:4' or --vary ring.supports.0.spring.y=1e4:1e7:4:log";
 
 impl Axis {
     /// Reads `KEY=A,B,C`; each item is a value, or a range `FROM:TO:COUNT` (equal differences) or `FROM:TO:COUNT:log`
@@ -58,20 +32,23 @@ impl Axis {
     /// use plummer::app::studies::sweep::Axis;
     /// let axis = Axis::parse("bearing.radial_play=0,1e-6:4e-6:3")?;
     /// assert_eq!(axis.values, ["0", "1e-6", "2.5e-6", "4e-6"]);
-    /// # Ok::<(), plummer::app::studies::sweep::AxisProblem>(())
+    /// # Ok::<(), plummer::app::error::ComputeError>(())
     /// ```
     ///
     /// # Errors
-    /// [`AxisProblem`].
-    pub fn parse(argument: &str) -> Result<Self, AxisProblem> {
-        let (key, text) = split_argument(argument).ok_or(AxisProblem::NoKey)?;
-        if key.is_empty() {
-            return Err(AxisProblem::NoKey);
-        }
+    /// [`ComputeError::Input`] for an argument that says nothing.
+    pub fn parse(argument: &str) -> Result<Self, ComputeError> {
+        Self::read(argument).map_err(|problem| ComputeError::input(format!("--vary {argument}: {problem}"), EXAMPLES))
+    }
+
+    /// As [`parse`](Self::parse), with what is wrong as the error.
+    fn read(argument: &str) -> Result<Self, String> {
+        let no_key = "expected KEY=VALUES, found no `=` with a key before it";
+        let (key, text) = split_argument(argument).filter(|(key, _)| !key.is_empty()).ok_or(no_key)?;
         let mut values = Vec::new();
         for (place, item) in (1..).zip(items(text)?) {
             if item.is_empty() {
-                return Err(AxisProblem::Empty { place });
+                return Err(format!("value {place} is empty"));
             }
             match Range::parse(item)? {
                 Some(range) => values.extend(range.values()),
@@ -82,7 +59,6 @@ impl Axis {
     }
 
     /// The key as a name for columns and arrays: `[0]` as `.0`, quotes left out.
-    #[must_use]
     pub(crate) fn name(&self) -> String {
         plain_name(&self.key)
     }
@@ -95,7 +71,6 @@ impl Axis {
     }
 
     /// The values as numbers; `None` unless all of them are finite ones.
-    #[must_use]
     pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
         let number = |value: &String| value.parse().ok().filter(|number: &f64| number.is_finite());
         self.values.iter().map(number).collect()
@@ -103,7 +78,8 @@ impl Axis {
 }
 
 /// Splits at commas outside brackets, braces and quotes.
-fn items(text: &str) -> Result<Vec<&str>, AxisProblem> {
+fn items(text: &str) -> Result<Vec<&str>, String> {
+    let open = || format!("found `{text}`, expected its brackets and quotes to close");
     let (mut depth, mut quote, mut start) = (0_usize, None, 0);
     let mut items = Vec::new();
     for (at, letter) in text.char_indices() {
@@ -113,7 +89,7 @@ fn items(text: &str) -> Result<Vec<&str>, AxisProblem> {
             (None, '"' | '\'') => quote = Some(letter),
             (None, '[' | '{') => depth += 1,
             (None, ']' | '}') => {
-                depth = depth.checked_sub(1).ok_or_else(|| AxisProblem::Open { found: text.to_owned() })?;
+                depth = depth.checked_sub(1).ok_or_else(open)?;
             }
             (None, ',') if depth == 0 => {
                 items.push(text[start..at].trim());
@@ -123,7 +99,7 @@ fn items(text: &str) -> Result<Vec<&str>, AxisProblem> {
         }
     }
     if depth > 0 || quote.is_some() {
-        return Err(AxisProblem::Open { found: text.to_owned() });
+        return Err(open());
     }
     items.push(text[start..].trim());
     Ok(items)
@@ -142,8 +118,8 @@ struct Range {
 
 impl Range {
     /// `None` for what does not begin with two numbers with a colon between.
-    fn parse(item: &str) -> Result<Option<Self>, AxisProblem> {
-        let wrong = |reason| AxisProblem::Range { found: item.to_owned(), reason };
+    fn parse(item: &str) -> Result<Option<Self>, String> {
+        let wrong = |reason: &str| format!("found the range `{item}`: {reason}");
         let parts: Vec<&str> = item.split(':').map(str::trim).collect();
         let &[first, second, ref rest @ ..] = parts.as_slice() else {
             return Ok(None);
@@ -210,14 +186,17 @@ fn plain_name(key: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, AxisProblem};
+    use super::{Axis, EXAMPLES};
 
     fn values(text: &str) -> Vec<String> {
         Axis::parse(&format!("a.b={text}")).unwrap().values
     }
 
-    fn problem(argument: &str) -> AxisProblem {
-        Axis::parse(argument).unwrap_err()
+    fn problem(argument: &str) -> String {
+        let error = Axis::parse(argument).unwrap_err();
+        assert!(error.is_input() && error.help().as_deref() == Some(EXAMPLES));
+        let message = error.to_string();
+        message.strip_prefix(&format!("--vary {argument}: ")).unwrap().to_owned()
     }
 
     #[test]
@@ -247,12 +226,13 @@ mod tests {
 
     #[test]
     fn what_says_nothing_is_named() {
-        assert_eq!(problem("a.b"), AxisProblem::NoKey);
-        assert_eq!(problem("=1"), AxisProblem::NoKey);
-        assert_eq!(problem("a=1,,2"), AxisProblem::Empty { place: 2 });
-        assert_eq!(problem("a="), AxisProblem::Empty { place: 1 });
+        assert_eq!(problem("a.b"), "expected KEY=VALUES, found no `=` with a key before it");
+        assert_eq!(problem("=1"), problem("a.b"));
+        assert_eq!(problem("a=1,,2"), "value 2 is empty");
+        assert_eq!(problem("a="), "value 1 is empty");
         for open in ["a=[1", "a=1]", "a='x", "a={b=1"] {
-            assert!(matches!(problem(open), AxisProblem::Open { .. }), "{open}");
+            let found = &open[2..];
+            assert_eq!(problem(open), format!("found `{found}`, expected its brackets and quotes to close"));
         }
         for (range, reason) in [
             ("1:2", "expected FROM:TO:COUNT or FROM:TO:COUNT:log"),
@@ -263,7 +243,7 @@ mod tests {
             ("1:inf:3", "expected finite ends"),
             ("0:2:3:log", "equal ratios need ends above 0"),
         ] {
-            assert_eq!(problem(&format!("a={range}")), AxisProblem::Range { found: range.to_owned(), reason });
+            assert_eq!(problem(&format!("a={range}")), format!("found the range `{range}`: {reason}"));
         }
     }
 

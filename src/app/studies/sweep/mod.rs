@@ -9,8 +9,6 @@
 //! its housing anew: condense a large one once and name it by `housing.superelement`.
 
 mod axis;
-mod error;
-mod npz;
 mod outputs;
 mod plan;
 mod record;
@@ -19,14 +17,13 @@ mod result;
 mod slurm;
 mod summary;
 
-pub use axis::{Axis, AxisProblem};
-pub use error::SweepError;
-pub(crate) use npz::write_sweep_npz;
+pub use axis::Axis;
+pub use outputs::Output;
 pub(crate) use outputs::outputs_of;
-pub use outputs::{Output, OutputValue};
 pub use plan::{Plan, SweepPoint, SweptCommand};
 pub use record::{PointRecord, PointState};
 pub(crate) use report::sweep_report;
+pub(crate) use result::write_sweep_npz;
 pub use result::{PointResult, PointWarning, SweepResult};
 pub use slurm::SlurmScripts;
 pub(crate) use slurm::slurm_scripts;

@@ -16,17 +16,8 @@ pub struct Output {
     pub unit: &'static str,
     /// What it belongs to in plots: outputs of one group share an axis. `None`: not plotted.
     pub group: Option<&'static str>,
-    /// Its value.
-    pub value: OutputValue,
-}
-
-/// A number or a text.
-#[derive(Debug, Clone, PartialEq)]
-pub enum OutputValue {
-    /// A number; NaN where the result has none.
-    Number(f64),
-    /// A text.
-    Text(String),
+    /// A number, null where the result has none, or a text.
+    pub value: Value,
 }
 
 /// The figures of a result: the content of `run.json` or `modes.json`.
@@ -34,7 +25,6 @@ pub enum OutputValue {
 /// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `peak`, `kurtosis` and `named` (the parts that
 /// are called damaged), the estimated error, the equilibrium's shaft position and largest force, times. Of modes: mass,
 /// frequencies `frequency.k`, and `loaded.k` where contacts are linearised.
-#[must_use]
 pub(crate) fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
     match command {
         SweptCommand::Run => of_run(result),
@@ -44,20 +34,12 @@ pub(crate) fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
 
 fn of_run(result: &Value) -> Vec<Output> {
     let mut outputs = Vec::new();
-    let mut sensors: Vec<(&str, usize)> = Vec::new();
-    for window in result["windows"].as_array().into_iter().flatten() {
-        let sensor = window["sensor"].as_str().unwrap_or_default();
-        let count = match sensors.iter_mut().find(|(name, _)| *name == sensor) {
-            Some((_, count)) => {
-                *count += 1;
-                *count
-            }
-            None => {
-                sensors.push((sensor, 1));
-                1
-            }
-        };
-        let name = |what: &str| format!("{}.{count}.{what}", plain(sensor));
+    let windows = result["windows"].as_array().map_or(&[][..], Vec::as_slice);
+    let sensor = |window: &'_ Value| window["sensor"].as_str().unwrap_or_default().to_owned();
+    for (place, window) in windows.iter().enumerate() {
+        let sensor_name = sensor(window);
+        let count = windows[..=place].iter().filter(|other| sensor(other) == sensor_name).count();
+        let name = |what: &str| format!("{}.{count}.{what}", plain(&sensor_name));
         outputs.push(number(name("speed_hz"), "Hz", None, &window["speed_hz"]));
         for (what, unit, group) in
             [("rms", "m/s^2", "Root mean square"), ("peak", "m/s^2", "Peak"), ("kurtosis", "", "Kurtosis")]
@@ -68,7 +50,7 @@ fn of_run(result: &Value) -> Vec<Output> {
             name: name("named"),
             unit: "",
             group: None,
-            value: OutputValue::Text(named(&window["verdict"])),
+            value: Value::String(named(&window["verdict"])),
         });
     }
     let equilibrium = &result["equilibrium"];
@@ -119,7 +101,7 @@ fn of_modes(result: &Value) -> Vec<Output> {
 }
 
 fn number(name: impl Into<String>, unit: &'static str, group: Option<&'static str>, value: &Value) -> Output {
-    Output { name: name.into(), unit, group, value: OutputValue::Number(value.as_f64().unwrap_or(f64::NAN)) }
+    Output { name: name.into(), unit, group, value: value.as_f64().map_or(Value::Null, Value::from) }
 }
 
 /// A sensor's name as part of an array's.
@@ -134,9 +116,9 @@ fn plain(name: &str) -> String {
 mod tests {
     use serde_json::json;
 
-    use super::{OutputValue, SweptCommand, outputs_of};
+    use super::{SweptCommand, Value, outputs_of};
 
-    fn found(command: SweptCommand, result: &serde_json::Value) -> Vec<(String, OutputValue)> {
+    fn found(command: SweptCommand, result: &Value) -> Vec<(String, Value)> {
         let outputs = outputs_of(command, result).into_iter();
         outputs.map(|output| (output.name, output.value)).collect()
     }
@@ -160,16 +142,15 @@ mod tests {
             let found = found.iter().find(|(other, _)| other == name);
             found.map(|(_, value)| value.clone())
         };
-        let text = |text: &str| Some(OutputValue::Text(text.to_owned()));
-        assert_eq!(value("P_1.1.rms"), Some(OutputValue::Number(1.0)));
-        assert_eq!(value("P_1.2.rms"), Some(OutputValue::Number(4.0)));
-        assert_eq!(value("top.1.rms"), Some(OutputValue::Number(5.0)));
+        let text = |text: &str| Some(Value::from(text));
+        assert_eq!(value("P_1.1.rms"), Some(Value::from(1.0)));
+        assert_eq!(value("P_1.2.rms"), Some(Value::from(4.0)));
+        assert_eq!(value("top.1.rms"), Some(Value::from(5.0)));
         assert_eq!(value("P_1.1.named"), text("ball, cage"));
         assert_eq!(value("P_1.2.named"), text("none"));
-        assert_eq!(value("largest_static_force"), Some(OutputValue::Number(3.0)));
-        assert_eq!(value("shaft_y"), Some(OutputValue::Number(-2e-6)));
-        let Some(OutputValue::Number(error)) = value("estimated_error") else { panic!("a number") };
-        assert!(error.is_nan());
+        assert_eq!(value("largest_static_force"), Some(Value::from(3.0)));
+        assert_eq!(value("shaft_y"), Some(Value::from(-2e-6)));
+        assert_eq!(value("estimated_error"), Some(Value::Null));
     }
 
     #[test]
@@ -179,9 +160,9 @@ mod tests {
             "loaded": { "modes": [{ "frequency_hz": 7.5 }] },
         });
         let found = found(SweptCommand::Modes, &result);
-        assert_eq!(found[0], ("mass".to_owned(), OutputValue::Number(0.1)));
-        assert_eq!(found[20], ("frequency.20".to_owned(), OutputValue::Number(20.0)));
-        assert_eq!(found[21], ("loaded.1".to_owned(), OutputValue::Number(7.5)));
+        assert_eq!(found[0], ("mass".to_owned(), Value::from(0.1)));
+        assert_eq!(found[20], ("frequency.20".to_owned(), Value::from(20.0)));
+        assert_eq!(found[21], ("loaded.1".to_owned(), Value::from(7.5)));
         assert_eq!(found.len(), 22);
     }
 }

@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Axis, SweepError};
+use super::Axis;
+use super::axis::EXAMPLES;
 use crate::app::case::{Case, Purpose, Source};
 use crate::app::commands::run::unfinished::RunIdentity;
+use crate::app::error::ComputeError;
 use crate::files;
 
 /// Most points of a sweep: each has a folder.
@@ -25,7 +27,6 @@ pub enum SweptCommand {
 
 impl SweptCommand {
     /// The command's name on the command line; its result file is `NAME.json`.
-    #[must_use]
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
@@ -34,7 +35,6 @@ impl SweptCommand {
     }
 
     /// What a case is to be used for at each point.
-    #[must_use]
     pub(crate) fn purpose(self) -> Purpose {
         match self {
             Self::Run => Purpose::Run,
@@ -73,33 +73,36 @@ impl Plan {
     /// Plans a sweep of a case that has been read.
     ///
     /// # Errors
-    /// [`SweepError::NothingVaried`], [`SweepError::Twice`], [`SweepError::SetAndVaried`], [`SweepError::TooMany`]; [`SweepError::Stage`] for a mesh that
-    /// cannot be read, [`SweepError::Io`] if the working folder is unknown.
-    pub fn new(case: &Case, command: SweptCommand, axes: Vec<Axis>) -> Result<Self, SweepError> {
+    /// [`ComputeError::Input`] if nothing is varied, a key is varied twice or has a value beside, or there are more points than 100,000;
+    /// that of a mesh that cannot be read; [`ComputeError::Failed`] if the working folder is unknown.
+    pub fn new(case: &Case, command: SweptCommand, axes: Vec<Axis>) -> Result<Self, ComputeError> {
         if axes.is_empty() {
-            return Err(SweepError::NothingVaried);
+            let what = "nothing is varied: expected at least one --vary KEY=VALUES";
+            return Err(ComputeError::input(what, EXAMPLES));
         }
         for (place, axis) in axes.iter().enumerate() {
-            let key = || axis.key.clone();
+            let key = &axis.key;
             let both = |other: &Axis| other.sets(&axis.key) || axis.sets(&other.key);
             if axes[..place].iter().any(both) {
-                return Err(SweepError::Twice { key: key() });
+                let what = format!("--vary {key}: the key is varied twice");
+                return Err(ComputeError::input(what, "put all its values into one --vary"));
             }
             let mut set = case.source.set.iter();
             let set = set.find(|set| set.split_once('=').is_some_and(|(key, _)| axis.sets(key)));
             if let Some(set) = set {
-                return Err(SweepError::SetAndVaried { key: key(), set: set.clone() });
+                let what = format!("--vary {key}: --set {set} gives the same key one value");
+                return Err(ComputeError::input(what, "leave one of the two out"));
             }
         }
         let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
-        match count {
-            Some(count) if count <= MOST_POINTS => {}
-            _ => return Err(SweepError::TooMany { most: MOST_POINTS }),
+        if count.is_none_or(|count| count > MOST_POINTS) {
+            let what = format!("the product of all --vary has more than {MOST_POINTS} points");
+            return Err(ComputeError::input(what, "fewer values, or several sweeps"));
         }
         let path = &case.source.path;
         Ok(Self {
             command,
-            case: std::path::absolute(path).map_err(|source| SweepError::Io { path: path.clone(), source })?,
+            case: std::path::absolute(path).map_err(ComputeError::io(path))?,
             identity: RunIdentity::of(case)?,
             set: case.source.set.clone(),
             axes,
@@ -107,13 +110,11 @@ impl Plan {
     }
 
     /// Number of points: the product of the axes' lengths.
-    #[must_use]
     pub(crate) fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
     /// A point by its number, 1 to [`Plan::count`].
-    #[must_use]
     pub(crate) fn point(&self, number: usize) -> SweepPoint {
         let mut rest = number.saturating_sub(1);
         let mut places = vec![0; self.axes.len()];
@@ -150,13 +151,13 @@ impl Plan {
     /// Whether a result is of a point's case: of its arguments and, while the case file is as it was planned, of its values.
     ///
     /// # Errors
-    /// [`SweepError::OtherPoint`].
+    /// [`ComputeError::Input`] if it is not.
     pub(super) fn belongs(
         &self,
         point: &SweepPoint,
         file: &Path,
         result: &serde_json::Value,
-    ) -> Result<(), SweepError> {
+    ) -> Result<(), ComputeError> {
         let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
         let text = files::read(&self.case).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let text = text.filter(|text| self.identity.is_of_text(text));
@@ -170,19 +171,20 @@ impl Plan {
         if same_values && !other {
             return Ok(());
         }
-        Err(SweepError::OtherPoint {
-            file: file.to_owned(),
-            number: point.number,
-            expected: point.set.clone(),
-            found: match other {
-                true => set.unwrap_or_default(),
-                false => vec!["the same keys of another case".to_owned()],
-            },
-        })
+        let found = match other {
+            true => set.unwrap_or_default(),
+            false => vec!["the same keys of another case".to_owned()],
+        };
+        let words = |set: &[String]| set.iter().map(|set| format!("--set {set}")).collect::<Vec<_>>().join(" ");
+        let (number, expected, found) = (point.number, words(&point.set), words(&found));
+        let folder = file.parent().unwrap_or(file).display();
+        Err(ComputeError::input(
+            format!("{} is not the result of point {number}: expected {expected}, found {found}", file.display()),
+            format!("remove the folder {folder} and compute the point again with --resume"),
+        ))
     }
 
     /// The folder of a point in that of the sweep.
-    #[must_use]
     pub(crate) fn folder(&self, sweep: &Path, number: usize) -> PathBuf {
         // as many digits as the last one has, so that lists of files are in order
         let digits = self.count().to_string().len();
@@ -190,7 +192,6 @@ impl Plan {
     }
 
     /// What is not the same in another plan, in words.
-    #[must_use]
     pub(crate) fn changes(&self, now: &Self) -> Vec<String> {
         let mut changes = self.identity.changes(&now.identity);
         if self.command != now.command {
@@ -211,7 +212,7 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, Case, Plan, SweepError, SweptCommand};
+    use super::{Axis, Case, ComputeError, Plan, SweptCommand};
     use std::path::Path;
 
     fn axes(arguments: &[&str]) -> Vec<Axis> {
@@ -219,7 +220,7 @@ mod tests {
         arguments.iter().map(parse).collect()
     }
 
-    fn plan(arguments: &[&str]) -> Result<Plan, SweepError> {
+    fn plan(arguments: &[&str]) -> Result<Plan, ComputeError> {
         let case = Case::example("tadina2011/beam", &["modes.count=3"]);
         Plan::new(&case, SweptCommand::Modes, axes(arguments))
     }
@@ -246,18 +247,22 @@ mod tests {
 
     #[test]
     fn what_is_no_plan_is_refused() {
-        assert!(matches!(plan(&[]), Err(SweepError::NothingVaried)));
-        let twice = plan(&["bearing.defects[0].depth=1", "bearing.defects.0.depth=2"]);
-        assert!(matches!(twice, Err(SweepError::Twice { .. })));
+        let message = |arguments: &[&str]| {
+            let error = plan(arguments).unwrap_err();
+            assert!(error.is_input() && error.help().is_some());
+            error.to_string()
+        };
+        assert_eq!(message(&[]), "nothing is varied: expected at least one --vary KEY=VALUES");
+        let twice = message(&["bearing.defects[0].depth=1", "bearing.defects.0.depth=2"]);
+        assert_eq!(twice, "--vary bearing.defects.0.depth: the key is varied twice");
         // the case is set to three modes
         for axis in ["modes.count=3,4", "modes=1,2"] {
-            let set = plan(&[axis]);
-            assert!(matches!(set, Err(SweepError::SetAndVaried { .. })), "{axis}");
+            assert!(message(&[axis]).ends_with(": --set modes.count=3 gives the same key one value"), "{axis}");
         }
-        let within = plan(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
-        assert!(matches!(within, Err(SweepError::Twice { .. })));
-        let many = plan(&["ring.nodes=1:1000:1000", "bearing.balls=1:101:101"]);
-        assert!(matches!(many, Err(SweepError::TooMany { .. })));
+        let within = message(&["bearing.defects[0].depth=1", "bearing.defects=[]"]);
+        assert_eq!(within, "--vary bearing.defects: the key is varied twice");
+        let many = message(&["ring.nodes=1:1000:1000", "bearing.balls=1:101:101"]);
+        assert_eq!(many, "the product of all --vary has more than 100000 points");
     }
 
     #[test]

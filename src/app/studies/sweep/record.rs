@@ -30,7 +30,6 @@ pub enum PointState {
 
 impl PointState {
     /// Its name in tables.
-    #[must_use]
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Done => "done",
@@ -41,7 +40,6 @@ impl PointState {
     }
 
     /// Whether there are results.
-    #[must_use]
     pub(crate) fn has_result(self) -> bool {
         matches!(self, Self::Done | Self::Bad)
     }
@@ -49,20 +47,17 @@ impl PointState {
 
 impl PointRecord {
     /// The record's file in a point's folder.
-    #[must_use]
     pub(crate) fn file(folder: &Path) -> PathBuf {
         folder.join("point.json")
     }
 
     /// Reads a point's record; `None` while there is none that can be read.
-    #[must_use]
     pub(crate) fn read(folder: &Path) -> Option<Self> {
         let text = std::fs::read(Self::file(folder)).ok()?;
         serde_json::from_slice(&text).ok()
     }
 
     /// What is there of a point, by its record and whether its folder has a result.
-    #[must_use]
     pub(crate) fn state(record: Option<&Self>, has_result: bool) -> PointState {
         match record.map(|record| (record.exit_code, has_result)) {
             Some((Some(0), true)) => PointState::Done,

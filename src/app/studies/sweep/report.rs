@@ -10,7 +10,6 @@ const MOST_CURVES: usize = 12;
 /// The report of a sweep: what was varied, plots of its figures, points that are not done, the table.
 ///
 /// `command` is the command line that computes it again.
-#[must_use]
 pub(crate) fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report {
     let done = result.count(PointState::Done);
     let all = result.points.len();
@@ -30,9 +29,7 @@ pub(crate) fn sweep_report(title: &str, result: &SweepResult, command: &str) -> 
     if missing > 0 {
         report = report.warning(format!("{missing} of {all} points are not computed."));
     }
-    for warning in result.warnings() {
-        report = report.warning(warning.sentence(all));
-    }
+    report.warnings.extend(result.warnings().iter().map(|warning| warning.sentence(all)));
     report
         .assumption("Each point is computed by itself, in a process and a folder of its own: folders sweep/NUMBER beside this report hold its files.")
         .section(Section::new("All points").table(result.table()))
@@ -61,22 +58,21 @@ fn not_done(result: &SweepResult) -> Section {
         Column::text("exit code"),
         Column::text("message"),
     ];
-    let mut table = Table::new("Points that are not done", columns);
-    for point in result.not_done() {
+    let table = Table::new("Points that are not done", columns).rows(result.not_done().map(|point| {
         let axes = result.plan.axes.iter().zip(&point.point.values);
         let values: Vec<String> = axes.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
         let record = point.record.as_ref();
         let code = record.map_or_else(String::new, |record| {
             record.exit_code.map_or_else(|| "ended by a signal".to_owned(), |code| code.to_string())
         });
-        table = table.row([
+        [
             Cell::text(point.point.number.to_string()).value(point.point.number as f64),
             Cell::text(values.join(", ")),
             Cell::text(point.state.name()),
             Cell::text(code),
             Cell::text(record.map_or("", |record| record.message.as_str())),
-        ]);
-    }
+        ]
+    }));
     Section::new("Points that are not done").table(table)
 }
 
@@ -112,9 +108,7 @@ fn plots(result: &SweepResult) -> Vec<Plot> {
         let mut plot = Plot::new(*group, x(), PlotAxis::new(*group, unit));
         let curves: Vec<Curve> = of_group.iter().flat_map(|column| curves(result, place, column)).collect();
         let left_out = curves.len().saturating_sub(MOST_CURVES);
-        for curve in curves.into_iter().take(MOST_CURVES) {
-            plot = plot.curve(curve);
-        }
+        plot.curves = curves.into_iter().take(MOST_CURVES).collect();
         if left_out > 0 {
             plot = plot.caption(format!("{left_out} further curves are in the table alone."));
         }

@@ -7,7 +7,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Output, OutputValue, Plan, PointRecord, PointState, SweepError, SweepPoint, outputs_of};
+use super::{Output, Plan, PointRecord, PointState, SweepPoint, outputs_of};
+use crate::app::error::ComputeError;
+use crate::formats::{FormatError, NpzWriter};
 use crate::report::{Cell, Column, Table};
 
 /// One point with what became of it.
@@ -82,8 +84,8 @@ impl SweepResult {
     /// Reads what the points of a plan left below the folder of the sweep.
     ///
     /// # Errors
-    /// [`SweepError::OtherPoint`] for a result of other values than its point has.
-    pub fn collect(plan: Plan, sweep: &Path) -> Result<Self, SweepError> {
+    /// [`ComputeError::Input`] for a result of other values than its point has.
+    pub fn collect(plan: Plan, sweep: &Path) -> Result<Self, ComputeError> {
         let points = plan.points().map(|point| {
             let folder = plan.folder(sweep, point.number);
             let file = folder.join(format!("{}.json", plan.command.name()));
@@ -98,16 +100,15 @@ impl SweepResult {
                 Some(result) if state.has_result() => outputs_of(plan.command, result),
                 _ => Vec::new(),
             };
-            let told = result.as_ref().and_then(|result| result["warnings"].as_array());
-            let told = told.into_iter().flatten().filter_map(Value::as_str);
-            Ok(PointResult { warnings: told.map(str::to_owned).collect(), point, state, record, outputs })
+            let warnings = result.as_ref().and_then(|result| result["warnings"].as_array());
+            let warnings = warnings.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
+            Ok(PointResult { point, state, record, outputs, warnings })
         });
-        let points = points.collect::<Result<_, SweepError>>()?;
+        let points = points.collect::<Result<_, ComputeError>>()?;
         Ok(Self { plan, points })
     }
 
     /// Number of points in a state.
-    #[must_use]
     pub(crate) fn count(&self, state: PointState) -> usize {
         let points = self.points.iter();
         points.filter(|point| point.state == state).count()
@@ -120,7 +121,6 @@ impl SweepResult {
     }
 
     /// What the points' results warn of, in the order in which it first occurs.
-    #[must_use]
     pub(crate) fn warnings(&self) -> Vec<PointWarning> {
         let mut all: Vec<PointWarning> = Vec::new();
         for point in &self.points {
@@ -169,34 +169,18 @@ impl SweepResult {
     }
 
     fn values_of(&self, kind: &Output) -> Values {
-        let value = |point: &PointResult| {
-            let mut outputs = point.outputs.iter();
-            let found = outputs.find(|output| output.name == kind.name);
-            found.map(|output| output.value.clone())
-        };
-        let values = self.points.iter().map(value);
-        match kind.value {
-            OutputValue::Number(_) => Values::Numbers(
-                values
-                    .map(|value| match value {
-                        Some(OutputValue::Number(number)) => number,
-                        _ => f64::NAN,
-                    })
-                    .collect(),
-            ),
-            OutputValue::Text(_) => Values::Texts(
-                values
-                    .map(|value| match value {
-                        Some(OutputValue::Text(text)) => text,
-                        _ => String::new(),
-                    })
-                    .collect(),
-            ),
+        let values = self.points.iter().map(|point| {
+            let output = point.outputs.iter().find(|output| output.name == kind.name);
+            output.map(|output| &output.value)
+        });
+        if kind.value.is_string() {
+            Values::Texts(values.map(|value| value.and_then(Value::as_str).unwrap_or_default().to_owned()).collect())
+        } else {
+            Values::Numbers(values.map(|value| value.and_then(Value::as_f64).unwrap_or(f64::NAN)).collect())
         }
     }
 
     /// The table: a row a point.
-    #[must_use]
     pub(crate) fn table(&self) -> Table {
         let columns = self.columns();
         let mut heads = vec![Column::number("point", "")];
@@ -204,19 +188,50 @@ impl SweepResult {
             Values::Numbers(_) => Column::number(column.name.clone(), column.unit),
             Values::Texts(_) => Column::text(column.name.clone()),
         }));
-        let mut table = Table::new("Points", heads);
-        for (row, point) in self.points.iter().enumerate() {
+        Table::new("Points", heads).rows(self.points.iter().enumerate().map(|(row, point)| {
             let number = point.point.number;
-            let mut cells = vec![Cell::text(number.to_string()).value(number as f64)];
-            cells.extend(columns.iter().map(|column| match &column.values {
-                Values::Numbers(numbers) if numbers[row].is_finite() => Cell::number(numbers[row], 5),
-                Values::Numbers(_) => Cell::text("–"),
+            let cells = columns.iter().map(move |column| match &column.values {
+                Values::Numbers(numbers) => Cell::number_or(Some(numbers[row]).filter(|x| x.is_finite()), 5, "–"),
                 Values::Texts(texts) => Cell::text(texts[row].clone()),
-            }));
-            table = table.row(cells);
-        }
-        table
+            });
+            std::iter::once(Cell::text(number.to_string()).value(number as f64)).chain(cells)
+        }))
     }
+}
+
+/// Writes `sweep.npz`: an array a column of the table, one entry a point, by the column's name (numbers as f64, NaN where there
+/// is none; texts as `<U`), `point` (the numbers, i64), and `shape`, the lengths of the axes: `a[name].reshape(a["shape"])` has
+/// an index an axis.
+///
+/// # Errors
+/// [`FormatError`] when the file cannot be written; an earlier one is then as it was.
+pub(crate) fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), FormatError> {
+    let mut archive = NpzWriter::create(path)?;
+    let whole = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
+    let axes = result.plan.axes.iter();
+    let shape: Vec<i64> = axes.map(|axis| whole(axis.values.len())).collect();
+    archive.array("shape", &shape)?;
+    let points = result.points.iter();
+    let numbers: Vec<i64> = points.map(|point| whole(point.point.number)).collect();
+    archive.array("point", &numbers)?;
+    for column in result.columns() {
+        let name = array_name(&column.name);
+        match &column.values {
+            Values::Numbers(numbers) => archive.array(&name, numbers)?,
+            Values::Texts(texts) => {
+                let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+                archive.texts(&name, &texts)?;
+            }
+        }
+    }
+    archive.finish()
+}
+
+/// Without what the name of an array cannot have.
+fn array_name(name: &str) -> String {
+    let allowed = |letter: char| letter.is_alphanumeric() || "_-. ".contains(letter);
+    let plain = |letter: char| if allowed(letter) { letter } else { '_' };
+    name.chars().map(plain).collect()
 }
 
 #[cfg(test)]
@@ -224,6 +239,7 @@ pub(super) mod tests {
     use super::*;
     use crate::app::case::Case;
     use crate::app::studies::sweep::{Axis, SweptCommand};
+    use crate::formats::NpzReader;
 
     /// Four points of modes: done, done with a bad answer, failed, not computed.
     pub(in crate::app::studies::sweep) fn four() -> SweepResult {
@@ -292,5 +308,22 @@ pub(super) mod tests {
              3,72,exact-arc,failed,0.25,,,,\r\n\
              4,72,raveendranath,not computed,,,,,\r\n"
         );
+    }
+
+    #[test]
+    fn every_column_is_an_array() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sweep.npz");
+        write_sweep_npz(&path, &four()).unwrap();
+        let mut read = NpzReader::open(&path).unwrap();
+        assert_eq!(read.i64("shape").unwrap().values, [2, 2]);
+        assert_eq!(read.i64("point").unwrap().values, [1, 2, 3, 4]);
+        assert_eq!(read.f64("ring.nodes").unwrap().values, [36.0, 36.0, 72.0, 72.0]);
+        let first = read.f64("frequency.1").unwrap().values;
+        assert_eq!(first[..2], [8200.5, 8100.0]);
+        assert!(first[2].is_nan() && first[3].is_nan());
+        assert_eq!(read.texts("state").unwrap().values, ["done", "bad answer", "failed", "not computed"]);
+        let element = read.texts("ring.element").unwrap().values;
+        assert_eq!(element[1], "raveendranath");
     }
 }

@@ -19,7 +19,6 @@ pub struct SlurmScripts {
 /// is submitted again goes on where it was stopped.
 ///
 /// `program` and `folder` are absolute paths which all machines of the cluster see; `threads` the cores of a task.
-#[must_use]
 pub(crate) fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize) -> SlurmScripts {
     let [program_word, folder_word] = [program, folder].map(|path| shell_word(&path.to_string_lossy()));
     let name = folder.file_name().map_or_else(|| "sweep".into(), |name| name.to_string_lossy());

@@ -71,7 +71,6 @@ pub struct ScriptsSummary<'a> {
 
 impl SweepResult {
     /// What `sweep.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> SweepSummary<'_> {
         SweepSummary {
             of: self.plan.command.name(),

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::super::beams::ring;
-use super::{Family, Series, VerificationError};
+use super::{Family, series};
+use crate::app::verification::section::VerificationError;
 use crate::numerics::linalg::symmetric_generalised_eigen;
 
 /// Elements of the coarsest ring; each of the others has twice as many as the one before.
@@ -12,6 +13,9 @@ const ELEMENTS: usize = 24;
 const RINGS: u32 = 4;
 /// Radius over thickness.
 const SLENDERNESS: f64 = 5.0;
+
+/// What a size is, and its unit.
+const SIZE: [&str; 2] = ["Arc of an element", "rad"];
 
 pub(super) fn rings() -> Result<Family, VerificationError> {
     let squared = (0..RINGS).map(|halving| {
@@ -24,17 +28,17 @@ pub(super) fn rings() -> Result<Family, VerificationError> {
         // three rigid motions, then a pair for each number of waves
         let frequency = |values: &Vec<f64>| values[2 * waves - 1].sqrt();
         let pairs = squared.windows(2);
-        Series {
-            name: format!("thick ring with {waves} waves"),
-            sizes: (0..RINGS - 1).map(|halving| TAU / (ELEMENTS << halving) as f64).collect(),
-            errors: pairs.map(|pair| frequency(&pair[0]) / frequency(&pair[1]) - 1.0).collect(),
-            theory: 2.0,
-            limit: 0.05,
-        }
+        series(
+            format!("thick ring with {waves} waves"),
+            SIZE,
+            (0..RINGS - 1).map(|halving| TAU / (ELEMENTS << halving) as f64).collect(),
+            pairs.map(|pair| frequency(&pair[0]) / frequency(&pair[1]) - 1.0).collect(),
+            [2.0, 0.05],
+        )
     };
     Ok(Family {
         title: "Frequencies of a ring of beams",
-        size: ["Arc of an element", "rad"],
+        size: SIZE,
         source: "What inertia between exact nodes leaves out: shear and stretch under the load p L inside an element, of second order in its length L",
         assumptions: "Free ring, radius over thickness 5, 24 to 192 exact arcs; error: the difference from the ring of twice as many elements.",
         reason: "The next term, of fourth order, is less than a tenth of the first at 96 elements.",

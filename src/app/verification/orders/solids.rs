@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::structured_mesh::{BODY, StructuredMesh};
-use super::{Family, Series, VerificationError};
+use super::{Family, series};
+use crate::app::verification::section::{OrdersSummary, VerificationError};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::material::Material;
@@ -33,18 +34,21 @@ const ROWS: [Row; 4] = [
     (ElementKind::Tet10, LinearFormulation::Plain, &[1, 2, 3], 0.075),
 ];
 
+/// What a size is, and its unit.
+const SIZE: [&str; 2] = ["Element size", "m"];
+
 pub(super) fn solids() -> Result<Family, VerificationError> {
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     for (kind, linear, divisions, limit) in ROWS {
-        series.extend(of_element(kind, linear, divisions, limit)?);
+        all.extend(of_element(kind, linear, divisions, limit)?);
     }
     Ok(Family {
         title: "Frequencies of solids",
-        size: ["Element size", "m"],
-        source: "Strang and Fix, An Analysis of the Finite Element Method, ch. 6: eigenvalues converge with order 2 p, p the degree; standing waves in closed form",
-        assumptions: "Box of 1 x 0.8 x 0.25 m between frictionless rigid walls: f = c |k| / (2 pi), k = pi (l/L, m/W, n/H), c that of shear waves and of pressure waves; meshes of 4 x 3 x 1 cells, divided further.",
-        reason: "Theory is for sizes that go to zero: 0.1 of the order with hexahedra; six tetrahedra a cell are coarser along one diagonal and 0.3 away at three divisions, rising.",
-        series,
+        size: SIZE,
+        source: "Strang and Fix, An Analysis of the Finite Element Method, ch. 6: eigenvalues converge with order 2 p, p the degree. Standing waves in closed form",
+        assumptions: "Box of 1 x 0.8 x 0.25 m between frictionless rigid walls. Frequencies: f = c |k| / (2 pi), k = pi (l/L, m/W, n/H). The speed c is that of shear waves and of pressure waves. Meshes of 4 x 3 x 1 cells, divided further.",
+        reason: "Theory is for sizes that go to zero: 0.1 of the order with hexahedra. Six tetrahedra a cell are coarser along one diagonal and 0.3 away at three divisions, rising.",
+        series: all,
     })
 }
 
@@ -53,21 +57,19 @@ fn of_element(
     linear: LinearFormulation,
     divisions: &[usize],
     limit: f64,
-) -> Result<Vec<Series>, VerificationError> {
+) -> Result<Vec<OrdersSummary>, VerificationError> {
     let exact = standing_waves()?;
     let found = divisions.iter().map(|&n| frequencies(kind, linear, n));
     let found = found.collect::<Result<Vec<_>, _>>()?;
     let incompatible = kind == ElementKind::Hex8 && linear == LinearFormulation::Incompatible;
     let name = if incompatible { "Hex8 incompatible" } else { kind.name() };
     let degree = kind.order() as f64;
-    let series = |mode: usize| Series {
-        name: format!("{name}, wave {}", mode + 1),
-        sizes: divisions.iter().map(|&n| BOX[2] / n as f64).collect(),
-        errors: found.iter().map(|found| found[mode] / exact[mode] - 1.0).collect(),
-        theory: 2.0 * degree,
-        limit,
+    let of_mode = |mode: usize| {
+        let sizes = divisions.iter().map(|&n| BOX[2] / n as f64).collect();
+        let errors = found.iter().map(|found| found[mode] / exact[mode] - 1.0).collect();
+        series(format!("{name}, wave {}", mode + 1), SIZE, sizes, errors, [2.0 * degree, limit])
     };
-    Ok((0..MODES).map(series).collect())
+    Ok((0..MODES).map(of_mode).collect())
 }
 
 fn material() -> Result<Material, VerificationError> {

@@ -1,8 +1,9 @@
 //! Integrators on the preloaded bearing: the same signal with ever smaller steps.
 
 use super::super::built_in::{SMOOTH, built_in};
-use super::{Family, Series, VerificationError};
+use super::{Family, series};
 use crate::app::commands::run::compute_run;
+use crate::app::verification::section::VerificationError;
 use crate::numerics::Unwatched;
 use crate::numerics::series::TimeSeries;
 
@@ -20,30 +21,28 @@ const METHODS: [(&str, f64); 5] = [
     ("generalized-alpha", 2.0),
 ];
 
+/// What a size is, and its unit.
+const SIZE: [&str; 2] = ["Step", "s"];
+
 pub(super) fn steps() -> Result<Family, VerificationError> {
     let steps = STEPS.map(|count| 1.0 / (OUTPUT_HZ * f64::from(count)));
     let exact = |step: &f64| signal("dop853", *step, Some("transient.tolerance=1e-12"));
     let exact = steps.iter().map(exact);
     let exact = exact.collect::<Result<Vec<_>, VerificationError>>()?;
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     for (method, theory) in METHODS {
         let errors = steps.iter().zip(&exact);
         let errors = errors.map(|(&step, exact)| Ok(difference(&signal(method, step, None)?, exact)));
-        series.push(Series {
-            name: method.to_owned(),
-            errors: errors.collect::<Result<_, VerificationError>>()?,
-            sizes: steps.to_vec(),
-            theory,
-            limit: 0.05,
-        });
+        let errors = errors.collect::<Result<_, VerificationError>>()?;
+        all.push(series(method.to_owned(), SIZE, steps.to_vec(), errors, [theory, 0.05]));
     }
     Ok(Family {
         title: "Signals by integrators",
-        size: ["Step", "s"],
+        size: SIZE,
         source: "Hairer, Lubich, Wanner, Geometric Numerical Integration, for the second order of one-step methods; Hochbruck, Ostermann, Acta Numerica 19 (2010) 209, for exponential Adams methods",
-        assumptions: "examples/scenes/smooth.toml, 0.25 ms from rest with 14 modes: no impact, and no ball passes the end of a ring element, where accelerations have a kink. Root mean square of the acceleration's difference from dop853 at a tolerance of 1e-12, over that of the acceleration; both are sampled at the step, whose filter they share.",
+        assumptions: "examples/scenes/smooth.toml, 0.25 ms from rest with 14 modes: no impact, and no ball passes the end of a ring element, where accelerations have a kink. Root mean square of the acceleration's difference from dop853 at a tolerance of 1e-12, over that of the acceleration. Both are sampled at the step, whose filter they share.",
         reason: "Theory is for steps that go to zero; from the second step to the third the orders are within 2 % of it.",
-        series,
+        series: all,
     })
 }
 

@@ -47,11 +47,15 @@ pub struct Window {
     pub growth_per_step: f64,
 }
 
-/// How long a method's steps can be under a condition.
-#[derive(Debug, Clone, PartialEq)]
+/// How long a method's steps can be under a condition; as `stability.json` has it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct MethodStability {
     /// The method.
+    #[serde(serialize_with = "serialize_name")]
+    #[schemars(with = "&str")]
     pub method: Method,
+    /// Whether it chooses its steps by a tolerance.
+    pub by_tolerance: bool,
     /// By the amplification of small motions, resonances left out, s; none if nothing grows. Of a method that chooses its steps the
     /// longest in which none does.
     pub predicted_limit_s: Option<f64>,
@@ -60,13 +64,19 @@ pub struct MethodStability {
     /// Mean length of a step that the method chose, s.
     pub chosen_step_s: Option<f64>,
     /// Resonances in steps in which contacts alone are stable: of the lowest multiples of pi, and of these the longest steps.
-    pub windows: Vec<Window>,
-    /// How many phases were looked at for them, and how many there are.
-    pub phases: [usize; 2],
+    pub resonances: Vec<Window>,
+    /// How many phases were looked at for them.
+    pub phases_looked_at: usize,
+    /// How many there are.
+    pub phases_at_multiples_of_pi: usize,
     /// The grid, in ascending order.
     pub steps: Vec<StepRecord>,
     /// What is to be said beside.
     pub note: Option<String>,
+}
+
+fn serialize_name<S: serde::Serializer>(method: &Method, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(method.name())
 }
 
 /// A method that chooses its steps: what it chose.
@@ -84,11 +94,13 @@ pub(super) fn by_tolerance(
     };
     MethodStability {
         method,
+        by_tolerance: method.chooses_its_steps(),
         predicted_limit_s,
         measured_limit_s: None,
         chosen_step_s: seen.failure.is_none().then_some(seen.mean_step_s),
-        windows: Vec::new(),
-        phases: [0, 0],
+        resonances: Vec::new(),
+        phases_looked_at: 0,
+        phases_at_multiples_of_pi: 0,
         steps: Vec::new(),
         note: Some(seen.failure.unwrap_or_else(|| note.to_owned())),
     }
@@ -145,9 +157,19 @@ pub(super) fn on_grid(
     };
     // beyond it the contacts alone are unstable, whatever the modes do
     let reach = (2.0 / scale).min(longest);
-    let (windows, phases) =
-        if method.is_implicit() { (Vec::new(), [0, 0]) } else { windows(linearised, method, [scale, reach], most) };
-    MethodStability { method, predicted_limit_s, measured_limit_s, chosen_step_s: None, windows, phases, steps, note }
+    let phases = if method.is_implicit() { Vec::new() } else { phases(linearised.linear(), reach) };
+    MethodStability {
+        method,
+        by_tolerance: method.chooses_its_steps(),
+        predicted_limit_s,
+        measured_limit_s,
+        chosen_step_s: None,
+        resonances: windows(linearised, method, scale, phases.iter().take(most)),
+        phases_looked_at: phases.len().min(most),
+        phases_at_multiples_of_pi: phases.len(),
+        steps,
+        note,
+    }
 }
 
 /// A run tells that something grows, the prediction whether it is a mode in resonance.
@@ -159,16 +181,15 @@ fn measured_state(unstable: bool, predicted: StepState) -> StepState {
     }
 }
 
-/// Resonances in steps up to `reach` (s), from the lowest multiples on, and how many phases were looked at of how many.
-fn windows(
+/// Resonances in steps near those (s) in which the phase of a mode is a multiple of pi; `scale` (1/s) is the fastest motion.
+fn windows<'a>(
     linearised: &mut Linearised,
     method: Method,
-    [scale, reach]: [f64; 2],
-    most: usize,
-) -> (Vec<Window>, [usize; 2]) {
-    let phases = phases(linearised.linear(), reach);
+    scale: f64,
+    phases: impl Iterator<Item = &'a f64>,
+) -> Vec<Window> {
     let mut windows: Vec<Window> = Vec::new();
-    for &centre in phases.iter().take(most) {
+    for &centre in phases {
         let at = |linearised: &mut Linearised, h: f64| {
             let found = growth(linearised, method, h, scale, RESONANT_STEPS);
             Resonance::of(&found, linearised, h).map(|of| (of, found.per_step))
@@ -198,7 +219,7 @@ fn windows(
         };
         windows.push(Window { from_s: edge(-1.0), to_s: edge(1.0), resonance, growth_per_step });
     }
-    (windows, [phases.len().min(most), phases.len()])
+    windows
 }
 
 /// Steps up to `reach` (s) in which the phase of a mode is a multiple of pi: the lowest multiples first, of each the longest steps.

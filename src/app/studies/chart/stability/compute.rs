@@ -1,12 +1,13 @@
 //! The map of a case.
 
+use super::super::Effort;
 use super::super::compute::{Counter, automatic};
-use super::super::{ChartError, Effort};
 use super::cell::{MethodStability, by_tolerance, on_grid};
 use super::condition::{Condition, Variant};
 use super::measured::{Measurement, Reference};
 use crate::app::case::{self, Case, RunCase};
 use crate::app::commands::run::choice::ModelChoice;
+use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
 use crate::numerics::ode::{Linearised, Method, fastest};
@@ -85,14 +86,14 @@ struct Prepared {
 /// Computes the map of a case, whose scene is `scene`, over conditions, such as [all](Condition::all).
 ///
 /// # Errors
-/// [`ChartError`]; a condition that the bearing cannot be in is no error.
+/// [`ComputeError`]; a condition that the bearing cannot be in is no error.
 pub(crate) fn compute_stability(
     run: RunCase<'_>,
     scene: &Scene,
     conditions: Vec<Condition>,
     effort: Effort,
     watch: &(impl Watch + Sync),
-) -> Result<Stability, ChartError> {
+) -> Result<Stability, ComputeError> {
     let transient = &automatic(run.transient, case::Method::Auto);
     let choice = ModelChoice::of_case(RunCase { transient, ..run }, scene)?;
     let (model, grid) = (choice.model, grid(effort));
@@ -140,11 +141,11 @@ fn prepare(
     scene: &Scene,
     model: &RunModel,
     effort: Effort,
-) -> Result<Prepared, ChartError> {
+) -> Result<Prepared, ComputeError> {
     let variant = condition.variant(case, scene, model)?;
     let all_modes = matches!(condition, Condition::AllModes | Condition::AllModesUndamped);
-    let slow_steps = of_effort(SLOW_RUN, effort);
-    let steps = if all_modes { slow_steps } else { of_effort(RUN, effort) };
+    let slow_steps = effort.pick(SLOW_RUN);
+    let steps = if all_modes { slow_steps } else { effort.pick(RUN) };
     let mut linearised = Linearised::new(&mut variant.system.clone(), &variant.state);
     let limit = Method::Exponential.limit_of(&mut linearised);
     let limit = limit.map_or(1e-6, |limit| limit.step_s);
@@ -170,20 +171,13 @@ fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<Me
         return None;
     }
     let steps = if equal.is_implicit() { of.slow_steps } else { of.steps };
-    let phases = of_effort(PHASES, effort);
+    let phases = effort.pick(PHASES);
     Some(on_grid(&measurement(steps), &mut linearised, equal, grid, phases))
-}
-
-fn of_effort<T>([full, quick]: [T; 2], effort: Effort) -> T {
-    match effort {
-        Effort::Full => full,
-        Effort::Quick => quick,
-    }
 }
 
 fn grid(effort: Effort) -> Vec<f64> {
     let [first, last] = STEPS;
-    let per_decade = of_effort(PER_DECADE, effort);
+    let per_decade = effort.pick(PER_DECADE);
     let count = ((last / first).log10() * per_decade).floor() as i32;
     let step = |k: i32| first * 10_f64.powf(f64::from(k) / per_decade);
     (0..=count).map(step).collect()

@@ -1,6 +1,6 @@
 //! What is varied, one at a time, and the scene that it gives.
 
-use super::super::{ChartError, Effort};
+use super::super::Effort;
 use crate::app::case::{self, Case, Defect, Load};
 use crate::app::error::ComputeError;
 use crate::app::scene::bearing::setup_of;
@@ -82,55 +82,42 @@ impl Condition {
         all
     }
 
-    /// What is varied.
-    pub(crate) fn axis(self) -> &'static str {
+    /// What is varied, its value, and the unit of that: "" for a ratio, "x" for a multiple of what is given.
+    pub(crate) fn axis_and_value(self) -> (&'static str, Option<(f64, &'static str)>) {
         match self {
-            Self::AsGiven => "as given",
-            Self::Load(_) => "load",
-            Self::RadialPlay(_) => "radial play",
-            Self::Speed(_) => "speed",
-            Self::DefectDepth(_) => "defect depth",
-            Self::ContactStiffness(_) => "contact stiffness",
-            Self::ContactDamping(_) => "contact damping ratio",
-            Self::ModalDamping(_) => "modal damping ratio",
-            Self::AllModes => "all modes",
-            Self::AllModesUndamped => "all modes, undamped",
-        }
-    }
-
-    /// Its value, and the unit: "" for a ratio, "x" for a multiple of what is given.
-    pub(crate) fn value(self) -> Option<(f64, &'static str)> {
-        match self {
-            Self::AsGiven | Self::AllModes | Self::AllModesUndamped => None,
-            Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => Some((x, "x")),
-            Self::RadialPlay(play) => Some((play, "m")),
-            Self::Speed(hz) => Some((hz, "Hz")),
-            Self::ContactDamping(ratio) | Self::ModalDamping(ratio) => Some((ratio, "")),
+            Self::AsGiven => ("as given", None),
+            Self::Load(factor) => ("load", Some((factor, "x"))),
+            Self::RadialPlay(play) => ("radial play", Some((play, "m"))),
+            Self::Speed(hz) => ("speed", Some((hz, "Hz"))),
+            Self::DefectDepth(factor) => ("defect depth", Some((factor, "x"))),
+            Self::ContactStiffness(factor) => ("contact stiffness", Some((factor, "x"))),
+            Self::ContactDamping(ratio) => ("contact damping ratio", Some((ratio, ""))),
+            Self::ModalDamping(ratio) => ("modal damping ratio", Some((ratio, ""))),
+            Self::AllModes => ("all modes", None),
+            Self::AllModesUndamped => ("all modes, undamped", None),
         }
     }
 
     /// In a few words.
     pub(crate) fn label(self) -> String {
-        match self {
-            Self::AsGiven | Self::AllModes | Self::AllModesUndamped => self.axis().to_owned(),
-            Self::Load(x) | Self::DefectDepth(x) | Self::ContactStiffness(x) => {
-                format!("{} × {x}", self.axis())
-            }
-            Self::RadialPlay(play) => format!("radial play {} µm", round(1e6 * play)),
-            Self::Speed(hz) => format!("speed {hz} Hz"),
-            Self::ContactDamping(ratio) => format!("contact damping {} %", round(100.0 * ratio)),
-            Self::ModalDamping(ratio) => format!("modal damping {} %", round(100.0 * ratio)),
+        let (axis, value) = self.axis_and_value();
+        match value {
+            None => axis.to_owned(),
+            Some((factor, "x")) => format!("{axis} × {factor}"),
+            Some((metres, "m")) => format!("{axis} {} µm", round(1e6 * metres)),
+            Some((hz, "Hz")) => format!("{axis} {hz} Hz"),
+            Some((ratio, _)) => format!("{} {} %", axis.trim_end_matches(" ratio"), round(100.0 * ratio)),
         }
     }
 
     /// The scene of a case under it, with the model's coordinates.
     ///
     /// # Errors
-    /// [`ChartError`] for a condition that the bearing cannot be in.
-    pub(super) fn variant(self, case: &Case, scene: &Scene, model: &RunModel) -> Result<Variant, ChartError> {
+    /// [`ComputeError`] for a condition that the bearing cannot be in.
+    pub(super) fn variant(self, case: &Case, scene: &Scene, model: &RunModel) -> Result<Variant, ComputeError> {
         let mut case = case.clone();
         self.apply(&mut case, scene);
-        let run = case.for_chart().map_err(ComputeError::from)?;
+        let run = case.for_chart()?;
         let setup = setup_of(run.case, run.bearing, run.shaft)?;
         let setup = BearingSetup { balls_inertia: model.balls_inertia, ..setup };
         let damping = match self {
@@ -152,24 +139,15 @@ impl Condition {
 
     /// Changes the case; what concerns modes is left to the model.
     fn apply(self, case: &mut Case, scene: &Scene) {
-        match self {
-            Self::Load(factor) => {
-                if let Some(shaft) = &mut case.shaft {
-                    load_by(shaft, factor);
-                }
-            }
-            Self::Speed(hz) => {
+        let stiffness = &scene.setup.stiffness;
+        match (self, &mut case.shaft, &mut case.bearing) {
+            (Self::Load(factor), Some(shaft), _) => load_by(shaft, factor),
+            (Self::Speed(hz), ..) => {
                 let profile = vec![SpeedKnot { time: 0.0, frequency_hz: hz }];
                 case.speed = Some(case::Speed { profile });
             }
-            _ => {}
-        }
-        let Some(bearing) = &mut case.bearing else {
-            return;
-        };
-        match self {
-            Self::RadialPlay(play) => bearing.radial_play = Some(play),
-            Self::DefectDepth(factor) => {
+            (Self::RadialPlay(play), _, Some(bearing)) => bearing.radial_play = Some(play),
+            (Self::DefectDepth(factor), _, Some(bearing)) => {
                 for defect in &mut bearing.defects {
                     match defect {
                         Defect::Dent(dent) => dent.depth *= factor,
@@ -179,15 +157,12 @@ impl Condition {
                     }
                 }
             }
-            Self::ContactStiffness(factor) => {
-                let stiffness = &scene.setup.stiffness;
-                bearing.stiffness = case::ContactStiffness::Given {
-                    inner: factor * stiffness.inner(),
-                    outer: factor * stiffness.outer(),
-                };
+            (Self::ContactStiffness(factor), _, Some(bearing)) => {
+                let [inner, outer] = [factor * stiffness.inner(), factor * stiffness.outer()];
+                bearing.stiffness = case::ContactStiffness::Given { inner, outer };
             }
-            Self::ContactDamping(ratio) => {
-                bearing.contact_damping = ratio * critical(&scene.setup.stiffness, scene);
+            (Self::ContactDamping(ratio), _, Some(bearing)) => {
+                bearing.contact_damping = ratio * critical(stiffness, scene);
             }
             _ => {}
         }

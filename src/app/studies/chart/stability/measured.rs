@@ -1,6 +1,6 @@
 //! What short runs do: two that begin a little apart, side by side, against finer ones from the same starts.
 
-use super::super::perturb;
+use super::super::starts::perturb;
 use super::condition::Variant;
 use crate::numerics::ode::{Integration, Method, Schedule, TransientError};
 use crate::numerics::ode::{NoRecord, State};

@@ -22,4 +22,4 @@ pub use compute::{ConditionStability, Stability};
 pub use condition::Condition;
 pub(crate) use plots::{resonance_plot, stability_map};
 pub(crate) use section::{stability_report, stability_section};
-pub use summary::{ConditionSummary, MethodSummary, StabilityModel, StabilitySummary};
+pub use summary::{ConditionSummary, StabilityModel, StabilitySummary};

@@ -17,7 +17,6 @@ const POINTS: usize = 250;
 const STEPS: u32 = 400;
 
 /// States of all steps, conditions and methods, as they were measured.
-#[must_use]
 pub(crate) fn stability_map(stability: &Stability) -> StepMap {
     let conditions = || {
         let good = stability.conditions.iter();
@@ -58,7 +57,6 @@ pub(crate) fn stability_map(stability: &Stability) -> StepMap {
 }
 
 /// Growth of an oscillator with a contact on it, over the phase that it makes in a step.
-#[must_use]
 pub(crate) fn resonance_plot() -> Plot {
     let [first, last] = PHASES;
     let phases: Vec<f64> = (0..POINTS).map(|k| first + (last - first) * k as f64 / (POINTS - 1) as f64).collect();

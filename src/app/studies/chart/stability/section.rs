@@ -5,7 +5,6 @@ use crate::app::case::Case;
 use crate::report::{Cell, Column, Report, Section, Table, significant};
 
 /// A report of the map alone; `command` is the line that made it.
-#[must_use]
 pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str) -> Report {
     Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Stability of the integration methods")
@@ -13,7 +12,6 @@ pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str
 }
 
 /// Picture, resonance and tables.
-#[must_use]
 pub(crate) fn stability_section(stability: &Stability) -> Section {
     let [kept, all] = stability.modes;
     Section::new("Stability map")
@@ -33,61 +31,61 @@ fn cells(stability: &Stability) -> impl Iterator<Item = (&ConditionStability, &M
     conditions.flat_map(|of| of.methods.iter().flatten().map(move |method| (of, method)))
 }
 
-fn microseconds(step: Option<f64>) -> Cell {
-    step.map_or_else(|| Cell::text("–"), |step| Cell::number(1e6 * step, 3))
+/// Names of a condition and a method in the first columns of the tables.
+fn names(of: &ConditionStability, method: &MethodStability) -> [Cell; 2] {
+    [Cell::text(of.condition.label()), Cell::text(method.method.name())]
+}
+
+/// A time in microseconds, or a dash.
+fn microseconds(seconds: Option<f64>) -> Cell {
+    Cell::number_or(seconds.map(|seconds| 1e6 * seconds), 3, "–")
+}
+
+/// What stands where nothing was computed or found.
+fn dashes<const N: usize>() -> [Cell; N] {
+    std::array::from_fn(|_| Cell::text("–"))
 }
 
 fn limits(stability: &Stability) -> Table {
-    let mut table = Table::new(
-        "Limits",
-        [
-            Column::text("Condition"),
-            Column::text("Method"),
-            Column::number("Predicted", "µs"),
-            Column::number("Measured", "µs"),
-            Column::number("Measured over predicted", ""),
-            Column::text("Remark"),
-        ],
-    );
-    for (of, method) in cells(stability).filter(|(_, of)| !of.steps.is_empty()) {
+    let columns = [
+        Column::text("Condition"),
+        Column::text("Method"),
+        Column::number("Predicted", "µs"),
+        Column::number("Measured", "µs"),
+        Column::number("Measured over predicted", ""),
+        Column::text("Remark"),
+    ];
+    let computed = cells(stability).filter(|(_, of)| !of.steps.is_empty()).map(|(of, method)| {
         let limits = method.predicted_limit_s.zip(method.measured_limit_s);
-        table = table.row([
-            Cell::text(of.condition.label()),
-            Cell::text(method.method.name()),
+        let values = [
             microseconds(method.predicted_limit_s),
             microseconds(method.measured_limit_s),
-            limits.map_or_else(|| Cell::text("–"), |(predicted, measured)| Cell::number(measured / predicted, 3)),
+            Cell::number_or(limits.map(|(predicted, measured)| measured / predicted), 3, "–"),
             Cell::text(method.note.as_deref().unwrap_or("")),
-        ]);
-    }
-    for of in &stability.conditions {
-        if let Err(reason) = &of.methods {
-            let none = || Cell::text("–");
-            let label = Cell::text(of.condition.label());
-            table = table.row([label, none(), none(), none(), none(), Cell::text(reason)]);
-        }
-    }
-    table
+        ];
+        names(of, method).into_iter().chain(values).collect::<Vec<_>>()
+    });
+    let refused = stability.conditions.iter().filter_map(|of| {
+        let reason = of.methods.as_ref().err()?;
+        let label = [Cell::text(of.condition.label())];
+        Some(label.into_iter().chain(dashes::<4>()).chain([Cell::text(reason)]).collect())
+    });
+    Table::new("Limits", columns).rows(computed.chain(refused))
 }
 
 fn chosen(stability: &Stability) -> Table {
-    let mut table = Table::new(
+    Table::new(
         "Steps of the methods that choose them",
         [Column::text("Condition"), Column::text("Method"), Column::number("Mean step", "µs"), Column::text("Remark")],
-    );
-    for (of, method) in cells(stability).filter(|(_, of)| of.steps.is_empty()) {
-        table = table.row([
-            Cell::text(of.condition.label()),
-            Cell::text(method.method.name()),
-            microseconds(method.chosen_step_s),
-            Cell::text(method.note.as_deref().unwrap_or("")),
-        ]);
-    }
-    table
+    )
+    .rows(cells(stability).filter(|(_, of)| of.steps.is_empty()).map(|(of, method)| {
+        let note = Cell::text(method.note.as_deref().unwrap_or(""));
+        names(of, method).into_iter().chain([microseconds(method.chosen_step_s), note])
+    }))
 }
 
 fn resonances(stability: &Stability) -> Table {
-    let mut table = Table::new(
+    let table = Table::new(
         "Resonances of the step with a mode",
         [
             Column::text("Condition"),
@@ -99,30 +97,24 @@ fn resonances(stability: &Stability) -> Table {
             Column::number("Growth a step", ""),
         ],
     );
-    let mut none = true;
-    for (of, method) in cells(stability) {
-        for window in &method.windows {
-            none = false;
-            let multiple = window.resonance.multiple;
-            table = table.row([
-                Cell::text(of.condition.label()),
-                Cell::text(method.method.name()),
-                Cell::number(1e6 * window.from_s, 4),
-                Cell::number(1e6 * window.to_s, 4),
-                Cell::number(1e-3 * window.resonance.mode_hz, 4),
-                Cell::text(match multiple {
-                    1 => "π".to_owned(),
-                    more => format!("{more} π"),
-                }),
-                Cell::number(window.growth_per_step, 2),
-            ]);
-        }
-    }
-    if none {
-        let text = |text: &str| Cell::text(text);
-        let looked: usize = cells(stability).map(|(_, of)| of.phases[0]).sum();
+    let windows = cells(stability).flat_map(|(of, method)| method.resonances.iter().map(move |at| (of, method, at)));
+    let table = table.rows(windows.map(|(of, method, window)| {
+        let values = [
+            Cell::number(1e6 * window.from_s, 4),
+            Cell::number(1e6 * window.to_s, 4),
+            Cell::number(1e-3 * window.resonance.mode_hz, 4),
+            Cell::text(match window.resonance.multiple {
+                1 => "π".to_owned(),
+                more => format!("{more} π"),
+            }),
+            Cell::number(window.growth_per_step, 2),
+        ];
+        names(of, method).into_iter().chain(values)
+    }));
+    if table.rows.is_empty() {
+        let looked: usize = cells(stability).map(|(_, of)| of.phases_looked_at).sum();
         let what = format!("none in {} phases", significant(looked as f64, 6));
-        table = table.row([text(&what), text("–"), text("–"), text("–"), text("–"), text("–"), text("–")]);
+        return table.row([Cell::text(what)].into_iter().chain(dashes::<6>()));
     }
     table
 }

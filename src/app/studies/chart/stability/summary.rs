@@ -1,6 +1,6 @@
 //! What `stability.json` says.
 
-use super::{ConditionStability, MethodStability, Stability, StepRecord, Window};
+use super::{ConditionStability, MethodStability, Stability};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -38,39 +38,13 @@ pub struct ConditionSummary<'a> {
     /// Both in words.
     pub label: String,
     /// The methods; `None` where the bearing cannot be in the condition.
-    pub methods: Option<Vec<MethodSummary<'a>>>,
+    pub methods: Option<&'a [MethodStability]>,
     /// Why it cannot.
     pub reason: Option<&'a str>,
 }
 
-/// How long a method's steps can be under a condition.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct MethodSummary<'a> {
-    /// The method.
-    pub method: &'static str,
-    /// Whether it chooses its steps by a tolerance.
-    pub by_tolerance: bool,
-    /// Longest step by the amplification of small motions, resonances left out, s; `None` if nothing grows.
-    pub predicted_limit_s: Option<f64>,
-    /// Longest step by short runs, s; `None` if all steps of the grid are stable, or none is.
-    pub measured_limit_s: Option<f64>,
-    /// Mean length of a step that the method chose, s.
-    pub chosen_step_s: Option<f64>,
-    /// Resonances in steps in which contacts alone are stable.
-    pub resonances: &'a [Window],
-    /// How many phases were looked at for them.
-    pub phases_looked_at: usize,
-    /// How many there are.
-    pub phases_at_multiples_of_pi: usize,
-    /// The grid.
-    pub steps: &'a [StepRecord],
-    /// What is to be said beside.
-    pub note: Option<&'a str>,
-}
-
 impl Stability {
     /// What `stability.json` says of it.
-    #[must_use]
     pub(crate) fn summary(&self) -> StabilitySummary<'_> {
         let [modes, of_modes] = self.modes;
         StabilitySummary {
@@ -83,32 +57,14 @@ impl Stability {
 
 impl<'a> ConditionSummary<'a> {
     fn of(of: &'a ConditionStability) -> Self {
-        let (value, methods) = (of.condition.value(), of.methods.as_ref());
+        let ((condition, value), methods) = (of.condition.axis_and_value(), of.methods.as_ref());
         Self {
-            condition: of.condition.axis(),
+            condition,
             value: value.map(|(value, _)| value),
             unit: value.map(|(_, unit)| unit),
             label: of.condition.label(),
-            methods: methods.ok().map(|all| all.iter().map(MethodSummary::of).collect()),
+            methods: methods.ok().map(Vec::as_slice),
             reason: methods.err().map(String::as_str),
-        }
-    }
-}
-
-impl<'a> MethodSummary<'a> {
-    fn of(of: &'a MethodStability) -> Self {
-        let [phases_looked_at, phases_at_multiples_of_pi] = of.phases;
-        Self {
-            method: of.method.name(),
-            by_tolerance: of.method.chooses_its_steps(),
-            predicted_limit_s: of.predicted_limit_s,
-            measured_limit_s: of.measured_limit_s,
-            chosen_step_s: of.chosen_step_s,
-            resonances: &of.windows,
-            phases_looked_at,
-            phases_at_multiples_of_pi,
-            steps: &of.steps,
-            note: of.note.as_deref(),
         }
     }
 }
