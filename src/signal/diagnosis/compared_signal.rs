@@ -52,9 +52,6 @@ impl<'a> ComparedSignal<'a> {
         highest: f64,
     ) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
         let envelope = RawSpectrum::of(self.signal)?.envelope(band_hz);
-        let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
-        let shown = TimeSeries::new(envelope.start_s, envelope.step_s, self.signal.unit(), magnitude)?;
-        let window = TimeWindow { from: self.window.from, to: self.window.to.min(shown.end_s()) };
-        EnvelopeOrderSpectrum::new(&shown, window, &self.turns, highest)
+        EnvelopeOrderSpectrum::of_band(&envelope, self.signal.unit(), self.window, &self.turns, highest)
     }
 }

@@ -127,14 +127,12 @@ impl Search<'_> {
         if verdict.conclusion == Conclusion::NotSeen
             && let Some(reason) = self.beside_the_shafts(fault)
         {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!("{} {reason}", verdict.why);
+            verdict.take_back(&reason);
         }
         if verdict.conclusion == Conclusion::Named
             && let Some(doubt) = self.doubt(expected, candidate, known)
         {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!("{} But {doubt}", verdict.why);
+            verdict.take_back(&format!("But {doubt}"));
         }
         verdict
     }
