@@ -3,13 +3,11 @@
 use super::adams::Adams;
 use super::dop853::Dop853;
 use super::error::TransientError;
-use super::exponential::Exponential;
 use super::implicit::Implicit;
 use super::method::{LEAST_TOLERANCE, Method};
-use super::newmark::NewmarkExplicit;
+use super::one_evaluation::{Counted, Exponential, NewmarkExplicit, Splitting};
 use super::schedule::Schedule;
-use super::splitting::Splitting;
-use super::stepper::{Counted, Stepper};
+use super::stepper::Stepper;
 use crate::numerics::ode::SecondOrderSystem;
 use std::f64::consts::TAU;
 
