@@ -24,7 +24,7 @@ pub struct BallRow {
 /// Events per shaft turn; multiply by the shaft's frequency to get Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectOrders {
-    /// Turns of the cage.
+    /// Turns of the cage, `(1 − γ) / 2`; between 0 and 1/2.
     pub cage: f64,
     /// Balls that pass a point of the outer race.
     pub outer: f64,
@@ -68,17 +68,11 @@ impl BallRow {
         Ok(Self { balls: f64::from(balls), diameter_ratio, projected_ratio: diameter_ratio * contact_angle.cos() })
     }
 
-    /// Turns of the cage per turn of the shaft, `(1 − γ) / 2`; between 0 and 1/2.
-    #[must_use]
-    pub fn cage_order(&self) -> f64 {
-        0.5 * (1.0 - self.projected_ratio)
-    }
-
     /// All defect orders.
     #[must_use]
     pub fn orders(&self) -> DefectOrders {
-        let cage = self.cage_order();
         let gamma = self.projected_ratio;
+        let cage = 0.5 * (1.0 - gamma);
         let ball_spin = 0.5 / self.diameter_ratio * (1.0 - gamma * gamma);
         DefectOrders {
             cage,

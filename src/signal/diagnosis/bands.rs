@@ -109,7 +109,7 @@ pub(super) fn band_spectra(
     strikes_hz: f64,
     highest: f64,
 ) -> Result<Spectra, DiagnosisError> {
-    let levels = match stretches(grid.turns()) {
+    let levels = match stretches(grid.turns(), REVOLUTIONS) {
         1 => SHORT_LEVELS,
         _ => LEVELS,
     };

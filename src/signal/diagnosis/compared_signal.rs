@@ -11,7 +11,8 @@ pub struct ComparedSignal<'a> {
     window: TimeWindow,
     turns: Box<dyn Fn(f64) -> f64 + 'a>,
     pub(super) orders: FaultOrders,
-    pub(super) diagnosis: &'a Diagnosis,
+    /// What was found in it.
+    pub(crate) diagnosis: &'a Diagnosis,
 }
 
 impl<'a> ComparedSignal<'a> {
@@ -25,12 +26,6 @@ impl<'a> ComparedSignal<'a> {
     ) -> Self {
         let factor = diagnosis.speed_hz / diagnosis.given_speed_hz;
         Self { signal, window, turns: Box::new(move |time| factor * turns(time)), orders, diagnosis }
-    }
-
-    /// What was found in it.
-    #[must_use]
-    pub(crate) fn diagnosis(&self) -> &Diagnosis {
-        self.diagnosis
     }
 
     /// How far the order of a part may be off in this signal, relative.

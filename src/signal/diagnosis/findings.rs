@@ -41,12 +41,8 @@ impl Search<'_> {
             .max_by(|&a, &b| ends(&self.spectra[a]).total_cmp(&ends(&self.spectra[b])))
             .unwrap_or(0);
         let ends = ends(&self.spectra[widest]);
-        let candidate = Candidate {
-            fault: Some(fault),
-            fit: Fit { score: 0.0, order: expected, spectrum: widest, sided: false },
-            beside: None,
-            relative_reach: 0.0,
-        };
+        let fit = Fit { score: 0.0, order: expected, spectrum: widest, sided: false };
+        let candidate = Candidate::at(Some(fault), fit);
         let harmonics = self.part_harmonics(&candidate, fault, known);
         let why = if ends < LEAST_FREE as f64 * expected {
             format!(

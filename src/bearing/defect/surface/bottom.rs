@@ -31,7 +31,8 @@ pub(super) struct Bottom {
     shortfall: f64,
     /// Where the floor meets the rim, rad.
     corner: f64,
-    reach: Option<Reach>,
+    /// Where a ball can touch it, if anywhere.
+    pub(super) reach: Option<Reach>,
 }
 
 impl Bottom {
@@ -70,11 +71,6 @@ impl Bottom {
             floor.reach = Some(Reach::new(limit, ellipse.at(limit), false));
         }
         floor
-    }
-
-    /// Whether a ball can touch it anywhere.
-    pub(super) fn is_touchable(&self) -> bool {
-        self.reach.is_some()
     }
 
     /// Relative curvature at the middle as the stiffness takes it, 1/m.

@@ -78,7 +78,7 @@ impl SurfaceDent {
         check_sizes(&outline)?;
         let base = shape.curvature.base(&circles);
         let bottom = Bottom::new(&outline, base);
-        if base < circles.relative && bottom.is_touchable() {
+        if base < circles.relative && bottom.reach.is_some() {
             stiffness::per_modulus(bearing, race, bottom.middle_curvature())?;
         }
         let sharpest = circles.roller_curvature() + 1.0 / shape.rim_radius;

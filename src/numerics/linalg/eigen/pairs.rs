@@ -108,17 +108,8 @@ impl EigenPairs {
         all
     }
 
-    /// Leaves the first pairs alone.
-    pub(super) fn drop_first(&mut self, dropped: usize) {
-        self.keep(dropped..self.values.len());
-    }
-
-    /// Leaves out all but the first pairs.
-    pub(super) fn keep_first(&mut self, kept: usize) {
-        self.keep(0..kept);
-    }
-
-    fn keep(&mut self, kept: Range<usize>) {
+    /// Leaves out all other pairs.
+    pub(super) fn keep(&mut self, kept: Range<usize>) {
         for list in [&mut self.values, &mut self.residuals, &mut self.bounds, &mut self.rounding] {
             list.truncate(kept.end);
             list.drain(..kept.start);

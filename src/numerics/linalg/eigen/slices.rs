@@ -68,7 +68,7 @@ impl EigenProblem {
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;
         pairs.count_check = CountCheck::from_lowest(end.0, end.1, pairs.values.len());
-        pairs.keep_first(count);
+        pairs.keep(0..count);
         Ok(pairs)
     }
 

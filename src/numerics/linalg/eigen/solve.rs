@@ -112,7 +112,7 @@ impl EigenProblem {
             if self.order() <= DENSE_RESCUE_LIMIT && failed(&found) {
                 found = self.by_dense_solver(high.1);
                 if let Ok(pairs) = &mut found {
-                    pairs.drop_first(low.1);
+                    pairs.keep(low.1..pairs.values.len());
                 }
             }
             found?
