@@ -3,10 +3,9 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::circles::Circles;
-use super::fade::Fade;
 use super::floor::{Floor, Reach};
 use super::rim::Rim;
-use super::stiffness::{self, CurvatureStiffness};
+use super::stiffness::{self, CurvatureStiffness, Fade};
 use crate::bearing::error::{BearingError, refused};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::Race;

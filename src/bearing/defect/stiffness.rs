@@ -1,4 +1,5 @@
-//! Hertz stiffness of a ball on a race as a function of the in-plane curvature, from a table.
+//! Hertz stiffness of a ball on a race as a function of the in-plane curvature, from a table, and how it fades where the
+//! profile comes to be curved like the roller.
 //!
 //! The argument is the relative curvature in the rolling plane, `A = κ_ball + κ_race`, convex positive, a defect
 //! on either included; across it stays `1/ρ_b − 1/r_groove`. Elliptic integrals are evaluated at
@@ -6,6 +7,7 @@
 //! curvature, the smaller the patch.
 
 use super::circles::{Circles, race_curvatures};
+use super::rim::smoothstep;
 use crate::bearing::error::BearingError;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::hertz::{self, PrincipalCurvatures};
@@ -137,6 +139,39 @@ pub(super) fn per_modulus(bearing: &BearingGeometry, race: Race, curvature: f64)
     match hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0) {
         Ok(contact) => Ok(contact.stiffness),
         Err(error) => Err(BearingError(format!("contact on the defect: {error}"))),
+    }
+}
+
+/// Fraction of the way from the race's curvature to the ball's at which the contact begins to
+/// fade; at the ball's curvature it is gone. A choice: a ball rests on rim and floor together where the
+/// floor has covered less than half of that way, so that the fade is met only when the rim carries more.
+pub const FLOOR_FADE: f64 = 0.7;
+
+/// Weight of a contact by the profile's concave curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fade {
+    /// Concave curvature at which the contact is gone, 1/m.
+    gone: f64,
+    /// Range of curvature over which it fades, 1/m.
+    width: f64,
+}
+
+impl Fade {
+    /// Gone `early` (1/m) before the roller's own curvature.
+    pub(super) fn new(circles: &Circles, early: f64) -> Self {
+        let roller = circles.roller_curvature();
+        Self { gone: roller - early, width: (1.0 - FLOOR_FADE) * (roller - circles.carrier_concavity()) }
+    }
+
+    /// Whether a profile of this concave curvature is touched at all.
+    pub(super) fn touchable(&self, concavity: f64) -> bool {
+        concavity < self.gone
+    }
+
+    /// 1 where the profile is flat enough, 0 where it is curved like the roller.
+    #[inline]
+    pub(super) fn weight(&self, concavity: f64) -> f64 {
+        smoothstep((self.gone - concavity) / self.width)
     }
 }
 
