@@ -6,7 +6,8 @@
 use crate::paper::{Failure, TABLE_ONE};
 use crate::tables::signed;
 use plummer::app::verification::BEARING;
-use plummer::bearing::hertz::{HertzError, HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness};
+use plummer::bearing::BearingError;
+use plummer::bearing::hertz::{HertzStiffness, PrincipalCurvatures, effective_modulus, stiffness};
 use plummer::report::{Cell, Column, Section, Table, significant};
 
 /// Young's modulus of bearing steel, Pa.
@@ -83,7 +84,7 @@ impl RaceCurvatures {
 
 impl Contact {
     /// Hertz theory with this sum and difference, whatever they were made of.
-    fn hertz(self, modulus: f64) -> Result<HertzStiffness, HertzError> {
+    fn hertz(self, modulus: f64) -> Result<HertzStiffness, BearingError> {
         let relative = PrincipalCurvatures {
             plane_1: 0.5 * self.sum * (1.0 - self.difference),
             plane_2: 0.5 * self.sum * (1.0 + self.difference),
@@ -92,7 +93,7 @@ impl Contact {
     }
 
     /// The same with the approach interpolated between [`TABULATED`] values.
-    fn interpolated_in_a_table(self, modulus: f64) -> Result<f64, HertzError> {
+    fn interpolated_in_a_table(self, modulus: f64) -> Result<f64, BearingError> {
         let at = |difference| {
             let there = Self { difference, ..self };
             there.hertz(modulus)
@@ -106,7 +107,7 @@ impl Contact {
 }
 
 /// Two stiffnesses under a name.
-fn hypothesis(what: impl Into<String>, found: [Result<f64, HertzError>; 2]) -> Hypothesis {
+fn hypothesis(what: impl Into<String>, found: [Result<f64, BearingError>; 2]) -> Hypothesis {
     let [inner, outer] = found.map(Result::ok);
     Hypothesis {
         what: what.into(),

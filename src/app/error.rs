@@ -1,8 +1,7 @@
 //! What can go wrong on the way from a case to a result: what failed, whose fault it is and what to do.
 
 use crate::app::case::CaseError;
-use crate::bearing::defect::DefectError;
-use crate::bearing::{CageError, GeometryError, Race, SlipError, SpeedError, StiffnessError, WaveError};
+use crate::bearing::{BearingError, Race};
 use crate::fe::element::ElementError;
 use crate::fe::material::MaterialError;
 use crate::fe::mesh::MeshError;
@@ -115,9 +114,14 @@ pub enum ComputeError {
     /// The ring.
     #[error("ring: {0}")]
     Ring(#[from] RingError),
-    /// Bearing geometry.
-    #[error("bearing: {0}")]
-    Geometry(#[from] GeometryError),
+    /// A part of the bearing or its motion out of range.
+    #[error("{place}{source}")]
+    Bearing {
+        /// Where in the case it stands, with a colon; nothing where the message says it.
+        place: String,
+        /// What is wrong with it.
+        source: BearingError,
+    },
     /// A contact that is as wide as the ball.
     #[error(
         "bearing.{race}_groove_radius: the contact of a ball with the {race} race would have a half-axis of {half_axis:.3e} m under the largest force at rest, {force:.3e} N, and the ball's radius is {ball_radius:.3e} m: expected a patch well below it, found a groove of {groove:e} m, {:.7} of the ball's diameter (0.51 to 0.54 are built); check the groove, the ball and the load on the shaft",
@@ -150,17 +154,6 @@ pub enum ComputeError {
         /// Largest pressure that is accepted, Pa.
         limit: f64,
     },
-    /// Contact stiffness.
-    #[error("bearing.stiffness: {0}")]
-    Stiffness(#[from] StiffnessError),
-    /// A defect that cannot be.
-    #[error("bearing.defects[{index}]: {source}")]
-    Defect {
-        /// Which one, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: DefectError,
-    },
     /// A file with a profile that cannot be read.
     #[error("{}{line}: {what} (bearing.defects[{index}].profile)", path.display())]
     ProfileFile {
@@ -172,14 +165,6 @@ pub enum ComputeError {
         line: String,
         /// What was found, and what was expected.
         what: String,
-    },
-    /// A wave that the bearing cannot have.
-    #[error("bearing.waviness[{index}]: {source}")]
-    Wave {
-        /// Which one, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: WaveError,
     },
     /// Two defects in one place.
     #[error(
@@ -225,15 +210,6 @@ pub enum ComputeError {
         /// The unit vector's part across the plane.
         across: f64,
     },
-    /// Speed profile.
-    #[error("speed.profile: {0}")]
-    Speed(#[from] SpeedError),
-    /// Cage.
-    #[error("bearing: {0}")]
-    Cage(#[from] CageError),
-    /// Slip of the cage.
-    #[error(transparent)]
-    Slip(#[from] SlipError),
     /// A sensor that is nowhere.
     #[error(
         "{name}: the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres",
@@ -418,6 +394,11 @@ impl ComputeError {
     pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Failed { what: format!("{}: {source}", path.display()), help: None }
+    }
+
+    /// The error of what stands at a `place` of the case, which ends with a colon and a blank.
+    pub(crate) fn bearing(place: impl Into<String>) -> impl FnOnce(BearingError) -> Self {
+        |source| Self::Bearing { place: place.into(), source }
     }
 
     /// The error of an interface without a free displacement.

@@ -8,23 +8,11 @@
 
 use std::f64::consts::TAU;
 
-use thiserror::Error;
-
+use super::error::BearingError;
 use super::geometry::BearingGeometry;
-use super::rotation::{Rotation, RotationCursor, RotationState, SpeedPiece};
+use super::rotation::{Piece, Rotation, RotationCursor, RotationState};
 use super::slip::SlipProfile;
 use super::speed::SpeedProfile;
-
-/// Why a cage cannot be built.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum CageError {
-    /// The first ball's angle is not a number.
-    #[error("first ball angle {angle} rad must be finite")]
-    FirstBall {
-        /// Angle that was given, rad.
-        angle: f64,
-    },
-}
 
 /// A rigid cage that carries the balls at equal angles, driven by the shaft.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,15 +31,15 @@ impl Cage {
     /// counter-clockwise) at time zero.
     ///
     /// # Errors
-    /// [`CageError`] names the value out of range.
+    /// [`BearingError`] names the value out of range.
     pub fn new(
         bearing: &BearingGeometry,
         shaft: SpeedProfile,
         slip: SlipProfile,
         first_ball_angle: f64,
-    ) -> Result<Self, CageError> {
+    ) -> Result<Self, BearingError> {
         if !first_ball_angle.is_finite() {
-            return Err(CageError::FirstBall { angle: first_ball_angle });
+            return Err(BearingError(format!("first ball angle {first_ball_angle} rad must be finite")));
         }
         let rolling_ratio = bearing.orders().cage;
         let times = slip.knot_times(&shaft);
@@ -63,14 +51,15 @@ impl Cage {
                 let end = slip.at(next, shaft.speed(next));
                 (end - start) / (next - time)
             });
-            SpeedPiece {
+            Piece {
                 time,
                 speed: rolling_ratio * driving.speed * (1.0 - start),
                 acceleration: rolling_ratio * (driving.acceleration * (1.0 - start) - driving.speed * slope),
                 jerk: -2.0 * rolling_ratio * driving.acceleration * slope,
+                ..Piece::default()
             }
         };
-        let rest: Vec<SpeedPiece> = (1..times.len()).map(piece).collect();
+        let rest: Vec<Piece> = (1..times.len()).map(piece).collect();
         Ok(Self {
             rolling_ratio,
             spacing: TAU / f64::from(bearing.balls()),

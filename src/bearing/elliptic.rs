@@ -7,9 +7,8 @@
 //! The argument is the parameter `m = k²`, not the modulus `k`. Sources: Abramowitz and Stegun,
 //! *Handbook of Mathematical Functions*, 17.3.1, 17.3.3 and 17.6.
 
+use super::error::BearingError;
 use std::f64::consts::FRAC_PI_2;
-
-use thiserror::Error;
 
 /// Steps of the mean after which the sequence has converged for every parameter: the error squares
 /// in each step, and from the smallest positive `sqrt(1 − m)` some ten steps bring the two means together.
@@ -17,17 +16,6 @@ const MEAN_STEPS: usize = 40;
 
 /// Relative distance of the two means at which the next step no longer changes them.
 const MEAN_TOLERANCE: f64 = 1e-9;
-
-/// Why an elliptic integral cannot be given.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum EllipticError {
-    /// The parameter is one or more, or not a number: K is infinite or complex.
-    #[error("elliptic parameter m = {parameter} must be below 1")]
-    Parameter {
-        /// The parameter `m` that was given.
-        parameter: f64,
-    },
-}
 
 /// K and E at one parameter, with the differences that cancel when they are formed from K and E.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,18 +33,18 @@ pub struct CompleteElliptic {
 /// K(m) and E(m) for `m < 1` (negative values included), to about 1e-15 relative.
 ///
 /// # Errors
-/// [`EllipticError::Parameter`] unless `m < 1`.
+/// [`BearingError`] unless `m < 1`.
 ///
 /// # Example
 /// ```
 /// let at = plummer::bearing::elliptic::complete(0.5).unwrap();
 /// assert!((at.first - 1.854_074_677_301_371_9).abs() < 4e-15);
 /// ```
-pub fn complete(parameter: f64) -> Result<CompleteElliptic, EllipticError> {
+pub fn complete(parameter: f64) -> Result<CompleteElliptic, BearingError> {
     if parameter.is_finite() && parameter < 1.0 {
         Ok(from_complement(parameter, 1.0 - parameter))
     } else {
-        Err(EllipticError::Parameter { parameter })
+        Err(BearingError(format!("elliptic parameter m = {parameter} must be below 1")))
     }
 }
 

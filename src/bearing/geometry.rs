@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use thiserror::Error;
-
+use crate::bearing::error::{BearingError, positive, refused};
 use crate::bearing::hertz::PrincipalCurvatures;
-use crate::bearing::kinematics::{BallRow, DefectOrders, RaceError};
+use crate::bearing::kinematics::{BallRow, DefectOrders};
 
 /// Largest radial play, either sign, as a fraction of the ball radius. Catalogue clearances stay below
 /// a few percent; more than this means that a radius is wrong or in another unit.
@@ -13,55 +12,6 @@ pub const PLAY_LIMIT: f64 = 0.1;
 
 /// Fewest and most balls that are accepted.
 pub const BALL_COUNTS: std::ops::RangeInclusive<u32> = 3..=40;
-
-/// Why a bearing's dimensions are refused; the key is the name in the case file.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum GeometryError {
-    /// The number of balls is outside [`BALL_COUNTS`].
-    #[error("balls = {value} must be 3 to 40")]
-    Balls {
-        /// Number that was given.
-        value: u32,
-    },
-    /// A length or mass breaks its rule.
-    #[error("{key} = {value} {rule}")]
-    Value {
-        /// Key in the case file.
-        key: &'static str,
-        /// Value that was given, SI.
-        value: f64,
-        /// What it must satisfy.
-        rule: &'static str,
-    },
-    /// The radii leave more play, or more interference, than a bearing has.
-    #[error(
-        "radial_play = {play} m (outer_race_radius - inner_race_radius - 2 ball_radius unless given) \
-         must be within +-{limit} m, a tenth of the ball radius"
-    )]
-    Play {
-        /// Radial play, m.
-        play: f64,
-        /// Largest magnitude, m.
-        limit: f64,
-    },
-    /// The balls overlap on the pitch circle.
-    #[error(
-        "balls = {balls} of radius {ball_radius} m do not fit on a pitch radius of {pitch_radius} m: at most {most}"
-    )]
-    Crowded {
-        /// Number of balls.
-        balls: u32,
-        /// Ball radius, m.
-        ball_radius: f64,
-        /// Pitch radius, m.
-        pitch_radius: f64,
-        /// Largest number that fits.
-        most: u32,
-    },
-    /// The rolling kinematics refuse the diameters.
-    #[error(transparent)]
-    Race(#[from] RaceError),
-}
 
 /// What a drawing gives; unchecked. Lengths in m, all positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,12 +47,12 @@ impl BearingGeometry {
     /// Checks `dimensions`.
     ///
     /// # Errors
-    /// [`GeometryError`]: ball count outside 3..=40; a value not positive and finite; a groove not
+    /// [`BearingError`]: ball count outside 3..=40; a value not positive and finite; a groove not
     /// wider than the ball; play beyond a tenth of the ball radius; balls that overlap.
-    pub fn new(dimensions: BearingDimensions) -> Result<Self, GeometryError> {
+    pub fn new(dimensions: BearingDimensions) -> Result<Self, BearingError> {
         let d = &dimensions;
         if !BALL_COUNTS.contains(&d.balls) {
-            return Err(GeometryError::Balls { value: d.balls });
+            return Err(BearingError(format!("balls = {} must be 3 to 40", d.balls)));
         }
         for (key, value) in [
             ("ball_radius", d.ball_radius),
@@ -112,29 +62,24 @@ impl BearingGeometry {
             ("inner_groove_radius", d.inner_groove_radius),
             ("outer_groove_radius", d.outer_groove_radius),
         ] {
-            if !(value.is_finite() && value > 0.0) {
-                let rule = "must be positive and finite";
-                return Err(GeometryError::Value { key, value, rule });
-            }
+            positive(key, value)?;
         }
         for (key, value) in
             [("inner_groove_radius", d.inner_groove_radius), ("outer_groove_radius", d.outer_groove_radius)]
         {
             if value <= d.ball_radius {
-                let rule = "must be greater than ball_radius";
-                return Err(GeometryError::Value { key, value, rule });
+                return refused(key, value, "must be greater than ball_radius");
             }
         }
         let radial_play = checked_play(d.outer_race_radius - d.inner_race_radius - 2.0 * d.ball_radius, d.ball_radius)?;
         let pitch_radius = 0.5 * (d.outer_race_radius + d.inner_race_radius);
         let most = (PI / (d.ball_radius / pitch_radius).asin()).floor();
         if f64::from(d.balls) > most {
-            return Err(GeometryError::Crowded {
-                balls: d.balls,
-                ball_radius: d.ball_radius,
-                pitch_radius,
-                most: most as u32,
-            });
+            let BearingDimensions { balls, ball_radius, .. } = d;
+            let most = most as u32;
+            return Err(BearingError(format!(
+                "balls = {balls} of radius {ball_radius} m do not fit on a pitch radius of {pitch_radius} m: at most {most}"
+            )));
         }
         let row = BallRow::new(d.balls, 2.0 * d.ball_radius, 2.0 * pitch_radius, 0.0)?;
         Ok(Self { dimensions, radial_play, orders: row.orders() })
@@ -147,8 +92,8 @@ impl BearingGeometry {
     /// the orders: microns of fit do not change those, and R_0 stays where the ring and its dents are.
     ///
     /// # Errors
-    /// [`GeometryError::Play`] beyond a tenth of the ball radius or not finite.
-    pub fn with_radial_play(self, play: f64) -> Result<Self, GeometryError> {
+    /// [`BearingError`] beyond a tenth of the ball radius or not finite.
+    pub fn with_radial_play(self, play: f64) -> Result<Self, BearingError> {
         let radial_play = checked_play(play, self.dimensions.ball_radius)?;
         Ok(Self { radial_play, ..self })
     }
@@ -272,9 +217,15 @@ impl BearingGeometry {
     }
 }
 
-fn checked_play(play: f64, ball_radius: f64) -> Result<f64, GeometryError> {
+fn checked_play(play: f64, ball_radius: f64) -> Result<f64, BearingError> {
     let limit = PLAY_LIMIT * ball_radius;
-    if play.abs() <= limit { Ok(play) } else { Err(GeometryError::Play { play, limit }) }
+    if play.abs() <= limit {
+        return Ok(play);
+    }
+    Err(BearingError(format!(
+        "radial_play = {play} m (outer_race_radius - inner_race_radius - 2 ball_radius unless given) \
+         must be within +-{limit} m, a tenth of the ball radius"
+    )))
 }
 
 #[cfg(test)]

@@ -14,52 +14,14 @@
 //! Source: T. A. Harris, *Rolling Bearing Analysis*, 4th edition, chapter 6, (6.23) to (6.41).
 //! Physical sense: the closer the surfaces conform, the larger the patch and the stiffer the contact.
 
-use thiserror::Error;
-
 use super::elliptic::{self, CompleteElliptic};
+use super::error::{BearingError, refused};
 
 /// Upper end of the search for `ln κ`: the smallest `1 − F` that doubles can hold needs about 20.
 const LOG_ELLIPTICITY_MAX: f64 = 36.0;
 
 /// Halvings of the search interval: 36 · 2⁻⁵⁵ is 1e-15 in `ln κ`.
 const HALVINGS: usize = 55;
-
-/// Why a Hertz stiffness cannot be given.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum HertzError {
-    /// A curvature or material value is NaN or infinite.
-    #[error("{name} = {value} is not a finite number")]
-    NotFinite {
-        /// What the value is.
-        name: &'static str,
-        /// The value that was given.
-        value: f64,
-    },
-    /// The curvature sum is zero or negative: the surfaces do not touch in one point.
-    #[error("curvature sum {sum} 1/m must be positive: the concave surface is tighter than the convex one")]
-    CurvatureSum {
-        /// Σρ, 1/m.
-        sum: f64,
-    },
-    /// F(ρ) is one or more: in one plane the concave surface is as tight as the convex one.
-    #[error("curvature difference F = {difference} must be below 1: the surfaces conform in one plane")]
-    CurvatureDifference {
-        /// F(ρ), dimensionless.
-        difference: f64,
-    },
-    /// Young's modulus is not positive.
-    #[error("Young's modulus {young} Pa must be positive")]
-    Young {
-        /// Young's modulus, Pa.
-        young: f64,
-    },
-    /// Poisson's ratio is outside what an isotropic solid allows.
-    #[error("Poisson's ratio {poisson} must be above -1 and at most 0.5")]
-    Poisson {
-        /// Poisson's ratio.
-        poisson: f64,
-    },
-}
 
 /// Principal curvatures of one body at the contact, 1/m, convex positive.
 ///
@@ -138,17 +100,15 @@ impl HertzStiffness {
 /// `young` in Pa, positive; `poisson` above −1 and at most 0.5; one entry a body.
 ///
 /// # Errors
-/// [`HertzError::NotFinite`], [`HertzError::Young`], [`HertzError::Poisson`].
-pub fn effective_modulus(young: [f64; 2], poisson: [f64; 2]) -> Result<f64, HertzError> {
+/// [`BearingError`] names the modulus or ratio out of range.
+pub fn effective_modulus(young: [f64; 2], poisson: [f64; 2]) -> Result<f64, BearingError> {
     let mut compliance = 0.0;
     for (young, poisson) in young.into_iter().zip(poisson) {
         finite("Young's modulus", young)?;
         finite("Poisson's ratio", poisson)?;
-        if young <= 0.0 {
-            return Err(HertzError::Young { young });
-        }
+        positive_modulus(young)?;
         if poisson <= -1.0 || poisson > 0.5 {
-            return Err(HertzError::Poisson { poisson });
+            return Err(BearingError(format!("Poisson's ratio {poisson} must be above -1 and at most 0.5")));
         }
         compliance += (1.0 - poisson * poisson) / young;
     }
@@ -158,13 +118,12 @@ pub fn effective_modulus(young: [f64; 2], poisson: [f64; 2]) -> Result<f64, Hert
 /// Hertz stiffness of two bodies with the given curvatures and effective modulus (Pa).
 ///
 /// # Errors
-/// [`HertzError::NotFinite`] for NaN or infinite input, [`HertzError::CurvatureSum`] for Σρ ≤ 0,
-/// [`HertzError::CurvatureDifference`] for F(ρ) ≥ 1, [`HertzError::Young`] for a modulus ≤ 0.
+/// [`BearingError`] for NaN or infinite input, Σρ ≤ 0, F(ρ) ≥ 1, and a modulus ≤ 0.
 pub fn stiffness(
     first: PrincipalCurvatures,
     second: PrincipalCurvatures,
     effective_modulus: f64,
-) -> Result<HertzStiffness, HertzError> {
+) -> Result<HertzStiffness, BearingError> {
     for (name, value) in [
         ("curvature of the first body in plane 1", first.plane_1),
         ("curvature of the first body in plane 2", first.plane_2),
@@ -174,20 +133,22 @@ pub fn stiffness(
     ] {
         finite(name, value)?;
     }
-    if effective_modulus <= 0.0 {
-        return Err(HertzError::Young { young: effective_modulus });
-    }
+    positive_modulus(effective_modulus)?;
     let relative_1 = first.plane_1 + second.plane_1;
     let relative_2 = first.plane_2 + second.plane_2;
     let curvature_sum = relative_1 + relative_2;
     if curvature_sum <= 0.0 {
-        return Err(HertzError::CurvatureSum { sum: curvature_sum });
+        return Err(BearingError(format!(
+            "curvature sum {curvature_sum} 1/m must be positive: the concave surface is tighter than the convex one"
+        )));
     }
     let curvature_difference = (relative_1 - relative_2).abs() / curvature_sum;
     // 1 − F without cancellation: twice the smaller relative curvature over the sum.
     let complement = 2.0 * relative_1.min(relative_2) / curvature_sum;
     if complement <= 0.0 {
-        return Err(HertzError::CurvatureDifference { difference: curvature_difference });
+        return Err(BearingError(format!(
+            "curvature difference F = {curvature_difference} must be below 1: the surfaces conform in one plane"
+        )));
     }
     let patch = solve_patch(curvature_difference, complement);
     let approach = patch.approach();
@@ -207,8 +168,8 @@ pub fn stiffness(
 /// Stiffness of a sphere (radius in m) on a flat, N/m^{3/2}: `k = (4/3) E* √R`.
 ///
 /// # Errors
-/// As [`stiffness`]; a radius ≤ 0 gives [`HertzError::CurvatureSum`], a zero one [`HertzError::NotFinite`].
-pub fn sphere_on_flat(radius: f64, effective_modulus: f64) -> Result<HertzStiffness, HertzError> {
+/// As [`stiffness`]; the curvature of a radius ≤ 0 is not positive, that of a zero one not finite.
+pub fn sphere_on_flat(radius: f64, effective_modulus: f64) -> Result<HertzStiffness, BearingError> {
     stiffness(PrincipalCurvatures::sphere(radius), PrincipalCurvatures::flat(), effective_modulus)
 }
 
@@ -266,8 +227,12 @@ fn solve_patch(difference: f64, complement: f64) -> Patch {
     Patch::at(low)
 }
 
-fn finite(name: &'static str, value: f64) -> Result<(), HertzError> {
-    if value.is_finite() { Ok(()) } else { Err(HertzError::NotFinite { name, value }) }
+fn finite(name: &str, value: f64) -> Result<(), BearingError> {
+    if value.is_finite() { Ok(()) } else { refused(name, value, "is not a finite number") }
+}
+
+fn positive_modulus(young: f64) -> Result<(), BearingError> {
+    if young > 0.0 { Ok(()) } else { Err(BearingError(format!("Young's modulus {young} Pa must be positive"))) }
 }
 
 #[cfg(test)]

@@ -80,6 +80,7 @@ fn near_line_contact_stays_finite() {
 fn every_error_fires_with_its_values() {
     let ball = PrincipalCurvatures::sphere(BALL);
     let race = |plane_1: f64, plane_2: f64| stiffness(ball, PrincipalCurvatures { plane_1, plane_2 }, 1e11);
+    let message = |found: Result<HertzStiffness, BearingError>| found.unwrap_err().to_string();
     assert_eq!(
         race(-1000.0, -1000.0).unwrap_err().to_string(),
         "curvature sum 0 1/m must be positive: the concave surface is tighter than the convex one"
@@ -88,14 +89,14 @@ fn every_error_fires_with_its_values() {
         race(-1250.0, 0.0).unwrap_err().to_string(),
         "curvature difference F = 1.6666666666666667 must be below 1: the surfaces conform in one plane"
     );
-    assert!(matches!(race(-1000.0, 0.0), Err(HertzError::CurvatureDifference { .. })));
+    assert!(message(race(-1000.0, 0.0)).starts_with("curvature difference"));
     assert_eq!(
         race(f64::NAN, 0.0).unwrap_err().to_string(),
         "curvature of the second body in plane 1 = NaN is not a finite number"
     );
-    assert!(matches!(sphere_on_flat(0.0, 1e11), Err(HertzError::NotFinite { .. })));
-    assert!(matches!(sphere_on_flat(-1.0, 1e11), Err(HertzError::CurvatureSum { .. })));
-    assert!(matches!(sphere_on_flat(1.0, 0.0), Err(HertzError::Young { .. })));
+    assert!(message(sphere_on_flat(0.0, 1e11)).ends_with("is not a finite number"));
+    assert!(message(sphere_on_flat(-1.0, 1e11)).starts_with("curvature sum"));
+    assert!(message(sphere_on_flat(1.0, 0.0)).starts_with("Young's modulus"));
     assert_eq!(
         effective_modulus([2e11, -1.0], [0.3; 2]).unwrap_err().to_string(),
         "Young's modulus -1 Pa must be positive"
@@ -104,7 +105,8 @@ fn every_error_fires_with_its_values() {
         effective_modulus([2e11; 2], [0.3, 0.6]).unwrap_err().to_string(),
         "Poisson's ratio 0.6 must be above -1 and at most 0.5"
     );
-    assert!(matches!(effective_modulus([f64::INFINITY, 1.0], [0.3; 2]), Err(HertzError::NotFinite { .. })));
+    let infinite = effective_modulus([f64::INFINITY, 1.0], [0.3; 2]).unwrap_err().to_string();
+    assert!(infinite.ends_with("is not a finite number"));
 }
 
 proptest! {

@@ -8,23 +8,10 @@
 //! Source: K. L. Johnson, *Contact Mechanics*, 1985, section 11.4, (11.22) to (11.24).
 //! Physical sense: a faster ball stays in contact for a slightly shorter time, `T ~ v^{-1/5}`.
 
-use thiserror::Error;
+use super::error::{BearingError, positive};
 
 /// `(4/5) √π Γ(2/5) / Γ(9/10)`: contact time in units of `δ_max / v`.
 pub const CONTACT_TIME_FACTOR: f64 = 2.943_275_184_324_704_7;
-
-/// Why an impact cannot be computed.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum ImpactError {
-    /// A value is not positive and finite.
-    #[error("{name} = {value} must be positive and finite")]
-    NotPositive {
-        /// What the value is.
-        name: &'static str,
-        /// The value that was given.
-        value: f64,
-    },
-}
 
 /// What an elastic impact does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,12 +28,10 @@ pub struct ImpactPeak {
 /// `mass` (kg; the reduced mass if both bodies move) and approach speed `speed` (m/s), all positive.
 ///
 /// # Errors
-/// [`ImpactError::NotPositive`] names the value that is not.
-pub fn impact(stiffness: f64, mass: f64, speed: f64) -> Result<ImpactPeak, ImpactError> {
+/// [`BearingError`] names the value that is not.
+pub fn impact(stiffness: f64, mass: f64, speed: f64) -> Result<ImpactPeak, BearingError> {
     for (name, value) in [("stiffness", stiffness), ("mass", mass), ("speed", speed)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ImpactError::NotPositive { name, value });
-        }
+        positive(name, value)?;
     }
     let indentation = (1.25 * mass * speed * speed / stiffness).powf(0.4);
     Ok(ImpactPeak {

@@ -10,44 +10,8 @@
 //! Source: T. A. Harris, *Rolling Bearing Analysis*, chapter 8; the orders of the source paper's Table 2.
 //! Convention: a defect on a ball meets a race twice a spin; "ball defect" counts both.
 
+use super::error::BearingError;
 use std::f64::consts::FRAC_PI_2;
-
-use thiserror::Error;
-
-/// Why the kinematics cannot be formed.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum RaceError {
-    /// No balls.
-    #[error("balls = {balls} must be at least 1")]
-    Balls {
-        /// Number of balls that was given.
-        balls: u32,
-    },
-    /// The ball is not smaller than the pitch circle, or a diameter is not positive and finite.
-    #[error(
-        "ball diameter {ball_diameter} must be positive and below the pitch diameter {pitch_diameter}, in the same unit"
-    )]
-    Diameters {
-        /// Ball diameter, m.
-        ball_diameter: f64,
-        /// Pitch diameter, m.
-        pitch_diameter: f64,
-    },
-    /// The contact angle is not between zero and a right angle.
-    #[error("contact angle {:.4} degrees must be at least 0 and below 90", contact_angle.to_degrees())]
-    ContactAngle {
-        /// Contact angle, rad.
-        contact_angle: f64,
-    },
-    /// Neighbours would lie in each other.
-    #[error("{balls} balls of these diameters overlap: expected at most {most}")]
-    Overlap {
-        /// Number of balls.
-        balls: u32,
-        /// How many fit on the pitch circle.
-        most: u32,
-    },
-}
 
 /// A row of balls: count, diameters and contact angle, checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +24,7 @@ pub struct BallRow {
 /// Events per shaft turn; multiply by the shaft's frequency to get Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectOrders {
-    /// Turns of the cage.
+    /// Turns of the cage, `(1 − γ) / 2`; between 0 and 1/2.
     pub cage: f64,
     /// Balls that pass a point of the outer race.
     pub outer: f64,
@@ -77,40 +41,38 @@ impl BallRow {
     /// with `contact_angle` (rad, 0 for a radial bearing, below π/2).
     ///
     /// # Errors
-    /// [`RaceError`], with the value that breaks its rule.
-    pub fn new(balls: u32, ball_diameter: f64, pitch_diameter: f64, contact_angle: f64) -> Result<Self, RaceError> {
+    /// [`BearingError`], with the value that breaks its rule.
+    pub fn new(balls: u32, ball_diameter: f64, pitch_diameter: f64, contact_angle: f64) -> Result<Self, BearingError> {
+        let refused = |message| Err(BearingError(message));
         if balls == 0 {
-            return Err(RaceError::Balls { balls });
+            return refused(format!("balls = {balls} must be at least 1"));
         }
         let ordered = ball_diameter > 0.0 && ball_diameter < pitch_diameter;
         if !(ordered && pitch_diameter.is_finite()) {
-            return Err(RaceError::Diameters { ball_diameter, pitch_diameter });
+            return refused(format!(
+                "ball diameter {ball_diameter} must be positive and below the pitch diameter {pitch_diameter}, in the same unit"
+            ));
         }
         if !(0.0..FRAC_PI_2).contains(&contact_angle) {
-            return Err(RaceError::ContactAngle { contact_angle });
+            let degrees = contact_angle.to_degrees();
+            return refused(format!("contact angle {degrees:.4} degrees must be at least 0 and below 90"));
         }
         // neighbours on the pitch circle are pitch sin(pi / N) apart
         let most = std::f64::consts::PI / (ball_diameter / pitch_diameter).asin();
         // balls that touch fit, but for round-off
         let most = (most * (1.0 + 1e-9)) as u32;
         if balls > most {
-            return Err(RaceError::Overlap { balls, most });
+            return refused(format!("{balls} balls of these diameters overlap: expected at most {most}"));
         }
         let diameter_ratio = ball_diameter / pitch_diameter;
         Ok(Self { balls: f64::from(balls), diameter_ratio, projected_ratio: diameter_ratio * contact_angle.cos() })
     }
 
-    /// Turns of the cage per turn of the shaft, `(1 − γ) / 2`; between 0 and 1/2.
-    #[must_use]
-    pub fn cage_order(&self) -> f64 {
-        0.5 * (1.0 - self.projected_ratio)
-    }
-
     /// All defect orders.
     #[must_use]
     pub fn orders(&self) -> DefectOrders {
-        let cage = self.cage_order();
         let gamma = self.projected_ratio;
+        let cage = 0.5 * (1.0 - gamma);
         let ball_spin = 0.5 / self.diameter_ratio * (1.0 - gamma * gamma);
         DefectOrders {
             cage,

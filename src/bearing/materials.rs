@@ -1,11 +1,10 @@
 //! Contact stiffness of the two races: from materials and geometry (Hertz), or given.
 
+use super::geometry::BearingGeometry;
+use crate::bearing::error::BearingError;
+use crate::bearing::hertz::{self, HertzStiffness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
-use super::geometry::BearingGeometry;
-use crate::bearing::hertz::{self, HertzError, HertzStiffness};
 
 /// Elastic constants of a surface in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,27 +34,6 @@ impl std::fmt::Display for Race {
     }
 }
 
-/// Why a contact stiffness cannot be given.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum StiffnessError {
-    /// Hertz theory refuses the geometry or the materials at one race.
-    #[error("{race} race: {source}")]
-    Hertz {
-        /// The race concerned.
-        race: Race,
-        /// What Hertz theory says.
-        source: HertzError,
-    },
-    /// A given stiffness is not positive and finite.
-    #[error("stiffness.{race} = {value} N/m^1.5 must be positive and finite")]
-    Given {
-        /// The race concerned.
-        race: Race,
-        /// The value that was given, N/m^{3/2}.
-        value: f64,
-    },
-}
-
 /// Full Hertz results at both races, for the report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RaceContacts {
@@ -69,17 +47,17 @@ impl RaceContacts {
     /// Hertz theory for `ball` against each race of `bearing` (the paper's (21), (22), nominal radii).
     ///
     /// # Errors
-    /// [`StiffnessError::Hertz`] names the race and the reason.
+    /// [`BearingError`] names the race and the reason.
     pub fn new(
         bearing: &BearingGeometry,
         ball: ContactMaterial,
         inner_race: ContactMaterial,
         outer_race: ContactMaterial,
-    ) -> Result<Self, StiffnessError> {
+    ) -> Result<Self, BearingError> {
         let contact = |race, material: ContactMaterial, curvatures| {
             hertz::effective_modulus([ball.young, material.young], [ball.poisson, material.poisson])
                 .and_then(|modulus| hertz::stiffness(bearing.ball_curvatures(), curvatures, modulus))
-                .map_err(|source| StiffnessError::Hertz { race, source })
+                .map_err(|error| BearingError(format!("{race} race: {error}")))
         };
         Ok(Self {
             inner: contact(Race::Inner, inner_race, bearing.inner_curvatures())?,
@@ -102,27 +80,14 @@ pub struct ContactStiffness {
 }
 
 impl ContactStiffness {
-    /// From geometry and materials; see [`RaceContacts::new`].
-    ///
-    /// # Errors
-    /// [`StiffnessError::Hertz`].
-    pub(crate) fn hertz(
-        bearing: &BearingGeometry,
-        ball: ContactMaterial,
-        inner_race: ContactMaterial,
-        outer_race: ContactMaterial,
-    ) -> Result<Self, StiffnessError> {
-        Ok(RaceContacts::new(bearing, ball, inner_race, outer_race)?.stiffness())
-    }
-
     /// As given, N/m^{3/2}.
     ///
     /// # Errors
-    /// [`StiffnessError::Given`] unless positive and finite.
-    pub fn given(inner: f64, outer: f64) -> Result<Self, StiffnessError> {
+    /// [`BearingError`] unless positive and finite.
+    pub fn given(inner: f64, outer: f64) -> Result<Self, BearingError> {
         for (race, value) in [(Race::Inner, inner), (Race::Outer, outer)] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(StiffnessError::Given { race, value });
+                return Err(BearingError(format!("stiffness.{race} = {value} N/m^1.5 must be positive and finite")));
             }
         }
         Ok(Self { inner, outer })
@@ -176,7 +141,7 @@ mod tests {
     #[test]
     fn a_softer_outer_race_softens_the_outer_contact_alone() {
         let soft = ContactMaterial { young: 103e9, poisson: 0.3 };
-        let mixed = ContactStiffness::hertz(&source_bearing(), steel(), steel(), soft).unwrap();
+        let mixed = RaceContacts::new(&source_bearing(), steel(), steel(), soft).unwrap().stiffness();
         let all = source_stiffness();
         assert_relative_eq!(mixed.inner(), all.inner(), max_relative = 1e-15);
         assert_relative_eq!(mixed.outer(), all.outer() * 2.0 / 3.0, max_relative = 1e-14);
@@ -185,7 +150,7 @@ mod tests {
     #[test]
     fn errors_name_the_race() {
         let bad = ContactMaterial { young: -1.0, poisson: 0.3 };
-        let error = ContactStiffness::hertz(&source_bearing(), steel(), steel(), bad).unwrap_err();
+        let error = RaceContacts::new(&source_bearing(), steel(), steel(), bad).unwrap_err();
         assert_eq!(error.to_string(), "outer race: Young's modulus -1 Pa must be positive");
         let error = ContactStiffness::given(0.0, 1.0).unwrap_err();
         assert_eq!(error.to_string(), "stiffness.inner = 0 N/m^1.5 must be positive and finite");

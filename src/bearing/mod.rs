@@ -17,6 +17,7 @@ pub mod catalogue;
 pub mod contact;
 pub mod defect;
 pub mod elliptic;
+mod error;
 pub mod geometry;
 pub mod hertz;
 pub mod impact;
@@ -30,11 +31,12 @@ pub mod waviness;
 #[cfg(test)]
 pub(crate) mod samples;
 
-pub use cage::{Cage, CageError};
+pub use cage::Cage;
 pub use contact::{ContactForce, HertzContact};
-pub use geometry::{BearingDimensions, BearingGeometry, GeometryError};
-pub use materials::{ContactMaterial, ContactStiffness, Race, RaceContacts, StiffnessError};
+pub use error::BearingError;
+pub use geometry::{BearingDimensions, BearingGeometry};
+pub use materials::{ContactMaterial, ContactStiffness, Race, RaceContacts};
 pub use rotation::{RotationCursor, RotationState};
-pub use slip::{SlipError, SlipProfile};
-pub use speed::{SpeedError, SpeedKnot, SpeedProfile};
-pub use waviness::{Wave, WaveError, Waviness};
+pub use slip::SlipProfile;
+pub use speed::{SpeedKnot, SpeedProfile};
+pub use waviness::{Wave, Waviness};

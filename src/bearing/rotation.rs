@@ -25,14 +25,19 @@ pub struct RotationCursor {
     piece: usize,
 }
 
-/// A polynomial from `time` on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Piece {
-    time: f64,
-    angle: f64,
-    speed: f64,
-    acceleration: f64,
-    jerk: f64,
+/// A polynomial from a knot on.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Piece {
+    /// Time of the knot, s.
+    pub time: f64,
+    /// Angle there, rad; [`Rotation::new`] sets it.
+    pub angle: f64,
+    /// Angular speed there, rad/s.
+    pub speed: f64,
+    /// Angular acceleration there, rad/s².
+    pub acceleration: f64,
+    /// Its rate, rad/s³, constant.
+    pub jerk: f64,
 }
 
 impl Piece {
@@ -44,19 +49,6 @@ impl Piece {
         let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt * (1.0 / 6.0));
         RotationState { angle: self.angle + dt * (self.speed + gained_mean), speed: self.speed + gained, acceleration }
     }
-}
-
-/// Speed from a knot on: value, first and second derivative by time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SpeedPiece {
-    /// Time of the knot, s.
-    pub time: f64,
-    /// Angular speed there, rad/s.
-    pub speed: f64,
-    /// Angular acceleration there, rad/s².
-    pub acceleration: f64,
-    /// Its rate, rad/s³, constant.
-    pub jerk: f64,
 }
 
 /// A rotation over all time.
@@ -71,22 +63,14 @@ pub(super) struct Rotation {
 impl Rotation {
     /// A rotation by `angle_at_zero` (rad) at time zero from `pieces`, at least one, times ascending; the first one's speed
     /// holds before it.
-    pub(super) fn new(first: SpeedPiece, rest: &[SpeedPiece], angle_at_zero: f64) -> Self {
+    pub(super) fn new(first: Piece, rest: &[Piece], angle_at_zero: f64) -> Self {
         let mut pieces: Vec<Piece> = Vec::with_capacity(1 + rest.len());
-        for piece in std::iter::once(&first).chain(rest) {
+        for &piece in std::iter::once(&first).chain(rest) {
             let angle = pieces.last().map_or(0.0, |last| last.at(piece.time).angle);
-            pieces.push(Piece {
-                time: piece.time,
-                angle,
-                speed: piece.speed,
-                acceleration: piece.acceleration,
-                jerk: piece.jerk,
-            });
+            pieces.push(Piece { angle, ..piece });
         }
-        let mut rotation = Self {
-            before: Piece { time: first.time, angle: 0.0, speed: first.speed, acceleration: 0.0, jerk: 0.0 },
-            pieces,
-        };
+        let before = Piece { time: first.time, speed: first.speed, ..Piece::default() };
+        let mut rotation = Self { before, pieces };
         let shift = angle_at_zero - rotation.at(0.0).angle;
         rotation.before.angle += shift;
         for piece in &mut rotation.pieces {

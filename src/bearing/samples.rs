@@ -1,6 +1,6 @@
 //! The source paper's bearing, for tests.
 
-use super::{BearingDimensions, BearingGeometry, ContactMaterial, ContactStiffness};
+use super::{BearingDimensions, BearingGeometry, ContactMaterial, ContactStiffness, RaceContacts};
 
 /// Table 1 of the source, SI.
 pub(crate) fn source_dimensions() -> BearingDimensions {
@@ -27,5 +27,5 @@ pub(crate) fn steel() -> ContactMaterial {
 
 /// Hertz stiffness of the source's bearing in steel.
 pub(crate) fn source_stiffness() -> ContactStiffness {
-    ContactStiffness::hertz(&source_bearing(), steel(), steel(), steel()).unwrap()
+    RaceContacts::new(&source_bearing(), steel(), steel(), steel()).unwrap().stiffness()
 }

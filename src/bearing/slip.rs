@@ -1,47 +1,8 @@
 //! How much slower than by pure rolling the cage turns: constant, over time, or over speed.
 
-use thiserror::Error;
-
+use super::error::{BearingError, refused};
 use super::speed::SpeedProfile;
 use std::f64::consts::TAU;
-
-/// Why slip is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SlipError {
-    /// The table has no row.
-    #[error("slip profile is empty: give at least one point")]
-    Empty,
-    /// Slip outside its range.
-    #[error("slip = {slip} must be 0 (pure rolling) to 1 (cage at rest)")]
-    Slip {
-        /// Slip that was given.
-        slip: f64,
-    },
-    /// A time or speed that is not finite, or a speed below zero.
-    #[error("slip profile row {row}: {name} = {value} {rule}")]
-    Place {
-        /// Row, from 0.
-        row: usize,
-        /// Which entry.
-        name: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it must satisfy.
-        rule: &'static str,
-    },
-    /// A time or speed that does not come after the one before.
-    #[error("slip profile row {row}: {name} {value} must be above {previous} in the row before")]
-    NotIncreasing {
-        /// Row, from 0.
-        row: usize,
-        /// Which entry.
-        name: &'static str,
-        /// What it is.
-        value: f64,
-        /// The previous row's.
-        previous: f64,
-    },
-}
 
 /// What a slip profile runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,16 +25,16 @@ impl SlipProfile {
     /// The same slip always.
     ///
     /// # Errors
-    /// [`SlipError::Slip`].
-    pub fn constant(slip: f64) -> Result<Self, SlipError> {
+    /// [`BearingError`] for slip out of range.
+    pub fn constant(slip: f64) -> Result<Self, BearingError> {
         Self::over_time(&[(0.0, slip)])
     }
 
     /// Slip over time: (s, slip), times ascending.
     ///
     /// # Errors
-    /// [`SlipError`] naming the row.
-    pub(crate) fn over_time(points: &[(f64, f64)]) -> Result<Self, SlipError> {
+    /// [`BearingError`] naming the row.
+    pub(crate) fn over_time(points: &[(f64, f64)]) -> Result<Self, BearingError> {
         check(points, "time", f64::NEG_INFINITY, "must be finite")?;
         Ok(Self { over: Over::Time, points: points.to_vec() })
     }
@@ -81,8 +42,8 @@ impl SlipProfile {
     /// Slip over the magnitude of the shaft's frequency: (Hz, slip), frequencies zero or more, ascending.
     ///
     /// # Errors
-    /// [`SlipError`] naming the row.
-    pub(crate) fn over_speed(points: &[(f64, f64)]) -> Result<Self, SlipError> {
+    /// [`BearingError`] naming the row.
+    pub(crate) fn over_speed(points: &[(f64, f64)]) -> Result<Self, BearingError> {
         check(points, "hz", 0.0, "must be finite and zero or more")?;
         Ok(Self { over: Over::Speed, points: points.iter().map(|&(hz, slip)| (TAU * hz, slip)).collect() })
     }
@@ -142,22 +103,25 @@ impl SlipProfile {
     }
 }
 
-fn check(points: &[(f64, f64)], name: &'static str, least: f64, rule: &'static str) -> Result<(), SlipError> {
+fn check(points: &[(f64, f64)], name: &str, least: f64, rule: &str) -> Result<(), BearingError> {
     if points.is_empty() {
-        return Err(SlipError::Empty);
+        return Err(BearingError("slip profile is empty: give at least one point".to_owned()));
     }
     for (row, &(value, slip)) in points.iter().enumerate() {
         if !(value.is_finite() && value >= least) {
-            return Err(SlipError::Place { row, name, value, rule });
+            return refused(format_args!("slip profile row {row}: {name}"), value, rule);
         }
         if !(0.0..=1.0).contains(&slip) {
-            return Err(SlipError::Slip { slip });
+            return refused("slip", slip, "must be 0 (pure rolling) to 1 (cage at rest)");
         }
     }
     for (row, pair) in points.windows(2).enumerate() {
         let [(previous, _), (value, _)] = [pair[0], pair[1]];
         if value <= previous {
-            return Err(SlipError::NotIncreasing { row: row + 1, name, value, previous });
+            let row = row + 1;
+            return Err(BearingError(format!(
+                "slip profile row {row}: {name} {value} must be above {previous} in the row before"
+            )));
         }
     }
     Ok(())
@@ -181,14 +145,15 @@ mod tests {
 
     #[test]
     fn each_rule_names_its_row() {
-        let message = |error: SlipError| error.to_string();
+        let message = |error: BearingError| error.to_string();
         let error = SlipProfile::constant(-0.1).unwrap_err();
         assert_eq!(message(error), "slip = -0.1 must be 0 (pure rolling) to 1 (cage at rest)");
         let error = SlipProfile::over_speed(&[(0.0, 0.1), (-2.0, 0.1)]).unwrap_err();
         assert_eq!(message(error), "slip profile row 1: hz = -2 must be finite and zero or more");
         let error = SlipProfile::over_time(&[(1.0, 0.1), (1.0, 0.1)]).unwrap_err();
         assert_eq!(message(error), "slip profile row 1: time 1 must be above 1 in the row before");
-        assert_eq!(SlipProfile::over_time(&[]).unwrap_err(), SlipError::Empty);
+        let error = SlipProfile::over_time(&[]).unwrap_err();
+        assert_eq!(message(error), "slip profile is empty: give at least one point");
         assert!(SlipProfile::constant(f64::NAN).is_err());
     }
 }

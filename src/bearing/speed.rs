@@ -11,39 +11,10 @@
 
 use std::f64::consts::TAU;
 
+use super::error::{BearingError, refused};
+use super::rotation::{Piece, Rotation, RotationCursor, RotationState};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
-use super::rotation::{Rotation, RotationCursor, RotationState, SpeedPiece};
-
-/// Why a speed table is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SpeedError {
-    /// The table has no row.
-    #[error("speed profile is empty: give at least one {{ time, hz }}")]
-    Empty,
-    /// A time or speed is NaN or infinite.
-    #[error("speed profile row {row}: {name} = {value} must be finite")]
-    NotFinite {
-        /// Row, from 0.
-        row: usize,
-        /// Which entry.
-        name: &'static str,
-        /// What it is.
-        value: f64,
-    },
-    /// A time does not come after the one before.
-    #[error("speed profile row {row}: time {time} s must be later than {previous} s in the row before")]
-    NotIncreasing {
-        /// Row, from 0.
-        row: usize,
-        /// Its time, s.
-        time: f64,
-        /// The previous row's time, s.
-        previous: f64,
-    },
-}
 
 /// Shaft speed at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -66,38 +37,44 @@ impl SpeedProfile {
     /// Builds the profile from knots in order of time.
     ///
     /// # Errors
-    /// [`SpeedError`] if the table is empty, an entry is not finite or times do not increase.
-    pub fn new(knots: &[SpeedKnot]) -> Result<Self, SpeedError> {
-        let first = knots.first().ok_or(SpeedError::Empty)?;
+    /// [`BearingError`] if the table is empty, an entry is not finite or times do not increase.
+    pub fn new(knots: &[SpeedKnot]) -> Result<Self, BearingError> {
+        let Some(first) = knots.first() else {
+            return Err(BearingError("speed profile is empty: give at least one { time, hz }".to_owned()));
+        };
         for (row, knot) in knots.iter().enumerate() {
             for (name, value) in [("time", knot.time), ("hz", knot.frequency_hz)] {
                 if !value.is_finite() {
-                    return Err(SpeedError::NotFinite { row, name, value });
+                    return refused(format_args!("speed profile row {row}: {name}"), value, "must be finite");
                 }
             }
         }
         for (row, pair) in knots.windows(2).enumerate() {
             let [previous, next] = [pair[0].time, pair[1].time];
             if next <= previous {
-                return Err(SpeedError::NotIncreasing { row: row + 1, time: next, previous });
+                let row = row + 1;
+                return Err(BearingError(format!(
+                    "speed profile row {row}: time {next} s must be later than {previous} s in the row before"
+                )));
             }
         }
         let piece = |row: usize, knot: &SpeedKnot| {
             let rise = knots
                 .get(row + 1)
                 .map_or(0.0, |next| (next.frequency_hz - knot.frequency_hz) / (next.time - knot.time));
-            SpeedPiece { time: knot.time, speed: TAU * knot.frequency_hz, acceleration: TAU * rise, jerk: 0.0 }
+            let (speed, acceleration) = (TAU * knot.frequency_hz, TAU * rise);
+            Piece { time: knot.time, speed, acceleration, ..Piece::default() }
         };
         let rest = knots.iter().enumerate().skip(1);
-        let rest: Vec<SpeedPiece> = rest.map(|(row, knot)| piece(row, knot)).collect();
+        let rest: Vec<Piece> = rest.map(|(row, knot)| piece(row, knot)).collect();
         Ok(Self { rotation: Rotation::new(piece(0, first), &rest, 0.0) })
     }
 
     /// Constant speed (Hz).
     ///
     /// # Errors
-    /// [`SpeedError::NotFinite`].
-    pub fn constant(frequency_hz: f64) -> Result<Self, SpeedError> {
+    /// [`BearingError`] unless finite.
+    pub fn constant(frequency_hz: f64) -> Result<Self, BearingError> {
         Self::new(&[SpeedKnot { time: 0.0, frequency_hz }])
     }
 
@@ -119,13 +96,6 @@ impl SpeedProfile {
         let knots = self.knot_times().filter(|&time| start < time && time < end);
         let times = knots.chain([start, end]);
         times.map(|time| self.speed(time).abs()).fold(0.0, f64::max)
-    }
-
-    /// Angular acceleration at `time` (s), rad/s²; at a knot that of the interval to its right.
-    #[must_use]
-    #[inline]
-    pub(crate) fn acceleration(&self, time: f64) -> f64 {
-        self.motion(time).acceleration
     }
 
     /// Angle at `time` (s), rad, zero at time zero.

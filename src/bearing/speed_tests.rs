@@ -19,7 +19,7 @@ fn source_run_up_is_its_closed_form() {
     let rate = 20.0 * std::f64::consts::PI;
     for (time, hz) in [(2.2, 20.0), (2.3, 21.0), (2.5, 23.0)] {
         assert_relative_eq!(profile.speed(time), TAU * hz, max_relative = 1e-14);
-        assert_relative_eq!(profile.acceleration(time), rate, max_relative = 1e-14);
+        assert_relative_eq!(profile.motion(time).acceleration, rate, max_relative = 1e-14);
         let angle = 0.5 * rate * (time - 0.2) * (time - 0.2);
         assert_relative_eq!(profile.angle(time), angle, max_relative = 1e-14);
     }
@@ -27,7 +27,7 @@ fn source_run_up_is_its_closed_form() {
     let end = 0.5 * rate * 4.5 * 4.5 + TAU * 45.0 * 0.3;
     assert_relative_eq!(profile.angle(5.0), end, max_relative = 1e-14);
     assert_relative_eq!(profile.speed(9.0), TAU * 45.0, max_relative = 1e-14);
-    assert!(profile.acceleration(9.0).abs() < 1e-300);
+    assert!(profile.motion(9.0).acceleration.abs() < 1e-300);
 }
 
 #[test]
@@ -42,8 +42,8 @@ fn angle_is_zero_at_time_zero_whatever_the_knots() {
 #[test]
 fn knots_belong_to_the_interval_on_their_right() {
     let profile = varied();
-    assert!(profile.acceleration(0.7).abs() < 1e-300);
-    assert_relative_eq!(profile.acceleration(1.0), -TAU * 20.0, max_relative = 1e-12);
+    assert!(profile.motion(0.7).acceleration.abs() < 1e-300);
+    assert_relative_eq!(profile.motion(1.0).acceleration, -TAU * 20.0, max_relative = 1e-12);
     assert_eq!(profile.knot_times().count(), 5);
 }
 
@@ -72,7 +72,7 @@ proptest! {
             let tight = (profile.angle(time + h) - profile.angle(time - h)) / (2.0 * h);
             prop_assert!((tight - profile.speed(time)).abs() < 1e-8);
             let slope = (profile.speed(time + h) - profile.speed(time - h)) / (2.0 * h);
-            prop_assert!((slope - profile.acceleration(time)).abs() < 1e-5);
+            prop_assert!((slope - profile.motion(time).acceleration).abs() < 1e-5);
         }
     }
 

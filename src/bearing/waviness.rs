@@ -7,8 +7,7 @@
 //! Physical sense: what makes a sound bearing heard. Waves are long beside the patch of a contact, so that a ball follows
 //! them with one contact and the stiffness of the undamaged race.
 
-use thiserror::Error;
-
+use super::error::{BearingError, refused};
 use super::geometry::BearingGeometry;
 use super::materials::Race;
 
@@ -29,42 +28,12 @@ pub struct Wave {
     pub phase: f64,
 }
 
-/// Why a wave is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum WaveError {
-    /// A value out of range.
-    #[error("{key} = {value} {rule}")]
-    Value {
-        /// Key in the case file.
-        key: &'static str,
-        /// Value that was given.
-        value: f64,
-        /// What it must satisfy.
-        rule: &'static str,
-    },
-    /// A wave so short and high that a ball would bridge it or feel its curvature.
-    #[error(
-        "order {order} with amplitude {amplitude} m has a curvature of {curvature:.3e} 1/m, more than {limit:.3e}: take a lower order or amplitude, or a measured profile"
-    )]
-    TooSteep {
-        /// Waves in one turn.
-        order: u32,
-        /// Amplitude, m.
-        amplitude: f64,
-        /// Its largest curvature, 1/m.
-        curvature: f64,
-        /// The largest one allowed, 1/m.
-        limit: f64,
-    },
-}
-
 impl Wave {
     /// Checks the wave against the bearing.
     ///
     /// # Errors
-    /// [`WaveError`].
-    pub(crate) fn checked(self, bearing: &BearingGeometry) -> Result<Self, WaveError> {
-        let refused = |key, value, rule| Err(WaveError::Value { key, value, rule });
+    /// [`BearingError`] names the value out of range.
+    pub(crate) fn checked(self, bearing: &BearingGeometry) -> Result<Self, BearingError> {
         if self.order == 0 {
             return refused("order", 0.0, "must be at least 1");
         }
@@ -82,7 +51,11 @@ impl Wave {
         let limit = CURVATURE_LIMIT * relative;
         let curvature = self.amplitude * (f64::from(self.order) / radius).powi(2);
         if curvature > limit {
-            return Err(WaveError::TooSteep { order: self.order, amplitude: self.amplitude, curvature, limit });
+            let Self { order, amplitude, .. } = self;
+            return Err(BearingError(format!(
+                "order {order} with amplitude {amplitude} m has a curvature of {curvature:.3e} 1/m, more than \
+                 {limit:.3e}: take a lower order or amplitude, or a measured profile"
+            )));
         }
         Ok(self)
     }

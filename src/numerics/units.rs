@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// Unit of length of the coordinates in a file. Inside the program every length is in metres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -24,17 +23,6 @@ pub enum LengthUnit {
     Inch,
 }
 
-/// A unit that the program does not know.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum UnitError {
-    /// Not the symbol of a unit of length.
-    #[error("unknown length unit \"{found}\": expected one of m, cm, mm, um, in")]
-    Length {
-        /// What was given.
-        found: String,
-    },
-}
-
 impl LengthUnit {
     /// Every unit, largest SI unit first, the inch last.
     pub const ALL: [Self; 5] = [Self::Metre, Self::Centimetre, Self::Millimetre, Self::Micrometre, Self::Inch];
@@ -42,13 +30,10 @@ impl LengthUnit {
     /// The unit with this symbol: `m`, `cm`, `mm`, `um` or `in`; case matters, blanks around do not.
     ///
     /// # Errors
-    /// [`UnitError::Length`] for anything else.
-    pub fn parse(symbol: &str) -> Result<Self, UnitError> {
-        let wanted = symbol.trim();
-        Self::ALL
-            .into_iter()
-            .find(|unit| unit.symbol() == wanted)
-            .ok_or_else(|| UnitError::Length { found: symbol.to_owned() })
+    /// A sentence with the symbol for anything else.
+    pub fn parse(symbol: &str) -> Result<Self, String> {
+        let unit = Self::ALL.into_iter().find(|unit| unit.symbol() == symbol.trim());
+        unit.ok_or_else(|| format!("unknown length unit \"{symbol}\": expected one of m, cm, mm, um, in"))
     }
 
     /// How the unit is written in a case file.
@@ -90,7 +75,7 @@ mod tests {
 
     #[test]
     fn unknown_unit_names_the_known_ones() {
-        let message = LengthUnit::parse("MM").map_err(|error| error.to_string());
+        let message = LengthUnit::parse("MM");
         assert_eq!(message, Err("unknown length unit \"MM\": expected one of m, cm, mm, um, in".to_owned()));
     }
 }

@@ -63,12 +63,11 @@ impl AngleSeries {
     /// reaches beyond the series are left out.
     ///
     /// # Errors
-    /// [`SignalError::SamplesPerTurn`] unless 2 to 2^20; [`SignalError::FewTurns`] if less than a turn is left;
-    /// [`SignalError::TooLong`] above 2^28 steps.
+    /// [`SignalError`] unless 2 to 2^20 samples a turn, if less than a turn is left, and above 2^28 steps.
     pub fn resampled(series: &TimeSeries, angle: &ShaftAngle, samples_per_turn: usize) -> Result<Self, SignalError> {
         const MOST: usize = 1 << 20;
         if !(2..=MOST).contains(&samples_per_turn) {
-            return Err(SignalError::SamplesPerTurn { samples_per_turn, most: MOST });
+            return Err(SignalError(format!("samples per turn must be 2 to {MOST}, found {samples_per_turn}")));
         }
         let (x, step_s) = (series.values(), series.step_s());
         let per_turn = samples_per_turn as f64;
@@ -82,7 +81,7 @@ impl AngleSeries {
         let last = (angle.at(ends).0 * per_turn).floor();
         let steps = if last >= first { (last - first) as usize + 1 } else { 0 };
         if steps > MOST_POINTS {
-            return Err(SignalError::TooLong { points: steps, most: MOST_POINTS });
+            return Err(SignalError::too_long(steps, MOST_POINTS));
         }
         for k in 0..steps {
             let turns = (first + k as f64) / per_turn;
@@ -107,7 +106,7 @@ impl AngleSeries {
             Some(turns) if values.len() >= samples_per_turn => {
                 Ok(Self { samples: TimeSeries::new(turns, 1.0 / per_turn, series.unit(), values)?, samples_per_turn })
             }
-            _ => Err(SignalError::FewTurns { turns: values.len() as f64 / per_turn, needed: 1 }),
+            _ => Err(SignalError::few_turns(values.len() as f64 / per_turn, 1)),
         }
     }
 
@@ -129,7 +128,7 @@ impl AngleSeries {
     /// Amplitude spectrum over orders, the mean removed, padded to four times its length at least.
     ///
     /// # Errors
-    /// [`SignalError::Transform`], which no valid series causes.
+    /// [`SignalError`], which no valid series causes.
     pub fn order_spectrum(&self, window_function: WindowFunction) -> Result<OrderSpectrum, SignalError> {
         let turns = self.samples.duration_s();
         let spectrum = amplitude_spectrum(&self.samples, window_function, 1.0 / turns)?;
@@ -150,16 +149,13 @@ impl AngleSeries {
     /// Systems and Signal Processing 25 (2011) 1087-1102.
     ///
     /// # Errors
-    /// [`SignalError::FewTurns`] below two periods.
+    /// [`SignalError`] below two periods.
     pub fn synchronous_average(&self, turns: usize) -> Result<SynchronousAverage, SignalError> {
         let length = turns.saturating_mul(self.samples_per_turn);
         let x = self.values();
         let periods = x.len().checked_div(length).unwrap_or(0);
         if periods < 2 {
-            return Err(SignalError::FewTurns {
-                turns: self.samples.duration_s(),
-                needed: turns.max(1).saturating_mul(2),
-            });
+            return Err(SignalError::few_turns(self.samples.duration_s(), turns.max(1).saturating_mul(2)));
         }
         let at = |place: usize| x.iter().skip(place).step_by(length).take(periods);
         let count = periods as f64;

@@ -18,7 +18,7 @@ const STOP_OVER_PASS: f64 = 1.1;
 /// depend on that. The same input gives the same output bit by bit on one machine.
 ///
 /// # Errors
-/// [`SignalError::CutOff`]; [`SignalError::TooShort`] if the series is not longer than the filter reaches to one side.
+/// [`SignalError`] for the cut-off, or if the series is not longer than the filter reaches to one side.
 pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
     let x = series.values();
     let (first, last) = (x[0], x[x.len() - 1]);
@@ -46,7 +46,7 @@ fn limited(
     let (x, half) = (series.values(), filter.half_length());
     let samples = x.len();
     if samples <= half {
-        return Err(SignalError::TooShort { samples, needed: half + 1 });
+        return Err(SignalError::too_short(samples, half + 1));
     }
     let before = x[1..=half].iter().rev().map(|v| before(*v));
     let after = x[samples - 1 - half..samples - 1].iter().rev().map(|v| after(*v));
@@ -69,7 +69,7 @@ fn limited(
 /// reach of the filter, about 25 / `up_to_hz` seconds for `up_to_hz` well below half the sampling rate.
 ///
 /// # Errors
-/// [`SignalError::CutOff`].
+/// [`SignalError`] for a cut-off out of range.
 pub fn band_limit_edge_s(step_s: f64, up_to_hz: f64) -> Result<f64, SignalError> {
     Ok(filter(step_s, up_to_hz)?.half_length() as f64 * step_s)
 }
@@ -77,7 +77,7 @@ pub fn band_limit_edge_s(step_s: f64, up_to_hz: f64) -> Result<f64, SignalError>
 fn filter(step_s: f64, up_to_hz: f64) -> Result<KaiserLowPass, SignalError> {
     let nyquist_hz = 0.5 / step_s;
     if !(up_to_hz > 0.0 && up_to_hz < nyquist_hz) {
-        return Err(SignalError::CutOff { cut_off_hz: up_to_hz, nyquist_hz });
+        return Err(SignalError::cut_off(up_to_hz, nyquist_hz));
     }
     let stop_hz = f64::min(STOP_OVER_PASS * up_to_hz, nyquist_hz);
     Ok(KaiserLowPass::new(step_s, up_to_hz, stop_hz, ATTENUATION_DB)?)

@@ -72,8 +72,8 @@ impl Butterworth {
     /// (SciPy's rule), and each run starts from the steady state for its first value.
     ///
     /// # Errors
-    /// [`SignalError::Order`], [`SignalError::CutOff`], [`SignalError::Band`], [`SignalError::FilterDigits`];
-    /// [`SignalError::TooShort`] if the series is not longer than the extension.
+    /// [`SignalError`] for the order or an edge out of range, a filter without digits, and a series not longer than the
+    /// extension.
     pub fn zero_phase(&self, series: &TimeSeries) -> Result<TimeSeries, SignalError> {
         let sections = self.sections(series.step_s())?;
         let poles = match self.band {
@@ -83,7 +83,7 @@ impl Butterworth {
         let extension = 3 * (poles + 1);
         let samples = series.values().len();
         if samples <= extension {
-            return Err(SignalError::TooShort { samples, needed: extension + 1 });
+            return Err(SignalError::too_short(samples, extension + 1));
         }
         let filtered = sosfiltfilt_dyn(series.values().iter(), &sections);
         Ok(series.with_values(filtered)?)
@@ -118,36 +118,41 @@ impl Butterworth {
         );
         match design {
             DigitalFilter::Sos(filter) => Ok(filter.sos),
-            DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Err(SignalError::Design { order: self.order }),
+            DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Err(SignalError(format!(
+                "Butterworth design of order {} did not give second-order sections",
+                self.order
+            ))),
         }
     }
 
     fn check(&self, step_s: f64) -> Result<(), SignalError> {
         if self.order == 0 || self.order > LARGEST_ORDER {
-            return Err(SignalError::Order { order: self.order, largest: LARGEST_ORDER });
+            return Err(SignalError(format!("filter order must be 1 to {LARGEST_ORDER}, found {}", self.order)));
         }
         let nyquist_hz = 0.5 / step_s;
         let (lowest_hz, width_hz) = match self.band {
             FilterBand::LowPass { cut_off_hz } | FilterBand::HighPass { cut_off_hz } => {
                 if !(cut_off_hz > 0.0 && cut_off_hz < nyquist_hz) {
-                    return Err(SignalError::CutOff { cut_off_hz, nyquist_hz });
+                    return Err(SignalError::cut_off(cut_off_hz, nyquist_hz));
                 }
                 (cut_off_hz, cut_off_hz)
             }
             FilterBand::BandPass { from_hz, to_hz } => {
                 if !(from_hz > 0.0 && from_hz < to_hz && to_hz < nyquist_hz) {
-                    return Err(SignalError::Band { from_hz, to_hz, nyquist_hz });
+                    return Err(SignalError(format!(
+                        "band must satisfy 0 < from < to < {nyquist_hz} Hz (half the sampling rate), found {from_hz} Hz \
+                         to {to_hz} Hz"
+                    )));
                 }
                 (from_hz, to_hz - from_hz)
             }
         };
         if lowest_hz * step_s < LOWEST_EDGE || width_hz * step_s < NARROWEST_BAND {
-            return Err(SignalError::FilterDigits {
-                lowest_hz,
-                width_hz,
-                least_hz: LOWEST_EDGE / step_s,
-                narrowest_hz: NARROWEST_BAND / step_s,
-            });
+            let [least_hz, narrowest_hz] = [LOWEST_EDGE / step_s, NARROWEST_BAND / step_s];
+            return Err(SignalError(format!(
+                "filter edges from {lowest_hz} Hz, {width_hz} Hz wide, leave no digits at this sampling rate: lowest edge \
+                 {least_hz} Hz, narrowest band {narrowest_hz} Hz; decimate first"
+            )));
         }
         Ok(())
     }

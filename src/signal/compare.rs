@@ -11,27 +11,25 @@ const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
 /// band-limited, at the very same instants.
 ///
 /// # Errors
-/// [`SignalError::Instants`], [`SignalError::Units`], [`SignalError::ZeroReference`].
+/// [`SignalError`] for series that differ in instants or unit, and for a reference that is zero throughout.
 pub fn relative_difference(a: &TimeSeries, b: &TimeSeries) -> Result<f64, SignalError> {
     let apart = (a.start_s() - b.start_s()).abs().max((a.end_s() - b.end_s()).abs());
     // round-off counts where time has its origin far away
     let most = INSTANT_TOLERANCE_STEPS * b.step_s() + 4.0 * f64::EPSILON * b.end_s().abs();
     if a.values().len() != b.values().len() || apart > most {
-        return Err(SignalError::Instants {
-            first_samples: a.values().len(),
-            first_start_s: a.start_s(),
-            first_step_s: a.step_s(),
-            second_samples: b.values().len(),
-            second_start_s: b.start_s(),
-            second_step_s: b.step_s(),
-        });
+        let [first, second] = [a, b].map(|x| (x.values().len(), x.start_s(), x.step_s()));
+        return Err(SignalError(format!(
+            "series are not sampled at the same instants: {} samples from {} s every {} s against {} from {} s every {} s",
+            first.0, first.1, first.2, second.0, second.1, second.2
+        )));
     }
     if a.unit() != b.unit() {
-        return Err(SignalError::Units { first: a.unit().to_owned(), second: b.unit().to_owned() });
+        let message = format!("series have different units: \"{}\" against \"{}\"", a.unit(), b.unit());
+        return Err(SignalError(message));
     }
     let reference = b.rms();
     if reference <= 0.0 {
-        return Err(SignalError::ZeroReference);
+        return Err(SignalError::zero_reference());
     }
     let difference: Vec<f64> = a.values().iter().zip(b.values()).map(|(a, b)| a - b).collect();
     Ok(root_mean_square(&difference) / reference)

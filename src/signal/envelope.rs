@@ -15,7 +15,7 @@ use crate::numerics::series::TimeSeries;
 /// ([`EnvelopeAnalysis`](super::EnvelopeAnalysis) does).
 ///
 /// # Errors
-/// [`SignalError::Transform`], which no valid series causes.
+/// [`SignalError`], which no valid series causes.
 pub fn envelope(series: &TimeSeries) -> Result<TimeSeries, SignalError> {
     let x = series.values();
     let envelope = x.iter().zip(quadrature(x)?).map(|(x, h)| x.hypot(h));

@@ -5,10 +5,10 @@ use serde::Serialize;
 use super::SignalError;
 use super::butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 use super::envelope::envelope;
-use super::peaks::{Peak, peak_near};
-use super::spectrum::{DEFAULT_BIN_HZ, amplitude_spectrum};
+use super::spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
 use super::window_function::WindowFunction;
-use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::numerics::series::TimeSeries;
+use std::ops::Deref;
 
 /// Corner of the high-pass unless one is asked for, Hz: Tadina & Boltezar 2011, section 5.
 const HIGH_PASS_HZ: f64 = 5e3;
@@ -22,33 +22,21 @@ pub(crate) fn usual_high_pass_hz(rate_hz: f64) -> f64 {
     HIGH_PASS_HZ.min(HIGH_PASS_PART * rate_hz)
 }
 
-/// Amplitude spectrum of the mean-removed envelope of a window of signal.
+/// Amplitude spectrum of the mean-removed envelope of a window of signal: an envelope 1 + A cos reads A.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EnvelopeSpectrum {
-    /// Bin frequencies from 0, equally spaced, Hz.
-    pub frequency_hz: Vec<f64>,
-    /// Amplitudes, same length, in `unit`: an envelope 1 + A cos reads A.
-    pub amplitude: Vec<f64>,
-    /// Unit of the amplitudes, that of the signal.
-    pub unit: String,
-    /// Window of the envelope that was transformed.
-    pub window: TimeWindow,
+    /// The spectrum, in the signal's unit.
+    #[serde(flatten)]
+    pub spectrum: AmplitudeSpectrum,
     /// Cut-off of the high-pass before the envelope, Hz; `None`: not filtered.
     pub high_pass_hz: Option<f64>,
-    /// Window function over that window of time.
-    pub window_function: WindowFunction,
-    /// Transform length over window length, >= 4. It makes the bins finer, not the resolution.
-    pub zero_padding: f64,
-    /// Distance of the bins, Hz.
-    pub bin_hz: f64,
-    /// What the spectrum separates, main lobe of the window function over the window's length, Hz.
-    pub resolution_hz: f64,
 }
 
-impl EnvelopeSpectrum {
-    /// The highest local maximum within `within` (relative, 0.03 for 3 %) of `frequency_hz`; see [`peak_near`].
-    pub fn peak_near(&self, frequency_hz: f64, within: f64) -> Option<Peak> {
-        peak_near(&self.frequency_hz, &self.amplitude, frequency_hz, within)
+impl Deref for EnvelopeSpectrum {
+    type Target = AmplitudeSpectrum;
+
+    fn deref(&self) -> &AmplitudeSpectrum {
+        &self.spectrum
     }
 }
 
@@ -64,17 +52,7 @@ pub fn envelope_spectrum(
     widest_bin_hz: f64,
 ) -> Result<EnvelopeSpectrum, SignalError> {
     let spectrum = amplitude_spectrum(envelope, window_function, widest_bin_hz)?;
-    Ok(EnvelopeSpectrum {
-        frequency_hz: spectrum.frequency_hz,
-        amplitude: spectrum.amplitude,
-        unit: spectrum.unit,
-        window: spectrum.window,
-        high_pass_hz,
-        window_function,
-        zero_padding: spectrum.zero_padding,
-        bin_hz: spectrum.bin_hz,
-        resolution_hz: spectrum.resolution_hz,
-    })
+    Ok(EnvelopeSpectrum { spectrum, high_pass_hz })
 }
 
 /// Settings of an envelope analysis: high-pass, envelope, window, spectrum. Filter and envelope run over the whole

@@ -28,7 +28,7 @@ impl Forward {
         }
         let mut output = self.0.make_output_vec();
         let points = self.0.len();
-        self.0.process(&mut input, &mut output).map_err(|source| SignalError::Transform { points, source })?;
+        self.0.process(&mut input, &mut output).map_err(|source| SignalError::transform(points, source))?;
         Ok(output)
     }
 }
@@ -51,7 +51,7 @@ pub(super) fn inverse(mut bins: Vec<Complex<f64>>, points: usize) -> Result<Vec<
     }
     let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
     let mut output = plan.make_output_vec();
-    plan.process(&mut bins, &mut output).map_err(|source| SignalError::Transform { points, source })?;
+    plan.process(&mut bins, &mut output).map_err(|source| SignalError::transform(points, source))?;
     let scale = 1.0 / points as f64;
     output.iter_mut().for_each(|v| *v *= scale);
     Ok(output)

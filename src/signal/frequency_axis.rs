@@ -32,13 +32,16 @@ impl FrequencyAxis {
     /// The frequencies, Hz, rising, between `lowest_hz` and `highest_hz` (the latter excluded).
     ///
     /// # Errors
-    /// [`SignalError::Frequencies`] unless lowest <= from < to < highest and there are 2 to 65536.
+    /// [`SignalError`] unless lowest <= from < to < highest and there are 2 to 65536.
     pub fn frequencies_hz(&self, lowest_hz: f64, highest_hz: f64) -> Result<Vec<f64>, SignalError> {
         let (Self::Logarithmic { from_hz, to_hz, count } | Self::Linear { from_hz, to_hz, count }) = *self;
         // a millionth for what is typed in decimal
         let is_inside = from_hz >= lowest_hz * (1.0 - 1e-6) && to_hz < highest_hz;
         if !(from_hz > 0.0 && from_hz < to_hz && is_inside && (2..=MOST).contains(&count)) {
-            return Err(SignalError::Frequencies { from_hz, to_hz, count, lowest_hz, highest_hz, most: MOST });
+            return Err(SignalError(format!(
+                "frequencies must satisfy {lowest_hz} Hz <= from < to < {highest_hz} Hz and be 2 to {MOST}, found {count} \
+                 from {from_hz} Hz to {to_hz} Hz"
+            )));
         }
         let part = |k: usize| k as f64 / (count - 1) as f64;
         let frequency = |k: usize| match self {

@@ -99,15 +99,15 @@ impl Kurtogram {
 /// Signal Processing 21 (2007) 108-124; limits: Nita and Gary (2010).
 ///
 /// # Errors
-/// [`SignalError::TooShort`] below 344 samples; [`SignalError::Levels`]; [`SignalError::Confidence`].
+/// [`SignalError`] below 344 samples, and for levels or a confidence out of range.
 pub fn kurtogram(series: &TimeSeries, levels: usize, confidence: f64) -> Result<Kurtogram, SignalError> {
     let samples = series.values().len();
     let needed = 2 * (EDGE + FEWEST_IN_BAND) + ORDERS.0;
     if samples < needed {
-        return Err(SignalError::TooShort { samples, needed });
+        return Err(SignalError::too_short(samples, needed));
     }
     if levels == 0 || levels > MOST_LEVELS {
-        return Err(SignalError::Levels { levels, most: MOST_LEVELS });
+        return Err(SignalError(format!("levels must be 1 to {MOST_LEVELS}, found {levels}")));
     }
     let halves = [1.0, 3.0].map(|part| filter(ORDERS.0, CUT_OFF, part / 4.0));
     let thirds = [1.0, 3.0, 5.0].map(|part| filter(ORDERS.1, CUT_OFF * 2.0 / 3.0, part / 6.0));

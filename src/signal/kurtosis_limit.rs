@@ -15,10 +15,10 @@ pub(super) const FEWEST_VALUES: f64 = 8.0;
 /// several times more often.
 ///
 /// # Errors
-/// [`SignalError::Confidence`] unless 0 < confidence < 1.
+/// [`SignalError`] unless 0 < confidence < 1.
 pub(super) fn kurtosis_limit(values: f64, trials: usize, confidence: f64) -> Result<f64, SignalError> {
     if !(confidence > 0.0 && confidence < 1.0) {
-        return Err(SignalError::Confidence { confidence });
+        return Err(SignalError(format!("confidence must lie between 0 and 1, found {confidence}")));
     }
     let m = values;
     let variance = 4.0 * m * m / ((m - 1.0) * (m + 2.0) * (m + 3.0));

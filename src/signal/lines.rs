@@ -35,11 +35,14 @@ impl NamedLine {
     /// Line `name` with its fundamental at `frequency_hz` > 0 and `harmonics` >= 1 multiples, the fundamental counted.
     ///
     /// # Errors
-    /// [`SignalError::Line`].
+    /// [`SignalError`] unless frequency and harmonics are positive.
     pub fn new(name: impl Into<String>, frequency_hz: f64, harmonics: u32) -> Result<Self, SignalError> {
         let name = name.into();
         if !(frequency_hz.is_finite() && frequency_hz > 0.0 && harmonics > 0) {
-            return Err(SignalError::Line { name, frequency_hz, harmonics });
+            return Err(SignalError(format!(
+                "line \"{name}\" must have a positive frequency and at least one harmonic, found {frequency_hz} Hz and \
+                 {harmonics}"
+            )));
         }
         Ok(Self { name, frequency_hz, harmonics })
     }
@@ -293,12 +296,10 @@ mod tests {
             away if away <= 5.0 => 2.0,
             _ => 1.0,
         };
-        let spectrum = EnvelopeSpectrum {
-            amplitude: frequency_hz.iter().map(floor).collect(),
-            frequency_hz,
-            window: TimeWindow { from: 2.0, to: 3.0 },
-            ..spectrum(WindowFunction::Boxcar)
-        };
+        let mut spectrum = spectrum(WindowFunction::Boxcar);
+        spectrum.spectrum.amplitude = frequency_hz.iter().map(floor).collect();
+        spectrum.spectrum.frequency_hz = frequency_hz;
+        spectrum.spectrum.window = TimeWindow { from: 2.0, to: 3.0 };
         let peaks = envelope_peaks(&spectrum, &[], &PeakSearch::default());
         assert!((peaks[0].frequency_hz - 50.0).abs() < 1e-9, "{peaks:?}");
         assert!((peaks[0].above_median_db - 20.0).abs() < 1e-9, "{peaks:?}");

@@ -27,7 +27,7 @@ pub struct MovingFigures {
 /// kurtosis and by 1 / sqrt(2 n) of the RMS.
 ///
 /// # Errors
-/// [`SignalError::TooShort`] if no window fits, [`SignalError::Hop`].
+/// [`SignalError`] if no window fits, or windows do not move.
 pub fn moving_figures(
     series: &TimeSeries,
     window_samples: usize,
@@ -35,10 +35,10 @@ pub fn moving_figures(
 ) -> Result<MovingFigures, SignalError> {
     let samples = series.values().len();
     if window_samples < 2 || samples < window_samples {
-        return Err(SignalError::TooShort { samples: samples.min(window_samples), needed: window_samples.max(2) });
+        return Err(SignalError::too_short(samples.min(window_samples), window_samples.max(2)));
     }
     if hop_samples == 0 {
-        return Err(SignalError::Hop);
+        return Err(SignalError("windows must move by at least one sample, found 0".to_owned()));
     }
     let window_s = window_samples as f64 * series.step_s();
     let mut figures = MovingFigures {

@@ -1,10 +1,10 @@
 //! A signal's spectrum as it is, and the envelopes of bands of it in the signal's unit.
 
+use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
+use super::SignalError;
 use super::fourier::{MOST_POINTS, fast_length, forward};
-use super::white_spectrum::band_envelope;
-use super::{BandEnvelope, SignalError};
 use crate::numerics::series::TimeSeries;
 
 /// Spectrum of a series without its mean, of which envelopes of many bands are taken.
@@ -13,27 +13,51 @@ use crate::numerics::series::TimeSeries;
 /// long as both reach its upper edge.
 #[derive(Debug, Clone)]
 pub(crate) struct RawSpectrum {
-    bins: Vec<Complex<f64>>,
-    points: usize,
+    pub(super) bins: Vec<Complex<f64>>,
+    pub(super) points: usize,
     start_s: f64,
-    step_s: f64,
+    pub(super) step_s: f64,
+}
+
+/// Squared envelope of a band at equal steps.
+#[derive(Debug, Clone)]
+pub(crate) struct BandEnvelope {
+    /// Instant of the first value, s.
+    pub start_s: f64,
+    /// Step, s.
+    pub step_s: f64,
+    /// Squared magnitude of the band's analytic signal.
+    pub squared: Vec<f64>,
+}
+
+impl BandEnvelope {
+    /// Magnitude of the band's analytic signal.
+    pub(crate) fn magnitude(&self) -> Vec<f64> {
+        self.squared.iter().map(|power| power.sqrt()).collect()
+    }
 }
 
 impl RawSpectrum {
     /// Spectrum of a series.
     ///
     /// # Errors
-    /// [`SignalError::Transform`], which no valid series causes.
+    /// [`SignalError`], which no valid series causes.
     pub(crate) fn of(series: &TimeSeries) -> Result<Self, SignalError> {
+        let mut spectrum = Self::unscaled(series)?;
+        // that of the analytic signal: twice that of the signal, over the number of its samples
+        let scale = 2.0 / spectrum.points as f64;
+        for bin in &mut spectrum.bins {
+            *bin *= scale;
+        }
+        Ok(spectrum)
+    }
+
+    /// The transform itself of the series without its mean.
+    pub(super) fn unscaled(series: &TimeSeries) -> Result<Self, SignalError> {
         let points = fast_length(series.values().len().min(MOST_POINTS));
         let mean = series.mean();
         let centred: Vec<f64> = series.values().iter().map(|value| value - mean).collect();
-        // that of the analytic signal: twice that of the signal, over the number of its samples
-        let scale = 2.0 / points as f64;
-        let mut bins = forward(&centred, points)?;
-        for bin in &mut bins {
-            *bin *= scale;
-        }
+        let bins = forward(&centred, points)?;
         Ok(Self { bins, points, start_s: series.start_s(), step_s: series.step_s() })
     }
 
@@ -42,8 +66,19 @@ impl RawSpectrum {
     ///
     /// The series is taken as periodic: cut a window out of a longer stretch where its ends matter.
     #[must_use]
-    pub(crate) fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
-        band_envelope(&self.bins, self.points, self.start_s, self.step_s, band_hz)
+    pub(crate) fn envelope(&self, [from_hz, to_hz]: [f64; 2]) -> BandEnvelope {
+        let bin_of = |hz: f64| (hz * self.step_s * self.points as f64).round() as usize;
+        let first = bin_of(from_hz).max(1).min(self.bins.len() - 1);
+        let end = bin_of(to_hz).clamp(first + 1, self.bins.len());
+        let length = fast_length(2 * (end - first));
+        let mut band = vec![Complex::new(0.0, 0.0); length];
+        band[..end - first].copy_from_slice(&self.bins[first..end]);
+        FftPlanner::new().plan_fft_inverse(length).process(&mut band);
+        BandEnvelope {
+            start_s: self.start_s,
+            step_s: self.step_s * self.points as f64 / length as f64,
+            squared: band.iter().map(Complex::norm_sqr).collect(),
+        }
     }
 }
 

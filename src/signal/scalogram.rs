@@ -93,18 +93,19 @@ impl WaveletTransform {
     /// any number of threads.
     ///
     /// # Errors
-    /// [`SignalError::Cycles`]; [`SignalError::Frequencies`] unless they lie between 1 / duration and half the sampling
-    /// rate; [`SignalError::Decimation`] if it is zero or leaves fewer than two instants; [`SignalError::TooLong`] above
-    /// 2^28 amplitudes.
+    /// [`SignalError`] for cycles out of range, frequencies not between 1 / duration and half the sampling rate, a
+    /// decimation that is zero or leaves fewer than two instants, and more than 2^28 amplitudes.
     pub fn scalogram(&self, series: &TimeSeries) -> Result<Scalogram, SignalError> {
         let (fewest, most) = CYCLES;
         if !(self.cycles >= fewest && self.cycles <= most) {
-            return Err(SignalError::Cycles { cycles: self.cycles, fewest, most });
+            return Err(SignalError(format!("a wavelet must have {fewest} to {most} cycles, found {}", self.cycles)));
         }
         let samples = series.values().len();
         let ratio = self.decimation;
         if ratio == 0 || ratio > samples / 2 {
-            return Err(SignalError::Decimation { ratio, samples });
+            return Err(SignalError(format!(
+                "decimation of {samples} samples must be by 1 to half as many, found {ratio}"
+            )));
         }
         let nyquist_hz = 0.5 * series.rate_hz();
         let frequency_hz = self.frequencies.frequencies_hz(1.0 / series.duration_s(), nyquist_hz)?;
@@ -116,7 +117,7 @@ impl WaveletTransform {
         let instants = samples.div_ceil(ratio);
         let largest = points.max(instants.saturating_mul(frequency_hz.len()));
         if largest > MOST_POINTS {
-            return Err(SignalError::TooLong { points: largest, most: MOST_POINTS });
+            return Err(SignalError::too_long(largest, MOST_POINTS));
         }
         let mean = series.mean();
         let centred: Vec<f64> = series.values().iter().map(|v| v - mean).collect();

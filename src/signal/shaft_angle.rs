@@ -25,7 +25,7 @@ impl ShaftAngle {
     /// Angle for a speed that is linear between points, two at least, in order of time: integrated exactly.
     ///
     /// # Errors
-    /// [`SignalError::SpeedPoints`], [`SignalError::Speed`].
+    /// [`SignalError`] for instants too few or out of order, and for a speed that is not positive.
     pub fn from_points(points: Vec<SpeedPoint>) -> Result<Self, SignalError> {
         Self::integrated(points, |from, to| 0.5 * (from.speed_hz + to.speed_hz))
     }
@@ -56,11 +56,18 @@ impl ShaftAngle {
     ) -> Result<Self, SignalError> {
         let is_ordered = points.windows(2).all(|p| p[0].time_s < p[1].time_s);
         if points.len() < 2 || !is_ordered || points.iter().any(|p| !p.time_s.is_finite()) {
-            return Err(SignalError::SpeedPoints { points: points.len() });
+            let points = points.len();
+            return Err(SignalError(format!(
+                "speed must be known at two instants at least, finite and in order of time, found {points} instants"
+            )));
         }
         let is_speed = |p: &&SpeedPoint| !(p.speed_hz.is_finite() && p.speed_hz > 0.0);
         if let Some(point) = points.iter().find(is_speed) {
-            return Err(SignalError::Speed { time_s: point.time_s, speed_hz: point.speed_hz });
+            let SpeedPoint { time_s, speed_hz } = point;
+            return Err(SignalError(format!(
+                "shaft speed must be positive throughout, found {speed_hz} Hz at {time_s} s: take a stretch in which the \
+                 shaft turns one way"
+            )));
         }
         let mut turns = vec![0.0];
         let mut angle = 0.0;

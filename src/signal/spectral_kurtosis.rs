@@ -39,7 +39,7 @@ pub struct SpectralKurtosis {
 /// (Nita and Gary 2010) instead of the normal law.
 ///
 /// # Errors
-/// [`SignalError::Segments`]; [`SignalError::TooShort`] below 8 independent segments; [`SignalError::Confidence`].
+/// [`SignalError`] for segments that do not fit, below 8 independent segments, and for the confidence.
 pub fn spectral_kurtosis(
     series: &TimeSeries,
     window_function: WindowFunction,
@@ -50,14 +50,15 @@ pub fn spectral_kurtosis(
     let n = segment_samples;
     let samples = series.values().len();
     if n < 4 || n > samples || overlap_samples >= n {
-        return Err(SignalError::Segments { segment: n, overlap: overlap_samples, samples });
+        return Err(SignalError::segments(n, overlap_samples, samples));
     }
     let hop = n - overlap_samples;
     let window = window_function.samples(n);
     let segments = (samples - n) / hop + 1;
     let worth = segment_worth(&window, hop);
     if segments as f64 * worth < FEWEST_VALUES {
-        return Err(SignalError::TooShort { samples, needed: n + hop * ((FEWEST_VALUES / worth).ceil() as usize - 1) });
+        let needed = n + hop * ((FEWEST_VALUES / worth).ceil() as usize - 1);
+        return Err(SignalError::too_short(samples, needed));
     }
     let plan = Forward::new(n);
     let inner = (n - 1) / 2;

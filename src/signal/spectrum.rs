@@ -44,8 +44,7 @@ pub struct AmplitudeSpectrum {
 /// a line leaks [`WindowFunction::leakage`] of its amplitude to the others.
 ///
 /// # Errors
-/// [`SignalError::BinWidth`] if it is not positive or asks for more than 2^28 points, [`SignalError::TooShort`]
-/// below two samples.
+/// [`SignalError`] if the bin width is not positive or asks for more than 2^28 points, and below two samples.
 pub fn amplitude_spectrum(
     series: &TimeSeries,
     window_function: WindowFunction,
@@ -53,14 +52,14 @@ pub fn amplitude_spectrum(
 ) -> Result<AmplitudeSpectrum, SignalError> {
     let samples = series.values().len();
     if samples < 2 {
-        return Err(SignalError::TooShort { samples, needed: 2 });
+        return Err(SignalError::too_short(samples, 2));
     }
     let wanted = (1.0 / (series.step_s() * widest_bin_hz)).ceil();
     if !(widest_bin_hz > 0.0 && wanted <= MOST_POINTS as f64) {
-        return Err(SignalError::BinWidth {
-            bin_hz: widest_bin_hz,
-            finest_hz: 1.0 / (series.step_s() * MOST_POINTS as f64),
-        });
+        let finest_hz = 1.0 / (series.step_s() * MOST_POINTS as f64);
+        return Err(SignalError(format!(
+            "bin width must be positive and at least {finest_hz} Hz for this sampling rate, found {widest_bin_hz} Hz"
+        )));
     }
     let points = fast_length((wanted as usize).max(LEAST_PADDING * samples));
     let bin_hz = 1.0 / (points as f64 * series.step_s());

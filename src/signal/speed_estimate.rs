@@ -52,11 +52,11 @@ impl SpeedSearch {
     /// steadily.
     ///
     /// # Errors
-    /// [`SignalError::OrderOfLine`]; as [`WaveletTransform::scalogram`];
-    /// [`SignalError::FewReadings`] if fewer than nine independent readings are left.
+    /// [`SignalError`] for an order that is not positive, as [`WaveletTransform::scalogram`], and if fewer than nine
+    /// independent readings are left.
     pub fn readings(&self, series: &TimeSeries) -> Result<Vec<SpeedReading>, SignalError> {
         if !(self.order.is_finite() && self.order > 0.0) {
-            return Err(SignalError::OrderOfLine { order: self.order });
+            return Err(SignalError(format!("order of a line must be positive, found {}", self.order)));
         }
         let deviations = (self.to_hz / self.from_hz).ln().abs() * self.cycles;
         // a band of 1e4 deviations has no one line; what is no number is refused with the axis
@@ -80,7 +80,10 @@ impl SpeedSearch {
         let points: Vec<SpeedPoint> = scalogram.time_s.iter().zip(ridge).filter_map(read).collect();
         let needed = STRIDE * (FITTED - 1) + 1;
         if points.len() < needed {
-            return Err(SignalError::FewReadings { readings: points.len(), needed });
+            let readings = points.len();
+            return Err(SignalError(format!(
+                "{readings} readings of the speed, at least {needed} needed: take a longer stretch"
+            )));
         }
         let reach = STRIDE * (FITTED - 1) / 2;
         let reading = |(k, point): (usize, &SpeedPoint)| {

@@ -65,12 +65,12 @@ impl Welch {
     /// Equal to `scipy.signal.welch(x, 1/step, window, n, overlap)`.
     ///
     /// # Errors
-    /// [`SignalError::Segments`].
+    /// [`SignalError`] if the segments do not fit.
     pub fn power(&self, series: &TimeSeries) -> Result<PowerSpectrum, SignalError> {
         let (n, overlap) = (self.segment_samples, self.overlap_samples);
         let samples = series.values().len();
         if n < 2 || n > samples || overlap >= n {
-            return Err(SignalError::Segments { segment: n, overlap, samples });
+            return Err(SignalError::segments(n, overlap, samples));
         }
         let window = self.window_function.samples(n);
         let (sum, squares): (f64, f64) = (window.iter().sum(), window.iter().map(|w| w * w).sum());

@@ -1,10 +1,9 @@
 //! A signal's spectrum made flat and freed of its tones, and the envelopes of bands of it.
 
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::SignalError;
-use super::fourier::{MOST_POINTS, fast_length, forward};
+use super::raw_spectrum::{BandEnvelope, RawSpectrum};
 use super::whitening::impulsive_gains;
 use crate::numerics::series::TimeSeries;
 
@@ -27,37 +26,21 @@ const LIMIT: f64 = 3.0;
 /// 370-384, which loses the strength of a resonance's bins with their phase kept; the bound of three keeps more of weak impacts.
 #[derive(Debug, Clone)]
 pub(crate) struct WhiteSpectrum {
-    bins: Vec<Complex<f64>>,
-    /// Amplitude of each bin over the median about it, before it is bounded.
-    over_median: Vec<f64>,
-    points: usize,
-    start_s: f64,
-    step_s: f64,
-}
-
-/// Squared envelope of a band at equal steps.
-#[derive(Debug, Clone)]
-pub(crate) struct BandEnvelope {
-    /// Instant of the first value, s.
-    pub start_s: f64,
-    /// Step, s.
-    pub step_s: f64,
-    /// Squared magnitude of the band's analytic signal.
-    pub squared: Vec<f64>,
+    whitened: RawSpectrum,
+    /// Amplitude of each bin over the median about it, before it is bounded; [`bin`](Self::bin) is that of a frequency.
+    pub over_median: Vec<f64>,
 }
 
 impl WhiteSpectrum {
     /// Whitens a series.
     ///
     /// # Errors
-    /// [`SignalError::Transform`], which no valid series causes.
+    /// [`SignalError`], which no valid series causes.
     pub(crate) fn of(series: &TimeSeries) -> Result<Self, SignalError> {
-        let points = fast_length(series.values().len().min(MOST_POINTS));
-        let mean = series.mean();
-        let centred: Vec<f64> = series.values().iter().map(|value| value - mean).collect();
-        let mut bins = forward(&centred, points)?;
+        let mut whitened = RawSpectrum::unscaled(series)?;
+        let RawSpectrum { bins, points, .. } = &mut whitened;
         let amplitudes: Vec<f64> = bins.iter().map(|bin| bin.norm()).collect();
-        let reach = (0.5 * MEDIAN_HZ * series.step_s() * points as f64) as usize;
+        let reach = (0.5 * MEDIAN_HZ * series.step_s() * *points as f64) as usize;
         let medians = running_median(&amplitudes, reach.max(FEWEST_BINS / 2));
         // bins of nothing but rounding stay as small as they are
         let least = 1e-12 * amplitudes.iter().fold(0.0_f64, |most, &a| most.max(a));
@@ -68,7 +51,7 @@ impl WhiteSpectrum {
             let wanted = over_median.min(LIMIT);
             *bin = if *amplitude > 0.0 { *bin * (wanted / amplitude) } else { Complex::new(0.0, 0.0) };
         }
-        Ok(Self { bins, over_median, points, start_s: series.start_s(), step_s: series.step_s() })
+        Ok(Self { whitened, over_median })
     }
 
     /// The same with the impulsive frequencies of the series emphasised, by the root of their spectral kurtosis.
@@ -77,55 +60,26 @@ impl WhiteSpectrum {
     /// A series that is too short for a kurtosis.
     pub(crate) fn impulsive(&self, series: &TimeSeries) -> Result<Self, SignalError> {
         let (hz, gains) = impulsive_gains(series)?;
-        let bin_hz = 1.0 / (self.step_s * self.points as f64);
+        let mut whitened = self.whitened.clone();
+        let bin_hz = 1.0 / (whitened.step_s * whitened.points as f64);
         let last = gains.len() - 1;
         let gain = |bin: usize| gains[((bin as f64 * bin_hz / hz).round() as usize).min(last)];
-        let bins = self.bins.iter().enumerate();
-        Ok(Self {
-            bins: bins.map(|(bin, value)| value * gain(bin)).collect(),
-            over_median: self.over_median.clone(),
-            ..*self
-        })
-    }
-
-    /// Amplitude of each bin over the median about it, before it is bounded; [`bin`](Self::bin) is that of a frequency.
-    pub(crate) fn over_median(&self) -> &[f64] {
-        &self.over_median
+        for (bin, value) in whitened.bins.iter_mut().enumerate() {
+            *value *= gain(bin);
+        }
+        Ok(Self { whitened, over_median: self.over_median.clone() })
     }
 
     /// Place of a frequency (Hz) among the bins, not rounded.
     pub(crate) fn bin(&self, hz: f64) -> f64 {
-        hz * self.step_s * self.points as f64
+        hz * self.whitened.step_s * self.whitened.points as f64
     }
 
     /// Squared envelope of the band between two frequencies (Hz), at a rate of about four times the band's width: twice what its
     /// spectrum needs.
     #[must_use]
     pub(crate) fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
-        band_envelope(&self.bins, self.points, self.start_s, self.step_s, band_hz)
-    }
-}
-
-/// Squared envelope of a band of a spectrum's bins (that of `points` samples every `step_s` from `start_s` on), not divided by their
-/// number.
-pub(super) fn band_envelope(
-    bins: &[Complex<f64>],
-    points: usize,
-    start_s: f64,
-    step_s: f64,
-    [from_hz, to_hz]: [f64; 2],
-) -> BandEnvelope {
-    let bin_of = |hz: f64| (hz * step_s * points as f64).round() as usize;
-    let first = bin_of(from_hz).max(1).min(bins.len() - 1);
-    let end = bin_of(to_hz).clamp(first + 1, bins.len());
-    let length = fast_length(2 * (end - first));
-    let mut band = vec![Complex::new(0.0, 0.0); length];
-    band[..end - first].copy_from_slice(&bins[first..end]);
-    FftPlanner::new().plan_fft_inverse(length).process(&mut band);
-    BandEnvelope {
-        start_s,
-        step_s: step_s * points as f64 / length as f64,
-        squared: band.iter().map(Complex::norm_sqr).collect(),
+        self.whitened.envelope(band_hz)
     }
 }
 

@@ -38,7 +38,7 @@ pub enum Emphasis {
 /// Processing 20 (2006) 308-331, for the filter.
 ///
 /// # Errors
-/// [`SignalError::Segments`] or [`SignalError::TooShort`] for less than 8 segments' worth.
+/// [`SignalError`] for less than 8 segments' worth.
 pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, SignalError> {
     let segment_samples = segment_samples(series);
     let overlap_samples = overlap(segment_samples);

@@ -28,11 +28,14 @@ pub(crate) fn setup_of(
     let geometry = geometry(case, asked)?;
     let stiffness = match asked.stiffness {
         case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
-        case::ContactStiffness::Given { inner, outer } => ContactStiffness::given(inner, outer)?,
+        case::ContactStiffness::Given { inner, outer } => {
+            ContactStiffness::given(inner, outer).map_err(ComputeError::bearing("bearing.stiffness: "))?
+        }
     };
     let Defects { race_defects, flats } = defects(&asked.defects, &geometry, stiffness)?;
     Ok(BearingSetup {
-        cage: Cage::new(&geometry, speed(case)?, slip(&asked.slip)?, asked.first_ball_deg.to_radians())?,
+        cage: Cage::new(&geometry, speed(case)?, slip(&asked.slip)?, asked.first_ball_deg.to_radians())
+            .map_err(ComputeError::bearing("bearing: "))?,
         geometry,
         stiffness,
         contact_damping: asked.contact_damping,
@@ -75,7 +78,7 @@ pub(crate) fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, C
 }
 
 fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, ComputeError> {
-    let geometry = BearingGeometry::new(BearingDimensions {
+    let dimensions = BearingDimensions {
         balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
         ball_radius: asked.ball_radius,
         ball_mass: case.mass_of_ball(asked)?,
@@ -83,11 +86,13 @@ fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, Compu
         outer_race_radius: asked.outer_race_radius,
         inner_groove_radius: asked.inner_groove_radius,
         outer_groove_radius: asked.outer_groove_radius,
-    })?;
-    match asked.radial_play {
-        Some(play) => Ok(geometry.with_radial_play(play)?),
-        None => Ok(geometry),
-    }
+    };
+    let geometry = BearingGeometry::new(dimensions);
+    let geometry = match asked.radial_play {
+        Some(play) => geometry.and_then(|geometry| geometry.with_radial_play(play)),
+        None => geometry,
+    };
+    geometry.map_err(ComputeError::bearing("bearing: "))
 }
 
 fn hertz(case: &Case, asked: &case::Bearing, geometry: &BearingGeometry) -> Result<RaceContacts, ComputeError> {
@@ -95,10 +100,11 @@ fn hertz(case: &Case, asked: &case::Bearing, geometry: &BearingGeometry) -> Resu
         let material = super::housing::material(case, key, name)?;
         Ok(ContactMaterial { young: material.young, poisson: material.poisson })
     };
-    Ok(RaceContacts::new(
+    RaceContacts::new(
         geometry,
         contact("bearing.ball_material", &asked.ball_material)?,
         contact("bearing.race_material", &asked.race_material.inner)?,
         contact("bearing.race_material", &asked.race_material.outer)?,
-    )?)
+    )
+    .map_err(ComputeError::bearing("bearing.stiffness: "))
 }

@@ -25,7 +25,7 @@ pub(crate) fn defects(
     let mut race_defects: Vec<(usize, RaceDefect)> = Vec::new();
     let mut flats = Vec::new();
     for (index, defect) in asked.iter().enumerate() {
-        let refused = |source| ComputeError::Defect { index, source };
+        let refused = ComputeError::bearing(format!("bearing.defects[{index}]: "));
         match defect {
             Defect::Dent(dent) => {
                 let shape = DentShape {
@@ -73,13 +73,12 @@ pub(crate) fn defects(
 /// Waves of the races.
 ///
 /// # Errors
-/// [`ComputeError::Wave`] naming the wave.
+/// [`ComputeError::Bearing`] naming the wave.
 pub(crate) fn waves(asked: &[case::Wave], geometry: &BearingGeometry) -> Result<Vec<Wave>, ComputeError> {
     let wave = |(index, wave): (usize, &case::Wave)| {
         let wave =
             Wave { race: wave.on, order: wave.order, amplitude: wave.amplitude, phase: wave.phase_deg.to_radians() };
-        let checked = wave.checked(geometry);
-        checked.map_err(|source| ComputeError::Wave { index, source })
+        wave.checked(geometry).map_err(ComputeError::bearing(format!("bearing.waviness[{index}]: ")))
     };
     asked.iter().enumerate().map(wave).collect()
 }

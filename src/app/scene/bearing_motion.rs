@@ -8,24 +8,26 @@ use crate::system::{LoadProfile, Shaft};
 /// Shaft speed over time; at rest where the case says nothing.
 ///
 /// # Errors
-/// [`ComputeError::Speed`].
+/// [`ComputeError::Bearing`].
 pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
-    let Some(speed) = &case.speed else {
-        return Ok(SpeedProfile::constant(0.0)?);
+    let profile = match &case.speed {
+        Some(speed) => SpeedProfile::new(&speed.profile),
+        None => SpeedProfile::constant(0.0),
     };
-    Ok(SpeedProfile::new(&speed.profile)?)
+    profile.map_err(ComputeError::bearing("speed.profile: "))
 }
 
 /// Slip of the cage.
 ///
 /// # Errors
-/// [`ComputeError::Slip`].
+/// [`ComputeError::Bearing`].
 pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
-    Ok(match asked {
+    let profile = match asked {
         Slip::Constant(slip) => SlipProfile::constant(*slip),
         Slip::OverTime(points) => SlipProfile::over_time(points),
         Slip::OverSpeed(points) => SlipProfile::over_speed(points),
-    }?)
+    };
+    profile.map_err(ComputeError::bearing(""))
 }
 
 /// The shaft and its loads.

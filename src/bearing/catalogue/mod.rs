@@ -7,13 +7,11 @@
 //! **Limitations**: no raceway radii and no groove radii: makers do not publish them. They follow from ball and pitch diameter, a
 //! [clearance](normal_clearance) and [typical grooves](GROOVES).
 
-mod clearance;
 mod entry;
 mod ring_section;
 mod table;
 
-pub use clearance::normal_clearance;
-pub use entry::{CatalogueBearing, GROOVES, Source};
+pub use entry::{CatalogueBearing, GROOVES, Source, normal_clearance};
 pub use ring_section::OuterRingSection;
 
 #[cfg(test)]

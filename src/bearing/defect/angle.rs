@@ -1,5 +1,6 @@
 //! Reduction of an angle that has grown over many turns, and its place relative to a defect's arc.
 
+use crate::bearing::error::{BearingError, refused};
 use std::f64::consts::{PI, TAU};
 
 /// Upper half of 2π: the last 26 bits are zero, so that its product with a turn count below 2²⁶ is exact.
@@ -38,6 +39,11 @@ pub(super) fn offset_from(angle: f64, middle: f64) -> f64 {
 #[inline]
 pub(super) fn within(offset: f64, half: f64) -> bool {
     -half <= offset && offset < half
+}
+
+/// Refuses the angle of a defect (rad) that is not finite.
+pub(super) fn finite_angle(angle: f64) -> Result<(), BearingError> {
+    if angle.is_finite() { Ok(()) } else { refused("defect angle_deg", angle.to_degrees(), "must be finite") }
 }
 
 #[cfg(test)]

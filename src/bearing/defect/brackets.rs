@@ -7,9 +7,9 @@
 
 use super::circles::Circles;
 use super::curve::{self, CurvePoint};
-use super::fade::Fade;
 use super::spline::Piece;
 use super::spline::Profile;
+use super::stiffness::Fade;
 use super::vector::Vector;
 
 /// Longest stretch in ball radii: over it the distance to a ball changes by a few thousandths of the radius at

@@ -1,13 +1,13 @@
 //! An elliptical dent in a race.
 
-use super::angle::{offset_from, reduced};
+use super::angle::{finite_angle, offset_from, reduced};
 use super::circles::Circles;
 use super::contacts::DefectContacts;
 use super::depression::Depression;
 use super::ellipse::Ellipse;
-use super::error::{DefectError, finite_angle, positive};
 use super::floor::Floor;
 use super::race_profile::{PolarPosition, RaceProfile};
+use crate::bearing::error::{BearingError, positive};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 use schemars::JsonSchema;
@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 /// Rim radius when none is given, m: the order of the radius left by a hard particle's edge.
 pub const DEFAULT_RIM_RADIUS: f64 = 0.05e-3;
 
-/// A dent may not be deeper than this fraction of its length: steeper is a hole, not an impression.
-const DEPTH_LIMIT: f64 = 0.25;
+/// A dent may not be deeper than this fraction of its length or width: steeper is a hole, not an impression.
+pub(super) const DEPTH_LIMIT: f64 = 0.25;
 
 /// Curvature in the plane that enters the Hertz stiffness of the contact on a defect.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -62,13 +62,16 @@ pub struct DentShape {
 
 impl DentShape {
     /// Checks what can be said without the bearing.
-    pub(super) fn check(&self) -> Result<(), DefectError> {
+    pub(super) fn check(&self) -> Result<(), BearingError> {
         finite_angle(self.angle)?;
-        positive("length", self.length)?;
-        positive("depth", self.depth)?;
-        positive("rim_radius", self.rim_radius)?;
+        positive("defect length", self.length)?;
+        positive("defect depth", self.depth)?;
+        positive("defect rim_radius", self.rim_radius)?;
         if self.depth > DEPTH_LIMIT * self.length {
-            return Err(DefectError::TooDeep { depth: self.depth, length: self.length });
+            let Self { depth, length, .. } = self;
+            return Err(BearingError(format!(
+                "defect depth {depth} m is more than a quarter of its length {length} m: take a shallower or a longer dent"
+            )));
         }
         Ok(())
     }
@@ -89,7 +92,7 @@ impl Dent {
     /// or given: on the dent it changes in the ratio of Hertz theory.
     ///
     /// # Errors
-    /// [`DefectError`]: values that are not positive; a dent too deep for its length, too long for the race, or
+    /// [`BearingError`]: values that are not positive; a dent too deep for its length, too long for the race, or
     /// nearly taken away by its rims, with what to change; with [`CurvatureReading::Paper`] on the inner race a
     /// floor that the ball touches although the ellipse alone is as tight as the ball.
     pub fn new(
@@ -97,7 +100,7 @@ impl Dent {
         race: Race,
         shape: DentShape,
         stiffness: ContactStiffness,
-    ) -> Result<Self, DefectError> {
+    ) -> Result<Self, BearingError> {
         shape.check()?;
         let circles = Circles::race(bearing, race, stiffness);
         let floor = Floor::Ellipse(Ellipse {

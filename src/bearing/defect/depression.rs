@@ -3,11 +3,10 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::circles::Circles;
-use super::error::DefectError;
-use super::fade::Fade;
 use super::floor::{Floor, Reach};
 use super::rim::Rim;
-use super::stiffness::{self, CurvatureStiffness};
+use super::stiffness::{self, CurvatureStiffness, Fade};
+use crate::bearing::error::{BearingError, refused};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::Race;
 
@@ -21,11 +20,8 @@ const LEAST_RIM: f64 = 1e-6;
 const RIM_LIMIT: f64 = 0.5;
 
 /// Refuses a rim radius (m) that is out of range for the circle that it rounds.
-pub(super) fn rim_rules(circles: &Circles, rim_radius: f64) -> Result<(), DefectError> {
-    let refused = |rule| {
-        let (key, value) = ("rim_radius", rim_radius);
-        Err(DefectError::Value { key, value, rule })
-    };
+pub(super) fn rim_rules(circles: &Circles, rim_radius: f64) -> Result<(), BearingError> {
+    let refused = |rule| refused("defect rim_radius", rim_radius, rule);
     if rim_radius < LEAST_RIM * circles.carrier {
         return refused("must be at least a millionth of the radius of the race or ball that it rounds");
     }
@@ -33,6 +29,13 @@ pub(super) fn rim_rules(circles: &Circles, rim_radius: f64) -> Result<(), Defect
         return refused("must be at most half the radius of the race or ball that it rounds");
     }
     Ok(())
+}
+
+/// The refusal of a defect of `length` (m), `opened` (m) with its rims, that is longer than `limit` (m).
+pub(super) fn too_long(length: f64, opened: f64, limit: f64) -> BearingError {
+    BearingError(format!(
+        "defect length {length} m ({opened} m with its rims) is more than a quarter of the race, {limit} m"
+    ))
 }
 
 /// The solved profile.
@@ -59,7 +62,7 @@ impl Depression {
     /// curvature from which the floor's loss is taken for the stiffness.
     ///
     /// # Errors
-    /// [`DefectError`]: rims too large; more than a quarter of the circle; a curvature that Hertz theory refuses.
+    /// [`BearingError`]: rims too large; more than a quarter of the circle; a curvature that Hertz theory refuses.
     pub(super) fn new(
         bearing: &BearingGeometry,
         race: Race,
@@ -67,20 +70,23 @@ impl Depression {
         floor: Floor,
         rim_radius: f64,
         floor_base: f64,
-    ) -> Result<Self, DefectError> {
+    ) -> Result<Self, BearingError> {
         let length = floor.length(&circles);
         let limit = 2.0 * FRAC_PI_4 * circles.carrier;
         if length > limit {
-            return Err(DefectError::TooLong { length, opened: length, limit });
+            return Err(too_long(length, length, limit));
         }
         rim_rules(&circles, rim_radius)?;
         let rim = Rim::new(&circles, &floor, rim_radius);
         let opened = 2.0 * rim.angle * circles.carrier;
         if opened > OPENING_LIMIT * length {
-            return Err(DefectError::RimTooLarge { rim_radius, length, opened, limit: OPENING_LIMIT });
+            return Err(BearingError(format!(
+                "defect rim_radius {rim_radius} m opens a dent of length {length} m to {opened} m, more than \
+                 {OPENING_LIMIT} times: take a smaller rim_radius, or a longer or shallower dent"
+            )));
         }
         if opened > limit {
-            return Err(DefectError::TooLong { length, opened, limit });
+            return Err(too_long(length, opened, limit));
         }
         let reach = floor.reach(&circles, rim.joint);
         let shortfall = (circles.relative - floor_base).max(0.0);

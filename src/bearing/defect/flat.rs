@@ -8,8 +8,8 @@ use super::circles::Circles;
 use super::contacts::DefectContacts;
 use super::dent::CurvatureReading;
 use super::depression::Depression;
-use super::error::{DefectError, positive};
 use super::floor::Floor;
+use crate::bearing::error::{BearingError, positive, refused};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 
@@ -55,17 +55,14 @@ impl BallFlat {
     /// A flat flatter than the outer race (R_2 > R_0) is not touched there: the ball rests on its rims.
     ///
     /// # Errors
-    /// [`DefectError`]: values that are not positive or R_2 out of range; a flat longer than a quarter of the
+    /// [`BearingError`]: values that are not positive or R_2 out of range; a flat longer than a quarter of the
     /// ball, or nearly taken away by its rims.
-    pub fn new(bearing: &BearingGeometry, shape: FlatShape, stiffness: ContactStiffness) -> Result<Self, DefectError> {
-        positive("flat_radius", shape.radius)?;
-        positive("depth", shape.depth)?;
-        positive("rim_radius", shape.rim_radius)?;
+    pub fn new(bearing: &BearingGeometry, shape: FlatShape, stiffness: ContactStiffness) -> Result<Self, BearingError> {
+        positive("defect flat_radius", shape.radius)?;
+        positive("defect depth", shape.depth)?;
+        positive("defect rim_radius", shape.rim_radius)?;
         let ball = bearing.ball_radius();
-        let refused = |rule| {
-            let (key, value) = ("flat_radius", shape.radius);
-            Err(DefectError::Value { key, value, rule })
-        };
+        let refused = |rule| refused("defect flat_radius", shape.radius, rule);
         if shape.radius <= ball {
             return refused("must be greater than ball_radius");
         }

@@ -19,10 +19,23 @@ pub(super) enum Floor {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
     pub parameter: f64,
-    pub end_point: Vector,
-    pub end_tangent: Vector,
+    end_point: Vector,
+    end_tangent: Vector,
     /// The floor is touchable up to the joint: a contact passes on to the rim there.
     pub meets_rim: bool,
+}
+
+impl Reach {
+    /// Ends at `parameter`, where the floor is at `end`.
+    pub(super) fn new(parameter: f64, end: CurvePoint, meets_rim: bool) -> Self {
+        Self { parameter, end_point: end.point, end_tangent: end.tangent(), meets_rim }
+    }
+
+    /// Whether the foot of a roller's centre lies before its end.
+    #[inline]
+    pub(super) fn holds(&self, centre: Vector) -> bool {
+        self.end_point.minus(centre).dot(self.end_tangent) > 0.0
+    }
 }
 
 impl Floor {
@@ -84,7 +97,6 @@ impl Floor {
         }
         let meets_rim = touchable(joint);
         let parameter = if meets_rim { joint } else { bisect(0.0, joint, touchable) };
-        let end = self.at(parameter);
-        Some(Reach { parameter, end_point: end.point, end_tangent: end.tangent(), meets_rim })
+        Some(Reach::new(parameter, self.at(parameter), meets_rim))
     }
 }

@@ -2,17 +2,16 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::angle::{offset_from, reduced, within};
+use super::angle::{finite_angle, offset_from, reduced, within};
 use super::brackets::{self, Brackets};
 use super::circles::Circles;
 use super::contacts::{DefectContacts, Feature};
-use super::error::{DefectError, finite_angle};
-use super::fade::Fade;
 use super::race_profile::{PolarPosition, RaceProfile};
 use super::samples_check;
-use super::sinking;
 use super::spline::{self, Piece, Profile};
-use super::stiffness::CurvatureStiffness;
+use super::stiffness::{CurvatureStiffness, Fade};
+use super::vector::Vector;
+use crate::bearing::error::BearingError;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 
@@ -21,6 +20,15 @@ const LOOKS: usize = 8;
 
 /// Greatest slope of the profile against the race: a ball of the race's own size touches 45° at most.
 const STEEPEST: f64 = 1.0;
+
+/// Ball positions that are tried first.
+const POSITIONS: usize = 200;
+
+/// Longest way from point to point in ball radii: a ball between two sinks 5e-7 of its radius too deep.
+const SPACING: f64 = 2e-3;
+
+/// Steps of the golden section about the deepest of them.
+const SECTIONS: usize = 40;
 
 /// A measured profile in one race of one bearing, ready for contact queries.
 ///
@@ -45,7 +53,7 @@ impl MeasuredProfile {
     /// `stiffness` is that of the healthy races; on the profile it changes in the ratio of Hertz theory.
     ///
     /// # Errors
-    /// [`DefectError`]: fewer than 4 samples; a sample (named by its number) that is not finite, not behind the
+    /// [`BearingError`]: fewer than 4 samples; a sample (named by its number) that is not finite, not behind the
     /// one before, deeper than a quarter of the length, or not zero at the ends; a length above a quarter of the
     /// race; a slope above 1.
     pub fn new(
@@ -54,7 +62,7 @@ impl MeasuredProfile {
         angle: f64,
         samples: &[(f64, f64)],
         stiffness: ContactStiffness,
-    ) -> Result<Self, DefectError> {
+    ) -> Result<Self, BearingError> {
         finite_angle(angle)?;
         let circles = Circles::race(bearing, race, stiffness);
         let [first, last] = samples_check::span(samples, FRAC_PI_2 * circles.carrier)?;
@@ -109,7 +117,7 @@ impl RaceProfile for MeasuredProfile {
 
     /// Searched anew on every call, in milliseconds.
     fn ball_drop(&self) -> f64 {
-        sinking::deepest(&self.profile, self.half_angle)
+        deepest(&self.profile, self.half_angle)
     }
 
     fn rise(&self) -> f64 {
@@ -166,8 +174,8 @@ fn between([start, end]: [f64; 2], i: usize) -> f64 {
 /// Greatest convex curvature of the profile, 1/m.
 ///
 /// # Errors
-/// [`DefectError::Steep`] names the samples between which the profile is steepest.
-fn sharpest(profile: &Profile) -> Result<f64, DefectError> {
+/// [`BearingError`] names the samples between which the profile is steepest.
+fn sharpest(profile: &Profile) -> Result<f64, BearingError> {
     let (mut sharpest, mut steepest, mut sample) = (f64::NEG_INFINITY, 0.0, 0);
     for piece in &profile.pieces {
         for i in 0..=LOOKS {
@@ -184,6 +192,48 @@ fn sharpest(profile: &Profile) -> Result<f64, DefectError> {
     if steepest <= STEEPEST {
         Ok(sharpest)
     } else {
-        Err(DefectError::Steep { sample: sample + 1, next: sample + 2, slope: steepest, limit: STEEPEST })
+        let (sample, next) = (sample + 1, sample + 2);
+        Err(BearingError(format!(
+            "defect profile is as steep as {steepest:.2} between samples {sample} and {next}, at most {STEEPEST} is \
+             possible: a measurement so steep is noise or a step; smooth it"
+        )))
     }
+}
+
+/// For the report, not for the hot loop: greatest displacement (m) of a ball beyond its place on the race that some angle within `half_angle` (rad) of
+/// the middle allows: everywhere the nearest part of the profile holds it. Zero or more.
+fn deepest(profile: &Profile, half_angle: f64) -> f64 {
+    let circles = &profile.circles;
+    let longest = SPACING * circles.roller / circles.carrier;
+    let mut points = Vec::new();
+    for piece in &profile.pieces {
+        let [start, end] = piece.ends;
+        let parts = ((end - start) / longest).ceil().max(2.0);
+        let place = |i: usize| start + (end - start) * (i as f64 / parts);
+        points.extend((0..parts as usize).map(|i| profile.at(piece, place(i)).point));
+    }
+    let held = |offset: f64| {
+        let e = Vector::radial(offset);
+        let plain = circles.side * circles.carrier - circles.roller;
+        points.iter().fold(f64::INFINITY, |least, point| {
+            let across = point.dot(e.tangent());
+            let rest = circles.roller * circles.roller - across * across;
+            if rest > 0.0 { least.min(circles.side * point.dot(e) - rest.sqrt() - plain) } else { least }
+        })
+    };
+    let step = 2.0 * half_angle / POSITIONS as f64;
+    let place = |i: usize| -half_angle + step * i as f64;
+    let best = (0..=POSITIONS).max_by(|&a, &b| held(place(a)).total_cmp(&held(place(b))));
+    let middle = place(best.unwrap_or(0));
+    let ratio = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut low, mut high) = (middle - step, middle + step);
+    for _ in 0..SECTIONS {
+        let inner = [high - ratio * (high - low), low + ratio * (high - low)];
+        if held(inner[0]) > held(inner[1]) {
+            high = inner[1];
+        } else {
+            low = inner[0];
+        }
+    }
+    held(0.5 * (low + high)).max(held(middle)).max(0.0)
 }

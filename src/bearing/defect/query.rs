@@ -47,11 +47,7 @@ impl Depression {
         let reach = self.reach.as_ref()?;
         let circles = &self.circles;
         let inside = |centre: Vector| {
-            if reach.meets_rim {
-                self.rim.beyond_joint(circles, centre)
-            } else {
-                reach.end_point.minus(centre).dot(reach.end_tangent) > 0.0
-            }
+            if reach.meets_rim { self.rim.beyond_joint(circles, centre) } else { reach.holds(centre) }
         };
         if !(inside(centre) && inside(mirrored)) {
             return None;

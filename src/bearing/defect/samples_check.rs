@@ -1,7 +1,8 @@
 //! The rules for the samples of a measured profile.
 
-use super::error::DefectError;
+use super::depression::too_long;
 use super::spline::LEAST_KNOTS;
+use crate::bearing::error::BearingError;
 
 /// Depth at the ends that counts as none, m: far below what is measured.
 const NO_DEPTH: f64 = 1e-9;
@@ -12,8 +13,8 @@ const DEPTH_LIMIT: f64 = 0.25;
 /// First and last arc length (m) of samples that keep every rule; `limit` (m) is the greatest length.
 ///
 /// # Errors
-/// [`DefectError::TooFewSamples`], [`DefectError::Sample`] with the number of the sample, [`DefectError::TooLong`].
-pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], DefectError> {
+/// [`BearingError`] for too few samples, with the number of a sample that breaks a rule, or for the length.
+pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], BearingError> {
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
         return Err(too_few(samples.len()));
     };
@@ -41,7 +42,7 @@ pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], Defec
     }
     let length = last.0 - first.0;
     if length > limit {
-        return Err(DefectError::TooLong { length, opened: length, limit });
+        return Err(too_long(length, length, limit));
     }
     let deep = |&(_, depth): &(f64, f64)| depth.abs() > DEPTH_LIMIT * length;
     if let Some(index) = samples.iter().position(deep) {
@@ -51,12 +52,12 @@ pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], Defec
     Ok([first.0, last.0])
 }
 
-fn too_few(count: usize) -> DefectError {
-    DefectError::TooFewSamples { count, least: LEAST_KNOTS }
+fn too_few(count: usize) -> BearingError {
+    BearingError(format!("defect profile has {count} samples: it needs at least {LEAST_KNOTS}"))
 }
 
-fn refused(index: usize, what: &'static str, value: f64, rule: &'static str) -> DefectError {
-    DefectError::Sample { sample: index + 1, what, value, rule }
+fn refused(index: usize, what: &str, value: f64, rule: &str) -> BearingError {
+    BearingError(format!("defect profile, sample {}: {what} {value} m {rule}", index + 1))
 }
 
 #[cfg(test)]
@@ -103,6 +104,6 @@ mod tests {
             );
         }
         let error = span(&good, 2e-4).unwrap_err();
-        assert!(matches!(error, DefectError::TooLong { .. }), "{error}");
+        assert!(error.to_string().contains("is more than a quarter of the race"), "{error}");
     }
 }

@@ -1,4 +1,5 @@
-//! Hertz stiffness of a ball on a race as a function of the in-plane curvature, from a table.
+//! Hertz stiffness of a ball on a race as a function of the in-plane curvature, from a table, and how it fades where the
+//! profile comes to be curved like the roller.
 //!
 //! The argument is the relative curvature in the rolling plane, `A = κ_ball + κ_race`, convex positive, a defect
 //! on either included; across it stays `1/ρ_b − 1/r_groove`. Elliptic integrals are evaluated at
@@ -6,8 +7,10 @@
 //! curvature, the smaller the patch.
 
 use super::circles::{Circles, race_curvatures};
+use super::rim::smoothstep;
+use crate::bearing::error::BearingError;
 use crate::bearing::geometry::BearingGeometry;
-use crate::bearing::hertz::{self, HertzError, PrincipalCurvatures};
+use crate::bearing::hertz::{self, PrincipalCurvatures};
 use crate::bearing::materials::Race;
 
 /// Intervals of the table. Over a ratio of 2600 in A the largest relative error measured on the source's
@@ -48,8 +51,13 @@ impl CurvatureStiffness {
     /// the pair's, at `race`, such that k of the undamaged pair `circles` is its own, computed or given.
     ///
     /// # Errors
-    /// [`HertzError`] if Hertz theory refuses a node.
-    pub(super) fn new(bearing: &BearingGeometry, race: Race, circles: &Circles, most: f64) -> Result<Self, HertzError> {
+    /// [`BearingError`] if Hertz theory refuses a node.
+    pub(super) fn new(
+        bearing: &BearingGeometry,
+        race: Race,
+        circles: &Circles,
+        most: f64,
+    ) -> Result<Self, BearingError> {
         let least = LEAST_RELATIVE * circles.relative;
         Self::over(bearing, race, circles, [least, most])
     }
@@ -57,13 +65,13 @@ impl CurvatureStiffness {
     /// The same for [`Self::of_pair`] with curvatures up to `most` (1/m).
     ///
     /// # Errors
-    /// [`HertzError`] if Hertz theory refuses a node.
+    /// [`BearingError`] if Hertz theory refuses a node.
     pub(super) fn for_pairs(
         bearing: &BearingGeometry,
         race: Race,
         circles: &Circles,
         most: f64,
-    ) -> Result<Self, HertzError> {
+    ) -> Result<Self, BearingError> {
         let across = across(bearing, race);
         let least = across.min(LEAST_RELATIVE * circles.relative);
         Self::over(bearing, race, circles, [least, most / LEAST_RELATIVE])
@@ -74,7 +82,7 @@ impl CurvatureStiffness {
         race: Race,
         circles: &Circles,
         [least, most]: [f64; 2],
-    ) -> Result<Self, HertzError> {
+    ) -> Result<Self, BearingError> {
         let most = most.min(MOST_RELATIVE * circles.relative);
         let step = (most / least).ln() / INTERVALS as f64;
         let mut nodes = Vec::with_capacity(INTERVALS + 1);
@@ -125,10 +133,46 @@ pub(super) fn across(bearing: &BearingGeometry, race: Race) -> f64 {
 /// rolling plane.
 ///
 /// # Errors
-/// [`HertzError`] for a curvature that is zero or negative: the surfaces conform.
-pub(super) fn per_modulus(bearing: &BearingGeometry, race: Race, curvature: f64) -> Result<f64, HertzError> {
+/// [`BearingError`] for a curvature that is zero or negative: the surfaces conform.
+pub(super) fn per_modulus(bearing: &BearingGeometry, race: Race, curvature: f64) -> Result<f64, BearingError> {
     let bodies = PrincipalCurvatures { plane_1: across(bearing, race), plane_2: curvature };
-    Ok(hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0)?.stiffness)
+    match hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0) {
+        Ok(contact) => Ok(contact.stiffness),
+        Err(error) => Err(BearingError(format!("contact on the defect: {error}"))),
+    }
+}
+
+/// Fraction of the way from the race's curvature to the ball's at which the contact begins to
+/// fade; at the ball's curvature it is gone. A choice: a ball rests on rim and floor together where the
+/// floor has covered less than half of that way, so that the fade is met only when the rim carries more.
+pub const FLOOR_FADE: f64 = 0.7;
+
+/// Weight of a contact by the profile's concave curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fade {
+    /// Concave curvature at which the contact is gone, 1/m.
+    gone: f64,
+    /// Range of curvature over which it fades, 1/m.
+    width: f64,
+}
+
+impl Fade {
+    /// Gone `early` (1/m) before the roller's own curvature.
+    pub(super) fn new(circles: &Circles, early: f64) -> Self {
+        let roller = circles.roller_curvature();
+        Self { gone: roller - early, width: (1.0 - FLOOR_FADE) * (roller - circles.carrier_concavity()) }
+    }
+
+    /// Whether a profile of this concave curvature is touched at all.
+    pub(super) fn touchable(&self, concavity: f64) -> bool {
+        concavity < self.gone
+    }
+
+    /// 1 where the profile is flat enough, 0 where it is curved like the roller.
+    #[inline]
+    pub(super) fn weight(&self, concavity: f64) -> f64 {
+        smoothstep((self.gone - concavity) / self.width)
+    }
 }
 
 #[cfg(test)]
@@ -169,9 +213,9 @@ mod tests {
     #[test]
     fn a_conforming_pair_is_refused() {
         let refused = per_modulus(&source_bearing(), Race::Inner, 0.0);
-        assert!(matches!(refused, Err(HertzError::CurvatureDifference { .. })));
+        assert!(refused.unwrap_err().to_string().starts_with("contact on the defect: curvature difference"));
         let refused = per_modulus(&source_bearing(), Race::Inner, -50.0);
-        assert!(matches!(refused, Err(HertzError::CurvatureSum { .. })));
+        assert!(refused.unwrap_err().to_string().starts_with("contact on the defect: curvature sum"));
     }
 
     #[test]

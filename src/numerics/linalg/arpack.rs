@@ -105,8 +105,7 @@ struct Workspace {
 /// length n.
 ///
 /// # Errors
-/// [`LinalgError::TooManyModes`] if the sizes do not fit, [`LinalgError::NotConverged`],
-/// [`LinalgError::Arpack`], or what `solve` returns.
+/// [`LinalgError::TooManyModes`] if the sizes do not fit, [`LinalgError::Iteration`], or what `solve` returns.
 pub(super) fn shift_invert(
     request: Request,
     mut solve: impl FnMut(&[f64], &mut [f64]) -> Result<(), LinalgError>,
@@ -174,14 +173,11 @@ pub(super) fn shift_invert(
         }
     }
     if info == 1 || (info == 0 && (space.iparam[4] as usize) < count) {
-        return Err(LinalgError::NotConverged {
-            asked: count,
-            converged: space.iparam[4].max(0) as usize,
-            restarts: space.iparam[2].max(0) as usize,
-        });
+        let [converged, restarts] = [4, 2].map(|place| space.iparam[place].max(0) as usize);
+        return Err(LinalgError::not_converged(count, converged, restarts));
     }
     if info != 0 {
-        return Err(LinalgError::Arpack { routine: "dsaupd", info });
+        return Err(refused("dsaupd", info));
     }
     extract(request, &mut space)
 }
@@ -221,7 +217,12 @@ fn extract(request: Request, space: &mut Workspace) -> Result<RitzPairs, LinalgE
             &mut info,
         );
     }
-    if info == 0 { Ok(RitzPairs { values, vectors }) } else { Err(LinalgError::Arpack { routine: "dseupd", info }) }
+    if info == 0 { Ok(RitzPairs { values, vectors }) } else { Err(refused("dseupd", info)) }
+}
+
+/// ARPACK refused its input; an error of this program.
+fn refused(routine: &str, info: c_int) -> LinalgError {
+    LinalgError::Iteration(format!("ARPACK routine {routine} returned info = {info}"))
 }
 
 /// A fixed start vector without symmetry, so that no mode is orthogonal to it by accident: the

@@ -26,7 +26,7 @@ pub(super) fn largest_basis(count: usize) -> usize {
 /// looked for with the known ones taken out.
 ///
 /// # Errors
-/// [`LinalgError::MissingModes`], or what ARPACK reports.
+/// [`LinalgError::Iteration`] for missing modes, or what ARPACK reports.
 pub(super) fn between(
     stiffness: &SymmetricMatrix,
     mass: &SymmetricMatrix,
@@ -66,11 +66,7 @@ pub(super) fn between(
         idle = if known > before { 0 } else { idle + 1 };
     }
     if known != count {
-        return Err(LinalgError::MissingModes {
-            below_hz: high.max(0.0).sqrt() / std::f64::consts::TAU,
-            counted: count,
-            found: known,
-        });
+        return Err(LinalgError::missing_modes(high, count, known));
     }
     found.retain(inside);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));

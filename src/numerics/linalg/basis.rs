@@ -92,7 +92,7 @@ impl<'p> Basis<'p> {
             return 1.0;
         }
         let along = times(self.vectors().transpose(), product.rb());
-        subtract(w.rb_mut(), self.vectors(), along.as_ref());
+        matmul(w.rb_mut(), Accum::Add, self.vectors(), along.as_ref(), -1.0, Par::Seq);
         self.mass.times_into(w.rb(), product);
         let left = |column| 1.0 - along.col(column).squared_norm_l2();
         (0..w.ncols()).map(left).fold(1.0, f64::min).max(0.0).sqrt()
@@ -111,11 +111,6 @@ pub(super) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> DenseMatrix {
     let mut product = DenseMatrix::zeros(a.nrows(), b.ncols());
     matmul(product.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
     product
-}
-
-/// `C - A B` in place of C.
-fn subtract(c: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    matmul(c, Accum::Add, a, b, -1.0, Par::Seq);
 }
 
 /// The first columns.

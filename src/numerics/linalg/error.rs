@@ -1,5 +1,6 @@
 //! What can go wrong in a factorisation or an eigenvalue computation.
 
+use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// What a factor exceeds.
@@ -87,14 +88,6 @@ pub enum LinalgError {
         /// Largest one accepted.
         limit: f64,
     },
-    /// Eigenvalues in such a crowd that there is no place to count.
-    #[error(
-        "the {asked} modes asked for end in a crowd of equal frequencies, so that they cannot be counted; ask for a few more"
-    )]
-    NoGap {
-        /// Number asked for.
-        asked: usize,
-    },
     /// Matrices that should fit together do not.
     #[error("{what}: expected {expected} rows, found {found}")]
     Shape {
@@ -148,50 +141,9 @@ pub enum LinalgError {
         /// Memory that the system can give, in bytes.
         free: u64,
     },
-    /// An iteration did not converge.
-    #[error(
-        "the eigenvalue iteration found {converged} of {asked} modes in {restarts} restarts; ask for more modes or fewer"
-    )]
-    NotConverged {
-        /// Number asked for.
-        asked: usize,
-        /// Number that converged.
-        converged: usize,
-        /// Restarts made.
-        restarts: usize,
-    },
-    /// Modes that exist and were not found.
-    #[error(
-        "the eigenvalue iteration missed modes: {counted} lie below {below_hz:.6e} Hz, {found} were found; ask for a few more modes"
-    )]
-    MissingModes {
-        /// Frequency up to which was counted, Hz.
-        below_hz: f64,
-        /// Number of modes below it, from the inertia of `K - sigma M`.
-        counted: usize,
-        /// Number found.
-        found: usize,
-    },
-    /// Modes that do not satisfy their equation.
-    #[error(
-        "mode {mode} leaves a relative residual of {residual:.3e} in its eigenvalue equation, more than {limit:.0e}: the matrices are too ill-conditioned"
-    )]
-    Residual {
-        /// Which mode, from 0.
-        mode: usize,
-        /// Its residual.
-        residual: f64,
-        /// Largest residual accepted.
-        limit: f64,
-    },
-    /// ARPACK refused its input; an error of this program.
-    #[error("ARPACK routine {routine} returned info = {info}")]
-    Arpack {
-        /// Name of the routine.
-        routine: &'static str,
-        /// Its error code.
-        info: i32,
-    },
+    /// An iteration for eigenvalues failed where another way may not, or its modes do not satisfy their equation.
+    #[error("{0}")]
+    Iteration(String),
     /// A dense eigenvalue computation failed or met values that are not finite.
     #[error("the dense eigenvalue computation of a {order} x {order} matrix failed")]
     DenseEigen {
@@ -201,15 +153,27 @@ pub enum LinalgError {
 }
 
 impl LinalgError {
-    /// Whether an iteration failed where another way may not.
-    pub(super) fn is_of_iteration(&self) -> bool {
-        matches!(
-            self,
-            Self::NotConverged { .. }
-                | Self::MissingModes { .. }
-                | Self::NoGap { .. }
-                | Self::Residual { .. }
-                | Self::Arpack { .. }
-        )
+    /// Eigenvalues in such a crowd that there is no place to count behind the `asked` ones.
+    pub(super) fn no_gap(asked: usize) -> Self {
+        Self::Iteration(format!(
+            "the {asked} modes asked for end in a crowd of equal frequencies, so that they cannot be counted; ask for a \
+             few more"
+        ))
+    }
+
+    /// An iteration that did not converge.
+    pub(super) fn not_converged(asked: usize, converged: usize, restarts: usize) -> Self {
+        Self::Iteration(format!(
+            "the eigenvalue iteration found {converged} of {asked} modes in {restarts} restarts; ask for more modes or fewer"
+        ))
+    }
+
+    /// Modes that exist below a value (1/s^2), by the inertia of `K - sigma M`, and were not found.
+    pub(super) fn missing_modes(below: f64, counted: usize, found: usize) -> Self {
+        let below_hz = below.max(0.0).sqrt() / TAU;
+        Self::Iteration(format!(
+            "the eigenvalue iteration missed modes: {counted} lie below {below_hz:.6e} Hz, {found} were found; ask for a \
+             few more modes"
+        ))
     }
 }

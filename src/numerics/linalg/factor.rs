@@ -20,10 +20,28 @@ const DULL: f64 = 1e-8;
 /// the factor's worst directions, the second measures them.
 const PROBES: (usize, usize) = (2, 2);
 
+/// The entries of a factor.
 #[derive(Debug)]
-enum Numbers {
+pub(super) enum Numbers {
     Single(NumericFactor<f32>),
     Double(NumericFactor<f64>),
+}
+
+impl Numbers {
+    /// In the precision that the size calls for, or in double precision.
+    fn new(
+        symbolic: &Symbolic,
+        a: &SymmetricMatrix,
+        kind: Kind,
+        double: bool,
+        memory: FactorMemory,
+    ) -> Result<Self, LinalgError> {
+        Ok(if double || symbolic.entries() <= SMALL {
+            Self::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
+        } else {
+            Self::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
+        })
+    }
 }
 
 /// Factor F of a symmetric matrix A, in an order of its own.
@@ -35,7 +53,8 @@ enum Numbers {
 /// precision in which F was computed.
 #[derive(Debug)]
 pub(super) struct Factor {
-    symbolic: Arc<Symbolic>,
+    /// Where its entries are.
+    pub symbolic: Arc<Symbolic>,
     numbers: Numbers,
     /// Estimate of the spectral radius of `I - F^-1 A`.
     pub contraction: f64,
@@ -83,21 +102,7 @@ impl Factor {
         kind: Kind,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        if symbolic.entries() > SMALL {
-            return Self::single(symbolic, a, kind, memory.single);
-        }
-        let numbers = NumericFactor::new(symbolic, a, kind, memory.double)?;
-        Self::judged(symbolic, a, Numbers::Double(numbers))
-    }
-
-    fn single(
-        symbolic: &Arc<Symbolic>,
-        a: &SymmetricMatrix,
-        kind: Kind,
-        memory: Vec<f32>,
-    ) -> Result<Self, LinalgError> {
-        let numbers = NumericFactor::new(symbolic, a, kind, memory)?;
-        Self::judged(symbolic, a, Numbers::Single(numbers))
+        Self::judged(symbolic, a, Numbers::new(symbolic, a, kind, false, memory)?)
     }
 
     /// Factorises `a` in double precision.
@@ -105,8 +110,7 @@ impl Factor {
     /// # Errors
     /// As [`Factor::new`].
     pub(super) fn double(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
-        let numbers = NumericFactor::new(symbolic, a, kind, Vec::new())?;
-        Self::judged(symbolic, a, Numbers::Double(numbers))
+        Self::judged(symbolic, a, Numbers::new(symbolic, a, kind, true, FactorMemory::default())?)
     }
 
     /// Factorises `a` in the precision that its size calls for, or in double precision, whatever the quality: for an
@@ -121,24 +125,7 @@ impl Factor {
         double: bool,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        let numbers = if double || symbolic.entries() <= SMALL {
-            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
-        } else {
-            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
-        };
-        Ok(Self::measured(symbolic, a, numbers))
-    }
-
-    /// A factor in single precision, however small it is.
-    #[cfg(test)]
-    pub(crate) fn single_for_test(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix) -> Result<Self, LinalgError> {
-        let numbers = NumericFactor::new(symbolic, a, Kind::Indefinite, Vec::new())?;
-        Ok(Self::measured(symbolic, a, Numbers::Single(numbers)))
-    }
-
-    /// Where its entries are.
-    pub(super) fn symbolic(&self) -> &Arc<Symbolic> {
-        &self.symbolic
+        Ok(Self::measured(symbolic, a, Numbers::new(symbolic, a, kind, double, memory)?))
     }
 
     /// Whether its entries are in double precision.
@@ -168,7 +155,7 @@ impl Factor {
         }
     }
 
-    fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
+    pub(super) fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
         let mut factor = Self { symbolic: Arc::clone(symbolic), numbers, contraction: f64::INFINITY, weakest: 0 };
         let mut error = pseudo_random(a.order(), PROBES.0, 0);
         for _ in 0..PROBES.1 {

@@ -46,7 +46,8 @@ fn single_precision_is_left_when_it_does_not_serve() {
         let mass = SymmetricMatrix::permuted(&m, &ordering);
         let symbolic = Arc::new(Symbolic::new(&stiffness).expect("analysed"));
         let factorise = |a: &SymmetricMatrix, kind: Kind| {
-            Factor::single(&symbolic, a, kind, Vec::new())
+            NumericFactor::new(&symbolic, a, kind, Vec::new())
+                .and_then(|numbers| Factor::judged(&symbolic, a, Numbers::Single(numbers)))
                 .or_else(|_| Factor::double(&symbolic, a, kind))
                 .expect("in one precision or the other")
         };

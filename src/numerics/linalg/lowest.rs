@@ -235,18 +235,15 @@ impl<'p> Search<'p> {
     /// Corrects the Ritz pairs until they have converged.
     ///
     /// # Errors
-    /// [`LinalgError::NotConverged`], [`LinalgError::DenseEigen`].
+    /// [`LinalgError::Iteration`], [`LinalgError::DenseEigen`].
     pub(super) fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
         for _ in 0..CORRECTIONS {
             if let Some(pairs) = self.correct(factor)? {
                 return Ok(pairs);
             }
         }
-        Err(LinalgError::NotConverged {
-            asked: self.wanted,
-            converged: self.done[..self.wanted].iter().flatten().count(),
-            restarts: CORRECTIONS,
-        })
+        let converged = self.done[..self.wanted].iter().flatten().count();
+        Err(LinalgError::not_converged(self.wanted, converged, CORRECTIONS))
     }
 
     /// Adds a correction of every pair that has not converged, or returns all of them if there is none.

@@ -34,6 +34,19 @@ impl Ordering {
         Self::of_part(a, &all)
     }
 
+    /// Order of the rows and columns `kept` (ascending) of a stiffness K, none of which has neither stiffness nor mass.
+    ///
+    /// # Errors
+    /// [`LinalgError::NothingThere`] for an empty row of K and M; as [`Ordering::of_part`].
+    pub(super) fn of_problem(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
+        // of semidefinite matrices a row is empty if its diagonal is
+        let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
+        match kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
+            Some(&row) => Err(LinalgError::NothingThere { row }),
+            None => Self::of_part(k, kept),
+        }
+    }
+
     /// Order of the rows and columns `kept` (ascending) of a symmetric matrix.
     ///
     /// # Errors

@@ -28,7 +28,7 @@ mod flow;
 mod track;
 
 use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
 use flow::Flow;
 use track::Track;
 
@@ -84,7 +84,7 @@ impl Adams {
         }
         if error > 1.0 && self.halvings < most {
             self.halvings += 1;
-        } else if error < DOUBLED[usize::from(self.track.is_quadratic())] && self.halvings > 0 {
+        } else if error < DOUBLED[usize::from(self.track.quadratic)] && self.halvings > 0 {
             let longer = 2_u32 << (most - self.halvings);
             if part.is_multiple_of(longer) {
                 self.halvings -= 1;
@@ -129,17 +129,12 @@ impl<S: SecondOrderSystem> Stepper<S> for Adams {
         self.statistics
     }
 
-    fn remember(&self, snapshot: &mut Snapshot) {
-        self.statistics.remember(snapshot);
-        snapshot.count(u64::from(self.halvings));
-        self.track.remember(snapshot);
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.statistics = Statistics::recalled(snapshot)?;
-        let most = self.flows.len() as u64 - 1;
-        // a snapshot of fewer halvings goes on with as many as there are
-        self.halvings = snapshot.count()?.min(most) as u32;
-        self.track.recall(snapshot)
+    fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        self.statistics.exchange(words)?;
+        let mut halvings = u64::from(self.halvings);
+        words.count(&mut halvings)?;
+        // a snapshot of more halvings goes on with as many as there are
+        self.halvings = halvings.min(self.flows.len() as u64 - 1) as u32;
+        self.track.exchange(words)
     }
 }

@@ -39,6 +39,11 @@ pub enum TransientError {
     },
 }
 
+/// Refuses a value that breaks its rule.
+pub(super) fn require(holds: bool, what: &'static str, value: f64, rule: &'static str) -> Result<(), TransientError> {
+    if holds { Ok(()) } else { Err(TransientError::Schedule { what, value, rule }) }
+}
+
 /// A solution that blew up: when, what was noticed, and what step the method could take there.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct BlowUp {

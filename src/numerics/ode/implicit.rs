@@ -18,9 +18,7 @@
 
 use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
 use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{
-    Divergence, LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, Tangent,
-};
+use crate::numerics::ode::{Divergence, Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError, Tangent};
 
 /// Parameters of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -233,22 +231,14 @@ impl<S: SecondOrderSystem> Stepper<S> for Implicit {
         self.statistics
     }
 
-    fn remember(&self, snapshot: &mut Snapshot) {
-        self.statistics.remember(snapshot);
-        snapshot.flag(self.acceleration.is_some());
-        snapshot.numbers(self.acceleration.as_deref().unwrap_or_default());
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.statistics = Statistics::recalled(snapshot)?;
-        self.acceleration = if snapshot.flag()? {
-            let mut acceleration = vec![0.0; self.linear.len()];
-            snapshot.numbers_into("accelerations", &mut acceleration)?;
-            Some(acceleration)
-        } else {
-            snapshot.numbers_into("accelerations", &mut [])?;
-            None
-        };
+    fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        self.statistics.exchange(words)?;
+        let mut known = self.acceleration.is_some();
+        words.flag(&mut known)?;
+        let zeros = || vec![0.0; if known { self.linear.len() } else { 0 }];
+        let mut acceleration = self.acceleration.take().unwrap_or_else(zeros);
+        words.numbers("accelerations", &mut acceleration)?;
+        self.acceleration = known.then_some(acceleration);
         Ok(())
     }
 }

@@ -5,7 +5,9 @@ use super::method::{Method, StepLimit};
 use super::schedule::Schedule;
 use super::stepper::{Statistics, Stepper};
 use super::steppers::stepper;
-use crate::numerics::ode::{Divergence, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotReader, State};
+use crate::numerics::ode::{
+    Divergence, Exchange, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State,
+};
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
 /// step that is too long is then seen fewer than so many steps after its first value out of range. By instructions a look takes
@@ -114,7 +116,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         let start = snapshot.number()?;
         let (intervals, samples) = (snapshot.count()?, snapshot.count()?);
         let mut stepper = stepper(system, method, &schedule, start)?;
-        stepper.recall(snapshot)?;
+        stepper.exchange(&mut Exchange::Read(snapshot))?;
         Ok(Self { start, intervals, samples, ..Self::at(state, force, method, schedule, stepper) })
     }
 
@@ -137,7 +139,10 @@ impl<S: SecondOrderSystem> Integration<S> {
     }
 
     /// Writes all that the rest depends on, between two intervals.
-    pub(crate) fn remember(&self, snapshot: &mut Snapshot) {
+    ///
+    /// # Errors
+    /// None, for nothing is read.
+    pub(crate) fn remember(&mut self, snapshot: &mut Snapshot) -> Result<(), SnapshotError> {
         snapshot.number(self.state.t);
         for numbers in [&self.state.y, &self.state.v, &self.force] {
             snapshot.numbers(numbers);
@@ -145,12 +150,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         snapshot.number(self.start);
         snapshot.count(self.intervals);
         snapshot.count(self.samples);
-        self.stepper.remember(snapshot);
-    }
-
-    /// When the first step began, s.
-    pub(crate) fn start(&self) -> f64 {
-        self.start
+        self.stepper.exchange(&mut Exchange::Write(snapshot))
     }
 
     /// Whether all intervals are done.

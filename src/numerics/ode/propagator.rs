@@ -11,7 +11,7 @@ use crate::numerics::ode::LinearCoordinate;
 ///
 /// The symmetric method takes the velocity from the same two-step recursion as the position,
 /// `y2 = trace y1 - determinant y0 + (1 - trace + determinant) / w^2 g1`, which gives
-/// `v1 = velocity_position y + velocity_velocity v + kick_before g0 + kick_after g1`.
+/// `v1 = velocity_position y + velocity_velocity v + (position_velocity - kick_after) g0 + kick_after g1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Propagator {
     /// d y1 / d y0.
@@ -28,10 +28,8 @@ pub(super) struct Propagator {
     pub ramp: f64,
     /// y1 from rest under a force that grows with the square of time from 0 to 1, s^2; v1 is then `2 ramp / h`.
     pub square: f64,
-    /// Weight of the force at the start in v1, s: `velocity_velocity response / position_velocity`.
-    pub kick_before: f64,
-    /// Weight of the force at the end, s: `position_velocity - kick_before`, so that `g = w^2 y`
-    /// stays. Without spring and damper both weights are h / 2.
+    /// Weight of the force at the end in v1, s: `position_velocity - velocity_velocity response / position_velocity`. That
+    /// at the start is the rest of `position_velocity`, so that `g = w^2 y` stays; without spring and damper both are h / 2.
     pub kick_after: f64,
 }
 
@@ -53,8 +51,7 @@ impl Propagator {
         } else {
             s
         };
-        flow.kick_before = flow.velocity_velocity * flow.response / divisor;
-        flow.kick_after = s - flow.kick_before;
+        flow.kick_after = s - flow.velocity_velocity * flow.response / divisor;
         flow
     }
 
@@ -91,7 +88,6 @@ impl Propagator {
             response,
             ramp,
             square: (1.0 - 2.0 * (response / h + c * ramp) / h) / w2,
-            kick_before: 0.0,
             kick_after: 0.0,
         }
     }
@@ -116,7 +112,6 @@ impl Propagator {
                     + self.response
                     + 2.0 * self.ramp
                     + self.square),
-            kick_before: 0.0,
             kick_after: 0.0,
         }
     }
@@ -145,7 +140,6 @@ impl Propagator {
             response: integral,
             ramp,
             square,
-            kick_before: 0.0,
             kick_after: 0.0,
         }
     }
@@ -227,7 +221,8 @@ mod tests {
             let p = Propagator::new(LinearCoordinate { squared_frequency: w * w, damping: c }, h);
             let (y0, v0, g0, g1): (f64, f64, f64, f64) = (1e-6, 0.3, 2e6, -7e6);
             let y1 = p.position_position * y0 + p.position_velocity * v0 + p.response * g0;
-            let v1 = p.velocity_position * y0 + p.velocity_velocity * v0 + p.kick_before * g0 + p.kick_after * g1;
+            let kicks = (p.position_velocity - p.kick_after) * g0 + p.kick_after * g1;
+            let v1 = p.velocity_position * y0 + p.velocity_velocity * v0 + kicks;
             let y2 = p.position_position * y1 + p.position_velocity * v1 + p.response * g1;
             let trace = p.position_position + p.velocity_velocity;
             let determinant = (-c * h).exp();

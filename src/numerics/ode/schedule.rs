@@ -1,6 +1,6 @@
 //! The steps of a run, and the instants that its samples are taken at.
 
-use super::error::TransientError;
+use super::error::{TransientError, require};
 
 /// Most steps in an output interval: the filter of each sensor has 28 numbers a step, 0.2 GB then.
 pub const MOST_STEPS_PER_INTERVAL: u32 = 1_000_000;
@@ -24,27 +24,15 @@ impl Schedule {
     /// [`TransientError::Schedule`] for values that are not positive and finite.
     pub fn covering(duration: f64, interval: f64, largest_step: f64) -> Result<Self, TransientError> {
         for (what, value) in [("duration", duration), ("output interval", interval), ("step", largest_step)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(TransientError::Schedule { what, value, rule: "positive and finite" });
-            }
+            require(value > 0.0 && value.is_finite(), what, value, "positive and finite")?;
         }
         // a step that fits a whole number of times up to round-off is kept as it is
         let steps = (interval / largest_step * (1.0 - 1e-9)).ceil().max(1.0);
         let intervals = (duration / interval * (1.0 - 1e-12)).ceil();
-        if steps > f64::from(MOST_STEPS_PER_INTERVAL) {
-            return Err(TransientError::Schedule {
-                what: "step",
-                value: largest_step,
-                rule: "at least a millionth of the output interval, 1 / output_hz (stiff or strongly damped contacts and light balls shorten it: check bearing.ball_mass, bearing.stiffness, bearing.contact_damping)",
-            });
-        }
-        if intervals * steps > 1e15 {
-            return Err(TransientError::Schedule {
-                what: "step",
-                value: largest_step,
-                rule: "large enough to finish: fewer than 1e15 steps",
-            });
-        }
+        let long_enough = "at least a millionth of the output interval, 1 / output_hz (stiff or strongly damped contacts and \
+                           light balls shorten it: check bearing.ball_mass, bearing.stiffness, bearing.contact_damping)";
+        require(steps <= f64::from(MOST_STEPS_PER_INTERVAL), "step", largest_step, long_enough)?;
+        require(intervals * steps <= 1e15, "step", largest_step, "large enough to finish: fewer than 1e15 steps")?;
         Ok(Self { interval, steps_per_interval: steps as u32, intervals: intervals as u64 })
     }
 

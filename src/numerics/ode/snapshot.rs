@@ -96,21 +96,10 @@ impl SnapshotReader<'_> {
         Ok(*first)
     }
 
-    /// Reads a whole number that must be this one.
-    ///
-    /// # Errors
-    /// [`SnapshotError::Short`], [`SnapshotError::Other`].
-    pub(crate) fn expect(&mut self, what: &'static str, expected: u64) -> Result<(), SnapshotError> {
-        match self.count()? {
-            found if found == expected => Ok(()),
-            found => Err(SnapshotError::Other { what, expected, found }),
-        }
-    }
-
     /// Reads whether something holds.
     ///
     /// # Errors
-    /// As [`expect`](Self::expect).
+    /// [`SnapshotError::Short`], [`SnapshotError::Other`].
     pub(crate) fn flag(&mut self) -> Result<bool, SnapshotError> {
         match self.count()? {
             found @ 0..=1 => Ok(found == 1),
@@ -169,6 +158,67 @@ impl SnapshotReader<'_> {
             0 => Ok(()),
             left => Err(SnapshotError::Long { left }),
         }
+    }
+}
+
+/// Words on their way into a snapshot or out of one: what a method remembers is listed once for both ways.
+pub(crate) enum Exchange<'a, 'w> {
+    /// Writes each value.
+    Write(&'a mut Snapshot),
+    /// Sets each value.
+    Read(&'a mut SnapshotReader<'w>),
+}
+
+impl<'w> Exchange<'_, 'w> {
+    fn one<T: Copy>(
+        &mut self,
+        value: &mut T,
+        write: fn(&mut Snapshot, T),
+        read: fn(&mut SnapshotReader<'w>) -> Result<T, SnapshotError>,
+    ) -> Result<(), SnapshotError> {
+        match self {
+            Self::Write(snapshot) => write(snapshot, *value),
+            Self::Read(snapshot) => *value = read(snapshot)?,
+        }
+        Ok(())
+    }
+
+    /// A whole number.
+    pub(crate) fn count(&mut self, value: &mut u64) -> Result<(), SnapshotError> {
+        self.one(value, Snapshot::count, SnapshotReader::count)
+    }
+
+    /// Whether something holds.
+    pub(crate) fn flag(&mut self, value: &mut bool) -> Result<(), SnapshotError> {
+        self.one(value, Snapshot::flag, SnapshotReader::flag)
+    }
+
+    /// A number.
+    pub(crate) fn number(&mut self, value: &mut f64) -> Result<(), SnapshotError> {
+        self.one(value, Snapshot::number, SnapshotReader::number)
+    }
+
+    /// A number that may be missing.
+    pub(crate) fn option(&mut self, value: &mut Option<f64>) -> Result<(), SnapshotError> {
+        self.one(value, Snapshot::option, SnapshotReader::option)
+    }
+
+    /// As many numbers as there is room for.
+    pub(crate) fn numbers(&mut self, what: &'static str, values: &mut [f64]) -> Result<(), SnapshotError> {
+        match self {
+            Self::Write(snapshot) => snapshot.numbers(values),
+            Self::Read(snapshot) => snapshot.numbers_into(what, values)?,
+        }
+        Ok(())
+    }
+
+    /// Numbers, however many they are.
+    pub(crate) fn list(&mut self, values: &mut Vec<f64>) -> Result<(), SnapshotError> {
+        match self {
+            Self::Write(snapshot) => snapshot.numbers(values),
+            Self::Read(snapshot) => *values = snapshot.numbers()?,
+        }
+        Ok(())
     }
 }
 

@@ -2,14 +2,12 @@
 
 use super::adams::Adams;
 use super::dop853::Dop853;
-use super::error::TransientError;
-use super::exponential::Exponential;
+use super::error::{TransientError, require};
 use super::implicit::Implicit;
 use super::method::{LEAST_TOLERANCE, Method};
-use super::newmark::NewmarkExplicit;
+use super::one_evaluation::{Counted, Exponential, NewmarkExplicit, Splitting};
 use super::schedule::Schedule;
-use super::splitting::Splitting;
-use super::stepper::{Counted, Stepper};
+use super::stepper::Stepper;
 use crate::numerics::ode::SecondOrderSystem;
 use std::f64::consts::TAU;
 
@@ -30,7 +28,7 @@ pub(super) fn stepper<S: SecondOrderSystem>(
         Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
         Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
         Method::GeneralizedAlpha { spectral_radius } => {
-            check_spectral_radius(spectral_radius)?;
+            require((0.0..=1.0).contains(&spectral_radius), "spectral radius", spectral_radius, "from 0 to 1")?;
             Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
         }
         Method::Dop853 { tolerance, events } => {
@@ -44,20 +42,8 @@ pub(super) fn stepper<S: SecondOrderSystem>(
     })
 }
 
-fn check_spectral_radius(value: f64) -> Result<(), TransientError> {
-    if (0.0..=1.0).contains(&value) {
-        Ok(())
-    } else {
-        Err(TransientError::Schedule { what: "spectral radius", value, rule: "from 0 to 1" })
-    }
-}
-
 fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
-    if (LEAST_TOLERANCE..1.0).contains(&tolerance) {
-        Ok(())
-    } else {
-        Err(TransientError::Schedule { what: "tolerance", value: tolerance, rule: "at least 1e-14 and below 1" })
-    }
+    require((LEAST_TOLERANCE..1.0).contains(&tolerance), "tolerance", tolerance, "at least 1e-14 and below 1")
 }
 
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {

@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::SeriesError;
 use super::kaiser::{KaiserLowPass, attenuation_db, beta};
+use super::time_series::{SeriesError, check_step};
 
 /// Output intervals by which an output's last input lies after it; the filter reaches as far to each side.
 pub const HALF_LENGTH_OUTPUTS: usize = 14;
@@ -89,7 +89,7 @@ impl Decimator {
     /// Decimator by `ratio` M >= 1: one output every M inputs, in the unit of the input. Zero before the start.
     ///
     /// # Errors
-    /// [`SeriesError::Ratio`] for a ratio of zero.
+    /// [`SeriesError`] for a ratio of zero.
     pub fn new(ratio: usize) -> Result<Self, SeriesError> {
         let filter = low_pass(ratio, 0)?;
         Ok(Self::from_taps(ratio, BeforeStart::Zero, |m| filter.tap(m)))
@@ -103,11 +103,9 @@ impl Decimator {
     /// 1e-2, M = 1 0.18 at the pass-band edge, where the difference rule runs out.
     ///
     /// # Errors
-    /// [`SeriesError::Ratio`] for a ratio of zero, [`SeriesError::Step`] unless `dt` is positive and finite.
+    /// [`SeriesError`] for a ratio of zero, and unless `dt` is positive and finite.
     pub(crate) fn second_derivative(ratio: usize, dt: f64) -> Result<Self, SeriesError> {
-        if !(dt.is_finite() && dt > 0.0) {
-            return Err(SeriesError::Step { step_s: dt });
-        }
+        check_step(dt)?;
         let filter = low_pass(ratio, STENCIL)?;
         let start = BeforeStart::FirstValue(None);
         Ok(Self::from_taps(ratio, start, |m| {
@@ -127,11 +125,6 @@ impl Decimator {
         let first = HALF_LENGTH_OUTPUTS as isize - 1;
         let taps = (0..ratio).map(|phase| std::array::from_fn(|i| tap(phase + (first - i as isize) * ratio))).collect();
         Self { taps, before_start, phase: 0, accumulators: [0.0; ACCUMULATORS], intervals: 0 }
-    }
-
-    /// Ratio M: inputs per output.
-    pub(crate) fn ratio(&self) -> usize {
-        self.taps.len()
     }
 
     /// Output intervals past the last wanted output that must be pushed before it is complete: with outputs wanted
@@ -179,13 +172,21 @@ impl Decimator {
     /// This decimator (same ratio, same kind, same dt) in a remembered state.
     ///
     /// # Errors
-    /// [`SeriesError::State`] if the state has another number of accumulators or a phase beyond the ratio.
+    /// [`SeriesError`] if the state has another number of accumulators or a phase beyond the ratio.
     pub(crate) fn with_state(mut self, state: &DecimatorState) -> Result<Self, SeriesError> {
-        let mismatch = || SeriesError::State { accumulators: state.accumulators.len(), expected: ACCUMULATORS };
         if state.phase >= self.taps.len() {
-            return Err(SeriesError::StatePhase { phase: state.phase, ratio: self.taps.len() });
+            return Err(SeriesError(format!(
+                "saved decimator state does not fit: phase {} in the state, ratio {} in the decimator",
+                state.phase,
+                self.taps.len()
+            )));
         }
-        self.accumulators = state.accumulators.as_slice().try_into().map_err(|_| mismatch())?;
+        self.accumulators = state.accumulators.as_slice().try_into().map_err(|_| {
+            SeriesError(format!(
+                "saved decimator state does not fit: {} accumulators in the state, {ACCUMULATORS} in the decimator",
+                state.accumulators.len()
+            ))
+        })?;
         self.phase = state.phase;
         self.intervals = state.intervals;
         if let BeforeStart::FirstValue(first) = &mut self.before_start {
@@ -199,7 +200,7 @@ impl Decimator {
 /// at each end.
 fn low_pass(ratio: usize, spare: usize) -> Result<KaiserLowPass, SeriesError> {
     if ratio == 0 {
-        return Err(SeriesError::Ratio { ratio });
+        return Err(SeriesError(format!("decimation ratio must be at least 1, found {ratio}")));
     }
     let half = HALF_LENGTH_OUTPUTS * ratio - 1 - spare;
     let attenuation = attenuation_db(half, TRANSITION / ratio as f64);
@@ -321,7 +322,7 @@ mod tests {
         let got = (0..needed - 1).filter_map(|_| decimator.push(1.0)).count();
         assert_eq!(got, wanted);
         assert!(decimator.push(1.0).is_some());
-        assert_eq!(decimator.ratio(), ratio);
+        assert_eq!(decimator.taps.len(), ratio);
     }
 
     #[test]

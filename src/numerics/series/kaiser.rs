@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::SeriesError;
+use super::time_series::{SeriesError, check_step};
 
 /// Symmetric (zero-phase when centred) low-pass taps h_m, m = -half ..= half, with sum h_m = 1:
 ///
@@ -22,14 +22,15 @@ impl KaiserLowPass {
     /// and attenuates by `attenuation_db` (21 dB at least; less is raised to it).
     ///
     /// # Errors
-    /// [`SeriesError::Step`]; [`SeriesError::LowPassEdges`] unless 0 < pass < stop <= 1 / (2 step).
+    /// [`SeriesError`] for the step, and unless 0 < pass < stop <= 1 / (2 step).
     pub(crate) fn new(step_s: f64, pass_hz: f64, stop_hz: f64, attenuation_db: f64) -> Result<Self, SeriesError> {
-        if !(step_s.is_finite() && step_s > 0.0) {
-            return Err(SeriesError::Step { step_s });
-        }
+        check_step(step_s)?;
         let nyquist_hz = 0.5 / step_s;
         if !(pass_hz > 0.0 && pass_hz < stop_hz && stop_hz <= nyquist_hz * (1.0 + 1e-12)) {
-            return Err(SeriesError::LowPassEdges { pass_hz, stop_hz, nyquist_hz });
+            return Err(SeriesError(format!(
+                "low-pass edges must satisfy 0 < pass < stop <= {nyquist_hz} Hz (half the sampling rate), found pass \
+                 {pass_hz} Hz, stop {stop_hz} Hz"
+            )));
         }
         let attenuation_db = attenuation_db.max(21.0);
         let transition = 2.0 * PI * (stop_hz - pass_hz) * step_s;
@@ -60,18 +61,6 @@ impl KaiserLowPass {
     /// Tap h_m, m counted from the middle; 0 outside the filter.
     pub(crate) fn tap(&self, m: isize) -> f64 {
         self.half_taps.get(m.unsigned_abs()).copied().unwrap_or(0.0)
-    }
-
-    /// Gain at `cycles_per_sample` = frequency x step: h_0 + 2 sum h_m cos(2 pi f m). Real: the phase is zero.
-    #[cfg(test)]
-    pub(crate) fn gain(&self, cycles_per_sample: f64) -> f64 {
-        self.half_taps[0]
-            + 2.0
-                * self.half_taps[1..]
-                    .iter()
-                    .zip(1..)
-                    .map(|(h, m)| h * (2.0 * PI * cycles_per_sample * f64::from(m)).cos())
-                    .sum::<f64>()
     }
 }
 
@@ -159,6 +148,17 @@ fn bessel_i0(x: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// Gain at `cycles_per_sample` = frequency x step: h_0 + 2 sum h_m cos(2 pi f m). Real: the phase is zero.
+    fn gain(filter: &KaiserLowPass, cycles_per_sample: f64) -> f64 {
+        filter.half_taps[0]
+            + 2.0
+                * filter.half_taps[1..]
+                    .iter()
+                    .zip(1..)
+                    .map(|(h, m)| h * (2.0 * PI * cycles_per_sample * f64::from(m)).cos())
+                    .sum::<f64>()
+    }
+
     #[test]
     fn bessel_agrees_with_scipy() {
         // scipy.special.i0
@@ -182,12 +182,12 @@ mod tests {
         let allowed = 1.1e-4;
         for k in 0..=400 {
             let f = 0.4 * f64::from(k) / 400.0;
-            assert!((filter.gain(f) - 1.0).abs() < allowed, "pass band at {f}");
+            assert!((gain(&filter, f) - 1.0).abs() < allowed, "pass band at {f}");
             let f = 0.44 + 0.06 * f64::from(k) / 400.0;
-            assert!(filter.gain(f).abs() < allowed, "stop band at {f}");
+            assert!(gain(&filter, f).abs() < allowed, "stop band at {f}");
         }
-        assert!((filter.gain(0.42) - 0.5).abs() < 1e-3);
-        assert!((filter.gain(0.0) - 1.0).abs() < 1e-14);
+        assert!((gain(&filter, 0.42) - 0.5).abs() < 1e-3);
+        assert!((gain(&filter, 0.0) - 1.0).abs() < 1e-14);
     }
 
     #[test]

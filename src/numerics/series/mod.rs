@@ -4,14 +4,12 @@
 //! analysis starts from it.
 
 mod decimator;
-mod error;
 mod flaws;
 mod kaiser;
 mod statistics;
 mod time_series;
 
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
-pub use error::SeriesError;
 pub(crate) use kaiser::{KaiserInterpolation, KaiserLowPass};
 pub(crate) use statistics::root_mean_square;
-pub use time_series::{TimeSeries, TimeWindow};
+pub use time_series::{SeriesError, TimeSeries, TimeWindow};

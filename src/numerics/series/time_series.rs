@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::SeriesError;
+use thiserror::Error;
 
 /// Part of a step by which an instant may miss a sample and still mean it: window bounds are typed in decimal and
 /// a sample instant is `start + k step` in binary. A millionth of a step is far above rounding (t / step * 2e-16,
@@ -13,6 +13,26 @@ const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
 /// Steps by which an instant may miss a sample: round-off counts where time has its origin far away, as seconds since 1970 do.
 fn tolerance_steps(latest_s: f64, step_s: f64) -> f64 {
     INSTANT_TOLERANCE_STEPS + 4.0 * f64::EPSILON * latest_s / step_s
+}
+
+/// Why a series, a window of it or a decimator cannot be made: a sentence with the values found.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct SeriesError(pub(super) String);
+
+impl SeriesError {
+    /// A series without samples.
+    pub(crate) fn empty() -> Self {
+        Self("series has no samples".to_owned())
+    }
+}
+
+/// Refuses a sampling step (s) that is not positive and finite.
+pub(super) fn check_step(step_s: f64) -> Result<(), SeriesError> {
+    if step_s.is_finite() && step_s > 0.0 {
+        return Ok(());
+    }
+    Err(SeriesError(format!("sampling step must be positive and finite, found {step_s} s")))
 }
 
 /// Samples x_k = x(start + k step), k = 0 .. n-1, all finite, n >= 1, in one unit.
@@ -46,17 +66,20 @@ impl TimeWindow {
     /// series: for one that is read in part.
     ///
     /// # Errors
-    /// [`SeriesError::WindowOrder`], [`SeriesError::WindowOutside`].
+    /// [`SeriesError`] for a window that ends before it starts, and for one that reaches beyond the series.
     pub(crate) fn check_inside(self, start_s: f64, step_s: f64, samples: usize) -> Result<(), SeriesError> {
         let (from_s, to_s) = (self.from, self.to);
         if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
-            return Err(SeriesError::WindowOrder { from_s, to_s });
+            return Err(SeriesError(format!("window must end after it starts, found {from_s} s to {to_s} s")));
         }
         let position = |t: f64| (t - start_s) / step_s;
         let samples = samples as f64;
         let tolerance = tolerance_steps(start_s.abs().max(to_s.abs()), step_s);
         if position(from_s) < -tolerance || position(to_s) > samples + tolerance {
-            return Err(SeriesError::WindowOutside { from_s, to_s, start_s, end_s: start_s + samples * step_s });
+            let end_s = start_s + samples * step_s;
+            return Err(SeriesError(format!(
+                "window {from_s} s to {to_s} s is not inside the series, which covers {start_s} s to {end_s} s"
+            )));
         }
         Ok(())
     }
@@ -66,20 +89,18 @@ impl TimeSeries {
     /// Series of `values` (length n >= 1, in `unit`), the first at `start_s`, one every `step_s` > 0 seconds.
     ///
     /// # Errors
-    /// [`SeriesError::Start`], [`SeriesError::Step`], [`SeriesError::Empty`], and [`SeriesError::NotFinite`] with the
-    /// first sample that is NaN or infinite.
+    /// [`SeriesError`] for start, step or an empty series, and with the first sample that is NaN or infinite.
     pub fn new(start_s: f64, step_s: f64, unit: impl Into<String>, values: Vec<f64>) -> Result<Self, SeriesError> {
         if !start_s.is_finite() {
-            return Err(SeriesError::Start { start_s });
+            return Err(SeriesError(format!("start of the series must be finite, found {start_s} s")));
         }
-        if !(step_s.is_finite() && step_s > 0.0) {
-            return Err(SeriesError::Step { step_s });
-        }
+        check_step(step_s)?;
         if values.is_empty() {
-            return Err(SeriesError::Empty);
+            return Err(SeriesError::empty());
         }
         if let Some((index, value)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(SeriesError::NotFinite { index, time_s: start_s + index as f64 * step_s, value: *value });
+            let time_s = start_s + index as f64 * step_s;
+            return Err(SeriesError(format!("sample {index} (t = {time_s} s) is {value}, not a finite number")));
         }
         Ok(Self { start_s, step_s, unit: unit.into(), values })
     }
@@ -124,11 +145,6 @@ impl TimeSeries {
         &self.values
     }
 
-    /// The samples, taken out of the series.
-    pub(crate) fn into_values(self) -> Vec<f64> {
-        self.values
-    }
-
     /// Stretch of time that the series covers: start <= t < end.
     pub fn span(&self) -> TimeWindow {
         TimeWindow { from: self.start_s, to: self.end_s() }
@@ -138,8 +154,8 @@ impl TimeSeries {
     /// a millionth of a step of a sample mean that sample. `to_s` may be the end of the series, start + n step.
     ///
     /// # Errors
-    /// [`SeriesError::WindowOrder`] if `to_s` <= `from_s` or a bound is not finite, [`SeriesError::WindowOutside`] if
-    /// the window reaches beyond the series, [`SeriesError::WindowEmpty`] if it falls between two samples.
+    /// [`SeriesError`] if `to_s` <= `from_s` or a bound is not finite, if the window reaches beyond the series, and if
+    /// it falls between two samples.
     pub fn window(&self, from_s: f64, to_s: f64) -> Result<Self, SeriesError> {
         let samples = self.values.len();
         let window = TimeWindow { from: from_s, to: to_s };
@@ -152,7 +168,10 @@ impl TimeSeries {
         };
         let (first, end) = (index(from_s), index(to_s));
         if first >= end {
-            return Err(SeriesError::WindowEmpty { from_s, to_s, step_s: self.step_s });
+            let step_s = self.step_s;
+            return Err(SeriesError(format!(
+                "window {from_s} s to {to_s} s holds no sample: the sampling step is {step_s} s"
+            )));
         }
         Ok(Self {
             start_s: self.time_s(first),

@@ -15,7 +15,7 @@ pub(super) struct AngleGrid {
     /// One more than there are values, s.
     times: Vec<f64>,
     /// Values a turn.
-    per_turn: f64,
+    pub(super) per_turn: f64,
     /// Highest speed in the window, Hz.
     pub(super) fastest_hz: f64,
 }
@@ -25,7 +25,7 @@ impl AngleGrid {
     /// `step_s`.
     ///
     /// # Errors
-    /// [`DiagnosisError::Turning`], [`DiagnosisError::TooFew`].
+    /// [`DiagnosisError::Refused`] for a shaft that rests or turns back, and for too few samples.
     pub(super) fn new(
         window: TimeWindow,
         step_s: f64,
@@ -42,7 +42,13 @@ impl AngleGrid {
             let step = pair[1] - pair[0];
             // NaN does not turn on either
             if step.is_nan() || step <= 0.0 {
-                return Err(DiagnosisError::Turning { from_s: window.from, to_s: window.to, at_s: time(k) });
+                return Err(DiagnosisError::Refused(format!(
+                    "from {} s to {} s: expected a shaft that turns one way all the time, found one that rests or turns \
+                     back at {} s",
+                    window.from,
+                    window.to,
+                    time(k)
+                )));
             }
             fastest = fastest.max(step);
         }
@@ -50,7 +56,11 @@ impl AngleGrid {
         let per_turn = (VALUES_AN_ORDER * highest).min(0.9 / fastest);
         let count = (angles[samples] * per_turn).floor() as usize;
         if count < FEWEST {
-            return Err(DiagnosisError::TooFew { from_s: window.from, to_s: window.to, found: count, needed: FEWEST });
+            return Err(DiagnosisError::Refused(format!(
+                "from {} s to {} s: expected at least {FEWEST} samples at equal angles, found {count}: a longer window, or \
+                 a higher sampling rate",
+                window.from, window.to
+            )));
         }
         let mut times = Vec::with_capacity(count + 1);
         let mut place = 0;
@@ -63,11 +73,6 @@ impl AngleGrid {
             times.push(time(place) + part * step_s);
         }
         Ok(Self { times, per_turn, fastest_hz: fastest / step_s })
-    }
-
-    /// Values a turn.
-    pub(super) fn per_turn(&self) -> f64 {
-        self.per_turn
     }
 
     /// Values in all.

@@ -59,13 +59,16 @@ pub(super) fn searched_band(asked_hz: Option<[f64; 2]>, signal: &TimeSeries, str
 /// Refuses a band that is asked for where the signal ends.
 ///
 /// # Errors
-/// [`DiagnosisError::NarrowBand`].
+/// [`DiagnosisError::Refused`].
 pub(super) fn check_band(asked_hz: Option<[f64; 2]>, signal: &TimeSeries) -> Result<(), DiagnosisError> {
     let [from_hz, to_hz] = asked_hz.unwrap_or([0.0, f64::INFINITY]);
     let end_hz = 0.5 * signal.rate_hz();
     if from_hz > LATEST_START * end_hz || from_hz >= to_hz {
         let most_hz = LATEST_START * to_hz.min(end_hz);
-        return Err(DiagnosisError::NarrowBand { from_hz, most_hz });
+        return Err(DiagnosisError::Refused(format!(
+            "expected a band that begins below {most_hz} Hz, nine tenths of what the signal is good for, found one from \
+             {from_hz} Hz on"
+        )));
     }
     Ok(())
 }
@@ -106,7 +109,7 @@ pub(super) fn band_spectra(
     strikes_hz: f64,
     highest: f64,
 ) -> Result<Spectra, DiagnosisError> {
-    let levels = match stretches(grid.turns()) {
+    let levels = match stretches(grid.turns(), REVOLUTIONS) {
         1 => SHORT_LEVELS,
         _ => LEVELS,
     };
@@ -128,18 +131,15 @@ pub(super) fn band_spectra(
                 let scale = scale.max(f64::MIN_POSITIVE);
                 let highest = highest.min(own);
                 let spectrum = |highest: f64, revolutions: f64| {
-                    let lines = LineSpectrum::new(&means, grid.per_turn(), highest, scale, revolutions)?;
+                    let lines = LineSpectrum::new(&means, grid.per_turn, highest, scale, revolutions)?;
                     Ok::<_, DiagnosisError>(BandSpectrum { band_hz, kind, lines })
                 };
                 Ok([spectrum(highest, REVOLUTIONS)?, spectrum(highest.min(HIGHEST_FINE_ORDER), FINE_REVOLUTIONS)?])
             };
-            let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
-            let mut found = vec![of(EnvelopeKind::Magnitude, &magnitude)?];
+            let mut found = vec![of(EnvelopeKind::Magnitude, &envelope.magnitude())?];
             if place == 0 {
                 if let Some(impulsive) = impulsive {
-                    let envelope = impulsive.envelope(band_hz);
-                    let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
-                    found.push(of(EnvelopeKind::Impulsive, &magnitude)?);
+                    found.push(of(EnvelopeKind::Impulsive, &impulsive.envelope(band_hz).magnitude())?);
                 }
                 let mean = envelope.squared.iter().sum::<f64>() / envelope.squared.len() as f64;
                 let mean = mean.max(f64::MIN_POSITIVE);

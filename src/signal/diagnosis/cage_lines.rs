@@ -104,7 +104,7 @@ impl Search<'_> {
             (!of_own && !self.is_related(fit.order, resolution, &[])).then_some(fit)
         });
         let fit = fits.max_by(|a, b| a.score.total_cmp(&b.score))?;
-        let best = Candidate { fault: None, fit, beside: None, relative_reach: 0.0 };
+        let best = Candidate::at(None, fit);
         let lines = fine.clear_cage_lines(&masked, &known, &best)?;
         Some(UnexplainedImpacts {
             order: lines.order,

@@ -42,7 +42,7 @@ impl Side<'_> {
         let own = (band_hz[1] - band_hz[0]) / self.grid.fastest_hz;
         let highest = highest.min(own);
         let power = 0.5 * means.iter().sum::<f64>() / means.len() as f64;
-        let per_turn = self.grid.per_turn();
+        let per_turn = self.grid.per_turn;
         let spectrum = StretchSpectrum::new(&means, per_turn, highest, self.revolutions)?;
         Ok((spectrum, power))
     }
@@ -77,21 +77,7 @@ pub(crate) fn line_changes(
 impl Compared {
     /// What is known before anything is compared.
     fn not_compared(&self, why: String) -> LineChange {
-        LineChange {
-            fault: self.fault,
-            name: self.name.clone(),
-            conclusion: ChangeConclusion::NotCompared,
-            change_db: None,
-            interval_db: [None, None],
-            earlier: None,
-            now: None,
-            order_earlier: None,
-            order_now: None,
-            band_hz: self.band_hz,
-            band_change_db: None,
-            harmonics: Vec::new(),
-            why,
-        }
+        LineChange { fault: self.fault, name: self.name.clone(), band_hz: self.band_hz, why, ..LineChange::default() }
     }
 
     fn change(&self, sides: &[Side<'_>; 2], least_turns: f64, highest: f64) -> Result<LineChange, DiagnosisError> {

@@ -11,7 +11,8 @@ pub struct ComparedSignal<'a> {
     window: TimeWindow,
     turns: Box<dyn Fn(f64) -> f64 + 'a>,
     pub(super) orders: FaultOrders,
-    pub(super) diagnosis: &'a Diagnosis,
+    /// What was found in it.
+    pub(crate) diagnosis: &'a Diagnosis,
 }
 
 impl<'a> ComparedSignal<'a> {
@@ -25,12 +26,6 @@ impl<'a> ComparedSignal<'a> {
     ) -> Self {
         let factor = diagnosis.speed_hz / diagnosis.given_speed_hz;
         Self { signal, window, turns: Box::new(move |time| factor * turns(time)), orders, diagnosis }
-    }
-
-    /// What was found in it.
-    #[must_use]
-    pub(crate) fn diagnosis(&self) -> &Diagnosis {
-        self.diagnosis
     }
 
     /// How far the order of a part may be off in this signal, relative.
@@ -52,9 +47,6 @@ impl<'a> ComparedSignal<'a> {
         highest: f64,
     ) -> Result<EnvelopeOrderSpectrum, DiagnosisError> {
         let envelope = RawSpectrum::of(self.signal)?.envelope(band_hz);
-        let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
-        let shown = TimeSeries::new(envelope.start_s, envelope.step_s, self.signal.unit(), magnitude)?;
-        let window = TimeWindow { from: self.window.from, to: self.window.to.min(shown.end_s()) };
-        EnvelopeOrderSpectrum::new(&shown, window, &self.turns, highest)
+        EnvelopeOrderSpectrum::of_band(&envelope, self.signal.unit(), self.window, &self.turns, highest)
     }
 }

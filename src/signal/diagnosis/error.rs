@@ -14,19 +14,9 @@ pub enum DiagnosisError {
     /// A window outside the signal.
     #[error(transparent)]
     Series(#[from] SeriesError),
-    /// Nothing to judge.
-    #[error("expected an envelope at least, found none")]
-    NoEnvelope,
-    /// A band at the end of what the signal has: nothing is left of it to judge.
-    #[error(
-        "expected a band that begins below {most_hz} Hz, nine tenths of what the signal is good for, found one from {from_hz} Hz on"
-    )]
-    NarrowBand {
-        /// Where the band begins, Hz.
-        from_hz: f64,
-        /// Where it may begin at most, Hz.
-        most_hz: f64,
-    },
+    /// A band, an order or a shaft that there is no diagnosis for.
+    #[error("{0}")]
+    Refused(String),
     /// A sensor that is dead, or not connected.
     #[error("from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel")]
     Constant {
@@ -52,49 +42,5 @@ pub enum DiagnosisError {
     Repeated {
         /// After what time all values come again, s.
         period_s: f64,
-    },
-    /// A shaft that rests or turns back: angle is no measure of progress then.
-    #[error(
-        "from {from_s} s to {to_s} s: expected a shaft that turns one way all the time, found one that rests or turns back at {at_s} s"
-    )]
-    Turning {
-        /// Start of the window, s.
-        from_s: f64,
-        /// End of the window, s.
-        to_s: f64,
-        /// Where it does not turn on, s.
-        at_s: f64,
-    },
-    /// Fewer samples than a spectrum over the angle needs.
-    #[error(
-        "from {from_s} s to {to_s} s: expected at least {needed} samples at equal angles, found {found}: a longer window, or a higher sampling rate"
-    )]
-    TooFew {
-        /// Start of the window, s.
-        from_s: f64,
-        /// End of the window, s.
-        to_s: f64,
-        /// Samples at equal angles.
-        found: usize,
-        /// How many are needed.
-        needed: usize,
-    },
-    /// An order that is none.
-    #[error("order of the {fault}: expected a number above 0 and at most {most}, found {found}")]
-    Order {
-        /// Which fault.
-        fault: &'static str,
-        /// What was given.
-        found: f64,
-        /// Largest order that is believed.
-        most: f64,
-    },
-    /// A tolerance that is none.
-    #[error("relative error of the orders: expected 0 to {most}, found {found}")]
-    Tolerance {
-        /// What was given.
-        found: f64,
-        /// Largest that makes sense.
-        most: f64,
     },
 }

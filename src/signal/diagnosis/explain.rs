@@ -126,12 +126,10 @@ impl Search<'_> {
             };
             let races = [Fault::OuterRace, Fault::InnerRace];
             if let Some(fault) = races.into_iter().find_map(hidden) {
-                verdict.conclusion = Conclusion::NotEnough;
-                verdict.why = format!(
-                    "{} They may be sidebands of the {}, whose own lines the shaft's hide in this window. A longer window decides.",
-                    verdict.why,
+                verdict.take_back(&format!(
+                    "They may be sidebands of the {}, whose own lines the shaft's hide in this window. A longer window decides.",
                     fault.name()
-                );
+                ));
             }
         }
     }

@@ -69,15 +69,20 @@ impl FaultOrders {
     /// error, 0 to 0.1: from the geometry, from slip, from the speed.
     ///
     /// # Errors
-    /// [`DiagnosisError::Order`], [`DiagnosisError::Tolerance`].
+    /// [`DiagnosisError::Refused`].
     pub fn new(orders: [Option<f64>; 4], error: f64) -> Result<Self, DiagnosisError> {
         for (fault, order) in Fault::ALL.into_iter().zip(orders) {
             if let Some(found) = order.filter(|order| !(*order > 0.0 && *order <= HIGHEST_ORDER)) {
-                return Err(DiagnosisError::Order { fault: fault.name(), found, most: HIGHEST_ORDER });
+                return Err(DiagnosisError::Refused(format!(
+                    "order of the {}: expected a number above 0 and at most {HIGHEST_ORDER}, found {found}",
+                    fault.name()
+                )));
             }
         }
         if !(0.0..=LARGEST_ERROR).contains(&error) {
-            return Err(DiagnosisError::Tolerance { found: error, most: LARGEST_ERROR });
+            return Err(DiagnosisError::Refused(format!(
+                "relative error of the orders: expected 0 to {LARGEST_ERROR}, found {error}"
+            )));
         }
         Ok(Self { orders, error, ball: 1.0 })
     }

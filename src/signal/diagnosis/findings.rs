@@ -41,12 +41,8 @@ impl Search<'_> {
             .max_by(|&a, &b| ends(&self.spectra[a]).total_cmp(&ends(&self.spectra[b])))
             .unwrap_or(0);
         let ends = ends(&self.spectra[widest]);
-        let candidate = Candidate {
-            fault: Some(fault),
-            fit: Fit { score: 0.0, order: expected, spectrum: widest, sided: false },
-            beside: None,
-            relative_reach: 0.0,
-        };
+        let fit = Fit { score: 0.0, order: expected, spectrum: widest, sided: false };
+        let candidate = Candidate::at(Some(fault), fit);
         let harmonics = self.part_harmonics(&candidate, fault, known);
         let why = if ends < LEAST_FREE as f64 * expected {
             format!(
@@ -127,14 +123,12 @@ impl Search<'_> {
         if verdict.conclusion == Conclusion::NotSeen
             && let Some(reason) = self.beside_the_shafts(fault)
         {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!("{} {reason}", verdict.why);
+            verdict.take_back(&reason);
         }
         if verdict.conclusion == Conclusion::Named
             && let Some(doubt) = self.doubt(expected, candidate, known)
         {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!("{} But {doubt}", verdict.why);
+            verdict.take_back(&format!("But {doubt}"));
         }
         verdict
     }

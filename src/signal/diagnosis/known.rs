@@ -39,6 +39,10 @@ pub(super) struct KnownLine {
 }
 
 impl KnownLine {
+    fn new(order: f64, error: f64, name: String) -> Self {
+        Self { order, error, name, carrier: None, foreign: false }
+    }
+
     /// Whether it may have so much power over the floor.
     fn explains(&self, spectrum: &LineSpectrum, ratio: f64) -> bool {
         self.carrier.is_none_or(|carrier| ratio <= spectrum.ratio(carrier))
@@ -48,15 +52,7 @@ impl KnownLine {
 /// Multiples of the shaft's order up to one; its speed is known within a relative error.
 pub(super) fn shaft_lines(highest: f64, error: f64) -> Vec<KnownLine> {
     let count = highest.max(0.0) as u32;
-    (1..=count)
-        .map(|multiple| KnownLine {
-            order: f64::from(multiple),
-            error,
-            name: format!("{multiple} x shaft"),
-            carrier: None,
-            foreign: false,
-        })
-        .collect()
+    (1..=count).map(|k| KnownLine::new(f64::from(k), error, format!("{k} x shaft"))).collect()
 }
 
 /// What carries a fault through the load zone.
@@ -100,11 +96,8 @@ impl Impacts<'_> {
         for harmonic in 1..=count {
             let line = f64::from(harmonic) * self.order;
             lines.push(KnownLine {
-                order: line,
-                error: WANDERING,
-                name: format!("{harmonic} x {}", self.name),
-                carrier: None,
                 foreign: self.foreign,
+                ..KnownLine::new(line, WANDERING, format!("{harmonic} x {}", self.name))
             });
             let mut beside = |(spacing, carrier): (f64, &str), step: u32, count: u32| {
                 // lines nearer than they are wide are not told apart
@@ -164,12 +157,10 @@ impl Strikes<'_> {
         };
         let mut lines = impacts.lines(highest, resolution);
         if let (Some(_), Some(cage)) = (self.fault, cage) {
-            lines.extend((1..=CAGE_MULTIPLES).map(|multiple| KnownLine {
-                order: f64::from(multiple) * cage,
-                error: orders.error(Fault::Cage) + speed_error,
-                name: format!("balls entering the load zone, {multiple} x cage"),
-                carrier: None,
-                foreign: false,
+            let error = orders.error(Fault::Cage) + speed_error;
+            lines.extend((1..=CAGE_MULTIPLES).map(|multiple| {
+                let name = format!("balls entering the load zone, {multiple} x cage");
+                KnownLine::new(f64::from(multiple) * cage, error, name)
             }));
         }
         lines

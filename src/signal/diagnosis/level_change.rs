@@ -18,7 +18,7 @@ const CENTRE_HZ: f64 = 1000.0;
 const LEAST_VALUES: f64 = 4.0;
 
 /// Root mean square in both signals.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
 pub struct LevelChange {
     /// Centre of the octave, Hz; `None`: all of the signal.
     pub centre_hz: Option<f64>,
@@ -72,8 +72,7 @@ pub(crate) fn level_changes(
         let common_hz = [1.0 / least_s, end_hz];
         [within(&spectra[0], common_hz), within(&spectra[1], common_hz)]
     };
-    let rms = [all[0].power.sqrt(), all[1].power.sqrt()];
-    let mut changes = vec![change(None, rms, &all[0], &all[1])];
+    let mut changes = vec![change(None, all)];
     let half = OCTAVE.sqrt();
     // an octave is as wide as its centre over the root of two
     let lowest_hz = LEAST_VALUES * BLOCKS as f64 / (least_s * (half - 1.0 / half));
@@ -82,9 +81,7 @@ pub(crate) fn level_changes(
     for place in first as i32..=last as i32 {
         let centre_hz = CENTRE_HZ * OCTAVE.powi(place);
         let of = |spectrum: &RawSpectrum| within(spectrum, [centre_hz / half, centre_hz * half]);
-        let [now, earlier] = [of(&spectra[0]), of(&spectra[1])];
-        let rms = [now.power.sqrt(), earlier.power.sqrt()];
-        changes.push(change(Some(centre_hz), rms, &now, &earlier));
+        changes.push(change(Some(centre_hz), [of(&spectra[0]), of(&spectra[1])]));
     }
     Ok(changes)
 }
@@ -106,27 +103,19 @@ fn scattered(squares: &[f64]) -> Scattered {
     }
 }
 
-fn change(
-    centre_hz: Option<f64>,
-    [rms_now, rms_earlier]: [f64; 2],
-    now: &Scattered,
-    earlier: &Scattered,
-) -> LevelChange {
-    let both = now.power > 0.0 && earlier.power > 0.0;
-    let interval_db = match both {
-        true => interval_db(now, earlier),
-        false => [None, None],
-    };
+/// Of the mean squares of this signal and the earlier one.
+fn change(centre_hz: Option<f64>, [now, earlier]: [Scattered; 2]) -> LevelChange {
+    let levels =
+        LevelChange { centre_hz, earlier: earlier.power.sqrt(), now: now.power.sqrt(), ..LevelChange::default() };
+    if !(now.power > 0.0 && earlier.power > 0.0) {
+        return levels;
+    }
+    let interval_db = interval_db(&now, &earlier);
     LevelChange {
-        centre_hz,
-        earlier: rms_earlier,
-        now: rms_now,
-        change_db: both.then(|| 10.0 * (now.power / earlier.power).log10()),
+        change_db: Some(10.0 * (now.power / earlier.power).log10()),
         interval_db,
-        conclusion: match both {
-            true => ChangeConclusion::of(interval_db),
-            false => ChangeConclusion::NotCompared,
-        },
+        conclusion: ChangeConclusion::of(interval_db),
+        ..levels
     }
 }
 

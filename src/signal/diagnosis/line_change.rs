@@ -12,7 +12,7 @@ pub const LEAST_CHANGE_DB: f64 = 3.0;
 pub const AS_BEFORE_WITHIN_DB: f64 = 6.0;
 
 /// What is said of a change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum ChangeConclusion {
     /// The interval lies above 3 dB.
     #[serde(rename = "grew")]
@@ -27,6 +27,7 @@ pub enum ChangeConclusion {
     #[serde(rename = "not certain")]
     NotCertain,
     /// The lines are above the noise in neither signal, or cannot be seen in one of them.
+    #[default]
     #[serde(rename = "cannot be compared")]
     NotCompared,
 }
@@ -61,7 +62,7 @@ impl ChangeConclusion {
 }
 
 /// How the impacts of a part, or of something else, changed.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct LineChange {
     /// The part; `None` for impacts that belong to none.
     pub fault: Option<Fault>,

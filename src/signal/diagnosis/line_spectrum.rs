@@ -59,19 +59,14 @@ impl LineSpectrum {
         revolutions: f64,
     ) -> Result<Self, DiagnosisError> {
         let all = values.len();
-        let stretches = stretches_of(all as f64 / per_turn, revolutions);
-        let length = match stretches {
-            1 => all,
-            _ => (revolutions * per_turn).round() as usize,
+        let stretches = stretches(all as f64 / per_turn, revolutions);
+        let (window, harmonics) = if stretches == 1 {
+            (half_sine(all), SHORT_HARMONICS)
+        } else {
+            let length = (revolutions * per_turn).round() as usize;
+            (WindowFunction::Hann.samples(length), AVERAGED_HARMONICS)
         };
-        let harmonics = match stretches {
-            1 => SHORT_HARMONICS,
-            _ => AVERAGED_HARMONICS,
-        };
-        let window = match stretches {
-            1 => half_sine(length),
-            _ => WindowFunction::Hann.samples(length),
-        };
+        let length = window.len();
         let points = fast_length(PADDING * length);
         let plan = Forward::new(points);
         let mean = values.iter().sum::<f64>() / all as f64;
@@ -173,13 +168,9 @@ fn half_sine(length: usize) -> Vec<f64> {
     (0..length).map(|k| place(k).sin()).collect()
 }
 
-/// Stretches of [`REVOLUTIONS`] that a window of so many revolutions is cut into.
-pub(super) fn stretches(turns: f64) -> usize {
-    stretches_of(turns, REVOLUTIONS)
-}
-
-/// Stretches that share a half with the next; one where there is not enough for one and a half.
-fn stretches_of(turns: f64, revolutions: f64) -> usize {
+/// Stretches of so many revolutions that a window of so many `turns` is cut into, each sharing a half with the next; one where
+/// there is not enough for one and a half.
+pub(super) fn stretches(turns: f64, revolutions: f64) -> usize {
     if turns < 1.5 * revolutions {
         return 1;
     }

@@ -53,16 +53,6 @@ mod stretch_spectrum;
 mod strictly_periodic;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod tests_cage;
-#[cfg(test)]
-mod tests_change;
-#[cfg(test)]
-mod tests_races;
-#[cfg(test)]
-mod tests_speed;
-#[cfg(test)]
-mod tests_unexplained;
 mod unexplained;
 mod verdict;
 mod window;
@@ -81,7 +71,6 @@ pub(crate) use line_change::change_words;
 pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
-pub(crate) use verdict::probability;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB, LEAST_CAGE_STRENGTH_DB,
     LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS, LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB,

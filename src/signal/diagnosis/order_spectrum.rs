@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::signal::{WindowFunction, amplitude_spectrum};
+use crate::signal::{BandEnvelope, WindowFunction, amplitude_spectrum};
 
 /// Least padding: lines between bins are then read 0.6 % low at most.
 const PADDING: f64 = 8.0;
@@ -39,11 +39,27 @@ pub struct EnvelopeOrderSpectrum {
 }
 
 impl EnvelopeOrderSpectrum {
+    /// The same of the magnitude of a band's envelope, in a unit; the window ends with the envelope at the latest.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(super) fn of_band(
+        envelope: &BandEnvelope,
+        unit: &str,
+        window: TimeWindow,
+        turns: impl Fn(f64) -> f64,
+        highest: f64,
+    ) -> Result<Self, DiagnosisError> {
+        let magnitude = TimeSeries::new(envelope.start_s, envelope.step_s, unit, envelope.magnitude())?;
+        let to = window.to.min(magnitude.end_s());
+        Self::new(&magnitude, TimeWindow { to, ..window }, turns, highest)
+    }
+
     /// Spectrum of an envelope in a window (s), up to `highest` > 0 orders or what the sampling gives; `turns` is the shaft's
     /// angle at a time (s), in turns.
     ///
     /// # Errors
-    /// [`DiagnosisError::Turning`], [`DiagnosisError::TooFew`], and of a window outside the envelope.
+    /// As [`AngleGrid::new`], and of a window outside the envelope.
     pub fn new(
         envelope: &TimeSeries,
         window: TimeWindow,
@@ -55,7 +71,7 @@ impl EnvelopeOrderSpectrum {
         let grid = AngleGrid::new(part.span(), step_s, turns, highest)?;
         let means = grid.means(part.start_s(), step_s, part.values());
         // a series over turns in the place of seconds
-        let series = TimeSeries::new(0.0, 1.0 / grid.per_turn(), part.unit(), means)?;
+        let series = TimeSeries::new(0.0, 1.0 / grid.per_turn, part.unit(), means)?;
         let turned = series.duration_s();
         let spectrum = amplitude_spectrum(&series, WindowFunction::Boxcar, 1.0 / (PADDING * turned))?;
         Ok(Self {
@@ -67,26 +83,25 @@ impl EnvelopeOrderSpectrum {
             highest: grid.highest(),
         })
     }
-
-    /// Amplitude at an order between its bins; 0 beyond the spectrum.
-    #[must_use]
-    pub(crate) fn at(&self, order: f64) -> f64 {
-        let Some(&step) = self.order.get(1) else {
-            return 0.0;
-        };
-        let place = order / step;
-        let below = place.floor().max(0.0) as usize;
-        match self.amplitude.get(below..below + 2) {
-            Some(&[a, b]) => a + (place - below as f64) * (b - a),
-            _ => 0.0,
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::{PI, TAU};
+
+    /// Amplitude at an order between its bins; 0 beyond the spectrum.
+    fn at(spectrum: &EnvelopeOrderSpectrum, order: f64) -> f64 {
+        let Some(&step) = spectrum.order.get(1) else {
+            return 0.0;
+        };
+        let place = order / step;
+        let below = place.floor().max(0.0) as usize;
+        match spectrum.amplitude.get(below..below + 2) {
+            Some(&[a, b]) => a + (place - below as f64) * (b - a),
+            _ => 0.0,
+        }
+    }
 
     /// A run-up from 10 to 40 Hz in 2 s.
     fn turns(t: f64) -> f64 {
@@ -107,12 +122,12 @@ mod tests {
         let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(2.0), turns, 40.0).unwrap();
         assert!((spectrum.turns - 50.0).abs() < 0.05);
         // the average over a hundredth of a turn takes 0.2 % of this line, leakage of its image as much
-        assert!((spectrum.at(3.57) / 0.5 - 1.0).abs() < 0.01, "{}", spectrum.at(3.57));
+        assert!((at(&spectrum, 3.57) / 0.5 - 1.0).abs() < 0.01, "{}", at(&spectrum, 3.57));
         assert!((spectrum.mean - 3.0).abs() < 0.01);
         // first zero of the window at 1 / turns, and no line elsewhere
-        assert!(spectrum.at(3.57 + 1.0 / spectrum.turns) < 0.02);
-        assert!(spectrum.at(2.0) < 0.01);
-        assert!(spectrum.at(1e9).abs() < 1e-300);
+        assert!(at(&spectrum, 3.57 + 1.0 / spectrum.turns) < 0.02);
+        assert!(at(&spectrum, 2.0) < 0.01);
+        assert!(at(&spectrum, 1e9).abs() < 1e-300);
     }
 
     #[test]
@@ -123,8 +138,8 @@ mod tests {
         let spectrum = EnvelopeOrderSpectrum::new(&envelope, window(1.0), |t| 20.0 * t, 40.0).unwrap();
         let gain = (0.6 * PI).sin() / (0.6 * PI);
         // sums of 50 samples in the place of integrals, and leakage of the image's image
-        assert!((spectrum.at(40.0) / gain - 1.0).abs() < 0.01, "{}", spectrum.at(40.0));
-        assert!(spectrum.at(37.3) < 0.02);
+        assert!((at(&spectrum, 40.0) / gain - 1.0).abs() < 0.01, "{}", at(&spectrum, 40.0));
+        assert!(at(&spectrum, 37.3) < 0.02);
     }
 
     #[test]

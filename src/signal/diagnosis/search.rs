@@ -34,6 +34,13 @@ pub(super) struct Candidate {
     pub(super) relative_reach: f64,
 }
 
+impl Candidate {
+    /// A comb of this fault, or of something else, without lines beside its harmonics, at a known place.
+    pub(super) fn at(fault: Option<Fault>, fit: Fit) -> Self {
+        Self { fault, fit, beside: None, relative_reach: 0.0 }
+    }
+}
+
 /// Shaft revolutions that the floor of a part's lines needs.
 pub(super) fn turns_needed(order: f64) -> f64 {
     2.0 * FLOOR_BINS / order

@@ -110,7 +110,7 @@ impl ShaftSpeed {
         let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
         let strikes_hz = orders.highest() * grid.fastest_hz;
         let envelope = white.envelope(searched_band(asked_hz, signal, strikes_hz));
-        let magnitude: Vec<f64> = envelope.squared.iter().map(|power| power.sqrt()).collect();
+        let magnitude = envelope.magnitude();
         let shown = sharpened(
             &grid,
             orders,
@@ -135,7 +135,7 @@ fn sharpened(
         .iter()
         .map(|(start_s, step_s, values)| {
             let means = grid.means(*start_s, *step_s, values);
-            LineSpectrum::new(&means, grid.per_turn(), highest, 1.0, REVOLUTIONS)
+            LineSpectrum::new(&means, grid.per_turn, highest, 1.0, REVOLUTIONS)
         })
         .collect();
     let spectra = spectra?;

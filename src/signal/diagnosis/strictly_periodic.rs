@@ -47,18 +47,16 @@ pub(super) fn say_strictly_periodic(
         }
         let line = (order * speed_hz, reach);
         if let Some((frequency_hz, harmonics)) = comb(&tones, white, within_hz, line) {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!(
-                "{} But {harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself: strictly periodic, as in a computed signal without slip. A bearing usually slips; a gear, another shaft and the supply do not.",
-                verdict.why
-            );
+            verdict.take_back(&format!(
+                "But {harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself: strictly periodic, as in a computed signal without slip. A bearing usually slips; a gear, another shaft and the supply do not."
+            ));
         }
     }
 }
 
 /// Of each bin whether it or a neighbour is a tone.
 fn near_tones(white: &WhiteSpectrum) -> Vec<bool> {
-    let over = white.over_median();
+    let over = &white.over_median;
     let about = |bin: usize| &over[bin.saturating_sub(1)..(bin + 2).min(over.len())];
     (0..over.len()).map(|bin| about(bin).iter().any(|&over| over > TONE)).collect()
 }

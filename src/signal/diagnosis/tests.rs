@@ -1,5 +1,11 @@
 //! Verdicts on synthetic signals: what is there is named, what is not there is not.
 
+mod cage;
+mod change;
+mod races;
+mod speed;
+mod unexplained;
+
 use std::f64::consts::{PI, TAU};
 
 use super::*;

@@ -180,6 +180,12 @@ impl FaultVerdict {
             why: String::new(),
         }
     }
+
+    /// Takes an indication back, for a reason.
+    pub(super) fn take_back(&mut self, reason: &str) {
+        self.conclusion = Conclusion::NotEnough;
+        self.why = format!("{} {reason}", self.why);
+    }
 }
 
 /// Repeated impacts at an order that belongs to no part of the bearing, nor to the shaft.

@@ -100,11 +100,9 @@ impl Diagnosis {
         }
         say_strictly_periodic(&mut found.faults, &white, within_hz, orders, speed.factor * given_speed_hz, speed);
         let sharp = |time: f64| speed.factor * turns(time);
-        let best = spectra.lines.get(found.spectrum).ok_or(DiagnosisError::NoEnvelope)?;
+        let none = || DiagnosisError::Refused("expected an envelope at least, found none".to_owned());
+        let best = spectra.lines.get(found.spectrum).ok_or_else(none)?;
         let envelope = white.envelope(best.band_hz);
-        let magnitude = envelope.squared.iter().map(|power| power.sqrt()).collect();
-        let shown = TimeSeries::new(envelope.start_s, envelope.step_s, "", magnitude)?;
-        let shown_window = TimeWindow { from: window.from, to: window.to.min(shown.end_s()) };
         Ok(Self {
             speed_hz: speed.factor * given_speed_hz,
             given_speed_hz,
@@ -112,7 +110,7 @@ impl Diagnosis {
             speed_source: speed.source,
             envelope: envelope_name(best),
             envelopes: spectra.lines.len(),
-            spectrum: EnvelopeOrderSpectrum::new(&shown, shown_window, sharp, highest)?,
+            spectrum: EnvelopeOrderSpectrum::of_band(&envelope, "", window, sharp, highest)?,
             faults: found.faults,
             unexplained: found.unexplained,
             by_signal_alone: Vec::new(),
@@ -129,8 +127,7 @@ impl Diagnosis {
     pub(crate) fn doubt(&mut self, fault: Fault, reason: &str) {
         let indicated = |verdict: &&mut FaultVerdict| verdict.fault == fault && verdict.conclusion == Conclusion::Named;
         if let Some(verdict) = self.faults.iter_mut().find(indicated) {
-            verdict.conclusion = Conclusion::NotEnough;
-            verdict.why = format!("{} {reason}", verdict.why);
+            verdict.take_back(reason);
             self.by_signal_alone.push(fault);
         }
     }

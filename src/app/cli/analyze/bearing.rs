@@ -7,8 +7,9 @@ use crate::app::case::Case;
 use crate::app::cli::CliError;
 use crate::app::error::ComputeError;
 use crate::app::scene::bearing_geometry;
+use crate::bearing::BearingError;
 use crate::bearing::catalogue::CatalogueBearing;
-use crate::bearing::kinematics::{BallRow, DefectOrders, RaceError};
+use crate::bearing::kinematics::{BallRow, DefectOrders};
 use crate::signal::diagnosis::FaultOrders;
 
 /// What `--bearing` names.
@@ -44,7 +45,7 @@ pub(super) fn orders(
     case: Option<&Case>,
     error: f64,
 ) -> Result<Option<FaultOrders>, CliError> {
-    let in_row = |row: Result<DefectOrders, RaceError>| row.map_err(|error| ComputeError::Geometry(error.into()));
+    let in_row = |row: Result<DefectOrders, BearingError>| row.map_err(ComputeError::bearing("bearing: "));
     let row: DefectOrders = match (&asked.orders, asked.balls, catalogue, case) {
         (Some(given), ..) => {
             return Ok(Some(FaultOrders::new(given.0, error).map_err(ComputeError::from)?));
@@ -76,7 +77,7 @@ pub(in crate::app::cli) fn bearing_names() -> String {
 }
 
 /// Orders of a bearing of the catalogue, without a contact angle.
-pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, RaceError> {
+pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, BearingError> {
     let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?;
     Ok(row.orders())
 }

@@ -40,20 +40,20 @@ impl WindowChange {
 
     /// Compares what strikes in two judged signals.
     fn compare_impacts(&mut self, now: &ComparedSignal<'_>, then: &ComparedSignal<'_>) -> Result<(), ComputeError> {
-        self.speed_hz = then.diagnosis().speed_hz;
+        self.speed_hz = then.diagnosis.speed_hz;
         self.lines = line_changes(now, then)?;
-        if let Some(band_hz) = shown_band(now.diagnosis(), &self.lines) {
+        if let Some(band_hz) = shown_band(now.diagnosis, &self.lines) {
             let spectra = [now, then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
             let [now, then] = spectra;
             self.spectra = Some((band_hz, [now?, then?]));
         }
         let compared = |line: &LineChange| line.conclusion != ChangeConclusion::NotCompared;
         if !self.lines.iter().any(compared)
-            && let Some(doubt) = then.diagnosis().speed_doubt()
+            && let Some(doubt) = then.diagnosis.speed_doubt()
         {
             self.warnings.push(format!("In the earlier signal {doubt}."));
         }
-        let named: Vec<&str> = then.diagnosis().named().map(|verdict| verdict.fault.name()).collect();
+        let named: Vec<&str> = then.diagnosis.named().map(|verdict| verdict.fault.name()).collect();
         if !named.is_empty() {
             self.warnings.push(format!(
                 "The earlier signal indicates a fault by itself: {}. It is no record of a sound bearing.",

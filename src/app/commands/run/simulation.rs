@@ -205,7 +205,7 @@ impl<R: Recording> Simulation<R> {
     pub(crate) fn stretch(&self, sensor: usize, window: TimeWindow, margin_s: f64) -> Result<TimeSeries, ComputeError> {
         let (rows, step) = (self.record.rows(), self.schedule.interval);
         if rows == 0 {
-            return Err(SeriesError::Empty.into());
+            return Err(SeriesError::empty().into());
         }
         window.check_inside(self.start_s, step, rows)?;
         let position = |t: f64| (t - self.start_s) / step;
@@ -306,7 +306,7 @@ impl<R: Recording> Stepping<R> {
 
     fn save(
         &mut self,
-        integration: &Integration<CoupledSystem>,
+        integration: &mut Integration<CoupledSystem>,
         checkpoints: &mut impl Checkpoints<Record = R>,
     ) -> Result<(), ComputeError> {
         self.append_confirmed()?;
@@ -320,7 +320,7 @@ impl<R: Recording> Stepping<R> {
         if let Some(energy) = &self.energy {
             energy.remember(&mut snapshot);
         }
-        integration.remember(&mut snapshot);
+        integration.remember(&mut snapshot).map_err(TransientError::from)?;
         checkpoints.save(&self.record, integration.state().t, &snapshot)
     }
 

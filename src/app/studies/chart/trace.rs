@@ -129,7 +129,7 @@ impl Trace {
     pub fn error(&self, reference: &Self, from: f64, to: f64) -> Result<f64, SignalError> {
         let size = reference.rms(from, to)?;
         if size <= 0.0 {
-            return Err(SignalError::ZeroReference);
+            return Err(SignalError::zero_reference());
         }
         Ok(self.difference(reference, from, to)? / size)
     }
@@ -179,6 +179,6 @@ mod tests {
         let still = trace(&[&[0.0, 0.0, 0.0], &[4.0, 4.0, 9.0]]);
         assert!((reference.difference(&still, 0.0, 1.0).unwrap() - 3.0).abs() < 1e-15);
         let nothing = trace(&[&[0.0; 3]]);
-        assert!(matches!(reference.error(&nothing, 0.0, 1.0), Err(SignalError::ZeroReference)));
+        assert_eq!(reference.error(&nothing, 0.0, 1.0), Err(SignalError::zero_reference()));
     }
 }

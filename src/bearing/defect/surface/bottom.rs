@@ -8,9 +8,9 @@ use super::super::circles::Circles;
 use super::super::contacts::{DefectContact, Feature};
 use super::super::curve::bisect;
 use super::super::ellipse::Ellipse;
-use super::super::fade::{FLOOR_FADE, Fade};
+use super::super::floor::Reach;
 use super::super::rim::smoothstep;
-use super::super::stiffness::CurvatureStiffness;
+use super::super::stiffness::{CurvatureStiffness, FLOOR_FADE, Fade};
 use super::super::vector::Vector;
 use super::minima::to_tube;
 use super::outline::Outline;
@@ -30,15 +30,8 @@ pub(super) struct Bottom {
     shortfall: f64,
     /// Where the floor meets the rim, rad.
     corner: f64,
-    reach: Option<Reach>,
-}
-
-/// Touchable for |t| below `limit`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Reach {
-    limit: f64,
-    end_point: Vector,
-    end_tangent: Vector,
+    /// Where a ball can touch it, if anywhere.
+    pub(super) reach: Option<Reach>,
 }
 
 impl Bottom {
@@ -74,15 +67,9 @@ impl Bottom {
         };
         if touchable(0.0) {
             let limit = bisect(0.0, corner, touchable);
-            let end = ellipse.at(limit);
-            floor.reach = Some(Reach { limit, end_point: end.point, end_tangent: end.tangent() });
+            floor.reach = Some(Reach::new(limit, ellipse.at(limit), false));
         }
         floor
-    }
-
-    /// Whether a ball can touch it anywhere.
-    pub(super) fn is_touchable(&self) -> bool {
-        self.reach.is_some()
     }
 
     /// Relative curvature at the middle as the stiffness takes it, 1/m.
@@ -110,12 +97,11 @@ impl Bottom {
         stiffness: &CurvatureStiffness,
     ) -> Option<DefectContact> {
         let reach = self.reach.as_ref()?;
-        let inside = |centre: Vector| reach.end_point.minus(centre).dot(reach.end_tangent) > 0.0;
-        if !(inside(centre) && inside(centre.mirrored())) {
+        if !(reach.holds(centre) && reach.holds(centre.mirrored())) {
             return None;
         }
         let circles = &self.circles;
-        let (t, foot) = self.ellipse.foot(centre, reach.limit);
+        let (t, foot) = self.ellipse.foot(centre, reach.parameter);
         let inward = foot.inward(circles.side);
         let delta = circles.roller - foot.point.minus(centre).dot(inward);
         let left = self.across_left(t);

@@ -4,18 +4,19 @@ use super::super::angle::{offset_from, reduced, within};
 use super::super::circles::Circles;
 use super::super::contacts::DefectContacts;
 use super::super::curve::bisect;
-use super::super::dent::DentShape;
-use super::super::error::DefectError;
+use super::super::dent::{DEPTH_LIMIT, DentShape};
+use super::super::depression;
 use super::super::race_profile::{PolarPosition, RaceProfile};
 use super::super::rim;
 use super::super::stiffness::{self, CurvatureStiffness};
 use super::bottom::Bottom;
-use super::check;
 use super::edge;
 use super::minima::to_tube;
 use super::outline::Outline;
+use crate::bearing::error::{BearingError, positive, refused};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
+use std::f64::consts::FRAC_PI_2;
 
 /// Places of half an outline at which the steepest contact with its rim is looked for.
 const LOOKS: u32 = 32;
@@ -48,7 +49,7 @@ impl SurfaceDent {
     /// on the dent it changes in the ratio of Hertz theory.
     ///
     /// # Errors
-    /// [`DefectError`]: no width; values that are not positive; a dent too deep for its length or width, as wide as the
+    /// [`BearingError`]: no width; values that are not positive; a dent too deep for its length or width, as wide as the
     /// ball, or too long for the race; a rim radius out of range; with
     /// [`CurvatureReading::Paper`](super::super::CurvatureReading::Paper) on the inner race a floor that the ball touches
     /// although the ellipse alone is as tight as the ball.
@@ -57,10 +58,10 @@ impl SurfaceDent {
         race: Race,
         shape: DentShape,
         stiffness: ContactStiffness,
-    ) -> Result<Self, DefectError> {
+    ) -> Result<Self, BearingError> {
         shape.check()?;
         let circles = Circles::race(bearing, race, stiffness);
-        let width = check::width(&shape, circles.roller)?;
+        let width = width(&shape, circles.roller)?;
         let dimensions = bearing.dimensions();
         let outline = Outline {
             circles,
@@ -74,10 +75,10 @@ impl SurfaceDent {
             },
             across: stiffness::across(bearing, race),
         };
-        check::sizes(&outline)?;
+        check_sizes(&outline)?;
         let base = shape.curvature.base(&circles);
         let bottom = Bottom::new(&outline, base);
-        if base < circles.relative && bottom.is_touchable() {
+        if base < circles.relative && bottom.reach.is_some() {
             stiffness::per_modulus(bearing, race, bottom.middle_curvature())?;
         }
         let sharpest = circles.roller_curvature() + 1.0 / shape.rim_radius;
@@ -150,6 +151,38 @@ impl RaceProfile for SurfaceDent {
         let offset = self.offset(ball.angle);
         self.surface.contacts_into(ball.radius, offset, found);
     }
+}
+
+/// The width (m) that the dent must have.
+fn width(shape: &DentShape, ball_radius: f64) -> Result<f64, BearingError> {
+    let Some(width) = shape.width else {
+        let message = "defect profile = \"surface\" needs width, the dent's extent across the race: give it, or use \
+                       profile = \"in-plane\"";
+        return Err(BearingError(message.to_owned()));
+    };
+    positive("defect width", width)?;
+    // grooves are wider than the ball
+    if width >= 2.0 * ball_radius {
+        return refused("defect width", width, "must be less than the ball's diameter");
+    }
+    let depth = shape.depth;
+    if depth > DEPTH_LIMIT * width {
+        return Err(BearingError(format!(
+            "defect depth {depth} m is more than a quarter of its width {width} m: take a shallower or a wider dent, or \
+             profile = \"in-plane\""
+        )));
+    }
+    Ok(width)
+}
+
+/// Refuses a dent longer than a quarter of the race, and a rim radius out of range.
+fn check_sizes(outline: &Outline) -> Result<(), BearingError> {
+    let length = 2.0 * outline.half_length;
+    let limit = FRAC_PI_2 * outline.circles.carrier;
+    if length > limit {
+        return Err(depression::too_long(length, length, limit));
+    }
+    depression::rim_rules(&outline.circles, outline.rim)
 }
 
 /// Angle from the middle within which the ball can press on rim or floor, rad: as [`rim::farthest_centre`] has it for

@@ -19,8 +19,8 @@
 //! y = S³ r / ((1 + C)² b² (2 h/(a c) − r S g²))      h² = c² v² + a² (1 − v²)      g² = (c⁴ v² + a⁴ (1 − v²)) / (a c h)²
 //! ```
 
-use super::super::fade::FLOOR_FADE;
 use super::super::rim::{RIM_BLEND, smoothstep};
+use super::super::stiffness::FLOOR_FADE;
 use super::outline::{Outline, Over};
 
 /// Overlap, direction and shape at one place of the outline.

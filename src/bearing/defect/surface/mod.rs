@@ -23,7 +23,6 @@
 //! as curved as the ball, `κ_t c² ≈ κ_l a²`, its minima say little: `weight` shares the load.
 
 mod bottom;
-mod check;
 mod dent;
 mod edge;
 mod minima;

@@ -17,8 +17,8 @@
 //! beyond where they cease to be minima. In between the load is shared. Less than 1 in all is scaled up to 1: the ball
 //! never falls through.
 
-use super::super::fade::FLOOR_FADE;
 use super::super::rim::smoothstep;
+use super::super::stiffness::FLOOR_FADE;
 use super::outline::Outline;
 
 /// Overlap in ball radii whose patch decides whether two contacts are one. A choice: under 10 N a ball of 1 mm is

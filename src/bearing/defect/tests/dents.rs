@@ -1,7 +1,8 @@
 //! The source's dents by number, rules, features and angles.
 
 use super::*;
-use crate::bearing::hertz::{self, HertzError, PrincipalCurvatures};
+use crate::bearing::error::BearingError;
+use crate::bearing::hertz::{self, PrincipalCurvatures};
 use approx::assert_relative_eq;
 use std::f64::consts::TAU;
 
@@ -153,7 +154,7 @@ fn far_rim_is_met_by_a_ball_beside_a_short_dent() {
     }
 }
 
-fn refuse(race: Race, shape: DentShape) -> DefectError {
+fn refuse(race: Race, shape: DentShape) -> BearingError {
     Dent::new(&source_bearing(), race, shape, source_stiffness()).unwrap_err()
 }
 
@@ -183,7 +184,7 @@ fn every_rule_fires_and_says_what_to_change() {
         (Race::Inner, dent_shape(4.4e-3, 1e-5, 1e-5)),
     ] {
         let error = refuse(race, too_long);
-        assert!(matches!(error, DefectError::TooLong { .. }), "{error}");
+        assert!(error.to_string().contains("is more than a quarter of the race"), "{error}");
     }
     let sharp = refuse(Race::Outer, dent_shape(1e-3, 1e-5, 4.7e-9)).to_string();
     assert_eq!(
@@ -202,8 +203,7 @@ fn a_conforming_reading_of_the_inner_race_is_refused() {
     let total = DentShape { curvature: CurvatureReading::Total, ..deep };
     assert!(solved(Race::Inner, total).profile.reach.is_some());
     let error = refuse(Race::Inner, deep);
-    let hertz =
-        matches!(error, DefectError::Hertz(HertzError::CurvatureDifference { .. } | HertzError::CurvatureSum { .. }));
+    let hertz = error.to_string().starts_with("contact on the defect: curvature ");
     assert!(hertz, "{error}");
 }
 

@@ -193,5 +193,5 @@ fn steep_profiles_name_their_samples() {
     assert_eq!(refused(f64::INFINITY, &samples).to_string(), "defect angle_deg = inf must be finite");
     // differences that vanish against the square of a spacing are refused, not divided by
     let tiny = [(0.0, 0.0), (1e-200, 1e-210), (1e-3, 1e-6), (2e-3, 0.0)];
-    assert!(matches!(refused(0.0, &tiny), DefectError::Steep { .. }));
+    assert!(refused(0.0, &tiny).to_string().starts_with("defect profile is as steep as "));
 }

@@ -79,7 +79,7 @@ impl Subject {
     /// would be touched.
     fn contacts_at(&self, distance: f64, offset: f64) -> DefectContacts {
         match &self.kind {
-            Kind::Race(defect) => defect.profile().contacts(PolarPosition { radius: distance, angle: MIDDLE + offset }),
+            Kind::Race(defect) => defect.contacts(PolarPosition { radius: distance, angle: MIDDLE + offset }),
             Kind::Ball(flat, race) => {
                 let spin_angle = match race {
                     Race::Inner => PI - offset,

@@ -301,9 +301,9 @@ fn every_rule_fires_and_says_what_to_change_in_space() {
     }
     let long = DentShape { length: 8e-3, ..source };
     let error = SurfaceDent::new(&bearing, Race::Outer, long, stiffness).unwrap_err();
-    assert!(matches!(error, DefectError::TooLong { .. }), "{error}");
+    assert!(error.to_string().contains("is more than a quarter of the race"), "{error}");
     // the ellipse as tight as the ball, shallow enough for the ball to reach the bottom across
     let tight = DentShape { curvature: CurvatureReading::Paper, ..wide(dent_shape(0.2e-3, 11e-6, 5e-6), 1.9e-3) };
     let error = SurfaceDent::new(&bearing, Race::Inner, tight, stiffness).unwrap_err();
-    assert!(matches!(error, DefectError::Hertz(_)), "{error}");
+    assert!(error.to_string().starts_with("contact on the defect: "), "{error}");
 }

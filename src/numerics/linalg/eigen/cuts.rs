@@ -1,17 +1,20 @@
-//! Values below which eigenvalues are counted.
+//! Values below which eigenvalues are counted, by Sylvester's law of inertia.
 
 use super::super::LinalgError;
-use super::super::count::{CountCheck, count_below, count_between};
-use super::super::factor::FactorMemory;
+use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{largest_ratio, round_off};
-use super::EigenProblem;
+use super::super::numeric::Kind;
 use super::factors::FIRM;
+use super::{CountCheck, EigenProblem};
 
 /// Distance, relative to the value, within which an eigenvalue lies on it: ten times the usual error of a computed one.
 const ON_AN_END: f64 = 1e-8;
 
 /// How far a value on an eigenvalue is moved, relative to it.
 const NEAR: f64 = 1e-6;
+
+/// Where in a gap eigenvalues are counted, one place after the other until the factor is good.
+const PLACES: [f64; 5] = [0.5, 0.41, 0.59, 0.32, 0.68];
 
 /// A value, 1/s^2, and how many eigenvalues lie below it.
 pub(super) type Cut = (f64, usize);
@@ -40,12 +43,8 @@ impl EigenProblem {
         let value = value.min(self.above_all());
         let value = value + sign * ON_AN_END * value.abs();
         let from_zero = sign * (sign * value).max(0.0);
-        let count = |value| {
-            let memory = FactorMemory::default();
-            count_below(&self.symbolic, &self.stiffness, &self.mass, value, memory)
-        };
         let singular = |error: &LinalgError| matches!(error, LinalgError::NearlySingular { .. });
-        let mut found = count(value).map(|counted| (value, counted));
+        let mut found = self.count_below(value, FactorMemory::default()).map(|counted| (value, counted));
         let nearest = sign * FIRM * round_off(&self.stiffness, &self.mass);
         for end in [
             value + sign * NEAR * value.abs(),
@@ -54,17 +53,38 @@ impl EigenProblem {
             from_zero + 1e2 * nearest,
         ] {
             match &found {
-                Err(error) if singular(error) => found = self.count_in_gap([value, end]),
+                Err(error) if singular(error) => found = self.count_between([value, end], FactorMemory::default()),
                 _ => break,
             }
         }
         found
     }
 
-    /// Eigenvalues below a place between two values.
-    pub(super) fn count_in_gap(&self, ends: [f64; 2]) -> Result<Cut, LinalgError> {
-        let memory = FactorMemory::default();
-        count_between(&self.symbolic, &self.stiffness, &self.mass, ends, memory)
+    /// Number of eigenvalues below `value`.
+    ///
+    /// # Errors
+    /// [`LinalgError::NearlySingular`] if `value` is an eigenvalue, or [`LinalgError::Factorisation`].
+    fn count_below(&self, value: f64, memory: FactorMemory) -> Result<usize, LinalgError> {
+        let shifted = self.stiffness.shifted(value, &self.mass);
+        Ok(Factor::new(&self.symbolic, &shifted, Kind::Indefinite, memory)?.negative())
+    }
+
+    /// Counts somewhere between `low` and `high`, between which no eigenvalue is known; the place is moved when the
+    /// factor says that it sits on one.
+    ///
+    /// # Errors
+    /// As `count_below`, of the last place tried.
+    pub(super) fn count_between(&self, [low, high]: [f64; 2], mut memory: FactorMemory) -> Result<Cut, LinalgError> {
+        let mut failed = LinalgError::NearlySingular { order: self.order(), contraction: f64::INFINITY };
+        for place in PLACES {
+            let value = low + place * (high - low);
+            match self.count_below(value, std::mem::take(&mut memory)) {
+                Ok(counted) => return Ok((value, counted)),
+                Err(error @ LinalgError::NearlySingular { .. }) => failed = error,
+                Err(error) => return Err(error),
+            }
+        }
+        Err(failed)
     }
 
     /// The end of a band, lowered towards the eigenvalues if it is far above all.

@@ -22,7 +22,7 @@ const LARGE: usize = 1 << 26;
 impl EigenProblem {
     /// Factor in the middle of a band, or beside it.
     pub(super) fn middle_factor(&self, low: f64, high: f64) -> Result<(f64, Factor), LinalgError> {
-        let mut failed = LinalgError::NoGap { asked: 1 };
+        let mut failed = LinalgError::no_gap(1);
         for place in [0.5, 0.47, 0.53, 0.44] {
             let sigma = low + place * (high - low);
             let shifted = self.stiffness.shifted(sigma, &self.mass);

@@ -2,12 +2,11 @@
 
 use super::super::LinalgError;
 use super::super::bound::Quality;
-use super::super::count::{CountCheck, count_between};
 use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{Ritz, Search};
 use super::super::memory;
 use super::factors::FIRM;
-use super::{EigenPairs, EigenProblem, EigenTimes};
+use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -58,7 +57,7 @@ impl EigenProblem {
                 continue;
             };
             let below = ritz.values.iter().filter(|&&found| found < value).count();
-            let found = CountCheck { above: None, below: value, counted, found: below };
+            let found = CountCheck::from_lowest(value, counted, below);
             if counted == below {
                 return self.finished(ritz, quality, count, found, shift, times);
             }
@@ -70,7 +69,7 @@ impl EigenProblem {
             check = Some(found);
             beyond = (beyond + counted.saturating_sub(below) + BEYOND).min(order - count);
         }
-        Err(check.map_or(LinalgError::NoGap { asked: count }, CountCheck::missing))
+        Err(check.map_or_else(|| LinalgError::no_gap(count), CountCheck::missing))
     }
 
     /// The pairs, and how many eigenvalues lie below a value in a gap behind those wanted.
@@ -155,8 +154,8 @@ impl EigenProblem {
             return None;
         }
         let place = [low.max(high - 2.0 * near), high - near];
-        let (below, counted) = self.count_in_gap(place).ok()?;
-        let check = CountCheck { above: None, below, counted, found };
+        let (below, counted) = self.count_between(place, FactorMemory::default()).ok()?;
+        let check = CountCheck::from_lowest(below, counted, found);
         (counted == found).then_some(check)
     }
 
@@ -169,7 +168,7 @@ impl EigenProblem {
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.
     fn count_in(&self, gap: [f64; 2], memory: FactorMemory) -> Result<(f64, usize, f64), LinalgError> {
         let started = Instant::now();
-        let (value, counted) = count_between(&self.symbolic, &self.stiffness, &self.mass, gap, memory)?;
+        let (value, counted) = self.count_between(gap, memory)?;
         Ok((value, counted, started.elapsed().as_secs_f64()))
     }
 }

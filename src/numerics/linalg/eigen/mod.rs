@@ -8,7 +8,7 @@ mod problem;
 mod slices;
 mod solve;
 
-pub use pairs::{EigenPairs, EigenTimes};
+pub use pairs::{CountCheck, EigenPairs, EigenTimes};
 pub use problem::EigenProblem;
 
 #[cfg(test)]

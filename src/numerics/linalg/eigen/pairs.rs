@@ -1,10 +1,34 @@
 //! What is known of computed eigenpairs.
 
-use super::super::DenseMatrix;
-use super::super::count::CountCheck;
+use super::super::{DenseMatrix, LinalgError};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
+
+/// Eigenvalues below a value: how many there are, and how many were found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CountCheck {
+    /// Value above which it was counted, 1/s^2; `None`: from the lowest.
+    pub above: Option<f64>,
+    /// Value below which it was counted, 1/s^2.
+    pub below: f64,
+    /// Eigenvalues below it, from the inertia of `K - below M`.
+    pub counted: usize,
+    /// Eigenvalues below it that were found.
+    pub found: usize,
+}
+
+impl CountCheck {
+    /// Counted from the lowest eigenvalue on.
+    pub(super) fn from_lowest(below: f64, counted: usize, found: usize) -> Self {
+        Self { above: None, below, counted, found }
+    }
+
+    /// The error of a count that does not agree.
+    pub(super) fn missing(self) -> LinalgError {
+        LinalgError::missing_modes(self.below, self.counted, self.found)
+    }
+}
 
 /// Where the time of an eigenvalue computation went, s. With several threads the count goes on beside the iteration.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
@@ -51,7 +75,7 @@ impl EigenPairs {
             bounds: Vec::new(),
             rounding: Vec::new(),
             orthogonality: 0.0,
-            count_check: CountCheck { above: None, below, counted: 0, found: 0 },
+            count_check: CountCheck::from_lowest(below, 0, 0),
             shift: 0.0,
             times: EigenTimes::default(),
         }
@@ -84,17 +108,8 @@ impl EigenPairs {
         all
     }
 
-    /// Leaves the first pairs alone.
-    pub(super) fn drop_first(&mut self, dropped: usize) {
-        self.keep(dropped..self.values.len());
-    }
-
-    /// Leaves out all but the first pairs.
-    pub(super) fn keep_first(&mut self, kept: usize) {
-        self.keep(0..kept);
-    }
-
-    fn keep(&mut self, kept: Range<usize>) {
+    /// Leaves out all other pairs.
+    pub(super) fn keep(&mut self, kept: Range<usize>) {
         for list in [&mut self.values, &mut self.residuals, &mut self.bounds, &mut self.rounding] {
             list.truncate(kept.end);
             list.drain(..kept.start);

@@ -1,14 +1,13 @@
 //! The problem `K x = lambda M x`, ordered and analysed, and what a solution of it must satisfy.
 
 use super::super::bound::{Quality, ROUNDING};
-use super::super::count::CountCheck;
 use super::super::factor::Factor;
 use super::super::lowest::Ritz;
 use super::super::ordering::Ordering;
 use super::super::symbolic::Symbolic;
 use super::super::symmetric::SymmetricMatrix;
 use super::super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, memory};
-use super::{EigenPairs, EigenTimes};
+use super::{CountCheck, EigenPairs, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -49,12 +48,7 @@ impl EigenProblem {
     /// As [`EigenProblem::new`].
     pub fn restricted(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
         let started = Instant::now();
-        // of semidefinite matrices a row is empty if its diagonal is
-        let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
-        if let Some(&row) = kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
-            return Err(LinalgError::NothingThere { row });
-        }
-        let ordering = Ordering::of_part(k, kept)?;
+        let ordering = Ordering::of_problem(k, m, kept)?;
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
         let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
@@ -89,7 +83,7 @@ impl EigenProblem {
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
         let symbolic = if stiffness.covers(&mass) {
-            Arc::clone(factor.symbolic())
+            Arc::clone(&factor.symbolic)
         } else {
             Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?)
         };
@@ -143,7 +137,7 @@ impl EigenProblem {
     /// The pairs of the problem as it was given; `ritz` is in the order of the factor.
     ///
     /// # Errors
-    /// [`LinalgError::Residual`] for a pair that does not satisfy its equation.
+    /// [`LinalgError::Iteration`] for a pair that does not satisfy its equation.
     pub(super) fn finished(
         &self,
         ritz: Ritz,
@@ -155,7 +149,11 @@ impl EigenProblem {
     ) -> Result<EigenPairs, LinalgError> {
         let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
         if let Some(mode) = quality.residuals.iter().position(too_large) {
-            return Err(LinalgError::Residual { mode, residual: quality.residuals[mode], limit: LARGEST_RESIDUAL });
+            let residual = quality.residuals[mode];
+            return Err(LinalgError::Iteration(format!(
+                "mode {mode} leaves a relative residual of {residual:.3e} in its eigenvalue equation, more than \
+                 {LARGEST_RESIDUAL:.0e}: the matrices are too ill-conditioned"
+            )));
         }
         let mut vectors = DenseMatrix::zeros(self.order(), count);
         let found = ritz.vectors.subcols(0, count).to_owned();

@@ -6,10 +6,9 @@
 
 use super::super::basis::times;
 use super::super::bound::Quality;
-use super::super::count::CountCheck;
 use super::super::{DenseMatrix, LinalgError, band};
 use super::cuts::{Cut, Side, check_of};
-use super::{EigenPairs, EigenProblem, EigenTimes};
+use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::time::Instant;
 
 /// Pairs that a slice should have.
@@ -62,14 +61,14 @@ impl EigenProblem {
                 asked + 1 + asked / 8
             };
             if asked > count {
-                return Err(LinalgError::NoGap { asked: count });
+                return Err(LinalgError::no_gap(count));
             }
         };
         let (slices, end) = self.slices(start, count, None)?;
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;
-        pairs.count_check = CountCheck { above: None, below: end.0, counted: end.1, found: pairs.values.len() };
-        pairs.keep_first(count);
+        pairs.count_check = CountCheck::from_lowest(end.0, end.1, pairs.values.len());
+        pairs.keep(0..count);
         Ok(pairs)
     }
 
@@ -121,13 +120,8 @@ impl EigenProblem {
         let (values, count) = (&pairs.values, pairs.values.len());
         let mass = coupling(&pairs.vectors);
         if mass.norm_max() > LARGEST_COUPLING {
-            return Err(CountCheck {
-                above: None,
-                below: values.last().copied().unwrap_or(0.0),
-                counted: count,
-                found: count - 1,
-            }
-            .missing());
+            let last = values.last().copied().unwrap_or(0.0);
+            return Err(CountCheck::from_lowest(last, count, count - 1).missing());
         }
         let stiff = self.stiffness_times(&pairs.vectors);
         let stiff = times(pairs.vectors.transpose(), stiff.as_ref());
@@ -218,6 +212,6 @@ impl EigenProblem {
                 None => step * factor.clamp(1.5, 4.0),
             };
         }
-        Err(LinalgError::NoGap { asked: wanted })
+        Err(LinalgError::no_gap(wanted))
     }
 }

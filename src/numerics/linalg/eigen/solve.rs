@@ -2,14 +2,14 @@
 
 use super::super::bound::Quality;
 use super::super::factor::Factor;
-use super::super::lowest::largest_basis;
+use super::super::lowest::{Ritz, largest_basis};
 use super::super::numeric::Kind;
 use super::super::symmetric::SymmetricMatrix;
-use super::super::{LinalgError, small};
+use super::super::{DenseMatrix, LinalgError, symmetric_generalised_eigen};
 use super::cuts::{Side, check_of};
 use super::iteration::BEYOND;
 use super::slices::FIRST;
-use super::{EigenPairs, EigenProblem, EigenTimes};
+use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::time::Instant;
 
 /// Largest order that is solved densely whatever is asked: below it the dense solver is faster and needs no shift.
@@ -29,12 +29,16 @@ const AT_ONCE: [usize; 2] = [100, 200];
 /// Part of the order, as a divisor, beyond which round-off of the highest Ritz values hides the lowest ones.
 const SHARE: usize = 4;
 
+/// Gap in which the dense solver's pairs are counted, relative to the distance from the shift: equal values of one motion
+/// differ by round-off.
+const SMALLEST_GAP: f64 = 1e-5;
+
 impl EigenProblem {
     /// The `count` lowest eigenpairs.
     ///
     /// # Errors
     /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::ModesTooLarge`] if there is no memory for
-    /// them; [`LinalgError::MissingModes`] if pairs that exist were not found; [`LinalgError::Residual`] for a pair that
+    /// them; [`LinalgError::Iteration`] if pairs that exist were not found, or for a pair that
     /// does not satisfy its equation; what factorisation and iteration report.
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
@@ -51,7 +55,7 @@ impl EigenProblem {
         }
         let [any, large] = AT_ONCE;
         let small_share = SHARE * largest_basis(count + BEYOND) <= order;
-        let mut found = Err(LinalgError::NoGap { asked: count });
+        let mut found = Err(LinalgError::no_gap(count));
         if count <= any || count <= large && small_share {
             found = self.lowest_at_once(count);
         }
@@ -100,7 +104,7 @@ impl EigenProblem {
             self.lowest(high.1)?
         } else {
             self.find_room(check.counted)?;
-            let mut found = Err(LinalgError::NoGap { asked: high.1 });
+            let mut found = Err(LinalgError::no_gap(high.1));
             if !self.is_too_small_for_slices() {
                 let nearer = self.nearer_end(high)?;
                 found = self.slices(low, high.1, Some(nearer)).and_then(|(slices, _)| self.joined(slices));
@@ -108,7 +112,7 @@ impl EigenProblem {
             if self.order() <= DENSE_RESCUE_LIMIT && failed(&found) {
                 found = self.by_dense_solver(high.1);
                 if let Ok(pairs) = &mut found {
-                    pairs.drop_first(low.1);
+                    pairs.keep(low.1..pairs.values.len());
                 }
             }
             found?
@@ -132,11 +136,29 @@ impl EigenProblem {
         }
     }
 
+    /// The `count` lowest of all eigenpairs, counted in the first gap behind them.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooManyModes`] if fewer have mass; what the dense solver reports.
     fn by_dense_solver(&self, count: usize) -> Result<EigenPairs, LinalgError> {
         let mut times = EigenTimes { order: self.order_s, ..EigenTimes::default() };
         let started = Instant::now();
         let shift = self.free_shift();
-        let (ritz, check) = small::all_pairs(&self.stiffness, &self.mass, count, shift)?;
+        let spectrum = symmetric_generalised_eigen(&dense(&self.stiffness), &dense(&self.mass))?;
+        let available = spectrum.values.iter().take_while(|value| value.is_finite()).count();
+        if count > available {
+            return Err(LinalgError::TooManyModes { asked: count, available });
+        }
+        let values = spectrum.values[..available].to_vec();
+        let gap = |place: &usize| values[*place] - values[place - 1] > SMALLEST_GAP * (values[*place] - shift);
+        let counted = (count..available).find(gap).unwrap_or(available);
+        let below = match values.get(counted) {
+            Some(next) => 0.5 * (values[counted - 1] + next),
+            None => 2.0 * values[counted - 1].abs(),
+        };
+        let check = CountCheck::from_lowest(below, counted, counted);
+        let vectors = spectrum.vectors.subcols(0, available).to_owned();
+        let ritz = Ritz { values, vectors };
         let shifted = self.stiffness.shifted(shift, &self.mass);
         let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
         let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
@@ -145,7 +167,19 @@ impl EigenProblem {
     }
 }
 
+/// Both triangles of a matrix, zeros and all.
+fn dense(a: &SymmetricMatrix) -> DenseMatrix {
+    let mut full = DenseMatrix::zeros(a.order(), a.order());
+    for column in 0..a.order() {
+        for (row, value) in a.column(column) {
+            full[(row, column)] = value;
+            full[(column, row)] = value;
+        }
+    }
+    full
+}
+
 /// Whether an iteration failed where another way may not.
 fn failed(found: &Result<EigenPairs, LinalgError>) -> bool {
-    found.as_ref().is_err_and(LinalgError::is_of_iteration)
+    matches!(found, Err(LinalgError::Iteration(_)))
 }

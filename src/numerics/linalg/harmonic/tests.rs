@@ -1,6 +1,8 @@
 //! Closed forms and limits of harmonic responses.
 
 use super::*;
+use crate::numerics::linalg::factor::Numbers;
+use crate::numerics::linalg::numeric::NumericFactor;
 use crate::numerics::linalg::{EigenProblem, TripletBuilder};
 use std::f64::consts::PI;
 
@@ -224,8 +226,9 @@ fn both_precisions_lead_to_the_same_response() {
         )
     };
     let double = Factor::unjudged(&problem.symbolic, &a, Kind::Indefinite, true, FactorMemory::default());
-    let single = Factor::single_for_test(&problem.symbolic, &a);
-    let found = [double, single].map(|factor| solve(&factor.expect("regular")));
+    let numbers = NumericFactor::new(&problem.symbolic, &a, Kind::Indefinite, Vec::new()).expect("regular");
+    let single = Factor::measured(&problem.symbolic, &a, Numbers::Single(numbers));
+    let found = [double.expect("regular"), single].map(|factor| solve(&factor));
     assert!(found.iter().all(|found| found.residuals[0] <= 1e-12));
     let difference = (&found[0].x - &found[1].x).norm_max();
     assert!(difference < 1e-9 * found[0].x.norm_max(), "{difference:e}");

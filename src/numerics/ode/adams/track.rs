@@ -2,7 +2,7 @@
 
 use super::flow::{Flow, GroupFlow};
 use crate::numerics::lanes::{LANES, Lanes, each, from, put, together};
-use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError};
 use multiversion::multiversion;
 
 /// A force that is the small difference of large parts is held to this share of them: with all of them quiet starts of a dented
@@ -51,7 +51,7 @@ pub(super) struct Track {
     /// Lengths of the last step and the one before, s; zero where there was none.
     past: [f64; 2],
     /// Whether the next prediction is a parabola.
-    quadratic: bool,
+    pub(super) quadratic: bool,
     weights: Weights,
     /// State and force at the end of the step that is being tried, as the system takes them.
     position: Vec<f64>,
@@ -173,11 +173,6 @@ impl Track {
         self.past = [step, self.past[0]];
     }
 
-    /// Whether the next step is predicted by a parabola.
-    pub(super) fn is_quadratic(&self) -> bool {
-        self.quadratic
-    }
-
     /// Hands out where the last step ended.
     pub(super) fn end(&self, y: &mut [f64], v: &mut [f64], g: &mut [f64]) {
         y.copy_from_slice(&self.position);
@@ -191,31 +186,13 @@ impl Track {
         take_springs(self);
     }
 
-    /// Writes what the next step depends on.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.numbers(&self.past);
-        snapshot.flag(self.quadratic);
-        for of in [
-            (|group| &group.before) as fn(&Group) -> &Lanes,
-            |group| &group.place_before,
-            |group| &group.two_before,
-            |group| &group.place_two_before,
-            |group| &group.spring,
-            |group| &group.largest,
-        ] {
-            let values: Vec<_> = self.groups.iter().flat_map(of).copied().collect();
-            snapshot.numbers(&values);
-        }
-    }
-
-    /// Reads what [`remember`](Self::remember) wrote.
+    /// Writes what the next step depends on, or reads it.
     ///
     /// # Errors
     /// [`SnapshotError`] for a snapshot of something else.
-    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        snapshot.numbers_into("lengths of the last steps", &mut self.past)?;
-        self.quadratic = snapshot.flag()?;
-        let mut values = vec![0.0; LANES * self.groups.len()];
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.numbers("lengths of the last steps", &mut self.past)?;
+        words.flag(&mut self.quadratic)?;
         for (what, of) in [
             ("forces a step before", (|group| &mut group.before) as fn(&mut Group) -> &mut Lanes),
             ("positions a step before", |group| &mut group.place_before),
@@ -224,7 +201,8 @@ impl Track {
             ("springs", |group| &mut group.spring),
             ("largest forces", |group| &mut group.largest),
         ] {
-            snapshot.numbers_into(what, &mut values)?;
+            let mut values: Vec<f64> = self.groups.iter_mut().flat_map(|group| *of(group)).collect();
+            words.numbers(what, &mut values)?;
             for (group, values) in self.groups.iter_mut().zip(values.chunks(LANES)) {
                 *of(group) = from(values);
             }

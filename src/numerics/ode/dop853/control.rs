@@ -13,7 +13,7 @@
 //! There is none in metres: the model's units mean nothing to the method.
 
 use super::stages::Stages;
-use crate::numerics::ode::{LinearCoordinate, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Exchange, LinearCoordinate, SnapshotError};
 
 /// How much smaller than the largest of its group a coordinate is still resolved to the whole tolerance. A static deflection
 /// under a constant force falls with omega^2, so that this covers modes over 1.5 decades of frequency, and the others to
@@ -60,26 +60,16 @@ impl Scale {
         }
     }
 
-    /// Writes what was reached so far.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.numbers(&self.largest);
-        for floors in &self.floors {
-            snapshot.numbers(floors);
-        }
-        snapshot.number(self.longest);
-    }
-
-    /// Reads it.
+    /// Writes what was reached so far, or reads it.
     ///
     /// # Errors
     /// [`SnapshotError`] for that of another system.
-    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        snapshot.numbers_into("scales", &mut self.largest)?;
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.numbers("scales", &mut self.largest)?;
         for floors in &mut self.floors {
-            snapshot.numbers_into("groups of scales", floors)?;
+            words.numbers("groups of scales", floors)?;
         }
-        self.longest = snapshot.number()?;
-        Ok(())
+        words.number(&mut self.longest)
     }
 
     /// A step to begin with, s: a hundredth of what changes anything by its size at the present slope, a tenth of what turns
@@ -172,18 +162,9 @@ impl Controller {
         factor.clamp(FACTORS[0], most)
     }
 
-    /// Writes the last error.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.number(self.before);
-    }
-
-    /// Reads it.
-    ///
-    /// # Errors
-    /// [`SnapshotError::Short`].
-    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.before = snapshot.number()?;
-        Ok(())
+    /// Writes the last error, or reads it.
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.number(&mut self.before)
     }
 
     /// Factor for another trial after one with this error, above 1.

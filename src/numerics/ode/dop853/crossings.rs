@@ -7,7 +7,7 @@
 
 use super::dense::Dense;
 use super::stages::{Span, Stages};
-use crate::numerics::ode::{SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Exchange, SecondOrderSystem, SnapshotError};
 
 /// Half of the band about zero in units of `tolerance` times the largest value of the function so far: the force of a contact
 /// there, with the power 3/2 of the overlap, is 1e-3 of the tolerance.
@@ -30,8 +30,16 @@ pub(super) fn resolution(t: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * t.abs().max(step)
 }
 
+/// A step that was good enough, with what evaluates it between its ends.
+pub(super) struct Trial<'a, S> {
+    pub system: &'a mut S,
+    pub stages: &'a mut Stages,
+    pub dense: &'a mut Dense,
+    pub span: &'a Span,
+}
+
 /// Sides of all event functions.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Crossings {
     tolerance: f64,
     above: Vec<bool>,
@@ -48,6 +56,11 @@ pub(super) struct Crossings {
 }
 
 impl Crossings {
+    /// Of no events, to be read from a snapshot.
+    pub(super) fn blank(tolerance: f64) -> Self {
+        Self { tolerance, ..Self::default() }
+    }
+
     /// Of a system with event functions; the sides are those at the start.
     pub(super) fn new<S: SecondOrderSystem>(
         system: &mut S,
@@ -62,59 +75,38 @@ impl Crossings {
         let mut after = vec![0.0; count];
         system.events_into(t, y, v, &mut after);
         Some(Self {
-            tolerance,
             above: after.iter().map(|&value| value > 0.0).collect(),
             largest: after.iter().map(|value| value.abs()).collect(),
             before: after.clone(),
             between: after.clone(),
             after,
-            aimed: None,
-            retaken: 0,
-            crowded: 0,
-            count: 0,
+            ..Self::blank(tolerance)
         })
     }
 
-    /// Writes sides and values at the end of the last step; what concerns a step under way is none of it.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.count);
-        snapshot.count(self.crowded as u64);
-        for values in [&self.largest, &self.after] {
-            snapshot.numbers(values);
-        }
-        for &above in &self.above {
-            snapshot.flag(above);
-        }
-    }
-
-    /// As they were written.
+    /// Writes sides and values at the end of the last step, or reads them; what concerns a step under way is none of it.
     ///
     /// # Errors
     /// [`SnapshotError`] for those of another system.
-    pub(super) fn recalled(tolerance: f64, snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
-        let (count, crowded) = (snapshot.count()?, snapshot.count()?);
-        let largest = snapshot.numbers()?;
-        let mut after = vec![0.0; largest.len()];
-        snapshot.numbers_into("events", &mut after)?;
-        let above: Result<Vec<bool>, SnapshotError> = after.iter().map(|_| snapshot.flag()).collect();
-        Ok(Self {
-            tolerance,
-            above: above?,
-            before: after.clone(),
-            between: after.clone(),
-            after,
-            largest,
-            aimed: None,
-            retaken: 0,
-            crowded: crowded.try_into().unwrap_or(usize::MAX),
-            count,
-        })
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.count(&mut self.count)?;
+        let mut crowded = self.crowded as u64;
+        words.count(&mut crowded)?;
+        self.crowded = crowded.try_into().unwrap_or(usize::MAX);
+        words.list(&mut self.largest)?;
+        let events = self.largest.len();
+        for values in [&mut self.before, &mut self.after, &mut self.between] {
+            values.resize(events, 0.0);
+        }
+        words.numbers("events", &mut self.after)?;
+        self.above.resize(events, false);
+        self.above.iter_mut().try_for_each(|above| words.flag(above))
     }
 
     /// Goes on from the end of the last step.
     pub(super) fn turn_over(&mut self) {
         std::mem::swap(&mut self.before, &mut self.after);
-        (self.aimed, self.retaken) = (None, 0);
+        self.forget();
     }
 
     /// A trial was not good enough: none of its events is sought any more.
@@ -123,22 +115,17 @@ impl Crossings {
     }
 
     /// Looks at a good step: the instant (s) to which it must be taken back, or none, and then the sides are those at its end.
-    pub(super) fn look<S: SecondOrderSystem>(
-        &mut self,
-        system: &mut S,
-        stages: &mut Stages,
-        dense: &mut Dense,
-        span: &Span,
-    ) -> Option<f64> {
-        let [y, v] = stages.end();
-        system.events_into(span.to, y, v, &mut self.after);
+    pub(super) fn look<S: SecondOrderSystem>(&mut self, trial: &mut Trial<'_, S>) -> Option<f64> {
+        let span = trial.span;
+        let [y, v] = trial.stages.end();
+        trial.system.events_into(span.to, y, v, &mut self.after);
         let least = resolution(span.to, span.length());
         if self.retaken < MAX_RETAKEN && self.crowded < MAX_CROWDED {
             let mut first: Option<(usize, f64)> = None;
             for event in 0..self.above.len() {
                 if self.has_left(event, self.after[event]) {
                     let limit = first.map_or(1.0, |(_, place)| place);
-                    let found = self.place(system, stages, dense, span, event, limit);
+                    let found = self.place(trial, event, limit);
                     first = found.map(|place| (event, place)).or(first);
                 }
             }
@@ -190,29 +177,18 @@ impl Crossings {
 
     /// Where an event that has changed its side by the end of a step first leaves it, up to a place; none if it was never
     /// beyond the band on it, and has only touched zero.
-    fn place<S: SecondOrderSystem>(
-        &mut self,
-        system: &mut S,
-        stages: &mut Stages,
-        dense: &mut Dense,
-        span: &Span,
-        event: usize,
-        limit: f64,
-    ) -> Option<f64> {
+    fn place<S: SecondOrderSystem>(&mut self, trial: &mut Trial<'_, S>, event: usize, limit: f64) -> Option<f64> {
         let band = self.band(event);
         let start = self.toward(event, self.before[event]);
         let mut armed = (start > band).then_some((0.0, start));
         for share in PLACES {
             let place = share * limit;
-            let value = if place < 1.0 {
-                self.value(system, stages, dense, span, event, place)
-            } else {
-                self.toward(event, self.after[event])
-            };
+            let value =
+                if place < 1.0 { self.value(trial, event, place) } else { self.toward(event, self.after[event]) };
             match armed {
                 Some(before) if value <= 0.0 => {
                     let bracket = [before, (place, value)];
-                    return Some(self.search(system, stages, dense, span, event, bracket));
+                    return Some(self.search(trial, event, bracket));
                 }
                 Some(_) => armed = Some((place, value)),
                 None if value > band => armed = Some((place, value)),
@@ -226,23 +202,21 @@ impl Crossings {
     /// to half the band, or to what can be told apart.
     fn search<S: SecondOrderSystem>(
         &mut self,
-        system: &mut S,
-        stages: &mut Stages,
-        dense: &mut Dense,
-        span: &Span,
+        trial: &mut Trial<'_, S>,
         event: usize,
         [(mut a, mut f_a), (mut b, mut f_b)]: [(f64, f64); 2],
     ) -> f64 {
         let enough = 0.5 * self.band(event);
+        let span = trial.span;
         let least = (resolution(span.to, span.length()) / span.length()).max(f64::EPSILON);
-        for trial in 0..MAX_SEARCH {
+        for looked in 0..MAX_SEARCH {
             if b - a <= least {
                 break;
             }
             let secant = a + (b - a) * f_a / (f_a - f_b);
-            let bisect = trial % 4 == 3 || !(a < secant && secant < b);
+            let bisect = looked % 4 == 3 || !(a < secant && secant < b);
             let x = if bisect { 0.5 * (a + b) } else { secant };
-            let f_x = self.value(system, stages, dense, span, event, x);
+            let f_x = self.value(trial, event, x);
             if f_x.abs() <= enough {
                 return x;
             }
@@ -258,16 +232,9 @@ impl Crossings {
     }
 
     /// An event function at a place of the step, positive on its side.
-    fn value<S: SecondOrderSystem>(
-        &mut self,
-        system: &mut S,
-        stages: &mut Stages,
-        dense: &mut Dense,
-        span: &Span,
-        event: usize,
-        place: f64,
-    ) -> f64 {
-        let [y, v] = dense.at(system, stages, span, place);
+    fn value<S: SecondOrderSystem>(&mut self, trial: &mut Trial<'_, S>, event: usize, place: f64) -> f64 {
+        let Trial { system, stages, dense, span } = trial;
+        let [y, v] = dense.at(*system, stages, span, place);
         system.events_into(span.at(place), y, v, &mut self.between);
         self.toward(event, self.between[event])
     }

@@ -2,7 +2,7 @@
 
 use super::stages::{LAST, Span, Stages};
 use super::tableau::DENSE;
-use crate::numerics::ode::{SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Exchange, SecondOrderSystem, SnapshotError};
 
 /// Interpolation over the last step, made when it is asked for.
 #[derive(Debug)]
@@ -24,24 +24,13 @@ impl Dense {
         self.ready = false;
     }
 
-    /// Writes the interpolation.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.flag(self.ready);
-        for terms in &self.terms {
-            snapshot.numbers(terms);
-        }
-    }
-
-    /// Reads it.
+    /// Writes the interpolation, or reads it.
     ///
     /// # Errors
     /// [`SnapshotError`] for that of another system.
-    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.ready = snapshot.flag()?;
-        for terms in &mut self.terms {
-            snapshot.numbers_into("terms of an interpolation", terms)?;
-        }
-        Ok(())
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.flag(&mut self.ready)?;
+        self.terms.iter_mut().try_for_each(|terms| words.numbers("terms of an interpolation", terms))
     }
 
     /// Position and velocity at a place (0 to 1) of the step that `stages` hold.

@@ -1,7 +1,7 @@
 //! One step of the pair on the first-order form (y, v)' = (v, g - damping v - omega^2 y).
 
 use super::tableau::{Combination, ERROR_3, ERROR_5, EXTENDED, NODES, ROWS, STAGES};
-use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError};
 use std::ops::Range;
 
 /// Numbers that are combined at once.
@@ -34,19 +34,10 @@ impl Span {
         if place < 1.0 { (self.from + place * self.length()).min(self.inside) } else { self.inside }
     }
 
-    /// Writes it.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        for instant in [self.from, self.to, self.inside] {
-            snapshot.number(instant);
-        }
-    }
-
-    /// As it was written.
-    ///
-    /// # Errors
-    /// [`SnapshotError::Short`].
-    pub(super) fn recalled(snapshot: &mut SnapshotReader) -> Result<Self, SnapshotError> {
-        Ok(Self { from: snapshot.number()?, to: snapshot.number()?, inside: snapshot.number()? })
+    /// Writes it, or reads it.
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        let Self { from, to, inside } = self;
+        [from, to, inside].into_iter().try_for_each(|instant| words.number(instant))
     }
 
     /// Place of an instant.
@@ -186,22 +177,14 @@ impl Stages {
         }
     }
 
-    /// Writes states and slopes of the last step.
-    pub(super) fn remember(&self, snapshot: &mut Snapshot) {
-        snapshot.count(self.evaluations);
-        for numbers in [&self.start, &self.end, &self.slopes] {
-            snapshot.numbers(numbers);
-        }
-    }
-
-    /// Reads them.
+    /// Writes states and slopes of the last step, or reads them.
     ///
     /// # Errors
     /// [`SnapshotError`] for those of another system.
-    pub(super) fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
-        self.evaluations = snapshot.count()?;
+    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.count(&mut self.evaluations)?;
         for numbers in [&mut self.start, &mut self.end, &mut self.slopes] {
-            snapshot.numbers_into("numbers of a stage", numbers)?;
+            words.numbers("numbers of a stage", numbers)?;
         }
         Ok(())
     }

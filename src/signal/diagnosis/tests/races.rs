@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::tests::{judged, named, steady, struck, verdict, with_noise};
 use super::*;
 use crate::bearing::kinematics::{BallRow, DefectOrders};
 use crate::numerics::series::TimeSeries;

@@ -1,6 +1,5 @@
 //! Two synthetic signals compared: what grew is said to, by as much as it did, and what did not is not.
 
-use super::tests::{bearing, steady, struck, with_noise};
 use super::*;
 use crate::numerics::series::TimeSeries;
 

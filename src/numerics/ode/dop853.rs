@@ -16,9 +16,9 @@ mod stages;
 mod tableau;
 
 use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader};
+use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
 use control::{Controller, Scale};
-use crossings::{Crossings, resolution};
+use crossings::{Crossings, Trial, resolution};
 use dense::Dense;
 use stages::{LAST, Span, Stages};
 
@@ -113,7 +113,8 @@ impl Dop853 {
             }
             self.stages.close(system, &span);
             if let Some(crossings) = &mut self.crossings {
-                event = crossings.look(system, &mut self.stages, &mut self.dense, &span);
+                let (stages, dense) = (&mut self.stages, &mut self.dense);
+                event = crossings.look(&mut Trial { system: &mut *system, stages, dense, span: &span });
                 if event.is_some() {
                     self.rejected += 1;
                     continue;
@@ -171,35 +172,22 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
         }
     }
 
-    fn remember(&self, snapshot: &mut Snapshot) {
-        for count in [self.steps, self.rejected, self.samples] {
-            snapshot.count(count);
-        }
-        snapshot.option(self.next);
-        snapshot.number(self.change);
-        self.span.remember(snapshot);
-        self.stages.remember(snapshot);
-        self.dense.remember(snapshot);
-        self.scale.remember(snapshot);
-        self.controller.remember(snapshot);
-        snapshot.flag(self.crossings.is_some());
-        if let Some(crossings) = &self.crossings {
-            crossings.remember(snapshot);
-        }
-    }
-
-    fn recall(&mut self, snapshot: &mut SnapshotReader) -> Result<(), SnapshotError> {
+    fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
         for count in [&mut self.steps, &mut self.rejected, &mut self.samples] {
-            *count = snapshot.count()?;
+            words.count(count)?;
         }
-        self.next = snapshot.option()?;
-        self.change = snapshot.number()?;
-        self.span = Span::recalled(snapshot)?;
-        self.stages.recall(snapshot)?;
-        self.dense.recall(snapshot)?;
-        self.scale.recall(snapshot)?;
-        self.controller.recall(snapshot)?;
-        self.crossings = if snapshot.flag()? { Some(Crossings::recalled(self.tolerance, snapshot)?) } else { None };
+        words.option(&mut self.next)?;
+        words.number(&mut self.change)?;
+        self.span.exchange(words)?;
+        self.stages.exchange(words)?;
+        self.dense.exchange(words)?;
+        self.scale.exchange(words)?;
+        self.controller.exchange(words)?;
+        let mut watches = self.crossings.is_some();
+        words.flag(&mut watches)?;
+        if watches {
+            self.crossings.get_or_insert_with(|| Crossings::blank(self.tolerance)).exchange(words)?;
+        }
         Ok(())
     }
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::tests::{RATE, bearing, judged, named, steady, struck, with_noise};
 use super::*;
 use crate::bearing::kinematics::BallRow;
 
@@ -62,7 +61,7 @@ fn a_speed_that_no_line_confirms_is_said() {
 #[test]
 fn harmonics_of_one_race_are_told_from_the_lines_of_two() {
     let (outer, inner) = (bearing().outer, bearing().inner);
-    let share = |outer, inner| super::shaft_speed::share_a_fundamental(outer, inner, 1e-3);
+    let share = |outer, inner| super::super::shaft_speed::share_a_fundamental(outer, inner, 1e-3);
     assert!(share(outer, 1.5 * outer) && share(outer, 2.0 * outer + 2e-3));
     assert!(!share(outer, inner));
 }
@@ -162,7 +161,7 @@ fn a_part_whose_lines_the_shafts_hide_says_how_long_a_window_shows_it() {
     };
     let said = (29..35).map(|seed| {
         let short = found(0.48, seed);
-        let outer = super::tests::verdict(&short, Fault::OuterRace);
+        let outer = super::verdict(&short, Fault::OuterRace);
         // what is left of its lines may be enough by chance
         assert_ne!(outer.conclusion, Conclusion::NotSeen, "{outer:#?}");
         outer.why.contains("A window of 23 revolutions") && outer.why.contains("this one has 12")

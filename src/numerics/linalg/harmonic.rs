@@ -112,11 +112,7 @@ impl HarmonicProblem {
         damping: &HarmonicDamping<'_>,
         kept: &[usize],
     ) -> Result<Self, HarmonicError> {
-        let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
-        if let Some(&row) = kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
-            return Err(LinalgError::NothingThere { row }.into());
-        }
-        let ordering = Ordering::of_part(k, kept)?;
+        let ordering = Ordering::of_problem(k, m, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
         let symbolic = Arc::new(Symbolic::new(&matrices.real(1.0))?);
         Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::tests::{Noise, bearing, judged, named, signal, steady, struck, with_noise};
-use super::tests_cage::one_ball_differs;
+use super::cage::one_ball_differs;
 use super::*;
 
 /// The one place of impacts that belong to no part.

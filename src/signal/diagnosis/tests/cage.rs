@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::tests::{Noise, bearing, judged, named, steady, struck, verdict};
 use super::*;
 use crate::numerics::series::TimeSeries;
 
