@@ -2,15 +2,14 @@
 
 use super::dof_labels::{of_housing, of_ring};
 use super::housing::AssembledHousing;
-use super::loose::{check_interior, located};
 use super::places::PlaceBodies;
 use super::ring::{Boundary, ring_and_tie};
 use crate::app::case::{Case, FixedInterfaceModes, Interface};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
-use crate::fe::modal::{rigid_motions, ring_motions};
-use crate::fe::model::NodeInterface;
-use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, RigidMotions, craig_bampton};
+use crate::fe::modal::{Mechanisms, rigid_motions, ring_motions, unless_too_many_bodies};
+use crate::fe::model::{HousingModel, NodeInterface};
+use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, ReductionError, RigidMotions, craig_bampton};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
@@ -211,5 +210,39 @@ pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
         },
         enhanced: case.condense.enhanced,
         band_hz: case.band_hz().map_or(DEFAULT_BAND_HZ, |band| band[1]),
+    }
+}
+
+/// Every part of the housing hangs on the interface or on a support: otherwise `K_ii` is singular, and round-off may hide it
+/// from a factorisation.
+///
+/// # Errors
+/// [`ComputeError::LooseInterior`].
+fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(), ComputeError> {
+    let partition = boundary.partition();
+    if partition.driven.is_empty() || partition.interior.is_empty() {
+        return Ok(()); // refused for this
+    }
+    let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
+    let found = Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
+    match unless_too_many_bodies(found)? {
+        Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior { what: found.sentences() }),
+        _ => Ok(()),
+    }
+}
+
+/// A reduction that failed at a degree of freedom of the housing, with the part that it belongs to.
+fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
+    let dof = match error {
+        ReductionError::FloatingInterior { dof, .. } | ReductionError::SoftInterior { dof, .. } => dof,
+        other => return other.into(),
+    };
+    let node = dof / model.dimension();
+    let mut elements = model.elements().iter();
+    let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
+    let part = of_node.and_then(|element| model.part_names().get(element.part));
+    match (part, model.node_tags.get(node)) {
+        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.clone(), tag, source: error },
+        _ => error.into(),
     }
 }

@@ -20,9 +20,7 @@ pub(crate) mod housing;
 pub(crate) mod imported;
 #[cfg(test)]
 mod imported_tests;
-pub(crate) mod loose;
 pub(crate) mod places;
-pub(crate) mod reduced_interface;
 pub(crate) mod ring;
 pub(crate) mod structure;
 pub mod tie_price;
@@ -36,6 +34,5 @@ pub use free_system::FreeSystem;
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
-pub use reduced_interface::ReducedInterface;
 pub use ring::Boundary;
 pub use structure::CoupledStructure;

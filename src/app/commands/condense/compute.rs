@@ -2,14 +2,13 @@
 
 use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::loose::name_mechanisms;
-use crate::app::scene::reduced_interface::characteristic_modes;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
-use crate::app::scene::{AssembledHousing, doubts};
-use crate::app::scene::{CondensedHousing, ReducedInterface};
-use crate::fe::modal::{FullModes, ModeRange};
+use crate::app::scene::{AssembledHousing, Boundary, CondensedHousing, doubts};
+use crate::fe::assembly::SystemMatrices;
+use crate::fe::modal::{FullModes, Mechanisms, ModeRange, unless_too_many_bodies};
 use crate::fe::reduction::{
-    Check, ErrorEstimate, SizeErrors, Superelement, check_craig_bampton, check_interface_reduction, size_study,
+    CharacteristicModes, Check, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility, SizeErrors,
+    Superelement, check_craig_bampton, check_interface_reduction, size_study,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::EigenProblem;
@@ -21,6 +20,48 @@ const SAME: f64 = 1e-7;
 
 /// Errors of the reduction that are compared with their estimate: below it, both are the eigenvalues' own.
 const ABOVE_ROUND_OFF: f64 = 1e-8;
+
+/// A reduced interface and what it costs.
+#[derive(Debug, Clone)]
+pub struct ReducedInterface {
+    /// The superelement on modes of the interface.
+    pub reduction: InterfaceReduction,
+    /// What the frequencies in the band rise by, relative; 0 of rigid modes.
+    pub rises: Vec<f64>,
+    /// Share of the interface's static flexibility that is lost.
+    pub lost: LostFlexibility,
+}
+
+impl ReducedInterface {
+    /// The largest rise of a frequency in the band; 0 without modes.
+    pub(crate) fn largest_rise(&self) -> f64 {
+        self.rises.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The interface on as many modes as the case asks for, with the estimate of both reductions; `None` if it asks for
+    /// none. `estimate` is that of the whole interface.
+    ///
+    /// # Errors
+    /// [`ComputeError::Reduction`] for too few modes, and of the dense eigenvalue solver.
+    fn of(
+        case: &Case,
+        stage: &CondensedHousing,
+        modes: &CharacteristicModes,
+        estimate: &ErrorEstimate,
+    ) -> Result<Option<(Self, ErrorEstimate)>, ComputeError> {
+        let size = match case.condense.interface_modes {
+            InterfaceModes::None => return Ok(None),
+            InterfaceModes::Count(count) => InterfaceSize::Count(count),
+            InterfaceModes::UpToHz(hz) => InterfaceSize::UpTo(hz),
+        };
+        let reduction = InterfaceReduction::new(&stage.condensed, modes, size)?;
+        let attached = stage.boundary.attached();
+        let (estimate, rises) = reduction.estimate(&stage.condensed, attached, estimate)?;
+        let lost = modes.lost_flexibility(reduction.kept());
+        let reduced = Self { reduction, rises, lost };
+        Ok(Some((reduced, estimate)))
+    }
+}
 
 /// What is asked beside the superelement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,4 +243,35 @@ fn free_frequencies(found: &FullComparison, target: f64) -> Check {
         errors.fold(0.0, |largest: f64, error| largest.max(error.abs())),
         target,
     )
+}
+
+/// All modes of the interface of a condensed housing with what is attached to it.
+///
+/// # Errors
+/// [`ComputeError::Reduction`] of the dense eigenvalue solver.
+fn characteristic_modes(
+    stage: &CondensedHousing,
+    matrices: &SystemMatrices,
+) -> Result<CharacteristicModes, ComputeError> {
+    let rigid = stage.rigid_motions().free_interface(&stage.condensed, matrices)?;
+    Ok(CharacteristicModes::of(&stage.condensed.substructure, stage.boundary.attached(), &rigid)?)
+}
+
+/// Adds what of the whole housing can move to the check that says that something can.
+///
+/// # Errors
+/// [`ComputeError::Modal`] for a mesh that is not the model's.
+fn name_mechanisms(checks: &mut [Check], housing: &AssembledHousing, boundary: &Boundary) -> Result<(), ComputeError> {
+    let Some(held) = checks.iter_mut().find(|check| check.name == "held" && !check.ok()) else {
+        return Ok(());
+    };
+    let (mesh, model) = (&housing.mesh, &housing.model);
+    let found = match boundary.ring() {
+        Some((ring, tie)) => Mechanisms::find_with_ring(mesh, model, tie, ring),
+        None => Mechanisms::find(mesh, model),
+    };
+    for sentence in unless_too_many_bodies(found)?.map_or(Vec::new(), |found| found.sentences()) {
+        held.what = format!("{}; {sentence}", held.what);
+    }
+    Ok(())
 }

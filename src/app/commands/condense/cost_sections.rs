@@ -1,8 +1,7 @@
 //! What modes in the place of an interface cost, and error against size: sections of the report of `plummer condense`.
 
-use super::compute::{CondenseResult, FullComparison};
+use super::compute::{CondenseResult, FullComparison, ReducedInterface};
 use super::summary::hz;
-use crate::app::scene::ReducedInterface;
 use crate::fe::reduction::SizeErrors;
 use crate::report::{Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot, Section, Table, significant};
 

@@ -9,7 +9,7 @@ pub(crate) mod report;
 pub(crate) mod summary;
 pub(crate) mod superelement_record;
 
-pub use compute::{Comparison, CondenseResult, FullComparison, compute_condense};
+pub use compute::{Comparison, CondenseResult, FullComparison, ReducedInterface, compute_condense};
 pub(crate) use report::{condense_report, imported_report};
 pub use summary::{CondenseSummary, EstimateSummary, ImportedSummary, InterfaceSummary};
 pub(crate) use superelement_record::reduced_superelement_record;

@@ -1,9 +1,9 @@
 //! What `condense.json` says.
 
-use super::CondenseResult;
+use super::{CondenseResult, ReducedInterface};
 use crate::app::commands::parts::CheckSummary;
+use crate::app::scene::ImportedHousing;
 use crate::app::scene::tie_price::TiePrice;
-use crate::app::scene::{ImportedHousing, ReducedInterface};
 use crate::fe::reduction::{LostFlexibility, SizeErrors};
 use schemars::JsonSchema;
 use serde::Serialize;
