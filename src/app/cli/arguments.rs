@@ -5,7 +5,6 @@ use super::{AnalyzeArguments, CliError, SweepArguments};
 use crate::app::case::{Case, replaced_argument};
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::app::shell_word::shell_word;
-use crate::app::studies::chart::Effort;
 use crate::numerics::units::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -411,15 +410,6 @@ impl Command {
             other => &[other.name()],
         };
         names.iter().map(|name| format!("{name}.json")).collect()
-    }
-
-    /// How much a chart computes.
-    #[must_use]
-    pub(crate) fn effort(&self) -> Effort {
-        match self {
-            Self::Chart { quick: true, .. } => Effort::Quick,
-            _ => Effort::Full,
-        }
     }
 }
 

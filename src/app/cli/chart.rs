@@ -13,29 +13,26 @@ use crate::app::studies::chart::{
 };
 use crate::report::significant;
 
-/// What of the charts is computed, and how much.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Wanted {
-    pub(super) effort: Effort,
-    /// Both parts without it.
-    pub(super) only: Option<ChartPart>,
-}
-
 /// Computes the charts of a case and writes their pictures, the report, its tables and, last, `stability.json` and
 /// `chart.json`; of one part alone what belongs to it.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn chart(case: &Case, wanted: Wanted, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+pub(super) fn chart(
+    case: &Case,
+    effort: Effort,
+    only: Option<ChartPart>,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let command = result_command(wanted, &options.command_line("chart", case));
-    if wanted.only == Some(ChartPart::Stability) {
-        return alone(case, wanted.effort, &command, options, progress);
+    let command = result_command(effort, only, &options.command_line("chart", case));
+    if only == Some(ChartPart::Stability) {
+        return alone(case, effort, &command, options, progress);
     }
-    let effort = wanted.effort;
     let run = case.for_chart().map_err(ComputeError::from)?;
     let result = compute_chart(run, effort, progress)?;
-    let stability = match wanted.only {
+    let stability = match only {
         None => {
             let conditions = Condition::all(case, effort);
             let map = compute_stability(run, &result.scene, conditions, effort, progress)?;
@@ -75,9 +72,9 @@ pub(super) fn chart(case: &Case, wanted: Wanted, options: &Options, progress: &P
 }
 
 /// The command line with what it computed.
-fn result_command(wanted: Wanted, line: &str) -> String {
-    let part = wanted.only.map_or(String::new(), |part| format!(" --only {}", part.name()));
-    match wanted.effort {
+fn result_command(effort: Effort, only: Option<ChartPart>, line: &str) -> String {
+    let part = only.map_or(String::new(), |part| format!(" --only {}", part.name()));
+    match effort {
         Effort::Full => format!("{line}{part}"),
         Effort::Quick => format!("{line}{part} --quick"),
     }
@@ -153,7 +150,7 @@ mod tests {
 
     use serde_json::Value;
 
-    use super::{ChartPart, Effort, Options, Progress, Wanted, chart};
+    use super::{ChartPart, Effort, Options, Progress, chart};
     use crate::app::case::Case;
     use crate::app::cli::Visibility;
 
@@ -171,8 +168,7 @@ mod tests {
         fs::create_dir_all(&out).unwrap();
         let options = Options { out: Some(out.clone()), ..Options::default() };
         let progress = Progress::new(Visibility::Hidden);
-        let wanted = Wanted { effort: Effort::Quick, only: Some(ChartPart::Accuracy) };
-        let outcome = chart(&case, wanted, &options, &progress).unwrap();
+        let outcome = chart(&case, Effort::Quick, Some(ChartPart::Accuracy), &options, &progress).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");
         // nothing grows where all balls stay in contact: the span, in whole windows of ten periods

@@ -2,7 +2,7 @@
 
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings};
-use super::{Arguments, CliError, Command, Options, Outcome, OutputFolder, Progress};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::condense::{
     Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
@@ -18,13 +18,14 @@ use crate::formats::write_superelement_npz;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(crate) fn condense(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
+pub(crate) fn condense(
+    case: &Case,
+    compare_full: bool,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let options = &arguments.options;
-    let comparison = match &arguments.command {
-        Command::Condense { compare_full: true, .. } => Comparison::Full,
-        _ => Comparison::None,
-    };
+    let comparison = if compare_full { Comparison::Full } else { Comparison::None };
     if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
         progress.stage("check");
         let (imported, _) = ImportedHousing::read(case, ring, path)?;
@@ -34,7 +35,7 @@ pub(crate) fn condense(case: &Case, arguments: &Arguments, progress: &Progress) 
     progress.stage("write");
     let folder = OutputFolder::of(case, options);
     let mut command = options.command_line("condense", case);
-    if comparison == Comparison::Full {
+    if compare_full {
         command.push_str(" --compare-full");
     }
     let report = condense_report(case, &result, &command);

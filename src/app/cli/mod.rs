@@ -32,6 +32,7 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::Parser;
 
@@ -44,6 +45,7 @@ pub use progress::{Progress, StageTime, Visibility};
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
+use crate::app::studies::chart::Effort;
 
 /// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
 const STACK: usize = 8 << 20;
@@ -110,11 +112,25 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     let outcome = match &arguments.command {
         Command::Completions { shell } => return shell::completions(*shell, to),
         Command::Man => return shell::man(options, to),
-        Command::Run { case, .. } => compute(case, Purpose::Run, arguments),
-        Command::Modes { case } => compute(case, Purpose::Modes, arguments),
-        Command::Condense { case, .. } => compute(case, Purpose::Condense, arguments),
-        Command::Frf { case } => compute(case, Purpose::Frf, arguments),
-        Command::Chart { case, .. } => compute(case, Purpose::Chart, arguments),
+        Command::Run { case, explain: true, .. } => compute(case, Purpose::Run, arguments, run::explain),
+        Command::Run { case, resume, checkpoint_every, .. } => {
+            compute(case, Purpose::Run, arguments, |case, progress| {
+                run::run(case, *resume, Duration::from_secs_f64(*checkpoint_every), options, progress)
+            })
+        }
+        Command::Modes { case } => {
+            compute(case, Purpose::Modes, arguments, |case, progress| modes::modes(case, options, progress))
+        }
+        Command::Condense { case, compare_full } => compute(case, Purpose::Condense, arguments, |case, progress| {
+            condense::condense(case, *compare_full, options, progress)
+        }),
+        Command::Frf { case } => {
+            compute(case, Purpose::Frf, arguments, |case, progress| frf::frf(case, options, progress))
+        }
+        Command::Chart { case, quick, only } => compute(case, Purpose::Chart, arguments, |case, progress| {
+            let effort = if *quick { Effort::Quick } else { Effort::Full };
+            chart::chart(case, effort, *only, options, progress)
+        }),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Sweep(asked) => sweep::sweep(asked, options),
@@ -128,19 +144,19 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     outcome.verdict
 }
 
-/// Reads a case and carries out what it is to be used for.
-fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outcome, CliError> {
+/// Reads a case, takes the folder for its results, and does `work` with it.
+fn compute(
+    path: &Path,
+    purpose: Purpose,
+    arguments: &Arguments,
+    work: impl FnOnce(&Case, &Progress) -> Result<Outcome, CliError>,
+) -> Result<Outcome, CliError> {
     let options = &arguments.options;
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
     let folder = OutputFolder::of(&case, options);
-    if let Command::Run { explain: true, .. } = arguments.command {
-        let progress = Progress::new(options.visibility());
-        let outcome = run::explain(&case, &progress);
-        progress.finish();
-        return outcome;
-    }
     match arguments.command {
+        Command::Run { explain: true, .. } => {}
         Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
         _ => {
             let files = arguments.command.result_files();
@@ -149,20 +165,7 @@ fn compute(path: &Path, purpose: Purpose, arguments: &Arguments) -> Result<Outco
         }
     }
     let progress = Progress::new(options.visibility());
-    let outcome = match purpose {
-        Purpose::Run => run::run(&case, arguments, &progress),
-        Purpose::Modes => modes::modes(&case, options, &progress),
-        Purpose::Condense => condense::condense(&case, arguments, &progress),
-        Purpose::Frf => frf::frf(&case, options, &progress),
-        Purpose::Chart => {
-            let only = match arguments.command {
-                Command::Chart { only, .. } => only,
-                _ => None,
-            };
-            let effort = arguments.command.effort();
-            chart::chart(&case, chart::Wanted { effort, only }, options, &progress)
-        }
-    };
+    let outcome = work(&case, &progress);
     progress.finish();
     outcome
 }

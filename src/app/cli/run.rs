@@ -4,10 +4,10 @@ use super::earlier_results::digests;
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{case_result, warnings, write_scalograms, write_signals};
-use super::{Arguments, CliError, Command, Outcome, OutputFolder, Progress, interrupt};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
-use crate::app::commands::run::unfinished::{CHECKPOINT_S, RunIdentity, UnfinishedRun};
+use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
@@ -56,19 +56,37 @@ pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliEr
 /// Computes the run of a case and writes `signals.npz`, `report.html`, its tables and, last, `run.json`. Until then its rows
 /// and checkpoints are in a folder that is removed at the end.
 ///
+/// With `resume` it goes on with the unfinished run; checkpoints are `pause` of wall time apart.
+///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or is interrupted, or a file cannot be written.
-pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Result<Outcome, CliError> {
-    let (started, options) = (std::time::Instant::now(), &arguments.options);
+pub(crate) fn run(
+    case: &Case,
+    resume: bool,
+    pause: Duration,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
+    let started = std::time::Instant::now();
     let folder = OutputFolder::of(case, options);
-    let mut unfinished = unfinished(case, arguments, &folder)?;
+    let partial = folder.path().join(PARTIAL);
+    if !resume && !options.force && UnfinishedRun::is_in(&partial) {
+        return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
+            .with_help("go on with --resume, or give it up and begin anew with --force"));
+    }
+    let identity = RunIdentity::of(case)?;
+    let mut unfinished = match resume {
+        true => UnfinishedRun::resume(&partial, identity)?,
+        false => UnfinishedRun::begin(&partial, identity),
+    };
+    (unfinished.every, unfinished.stop) = (pause, interrupt::stop_request()?);
     let result = compute_kept_run(case, progress, &mut unfinished);
     let result = result.map_err(|error| match error {
         ComputeError::Interrupted { .. } => CliError::interrupted(
             &error.to_string(),
             "the signals so far and a checkpoint are",
             &unfinished.folder,
-            &again(case, arguments),
+            &again(case, options),
         ),
         error => error.into(),
     })?;
@@ -91,29 +109,8 @@ pub(crate) fn run(case: &Case, arguments: &Arguments, progress: &Progress) -> Re
     })
 }
 
-/// The run to begin or to go on with.
-fn unfinished(case: &Case, arguments: &Arguments, folder: &OutputFolder) -> Result<UnfinishedRun, CliError> {
-    let partial = folder.path().join(PARTIAL);
-    let (resume, pause) = match arguments.command {
-        Command::Run { resume, checkpoint_every, .. } => (resume, checkpoint_every),
-        _ => (false, CHECKPOINT_S),
-    };
-    let in_the_way = !resume && !arguments.options.force && UnfinishedRun::is_in(&partial);
-    if in_the_way {
-        return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
-            .with_help("go on with --resume, or give it up and begin anew with --force"));
-    }
-    let identity = RunIdentity::of(case)?;
-    let mut run =
-        if resume { UnfinishedRun::resume(&partial, identity)? } else { UnfinishedRun::begin(&partial, identity) };
-    let stop = interrupt::stop_request()?;
-    (run.every, run.stop) = (Duration::from_secs_f64(pause), stop);
-    Ok(run)
-}
-
 /// The command line that goes on with a run.
-fn again(case: &Case, arguments: &Arguments) -> String {
-    let options = &arguments.options;
+fn again(case: &Case, options: &Options) -> String {
     let mut line = options.command_line("run", case);
     if let Some(out) = &options.out {
         line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
