@@ -13,7 +13,7 @@ use crate::fe::model::{HousingModel, ModelError, NodeInterface, RingError};
 use crate::fe::reduction::ReductionError;
 use crate::fe::reduction::frf::FrfError;
 use crate::files::{Fault, FileError, Place};
-use crate::formats::{ColumnError, FormatError, MeasuredError};
+use crate::formats::{FormatError, MeasuredError};
 use crate::numerics::linalg::HarmonicError;
 use crate::numerics::linalg::LinalgError;
 use crate::numerics::ode::TransientError;
@@ -367,9 +367,6 @@ pub enum ComputeError {
         /// How far it was to go, s.
         end_s: f64,
     },
-    /// Columns of a run on disk.
-    #[error(transparent)]
-    Columns(#[from] ColumnError),
     /// Records.
     #[error(transparent)]
     Series(#[from] SeriesError),
@@ -408,7 +405,7 @@ impl ComputeError {
             Self::OtherMesh { source, .. } => source.help(),
             Self::Import { source, .. } => source.help(),
             Self::Unfinished(error) => error.help(),
-            Self::Columns(ColumnError::Cut { .. }) => Some(UnfinishedError::ANEW.to_owned()),
+            Self::Format(FormatError::CutColumn { .. }) => Some(UnfinishedError::ANEW.to_owned()),
             Self::InterfaceHeld { .. } => Some(
                 "name other nodes in condense.interface, or take the support off them".to_owned(),
             ),
@@ -459,8 +456,8 @@ impl ComputeError {
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
             Self::Unfinished(error) => error.is_input(),
-            Self::Interrupted { .. } | Self::Columns(ColumnError::File(_)) => false,
-            Self::MeshChanged { .. } | Self::Series(_) | Self::Format(_) | Self::Report(_) => false,
+            Self::Format(error) => matches!(error, FormatError::CutColumn { .. }),
+            Self::Interrupted { .. } | Self::MeshChanged { .. } | Self::Series(_) | Self::Report(_) => false,
             _ => true,
         }
     }

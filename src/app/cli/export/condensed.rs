@@ -62,7 +62,7 @@ pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> 
     let record = condensed(case, progress)?;
     let reference = reference(&record.interface);
     let path = folder.path().join("superelement.fem");
-    let written = write_mbdyn_fem(&path, &record, reference).map_err(ExportError::from)?;
+    let written = write_mbdyn_fem(&path, &record, reference).map_err(ExportError::Mbdyn)?;
     let joint = match (written.mass, reference) {
         (None, _) => "held by its supports: `clamped` in MBDyn's joint".to_owned(),
         (Some(mass), MbdynReference::Node { body, node }) => format!(

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::files::{Fault, FileError};
-use crate::formats::{FormatError, MbdynError};
+use crate::formats::FormatError;
 
 /// Why something was not exported.
 #[derive(Debug, Error)]
@@ -61,7 +61,7 @@ pub enum ExportError {
     Format(#[from] FormatError),
     /// The data of a modal element.
     #[error("--to mbdyn: {0}")]
-    Mbdyn(#[from] MbdynError),
+    Mbdyn(FormatError),
 }
 
 impl ExportError {
@@ -72,7 +72,7 @@ impl ExportError {
             self,
             Self::File(_)
                 | Self::Format(FormatError::File(FileError::Write { .. }))
-                | Self::Mbdyn(MbdynError::File(_) | MbdynError::Eigen { .. })
+                | Self::Mbdyn(FormatError::File(_) | FormatError::Eigen(_))
         )
     }
 
@@ -89,7 +89,7 @@ impl ExportError {
                 "--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"
                     .to_owned()
             }
-            Self::Mbdyn(MbdynError::RigidMotions { .. }) => {
+            Self::Mbdyn(FormatError::RigidMotions { .. }) => {
                 "MBDyn's bodies are solid: a housing that is free in space, or held by its supports".to_owned()
             }
             Self::Shapes(_) => "ask for more modes in [modes]".to_owned(),

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::super::stated::{is_bare_rate, is_rate, speed_unit};
-use super::element::{ByteOrder, Element, Elements, Fault, MATRIX};
-use super::numbers::Numbers;
+use super::element::{Element, Elements, Fault, MATRIX};
+use crate::formats::bytes::{ByteOrder, NumberType};
 
 /// Deepest struct in a struct.
 const DEEPEST: usize = 32;
@@ -40,7 +40,7 @@ pub(super) struct Array {
     pub(super) variable: usize,
     pub(super) shape: Shape,
     pub(super) complex: bool,
-    pub(super) numbers: Numbers,
+    pub(super) numbers: NumberType,
     /// Where its numbers are in that variable.
     pub(super) data: Range<usize>,
 }
@@ -188,7 +188,7 @@ impl Search<'_> {
     fn numbers(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, complex: bool) -> Result<(), Fault> {
         let at = parts.place();
         let element = parts.take("numbers")?;
-        let Some(numbers) = Numbers::of(element.kind) else {
+        let Some(numbers) = number_type(element.kind) else {
             let found = format!("an element of type {}", element.kind);
             return Err(Fault::new(at, "numbers", found));
         };
@@ -229,6 +229,23 @@ impl Search<'_> {
 fn says_something(array: &Array) -> bool {
     let (_, name) = array.scope_and_name();
     !array.complex && (is_rate(name) || is_bare_rate(name) || speed_unit(name).is_some())
+}
+
+/// The type of an element's numbers, which may be narrower than the array's class; `None` if it holds none.
+fn number_type(element: u32) -> Option<NumberType> {
+    Some(match element {
+        1 => NumberType::I8,
+        2 => NumberType::U8,
+        3 => NumberType::I16,
+        4 => NumberType::U16,
+        5 => NumberType::I32,
+        6 => NumberType::U32,
+        7 => NumberType::F32,
+        9 => NumberType::F64,
+        12 => NumberType::I64,
+        13 => NumberType::U64,
+        _ => return None,
+    })
 }
 
 fn product(sizes: &[usize]) -> Option<usize> {

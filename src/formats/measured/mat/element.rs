@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::formats::bytes::ByteOrder;
+
 /// Types of elements that hold others.
 pub(super) const MATRIX: u32 = 14;
 pub(super) const COMPRESSED: u32 = 15;
@@ -10,32 +12,6 @@ pub(super) const COMPRESSED: u32 = 15;
 const TAG: usize = 8;
 /// Most bytes that stand in the tag itself.
 const SMALL: usize = 4;
-
-/// Which byte of a number comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ByteOrder {
-    Little,
-    Big,
-}
-
-impl ByteOrder {
-    /// The first bytes, lowest first; those that are missing are zero.
-    pub(super) fn lowest_first<const N: usize>(self, bytes: &[u8]) -> [u8; N] {
-        let mut own = [0; N];
-        for (to, from) in own.iter_mut().zip(bytes) {
-            *to = *from;
-        }
-        if self == Self::Big {
-            own.reverse();
-        }
-        own
-    }
-
-    /// The first four bytes as a number.
-    pub(super) fn u32(self, bytes: &[u8]) -> u32 {
-        u32::from_le_bytes(self.lowest_first(bytes))
-    }
-}
 
 /// Something that is not what the format has there.
 #[derive(Debug, Clone, PartialEq)]

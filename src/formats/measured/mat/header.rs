@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::super::MeasuredError;
-use super::element::ByteOrder;
 use crate::files::Fault;
+use crate::formats::bytes::ByteOrder;
 
 /// Bytes of the head.
 pub(super) const HEAD: usize = 128;

@@ -9,10 +9,11 @@ use super::super::clock::Clock;
 use super::super::{MeasuredError, MeasuredSignal, SignalRequest};
 use super::array::{Array, Search, Shape};
 use super::beside::{Taken, is_time, speed_hz, taken};
-use super::element::{ByteOrder, Fault};
+use super::element::Fault;
 use super::header::byte_order;
 use super::variable::{Variable, variables};
 use crate::files::{self, bytes_of};
+use crate::formats::bytes::ByteOrder;
 
 /// A file whose arrays are known and not read.
 struct MatFile<'a> {

@@ -6,8 +6,9 @@ use std::ops::Range;
 
 use flate2::read::ZlibDecoder;
 
-use super::element::{ByteOrder, COMPRESSED, Elements, Fault, MATRIX};
+use super::element::{COMPRESSED, Elements, Fault, MATRIX};
 use super::header::HEAD;
+use crate::formats::bytes::ByteOrder;
 
 /// Most bytes a variable, as of MATLAB itself: "2 GB per variable" (The MathWorks, "MAT-file versions", version 7).
 const LARGEST: usize = 1 << 31;
