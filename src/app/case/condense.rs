@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{any_of, one_of, table, whole, words};
-use super::union::{Loose, Mismatch, read_as};
+use super::union::{Loose, Mismatch, exactly_one, read_as};
 
 /// How the housing is condensed onto the ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,12 +67,9 @@ impl TryFrom<Loose<InterfaceForm>> for Interface {
         const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
         match form {
             Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Table(InterfaceForm { group: Some(group), nodes: None }) => Ok(Self::Group(group)),
-            Loose::Table(InterfaceForm { group: None, nodes: Some(nodes) }) => Ok(Self::Nodes(nodes)),
-            Loose::Table(InterfaceForm { group: None, .. }) => {
-                Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
+            Loose::Table(InterfaceForm { group, nodes }) => {
+                exactly_one([group.map(Self::Group), nodes.map(Self::Nodes)], "one of `group`, `nodes`")
             }
-            Loose::Table(_) => Err(Mismatch::form("several", "one of `group`, `nodes`")),
             other => Err(other.mismatch(&["ring"], FORMS)),
         }
     }

@@ -11,7 +11,7 @@ use crate::numerics::units::LengthUnit;
 
 use super::schema::{one_of, together};
 use super::spring::{Spring, SpringKeys};
-use super::union::{Mismatch, written_as};
+use super::union::{Mismatch, exactly_one, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -113,17 +113,17 @@ impl TryFrom<SupportForm> for Support {
     fn try_from(form: SupportForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
         let per = form.per.unwrap_or_default();
-        let hold = match (form.fixed, form.spring, form.radial) {
-            (Some(_), None, None) if form.per.is_some() => {
-                return Err(Mismatch::form("`per` beside `fixed`", "`per` beside `spring` or `radial` only"));
+        let holds = [
+            form.fixed.map(Hold::Fixed),
+            form.spring.map(|spring| Hold::Spring(spring.into(), per)),
+            form.radial.map(|radial| Hold::Spring(SpringStiffness::Radial(radial), per)),
+        ];
+        match exactly_one(holds, ONE)? {
+            Hold::Fixed(_) if form.per.is_some() => {
+                Err(Mismatch::form("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
             }
-            (Some(axes), None, None) => Hold::Fixed(axes),
-            (None, Some(spring), None) => Hold::Spring(spring.into(), per),
-            (None, None, Some(radial)) => Hold::Spring(SpringStiffness::Radial(radial), per),
-            (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
-            _ => return Err(Mismatch::form("several", ONE)),
-        };
-        Ok(Self { group: form.group, hold })
+            hold => Ok(Self { group: form.group, hold }),
+        }
     }
 }
 

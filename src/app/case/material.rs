@@ -80,15 +80,6 @@ impl Material {
             Self::Orthotropic(material) => material.density,
         }
     }
-
-    /// The isotropic material, if it is one.
-    #[must_use]
-    pub(crate) fn isotropic(&self) -> Option<&IsotropicMaterial> {
-        match self {
-            Self::Isotropic(material) => Some(material),
-            Self::Orthotropic(_) => None,
-        }
-    }
 }
 
 #[derive(Deserialize, JsonSchema)]

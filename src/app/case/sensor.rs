@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{Mismatch, read_as};
+use super::union::{Mismatch, exactly_one, read_as};
 
 /// An accelerometer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -73,53 +73,23 @@ impl TryFrom<SensorForm> for Sensor {
 
     fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
-        let keys = SpotKeys {
-            group: form.group,
-            ring_deg: form.ring_deg,
-            node: form.node,
-            point: form.point,
-            recovered: form.recovered,
-        };
-        let spot = keys.spot(ONE)?;
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+            form.recovered.map(SensorSpot::Recovered),
+        ];
+        let spot = exactly_one(spots, ONE)?;
         let direction = match (&spot, form.direction) {
             (SensorSpot::Recovered(_), None) => [0.0; 3],
             (SensorSpot::Recovered(_), Some(_)) => {
-                return Err(Mismatch::form(
-                    "`direction` beside `recovered`",
-                    "`recovered` alone: its row has a direction",
-                ));
+                let expected = "`recovered` alone: its row has a direction";
+                return Err(Mismatch::form("`direction` beside `recovered`", expected));
             }
             (_, Some(direction)) => direction,
             (_, None) => return Err(Mismatch::Missing { key: "direction" }),
         };
         Ok(Self { name: form.name, spot, direction })
-    }
-}
-
-/// A place by the key that it is written with: one of them has a value.
-pub(super) struct SpotKeys {
-    pub group: Option<String>,
-    pub ring_deg: Option<f64>,
-    pub node: Option<u64>,
-    pub point: Option<[f64; 3]>,
-    pub recovered: Option<String>,
-}
-
-impl SpotKeys {
-    /// The one place that was given; `expected` says which keys there are.
-    pub(super) fn spot(self, expected: &'static str) -> Result<SensorSpot, Mismatch> {
-        let spots = [
-            self.group.map(SensorSpot::Group),
-            self.ring_deg.map(SensorSpot::RingDeg),
-            self.node.map(SensorSpot::Node),
-            self.point.map(SensorSpot::Point),
-            self.recovered.map(SensorSpot::Recovered),
-        ];
-        let mut given = spots.into_iter().flatten();
-        match (given.next(), given.next()) {
-            (Some(spot), None) => Ok(spot),
-            (None, _) => Err(Mismatch::form("none of them", expected)),
-            _ => Err(Mismatch::form("several", expected)),
-        }
     }
 }

@@ -32,6 +32,19 @@ impl Mismatch {
     }
 }
 
+/// The one value that several keys give; `expected` says which keys there are.
+pub(super) fn exactly_one<T>(
+    values: impl IntoIterator<Item = Option<T>>,
+    expected: &'static str,
+) -> Result<T, Mismatch> {
+    let mut given = values.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (Some(value), None) => Ok(value),
+        (None, _) => Err(Mismatch::form("none of them", expected)),
+        _ => Err(Mismatch::form("several", expected)),
+    }
+}
+
 /// Reads a type by way of the type that mirrors its form in the file (`TryFrom<Form, Error = Mismatch>`): what serde derives for flattened and
 /// untagged types loses the place of an error, the path of its key and the names that are valid there. The type's schema is that of the form, or
 /// what the function returns for a form whose type does not say it.
