@@ -1,12 +1,13 @@
 //! `[frf]`: transfer paths from where forces act to sensors.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
 use super::schema::one_of;
 use super::sensor::SensorSpot;
-use super::union::{Mismatch, exactly_one, read_as};
+use super::union::{ReadAs, exactly_one, read_as};
 
 /// Transfer paths: from every force to every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,10 +63,8 @@ struct PushForm {
 
 read_as!(Push, PushForm);
 
-impl TryFrom<PushForm> for Push {
-    type Error = Mismatch;
-
-    fn try_from(form: PushForm) -> Result<Self, Mismatch> {
+impl ReadAs<PushForm> for Push {
+    fn read_as<E: Error>(form: PushForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
         let spots = [
             form.group.map(SensorSpot::Group),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use crate::fe::element::continuum::Formulation;
@@ -11,7 +12,7 @@ use crate::numerics::units::LengthUnit;
 
 use super::schema::{one_of, together};
 use super::spring::{Spring, SpringKeys};
-use super::union::{Mismatch, exactly_one, written_as};
+use super::union::{ReadAs, exactly_one, mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -107,10 +108,8 @@ struct SupportForm {
 
 written_as!(Support, SupportForm);
 
-impl TryFrom<SupportForm> for Support {
-    type Error = Mismatch;
-
-    fn try_from(form: SupportForm) -> Result<Self, Mismatch> {
+impl ReadAs<SupportForm> for Support {
+    fn read_as<E: Error>(form: SupportForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
         let per = form.per.unwrap_or_default();
         let holds = [
@@ -120,7 +119,7 @@ impl TryFrom<SupportForm> for Support {
         ];
         match exactly_one(holds, ONE)? {
             Hold::Fixed(_) if form.per.is_some() => {
-                Err(Mismatch::form("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
+                Err(mismatch("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
             }
             hold => Ok(Self { group: form.group, hold }),
         }

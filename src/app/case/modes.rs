@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::schema::together;
-use super::union::{Mismatch, read_as};
+use super::union::{ReadAs, mismatch, read_as};
 use crate::fe::modal::ModeRange;
 
 /// What the `modes` command computes and checks.
@@ -83,8 +84,8 @@ pub struct Variant {
     pub set: Vec<String>,
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 #[schemars(extend("not" = json!({ "anyOf": [
     together(&["count", "up_to_hz"]),
     together(&["count", "band_hz"]),
@@ -99,30 +100,23 @@ struct ModesForm {
     /// All between two frequencies in Hz, 0 <= low < high.
     band_hz: Option<[f64; 2]>,
     /// Frequencies to be found among them; may be empty.
-    #[serde(default)]
     expected: Vec<Expected>,
     /// Whether the bearing's contacts act.
-    #[serde(default)]
     linearise: Linearise,
     /// The same case with other keys set, shown beside; may be empty.
-    #[serde(default)]
     variants: Vec<Variant>,
     /// Modes from elsewhere that these are compared with; may be empty.
-    #[serde(default)]
     compare: Vec<ComparedModes>,
     /// Other meshes of the housing that tell the discretisation's error.
     convergence: Option<ConvergenceMeshes>,
     /// Whether loaded modes are followed over a ball pass and over the load; with `linearise = "static"`.
-    #[serde(default)]
     ball_pass: bool,
 }
 
 read_as!(Modes, ModesForm);
 
-impl TryFrom<ModesForm> for Modes {
-    type Error = Mismatch;
-
-    fn try_from(form: ModesForm) -> Result<Self, Mismatch> {
+impl ReadAs<ModesForm> for Modes {
+    fn read_as<E: Error>(form: ModesForm) -> Result<Self, E> {
         let extent = match (form.count, form.up_to_hz, form.band_hz) {
             // the default, written down, is the default
             (Some(DEFAULT_COUNT), None, None) => ModeRange::AtMost(DEFAULT_COUNT),
@@ -132,7 +126,7 @@ impl TryFrom<ModesForm> for Modes {
             (None, None, None) => Self::default().extent,
             _ => {
                 let expected = "one of `count`, `up_to_hz`, `band_hz`";
-                return Err(Mismatch::form("several", expected));
+                return Err(mismatch("several", expected));
             }
         };
         Ok(Self {

@@ -1,10 +1,11 @@
 //! `[[sensors]]`: where acceleration is recorded.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{Mismatch, exactly_one, read_as};
+use super::union::{ReadAs, exactly_one, mismatch, read_as};
 
 /// An accelerometer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -68,10 +69,8 @@ struct SensorForm {
 
 read_as!(Sensor, SensorForm);
 
-impl TryFrom<SensorForm> for Sensor {
-    type Error = Mismatch;
-
-    fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
+impl ReadAs<SensorForm> for Sensor {
+    fn read_as<E: Error>(form: SensorForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
         let spots = [
             form.group.map(SensorSpot::Group),
@@ -85,10 +84,10 @@ impl TryFrom<SensorForm> for Sensor {
             (SensorSpot::Recovered(_), None) => [0.0; 3],
             (SensorSpot::Recovered(_), Some(_)) => {
                 let expected = "`recovered` alone: its row has a direction";
-                return Err(Mismatch::form("`direction` beside `recovered`", expected));
+                return Err(mismatch("`direction` beside `recovered`", expected));
             }
             (_, Some(direction)) => direction,
-            (_, None) => return Err(Mismatch::Missing { key: "direction" }),
+            (_, None) => return Err(E::missing_field("direction")),
         };
         Ok(Self { name: form.name, spot, direction })
     }

@@ -1,24 +1,22 @@
 //! Springs of a support or a link, and links between groups of a housing, as the case file gives them.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{Mismatch, exactly_one, written_as};
+use super::union::{ReadAs, exactly_one, mismatch, written_as};
 use crate::fe::model::{Connection, Link, SpringStiffness, SupportShare};
 
 /// Spring stiffnesses along the axes in N/m, each >= 0 and at least one > 0.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Spring {
     /// Along x.
-    #[serde(default)]
     pub x: f64,
     /// Along y.
-    #[serde(default)]
     pub y: f64,
     /// Along z; solid models only.
-    #[serde(default)]
     pub z: f64,
 }
 
@@ -70,10 +68,8 @@ struct LinkForm {
 
 written_as!(Link, LinkForm);
 
-impl TryFrom<LinkForm> for Link {
-    type Error = Mismatch;
-
-    fn try_from(form: LinkForm) -> Result<Self, Mismatch> {
+impl ReadAs<LinkForm> for Link {
+    fn read_as<E: Error>(form: LinkForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `spring`, `radial`, `tie = true`";
         let per = form.per.unwrap_or_default();
         let connections = [
@@ -82,9 +78,9 @@ impl TryFrom<LinkForm> for Link {
             form.tie.map(|_| Connection::Tie),
         ];
         match exactly_one(connections, ONE)? {
-            Connection::Tie if form.tie == Some(false) => Err(Mismatch::form("`tie = false`", ONE)),
+            Connection::Tie if form.tie == Some(false) => Err(mismatch("`tie = false`", ONE)),
             Connection::Tie if form.per.is_some() => {
-                Err(Mismatch::form("`per` beside `tie`", "`per` beside `spring` or `radial` only"))
+                Err(mismatch("`per` beside `tie`", "`per` beside `spring` or `radial` only"))
             }
             connection => Ok(Self { between: form.between, connection }),
         }

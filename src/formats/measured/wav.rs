@@ -23,7 +23,10 @@ const IDENTIFIER_END: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38
 /// Data Specifications 1.0" (1991); extensible heads: Microsoft, "Multiple channel audio data and WAVE files" (2007).
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let bytes = bytes_of(path)?;
-    let fault = |found: String| MeasuredError::Wav { path: path.to_owned(), found };
+    let fault = |found: String| {
+        const EXPECTED: &str = "a sound file (RIFF WAVE, PCM of 8 to 32 bits, float of 32 or 64)";
+        MeasuredError::refused(format!("{}: expected {EXPECTED}, found: {found}", path.display()))
+    };
     let (format, data) = parts(&bytes).map_err(fault)?;
     let names: Vec<String> = (1..=format.channels).map(|n| format!("channel {n}")).collect();
     let wanted = choose(path, &names, request)?;
