@@ -10,7 +10,7 @@ use crate::fe::model::{HousingModel, ModelError, NodeInterface, RingError};
 use crate::fe::reduction::ReductionError;
 use crate::fe::reduction::frf::FrfError;
 use crate::files::{Fault, FileError, Place};
-use crate::formats::{ColumnError, FormatError, MeasuredError};
+use crate::formats::{FormatError, MeasuredError};
 use crate::numerics::linalg::HarmonicError;
 use crate::numerics::linalg::LinalgError;
 use crate::numerics::ode::TransientError;
@@ -341,9 +341,6 @@ pub enum ComputeError {
         /// How far it was to go, s.
         end_s: f64,
     },
-    /// Columns of a run on disk.
-    #[error(transparent)]
-    Columns(#[from] ColumnError),
     /// Records.
     #[error(transparent)]
     Series(#[from] SeriesError),
@@ -413,8 +410,7 @@ impl ComputeError {
             Self::Case(error) => error.help(),
             Self::Measured(error) => error.help(),
             Self::OtherMesh { source, .. } => source.help(),
-            Self::Failed { help, .. } => help.clone(),
-            Self::Columns(ColumnError::Cut { .. }) => Some(Self::ANEW.to_owned()),
+            Self::Format(FormatError::CutColumn { .. }) => Some(Self::ANEW.to_owned()),
             Self::InterfaceHeld { .. } => Some(
                 "name other nodes in condense.interface, or take the support off them".to_owned(),
             ),
@@ -465,10 +461,9 @@ impl ComputeError {
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),
             Self::OtherMesh { source, .. } => source.is_input(),
             Self::Signal(_) => true,
-            Self::Failed { .. } | Self::Interrupted { .. } | Self::File(_) | Self::Columns(ColumnError::File(_)) => {
-                false
-            }
-            Self::MeshChanged { .. } | Self::Series(_) | Self::Format(_) | Self::Report(_) => false,
+            Self::Format(error) => matches!(error, FormatError::CutColumn { .. }),
+            Self::Failed { .. } | Self::Interrupted { .. } | Self::File(_) => false,
+            Self::MeshChanged { .. } | Self::Series(_) | Self::Report(_) => false,
             _ => true,
         }
     }

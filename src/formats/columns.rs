@@ -8,11 +8,10 @@ use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-use thiserror::Error;
-
+use super::FormatError;
 use crate::files::{FileError, hex, no_link, sha256};
 use crate::system::{Column, RunRecord};
+use sha2::{Digest, Sha256};
 
 /// Bytes a number.
 const BYTES: usize = size_of::<f64>();
@@ -30,24 +29,6 @@ pub struct ColumnFiles {
     files: Vec<(Column, File)>,
     /// Of each file's rows.
     hashers: Vec<Sha256>,
-}
-
-/// Why columns cannot be written or read.
-#[derive(Debug, Error)]
-pub enum ColumnError {
-    /// The file system refused.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A file that lacks rows which a checkpoint counts on.
-    #[error("{} has {found} bytes: expected at least {expected} of the rows that the checkpoint counts", path.display())]
-    Cut {
-        /// The file.
-        path: PathBuf,
-        /// Bytes that it must have.
-        expected: u64,
-        /// Bytes that it has.
-        found: u64,
-    },
 }
 
 /// A column's file.
@@ -68,16 +49,16 @@ impl ColumnFiles {
     /// Begins empty columns in a folder, in the place of earlier ones.
     ///
     /// # Errors
-    /// [`ColumnError::File`].
-    pub(crate) fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, ColumnError> {
+    /// [`FormatError::File`].
+    pub(crate) fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, FormatError> {
         Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
     }
 
     /// Goes on with columns after so many rows; what is beyond them is cut off.
     ///
     /// # Errors
-    /// [`ColumnError::File`], [`ColumnError::Cut`] if a column has fewer.
-    pub(crate) fn resume(folder: &Path, sensors: Vec<String>, balls: usize, rows: usize) -> Result<Self, ColumnError> {
+    /// [`FormatError::File`], [`FormatError::CutColumn`] if a column has fewer.
+    pub(crate) fn resume(folder: &Path, sensors: Vec<String>, balls: usize, rows: usize) -> Result<Self, FormatError> {
         Self::open(folder, sensors, balls, rows, &mut OpenOptions::new())
     }
 
@@ -87,7 +68,7 @@ impl ColumnFiles {
         balls: usize,
         rows: usize,
         options: &mut OpenOptions,
-    ) -> Result<Self, ColumnError> {
+    ) -> Result<Self, FormatError> {
         let (mut files, mut hashers) = (Vec::new(), Vec::new());
         for column in Column::all(sensors.len()) {
             let path = path_of(folder, column);
@@ -97,7 +78,7 @@ impl ColumnFiles {
             let (expected, found) =
                 ((rows * column.width(balls) * BYTES) as u64, file.metadata().map_err(failed)?.len());
             if found < expected {
-                return Err(ColumnError::Cut { path, expected, found });
+                return Err(FormatError::CutColumn { path, expected, found });
             }
             file.set_len(expected).map_err(failed)?;
             hashers.push(sha256(&file).map_err(failed)?);
@@ -134,8 +115,8 @@ impl ColumnFiles {
     /// Appends rows of the same sensors and balls.
     ///
     /// # Errors
-    /// [`ColumnError::File`].
-    pub(crate) fn append(&mut self, rows: &RunRecord) -> Result<(), ColumnError> {
+    /// [`FormatError::File`].
+    pub(crate) fn append(&mut self, rows: &RunRecord) -> Result<(), FormatError> {
         let places = 0..rows.rows();
         let mut bytes = Vec::new();
         for ((column, file), hasher) in self.files.iter_mut().zip(&mut self.hashers) {
@@ -153,8 +134,8 @@ impl ColumnFiles {
     /// Brings everything to the disk.
     ///
     /// # Errors
-    /// [`ColumnError::File`].
-    pub(crate) fn sync(&self) -> Result<(), ColumnError> {
+    /// [`FormatError::File`].
+    pub(crate) fn sync(&self) -> Result<(), FormatError> {
         for (column, file) in &self.files {
             // with its length
             let synced = file.sync_data();
@@ -166,15 +147,15 @@ impl ColumnFiles {
     /// Hands the numbers of some rows of a column to `take`, piece by piece. Rows that are not there are left out.
     ///
     /// # Errors
-    /// [`ColumnError::File`] and what `take` returns.
-    pub(crate) fn read<E: From<ColumnError>>(
+    /// [`FormatError::File`] and what `take` returns.
+    pub(crate) fn read<E: From<FormatError>>(
         &self,
         column: Column,
         rows: Range<usize>,
         mut take: impl FnMut(&[f64]) -> Result<(), E>,
     ) -> Result<(), E> {
         let path = path_of(&self.folder, column);
-        let failed = |source| ColumnError::from(FileError::read(&path)(source));
+        let failed = |source| FormatError::from(FileError::read(&path)(source));
         let rows = rows.start.min(self.rows)..rows.end.min(self.rows);
         let places = column.places(&rows, self.balls);
         let mut file = File::open(&path).map_err(failed)?;
@@ -225,7 +206,7 @@ mod tests {
             files
                 .read(column, range.clone(), |piece| {
                     values.extend_from_slice(piece);
-                    Ok::<(), ColumnError>(())
+                    Ok::<(), FormatError>(())
                 })
                 .unwrap();
             match column {
@@ -295,6 +276,6 @@ mod tests {
         );
         std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
         let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
-        assert!(matches!(error, ColumnError::File(FileError::Open { .. })), "{error}");
+        assert!(matches!(error, FormatError::File(FileError::Open { .. })), "{error}");
     }
 }

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::fe::mesh::ElementId;
 use crate::files::{Fault, FileError};
+use crate::numerics::linalg::LinalgError;
 
 /// Why data cannot be written to a file of a format, or read from one.
 #[derive(Debug, Error)]
@@ -27,44 +28,34 @@ pub enum FormatError {
         /// What the archive library said.
         source: io::Error,
     },
-    /// An element that the mesh does not have.
-    #[error("the mesh has no element {} in block {}", id.index, id.block)]
-    Element {
-        /// The element asked for.
-        id: ElementId,
+    /// A run's column that lacks rows which a checkpoint counts on.
+    #[error("{} has {found} bytes: expected at least {expected} of the rows that the checkpoint counts", path.display())]
+    CutColumn {
+        /// The file.
+        path: PathBuf,
+        /// Bytes that it must have.
+        expected: u64,
+        /// Bytes that it has.
+        found: u64,
     },
-    /// A name of two fields of a grid.
-    #[error("two fields are called \"{name}\"")]
-    DuplicateField {
-        /// The name.
-        name: String,
-    },
-    /// An array's name that is empty or would not come back as typed.
-    #[error("array name must be letters, digits, '_', '-', '.' or spaces, found \"{name}\"")]
-    ArrayName {
-        /// Name as given.
-        name: String,
-    },
-    /// A name that the archive already has.
-    #[error("array \"{name}\" is already in the archive")]
-    DuplicateArray {
-        /// Name as given.
-        name: String,
-    },
-    /// An array was begun and never completed: the archive would not be readable.
-    #[error("array \"{name}\" was begun and not completed")]
-    Incomplete {
-        /// Name of the array.
-        name: String,
-    },
-    /// More or fewer values than an array or a field takes.
-    #[error("{what} takes {expected}, found {found}")]
-    Count {
-        /// The array or field, with its name.
-        what: String,
-        /// How many values it takes.
-        expected: String,
-        /// Values given, or given so far when they became too many.
+    /// A superelement's matrices without eigenvectors.
+    #[error("the superelement's eigenvalue problem failed: {0}")]
+    Eigen(LinalgError),
+    /// A superelement that is a mechanism, or a plane.
+    #[error("expected a body that is free (6 rigid motions) or held (none), found {found} rigid motions")]
+    RigidMotions {
+        /// Eigenvalues that are zero.
         found: usize,
     },
+    /// What the caller asked to write is none of the format's: an element that the mesh does not have, a second field or array of
+    /// a name, an array without a proper name or with more or fewer values than its shape.
+    #[error("{0}")]
+    Refused(String),
+}
+
+impl FormatError {
+    /// An element that the mesh does not have.
+    pub(super) fn no_element(ElementId { block, index }: ElementId) -> Self {
+        Self::Refused(format!("the mesh has no element {index} in block {block}"))
+    }
 }

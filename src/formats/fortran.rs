@@ -39,6 +39,31 @@ pub(super) fn columns(line: &str, width: usize) -> Vec<&str> {
         .collect()
 }
 
+/// Columns of a line by their widths, without the blanks around; those beyond its end are left out.
+pub(super) fn fields<'a>(line: &'a str, widths: &[usize]) -> Vec<&'a str> {
+    let mut end = 0;
+    let column = |width: &usize| {
+        let begin = end;
+        end += width;
+        Some(line.get(begin..line.len().min(end))?.trim())
+    };
+    widths.iter().filter_map(column).collect()
+}
+
+/// Takes the next line of a file, without its end; the last may lack it. `None` at the end of the file.
+pub(super) fn take_line<'a>(rest: &mut &'a [u8]) -> Option<&'a [u8]> {
+    if rest.is_empty() {
+        return None;
+    }
+    let end = rest.iter().position(|&byte| byte == b'\n');
+    let (line, after) = match end {
+        Some(end) => (&rest[..end], &rest[end + 1..]),
+        None => (*rest, &[][..]),
+    };
+    *rest = after;
+    Some(line)
+}
+
 /// The first 60 characters of a line in quotation marks, for messages.
 pub(super) fn quoted(line: &str) -> String {
     let text = line.trim();

@@ -16,6 +16,7 @@
 //! Every file is written under a temporary name and renamed: a half-written file never carries its name.
 //! Mode shapes are [`ModeShapes`] in all formats; [`read_mode_shapes`] picks the format by the file's ending.
 
+mod bytes;
 mod columns;
 pub mod csv;
 pub mod dof_table;
@@ -31,7 +32,7 @@ pub mod superelement;
 pub mod uff;
 pub mod vtu;
 
-pub use columns::{ColumnError, ColumnFiles};
+pub use columns::ColumnFiles;
 pub use csv::{read_modes_csv, write_modes_csv};
 pub use dof_table::{DofBody, DofDirection, DofLabel, write_dofs_csv, write_dofs_npz};
 pub use error::FormatError;
@@ -42,7 +43,7 @@ pub use npz::{NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, wri
 pub use op4::{Op4Format, Op4Matrix, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::read_mode_shapes;
 pub use superelement::{
-    FieldRecovery, InterfaceRecovery, MbdynError, MbdynReference, MbdynSummary, SensorRow, SuperelementRecord,
+    FieldRecovery, InterfaceRecovery, MbdynReference, MbdynSummary, SensorRow, SuperelementRecord,
     read_superelement_npz, read_superelement_op4, write_mbdyn_fem, write_superelement_npz, write_superelement_op4,
 };
 pub use uff::{

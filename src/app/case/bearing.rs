@@ -1,12 +1,13 @@
 //! `[bearing]`: balls, races and contacts.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::defect::Defect;
 use super::schema::{any_of, table, text, together, words};
 use super::slip::Slip;
-use super::union::{Loose, Mismatch, read_as, written_as};
+use super::union::{Loose, ReadAs, read_as, written_as};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
@@ -136,10 +137,8 @@ written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, |generator| {
     any_of(&[text(), table::<InnerAndOuter<String>>(generator)])
 });
 
-impl TryFrom<Loose<InnerAndOuter<String>>> for RaceMaterial {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<InnerAndOuter<String>>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<InnerAndOuter<String>>> for RaceMaterial {
+    fn read_as<E: Error>(form: Loose<InnerAndOuter<String>>) -> Result<Self, E> {
         match form {
             Loose::Word(name) => Ok(Self { inner: name.clone(), outer: name }),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
@@ -176,10 +175,8 @@ read_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
     any_of(&[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)])
 });
 
-impl TryFrom<Loose<InnerAndOuter<f64>>> for ContactStiffness {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<InnerAndOuter<f64>>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<InnerAndOuter<f64>>> for ContactStiffness {
+    fn read_as<E: Error>(form: Loose<InnerAndOuter<f64>>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),

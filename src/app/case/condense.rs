@@ -1,26 +1,23 @@
 //! `[condense]`: what a condensed housing is attached by, and how many vectors a reduction keeps.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{any_of, one_of, table, whole, words};
-use super::union::{Loose, Mismatch, read_as};
+use super::union::{Loose, ReadAs, exactly_one, read_as};
 
 /// How the housing is condensed onto the ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Condense {
     /// What the condensed housing is attached by.
-    #[serde(default)]
     pub interface: Interface,
     /// How many vectors of the interior are kept, residual vectors among them.
-    #[serde(default)]
     pub fixed_interface_modes: FixedInterfaceModes,
     /// Whether residual vectors stand beside the fixed-interface modes; false: plain Craig-Bampton.
-    #[serde(default = "super::yes")]
     pub enhanced: bool,
     /// Whether modes of the interface replace its coordinates; for `plummer condense` alone.
-    #[serde(default)]
     pub interface_modes: InterfaceModes,
 }
 
@@ -60,19 +57,14 @@ struct InterfaceForm {
 
 read_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[words(&["ring"]), table::<InterfaceForm>(generator),]));
 
-impl TryFrom<Loose<InterfaceForm>> for Interface {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<InterfaceForm>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<InterfaceForm>> for Interface {
+    fn read_as<E: Error>(form: Loose<InterfaceForm>) -> Result<Self, E> {
         const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
         match form {
             Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Table(InterfaceForm { group: Some(group), nodes: None }) => Ok(Self::Group(group)),
-            Loose::Table(InterfaceForm { group: None, nodes: Some(nodes) }) => Ok(Self::Nodes(nodes)),
-            Loose::Table(InterfaceForm { group: None, .. }) => {
-                Err(Mismatch::form("none of them", "one of `group`, `nodes`"))
+            Loose::Table(InterfaceForm { group, nodes }) => {
+                exactly_one([group.map(Self::Group), nodes.map(Self::Nodes)], "one of `group`, `nodes`")
             }
-            Loose::Table(_) => Err(Mismatch::form("several", "one of `group`, `nodes`")),
             other => Err(other.mismatch(&["ring"], FORMS)),
         }
     }
@@ -98,10 +90,8 @@ read_as!(InterfaceModes, Loose<UpToForm>, |generator| any_of(&[
     table::<UpToForm>(generator),
 ]));
 
-impl TryFrom<Loose<UpToForm>> for InterfaceModes {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<UpToForm>> for InterfaceModes {
+    fn read_as<E: Error>(form: Loose<UpToForm>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == "none" => Ok(Self::None),
             Loose::Whole(count) => Ok(Self::Count(count)),
@@ -138,10 +128,8 @@ read_as!(FixedInterfaceModes, Loose<UpToForm>, |generator| any_of(&[
     table::<UpToForm>(generator),
 ]));
 
-impl TryFrom<Loose<UpToForm>> for FixedInterfaceModes {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<UpToForm>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<UpToForm>> for FixedInterfaceModes {
+    fn read_as<E: Error>(form: Loose<UpToForm>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Whole(count) => Ok(Self::Count(count)),

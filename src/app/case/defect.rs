@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::{any_of, one_of, table, words};
-use super::union::{Loose, Mismatch, read_as};
+use super::union::{Loose, ReadAs, mismatch, none_beside, read_as};
 use crate::bearing::Race;
 use crate::bearing::defect::CurvatureReading;
 
@@ -129,10 +130,8 @@ read_as!(Profile, Loose<ProfileFile>, |generator| any_of(&[
     table::<ProfileFile>(generator),
 ]));
 
-impl TryFrom<Loose<ProfileFile>> for Profile {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<ProfileFile>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<ProfileFile>> for Profile {
+    fn read_as<E: Error>(form: Loose<ProfileFile>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
             Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
@@ -200,45 +199,42 @@ fn kinds() -> Value {
 /// A choice of this program: the source paper's dents and flats end at an edge.
 const RIM_RADIUS: f64 = 0.05e-3;
 
-/// Refuses a key that this kind of defect does not have.
-fn without(present: bool, found: &'static str, expected: &'static str) -> Result<(), Mismatch> {
-    if present { Err(Mismatch::form(found, expected)) } else { Ok(()) }
-}
-
-fn given<T>(value: Option<T>, key: &'static str) -> Result<T, Mismatch> {
-    value.ok_or(Mismatch::Missing { key })
-}
-
-impl TryFrom<DefectForm> for Defect {
-    type Error = Mismatch;
-
-    fn try_from(form: DefectForm) -> Result<Self, Mismatch> {
+impl ReadAs<DefectForm> for Defect {
+    fn read_as<E: Error>(form: DefectForm) -> Result<Self, E> {
         let on = match form.on {
             Place::Inner => Race::Inner,
             Place::Outer => Race::Outer,
             Place::Ball => return flat(form).map(Self::Flat),
         };
         const RACE: &str = "keys of a race's defect";
-        without(form.ball.is_some(), "`ball` beside a race", RACE)?;
-        without(form.flat_radius.is_some(), "`flat_radius` beside a race", RACE)?;
-        let angle_deg = given(form.angle_deg, "angle_deg")?;
+        let of_flat = [("ball", form.ball.is_some()), ("flat_radius", form.flat_radius.is_some())];
+        none_beside(&of_flat, "a race", RACE)?;
+        let angle_deg = form.angle_deg.ok_or_else(|| E::missing_field("angle_deg"))?;
         let profile = match &form.profile {
             None => DentProfile::default(),
             Some(Profile::Dent(profile)) => *profile,
             Some(Profile::File(file)) => {
-                only_file(&form)?;
+                let of_dent = [
+                    ("length", form.length.is_some()),
+                    ("width", form.width.is_some()),
+                    ("depth", form.depth.is_some()),
+                    ("rim_radius", form.rim_radius.is_some()),
+                    ("curvature", form.curvature.is_some()),
+                ];
+                none_beside(&of_dent, "a file", "the profile in the file alone")?;
                 return Ok(Self::Measured(MeasuredDefect { on, angle_deg, profile: file.clone() }));
             }
         };
         const WIDTH: &str = "the dent's extent across the race as `width`, or profile = \"in-plane\"";
-        let wide = profile == DentProfile::InPlane || form.width.is_some();
-        without(!wide, "profile = \"surface\" without `width`", WIDTH)?;
+        if profile == DentProfile::Surface && form.width.is_none() {
+            return Err(mismatch("profile = \"surface\" without `width`", WIDTH));
+        }
         Ok(Self::Dent(DentDefect {
             on,
             angle_deg,
-            length: given(form.length, "length")?,
+            length: form.length.ok_or_else(|| E::missing_field("length"))?,
             width: form.width,
-            depth: given(form.depth, "depth")?,
+            depth: form.depth.ok_or_else(|| E::missing_field("depth"))?,
             profile,
             rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
             curvature: form.curvature.unwrap_or_default(),
@@ -246,35 +242,23 @@ impl TryFrom<DefectForm> for Defect {
     }
 }
 
-/// Refuses what describes a dent.
-fn only_file(form: &DefectForm) -> Result<(), Mismatch> {
-    const FILE: &str = "the profile in the file alone";
-    without(form.length.is_some(), "`length` beside a file", FILE)?;
-    without(form.width.is_some(), "`width` beside a file", FILE)?;
-    without(form.depth.is_some(), "`depth` beside a file", FILE)?;
-    let rim = form.rim_radius.is_some();
-    without(rim, "`rim_radius` beside a file", FILE)?;
-    without(form.curvature.is_some(), "`curvature` beside a file", FILE)
-}
-
-fn flat(form: DefectForm) -> Result<FlatDefect, Mismatch> {
+fn flat<E: Error>(form: DefectForm) -> Result<FlatDefect, E> {
     const BALL: &str = "keys of a ball's flat";
-    without(form.length.is_some(), "`length` beside a ball", BALL)?;
-    without(form.width.is_some(), "`width` beside a ball", BALL)?;
+    none_beside(&[("length", form.length.is_some()), ("width", form.width.is_some())], "a ball", BALL)?;
     match form.profile {
         Some(Profile::File(_)) => {
-            return Err(Mismatch::form("a measured `profile` beside a ball", BALL));
+            return Err(mismatch("a measured `profile` beside a ball", BALL));
         }
         Some(Profile::Dent(DentProfile::Surface)) => {
-            return Err(Mismatch::form("profile = \"surface\" beside a ball", BALL));
+            return Err(mismatch("profile = \"surface\" beside a ball", BALL));
         }
         Some(Profile::Dent(DentProfile::InPlane)) | None => {}
     }
     Ok(FlatDefect {
-        ball: given(form.ball, "ball")?,
+        ball: form.ball.ok_or_else(|| E::missing_field("ball"))?,
         angle_deg: form.angle_deg.unwrap_or(0.0),
-        flat_radius: given(form.flat_radius, "flat_radius")?,
-        depth: given(form.depth, "depth")?,
+        flat_radius: form.flat_radius.ok_or_else(|| E::missing_field("flat_radius"))?,
+        depth: form.depth.ok_or_else(|| E::missing_field("depth"))?,
         rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
         curvature: form.curvature.unwrap_or_default(),
     })

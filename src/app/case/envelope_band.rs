@@ -6,7 +6,6 @@ use serde::Serialize;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
 
 use super::schema::{any_of, words};
-use super::union::Mismatch;
 
 /// The word for a band that the signal decides.
 const KURTOGRAM: &str = "kurtogram";
@@ -51,7 +50,7 @@ impl<'de> Visitor<'de> for BandVisitor {
     fn visit_str<E: de::Error>(self, word: &str) -> Result<Self::Value, E> {
         match word {
             KURTOGRAM => Ok(EnvelopeBand::Kurtogram),
-            _ => Err(Mismatch::Word { found: word.to_owned(), valid: &[KURTOGRAM] }.raise()),
+            _ => Err(E::unknown_variant(word, &[KURTOGRAM])),
         }
     }
 

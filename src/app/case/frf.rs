@@ -1,12 +1,13 @@
 //! `[frf]`: transfer paths from where forces act to sensors.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
 use super::schema::one_of;
-use super::sensor::{SensorSpot, SpotKeys};
-use super::union::{Mismatch, read_as};
+use super::sensor::SensorSpot;
+use super::union::{ReadAs, exactly_one, read_as};
 
 /// Transfer paths: from every force to every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,19 +63,16 @@ struct PushForm {
 
 read_as!(Push, PushForm);
 
-impl TryFrom<PushForm> for Push {
-    type Error = Mismatch;
-
-    fn try_from(form: PushForm) -> Result<Self, Mismatch> {
+impl ReadAs<PushForm> for Push {
+    fn read_as<E: Error>(form: PushForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
-        let keys = SpotKeys {
-            group: form.group,
-            ring_deg: form.ring_deg,
-            node: form.node,
-            point: form.point,
-            recovered: None,
-        };
-        let spot = keys.spot(ONE)?;
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+        ];
+        let spot = exactly_one(spots, ONE)?;
         let name = form.name.unwrap_or_else(|| match &spot {
             SensorSpot::Group(group) => group.clone(),
             SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use crate::fe::element::continuum::Formulation;
@@ -11,7 +12,7 @@ use crate::numerics::units::LengthUnit;
 
 use super::schema::{one_of, together};
 use super::spring::{Spring, SpringKeys};
-use super::union::{Mismatch, written_as};
+use super::union::{ReadAs, exactly_one, mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -107,23 +108,21 @@ struct SupportForm {
 
 written_as!(Support, SupportForm);
 
-impl TryFrom<SupportForm> for Support {
-    type Error = Mismatch;
-
-    fn try_from(form: SupportForm) -> Result<Self, Mismatch> {
+impl ReadAs<SupportForm> for Support {
+    fn read_as<E: Error>(form: SupportForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
         let per = form.per.unwrap_or_default();
-        let hold = match (form.fixed, form.spring, form.radial) {
-            (Some(_), None, None) if form.per.is_some() => {
-                return Err(Mismatch::form("`per` beside `fixed`", "`per` beside `spring` or `radial` only"));
+        let holds = [
+            form.fixed.map(Hold::Fixed),
+            form.spring.map(|spring| Hold::Spring(spring.into(), per)),
+            form.radial.map(|radial| Hold::Spring(SpringStiffness::Radial(radial), per)),
+        ];
+        match exactly_one(holds, ONE)? {
+            Hold::Fixed(_) if form.per.is_some() => {
+                Err(mismatch("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
             }
-            (Some(axes), None, None) => Hold::Fixed(axes),
-            (None, Some(spring), None) => Hold::Spring(spring.into(), per),
-            (None, None, Some(radial)) => Hold::Spring(SpringStiffness::Radial(radial), per),
-            (None, None, None) => return Err(Mismatch::form("none of them", ONE)),
-            _ => return Err(Mismatch::form("several", ONE)),
-        };
-        Ok(Self { group: form.group, hold })
+            hold => Ok(Self { group: form.group, hold }),
+        }
     }
 }
 

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::union::{Mismatch, read_as};
+use super::union::{ReadAs, none_beside, read_as};
 use super::{Case, Housing, Part, Support};
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass};
@@ -95,52 +96,35 @@ struct SourceForm {
     overlap: Option<OverlapRule>,
 }
 
-impl SourceForm {
-    /// The first key that belongs to a mesh.
-    fn key_of_mesh(&self) -> Option<&'static str> {
-        let keys = [
-            ("mesh", self.mesh.is_some()),
-            ("length_unit", self.length_unit.is_some()),
-            ("plane", self.plane.is_some()),
-            ("integration", self.integration.is_some()),
-            ("linear", self.linear.is_some()),
-            ("parts", self.parts.is_some()),
-            ("supports", self.supports.is_some()),
-            ("masses", self.masses.is_some()),
-            ("links", self.links.is_some()),
-            ("overlap", self.overlap.is_some()),
-        ];
-        keys.iter().find(|(_, given)| *given).map(|(key, _)| *key)
-    }
-}
-
 read_as!(HousingSource, SourceForm);
 
-impl TryFrom<SourceForm> for HousingSource {
-    type Error = Mismatch;
-
-    fn try_from(form: SourceForm) -> Result<Self, Mismatch> {
-        let beside = form.key_of_mesh();
-        match (form.superelement, beside) {
-            (Some(path), None) => return Ok(Self::Superelement(path)),
-            (Some(_), Some(key)) => {
-                return Err(Mismatch::form(
-                    format!("`{key}` beside `superelement`"),
-                    "`superelement` alone, or `mesh` with its keys",
-                ));
-            }
-            (None, _) => {}
+impl ReadAs<SourceForm> for HousingSource {
+    fn read_as<E: Error>(form: SourceForm) -> Result<Self, E> {
+        if let Some(path) = form.superelement {
+            let of_mesh = [
+                ("mesh", form.mesh.is_some()),
+                ("length_unit", form.length_unit.is_some()),
+                ("plane", form.plane.is_some()),
+                ("integration", form.integration.is_some()),
+                ("linear", form.linear.is_some()),
+                ("parts", form.parts.is_some()),
+                ("supports", form.supports.is_some()),
+                ("masses", form.masses.is_some()),
+                ("links", form.links.is_some()),
+                ("overlap", form.overlap.is_some()),
+            ];
+            none_beside(&of_mesh, "`superelement`", "`superelement` alone, or `mesh` with its keys")?;
+            return Ok(Self::Superelement(path));
         }
-        let missing = |key| Mismatch::Missing { key };
         Ok(Self::Mesh(Box::new(Housing {
-            mesh: form.mesh.ok_or_else(|| missing("mesh"))?,
-            length_unit: form.length_unit.ok_or_else(|| missing("length_unit"))?,
+            mesh: form.mesh.ok_or_else(|| E::missing_field("mesh"))?,
+            length_unit: form.length_unit.ok_or_else(|| E::missing_field("length_unit"))?,
             plane: form.plane,
             formulation: Formulation {
                 integration: form.integration.unwrap_or_default(),
                 linear: form.linear.unwrap_or_default(),
             },
-            parts: form.parts.ok_or_else(|| missing("parts"))?,
+            parts: form.parts.ok_or_else(|| E::missing_field("parts"))?,
             supports: form.supports.unwrap_or_default(),
             masses: form.masses.unwrap_or_default(),
             links: form.links.unwrap_or_default(),

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::one_of;
-use super::union::{Mismatch, OneOrThree, read_as};
+use super::union::{OneOrThree, ReadAs, mismatch, read_as};
 
 /// An elastic material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -80,15 +81,6 @@ impl Material {
             Self::Orthotropic(material) => material.density,
         }
     }
-
-    /// The isotropic material, if it is one.
-    #[must_use]
-    pub(crate) fn isotropic(&self) -> Option<&IsotropicMaterial> {
-        match self {
-            Self::Isotropic(material) => Some(material),
-            Self::Orthotropic(_) => None,
-        }
-    }
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -128,17 +120,15 @@ fn either() -> Value {
     ])
 }
 
-impl TryFrom<MaterialForm> for Material {
-    type Error = Mismatch;
-
-    fn try_from(form: MaterialForm) -> Result<Self, Mismatch> {
+impl ReadAs<MaterialForm> for Material {
+    fn read_as<E: Error>(form: MaterialForm) -> Result<Self, E> {
         const FORMS: &str = "one number each for `young` and `poisson` (isotropic), or three each and `shear` \
             (orthotropic: young = [x, y, z], poisson and shear = [xy, yz, xz])";
         let loss_factor = form.loss_factor.unwrap_or(0.0);
         match (form.young, form.poisson, form.shear) {
             (OneOrThree::One(young), OneOrThree::One(poisson), None) => {
                 if form.x_axis.is_some() || form.y_axis.is_some() {
-                    return Err(Mismatch::form("axes of an isotropic material", FORMS));
+                    return Err(mismatch("axes of an isotropic material", FORMS));
                 }
                 Ok(Self::Isotropic(IsotropicMaterial { young, poisson, density: form.density, loss_factor }))
             }
@@ -154,10 +144,10 @@ impl TryFrom<MaterialForm> for Material {
                 }))
             }
             (OneOrThree::One(_), OneOrThree::One(_), Some(_)) => {
-                Err(Mismatch::form("`shear` of an isotropic material", FORMS))
+                Err(mismatch("`shear` of an isotropic material", FORMS))
             }
-            (OneOrThree::Three(_), OneOrThree::Three(_), None) => Err(Mismatch::form("no `shear`", FORMS)),
-            _ => Err(Mismatch::form("one number and three", FORMS)),
+            (OneOrThree::Three(_), OneOrThree::Three(_), None) => Err(mismatch("no `shear`", FORMS)),
+            _ => Err(mismatch("one number and three", FORMS)),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! `[shaft]`, `[damping]`, `[speed]`: what moves and what slows it.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::schema::one_of;
-use super::union::{Mismatch, read_as};
+use super::union::{ReadAs, mismatch, read_as};
 use crate::bearing::SpeedKnot;
 
 /// The rigid shaft with the inner ring. x to the right, y up.
@@ -63,16 +64,14 @@ struct LoadForm {
 
 read_as!(Load, LoadForm);
 
-impl TryFrom<LoadForm> for Load {
-    type Error = Mismatch;
-
-    fn try_from(form: LoadForm) -> Result<Self, Mismatch> {
+impl ReadAs<LoadForm> for Load {
+    fn read_as<E: Error>(form: LoadForm) -> Result<Self, E> {
         const ONE: &str = "`force` = [x, y], or `profile` = [{ time, force }, ...]";
         match (form.force, form.profile) {
             (Some(force), None) => Ok(Self::Constant(force)),
             (None, Some(points)) => Ok(Self::Profile(points)),
-            (None, None) => Err(Mismatch::form("neither", ONE)),
-            (Some(_), Some(_)) => Err(Mismatch::form("both", ONE)),
+            (None, None) => Err(mismatch("neither", ONE)),
+            (Some(_), Some(_)) => Err(mismatch("both", ONE)),
         }
     }
 }
@@ -125,19 +124,17 @@ struct DampingForm {
 
 read_as!(Damping, DampingForm);
 
-impl TryFrom<DampingForm> for Damping {
-    type Error = Mismatch;
-
-    fn try_from(form: DampingForm) -> Result<Self, Mismatch> {
+impl ReadAs<DampingForm> for Damping {
+    fn read_as<E: Error>(form: DampingForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `ratios`, `alpha` with `beta`, `modal`";
         match (form.ratios, (form.alpha, form.beta), form.modal) {
             (Some(ratios), (None, None), None) => Ok(Self::Ratios(ratios)),
             (None, (None, None), Some(ratio)) => Ok(Self::Modal(ratio)),
             (None, (Some(alpha), Some(beta)), None) => Ok(Self::Rayleigh { alpha, beta }),
-            (None, (Some(_), None), None) => Err(Mismatch::form("`alpha` without `beta`", ONE)),
-            (None, (None, Some(_)), None) => Err(Mismatch::form("`beta` without `alpha`", ONE)),
-            (None, (None, None), None) => Err(Mismatch::form("none of them", ONE)),
-            _ => Err(Mismatch::form("several", ONE)),
+            (None, (Some(_), None), None) => Err(mismatch("`alpha` without `beta`", ONE)),
+            (None, (None, Some(_)), None) => Err(mismatch("`beta` without `alpha`", ONE)),
+            (None, (None, None), None) => Err(mismatch("none of them", ONE)),
+            _ => Err(mismatch("several", ONE)),
         }
     }
 }

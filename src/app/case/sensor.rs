@@ -1,10 +1,11 @@
 //! `[[sensors]]`: where acceleration is recorded.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{Mismatch, read_as};
+use super::union::{ReadAs, exactly_one, mismatch, read_as};
 
 /// An accelerometer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -68,58 +69,26 @@ struct SensorForm {
 
 read_as!(Sensor, SensorForm);
 
-impl TryFrom<SensorForm> for Sensor {
-    type Error = Mismatch;
-
-    fn try_from(form: SensorForm) -> Result<Self, Mismatch> {
+impl ReadAs<SensorForm> for Sensor {
+    fn read_as<E: Error>(form: SensorForm) -> Result<Self, E> {
         const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
-        let keys = SpotKeys {
-            group: form.group,
-            ring_deg: form.ring_deg,
-            node: form.node,
-            point: form.point,
-            recovered: form.recovered,
-        };
-        let spot = keys.spot(ONE)?;
+        let spots = [
+            form.group.map(SensorSpot::Group),
+            form.ring_deg.map(SensorSpot::RingDeg),
+            form.node.map(SensorSpot::Node),
+            form.point.map(SensorSpot::Point),
+            form.recovered.map(SensorSpot::Recovered),
+        ];
+        let spot = exactly_one(spots, ONE)?;
         let direction = match (&spot, form.direction) {
             (SensorSpot::Recovered(_), None) => [0.0; 3],
             (SensorSpot::Recovered(_), Some(_)) => {
-                return Err(Mismatch::form(
-                    "`direction` beside `recovered`",
-                    "`recovered` alone: its row has a direction",
-                ));
+                let expected = "`recovered` alone: its row has a direction";
+                return Err(mismatch("`direction` beside `recovered`", expected));
             }
             (_, Some(direction)) => direction,
-            (_, None) => return Err(Mismatch::Missing { key: "direction" }),
+            (_, None) => return Err(E::missing_field("direction")),
         };
         Ok(Self { name: form.name, spot, direction })
-    }
-}
-
-/// A place by the key that it is written with: one of them has a value.
-pub(super) struct SpotKeys {
-    pub group: Option<String>,
-    pub ring_deg: Option<f64>,
-    pub node: Option<u64>,
-    pub point: Option<[f64; 3]>,
-    pub recovered: Option<String>,
-}
-
-impl SpotKeys {
-    /// The one place that was given; `expected` says which keys there are.
-    pub(super) fn spot(self, expected: &'static str) -> Result<SensorSpot, Mismatch> {
-        let spots = [
-            self.group.map(SensorSpot::Group),
-            self.ring_deg.map(SensorSpot::RingDeg),
-            self.node.map(SensorSpot::Node),
-            self.point.map(SensorSpot::Point),
-            self.recovered.map(SensorSpot::Recovered),
-        ];
-        let mut given = spots.into_iter().flatten();
-        match (given.next(), given.next()) {
-            (Some(spot), None) => Ok(spot),
-            (None, _) => Err(Mismatch::form("none of them", expected)),
-            _ => Err(Mismatch::form("several", expected)),
-        }
     }
 }

@@ -1,11 +1,12 @@
 //! Slip of the cage: a number, or a table over time or speed.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::{any_of, number, table};
-use super::union::{Loose, Mismatch, written_as};
+use super::union::{Loose, ReadAs, mismatch, written_as};
 
 /// Share of the cage's rolling speed that is lost, >= 0 and < 1; straight lines between points, constant beyond them.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,10 +57,8 @@ fn one_axis() -> Value {
     json!([over("time", "hz"), over("hz", "time")])
 }
 
-impl TryFrom<Loose<SlipForm>> for Slip {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<SlipForm>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<SlipForm>> for Slip {
+    fn read_as<E: Error>(form: Loose<SlipForm>) -> Result<Self, E> {
         let form = match form {
             Loose::Number(slip) => return Ok(Self::Constant(slip)),
             Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
@@ -83,7 +82,7 @@ impl TryFrom<Loose<SlipForm>> for Slip {
         if let Some(points) = over_speed.collect() {
             return Ok(Self::OverSpeed(points));
         }
-        Err(Mismatch::form(
+        Err(mismatch(
             "points with neither, both, or now the one and now the other",
             "`time` in every point, or `hz` in every point",
         ))

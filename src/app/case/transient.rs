@@ -1,11 +1,12 @@
 //! `[accuracy]`, `[transient]` and `[analysis]`: what is simulated, how finely, and what is made of the signals.
 
 use schemars::JsonSchema;
+use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::EnvelopeBand;
 use super::schema::{any_of, number, together, whole, words};
-use super::union::{Loose, Mismatch, NoTable, read_as};
+use super::union::{Loose, NoTable, ReadAs, read_as};
 use crate::numerics::series::TimeWindow;
 
 /// What the signals must be good for.
@@ -62,37 +63,20 @@ pub struct Transient {
 /// Runs of one scene from starts that differ, spread over a ball pass from the start time on. A run whose statistics are
 /// taken is perturbed beside: every coordinate and velocity by a part of itself, at random.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Ensemble {
     /// How many, 2 to 10 000.
-    #[serde(default = "Ensemble::default_runs")]
     pub runs: usize,
     /// Largest relative change of a coordinate, > 0 and < 1.
-    #[serde(default = "Ensemble::default_perturbation")]
     pub perturbation: f64,
     /// Begin of the random numbers: the same seed gives the same runs.
-    #[serde(default = "Ensemble::default_seed")]
     pub seed: u64,
-}
-
-impl Ensemble {
-    const fn default_runs() -> usize {
-        20
-    }
-
-    /// Far below every error of interest, far above rounding.
-    const fn default_perturbation() -> f64 {
-        1e-9
-    }
-
-    const fn default_seed() -> u64 {
-        1
-    }
 }
 
 impl Default for Ensemble {
     fn default() -> Self {
-        Self { runs: Self::default_runs(), perturbation: Self::default_perturbation(), seed: Self::default_seed() }
+        // a perturbation far below every error of interest, far above rounding
+        Self { runs: 20, perturbation: 1e-9, seed: 1 }
     }
 }
 
@@ -133,10 +117,8 @@ pub enum StepLength {
 
 read_as!(StepLength, Loose<NoTable>, |_| any_of(&[words(&["auto"]), number()]));
 
-impl TryFrom<Loose<NoTable>> for StepLength {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<NoTable>> for StepLength {
+    fn read_as<E: Error>(form: Loose<NoTable>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
@@ -163,10 +145,8 @@ pub enum ModesKept {
 
 read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[words(&["auto", "all"]), whole()]));
 
-impl TryFrom<Loose<NoTable>> for ModesKept {
-    type Error = Mismatch;
-
-    fn try_from(form: Loose<NoTable>) -> Result<Self, Mismatch> {
+impl ReadAs<Loose<NoTable>> for ModesKept {
+    fn read_as<E: Error>(form: Loose<NoTable>) -> Result<Self, E> {
         match form {
             Loose::Word(word) if word == "auto" => Ok(Self::Auto),
             Loose::Word(word) if word == "all" => Ok(Self::All),
@@ -178,28 +158,27 @@ impl TryFrom<Loose<NoTable>> for ModesKept {
 
 /// What is made of the signals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 #[schemars(extend("not" = together(&["high_pass_hz", "band_hz"])))]
 pub struct Analysis {
     /// Corner of the high-pass filter before the envelope in Hz, > 0 and below half the sampling rate; `None`, without
     /// `band_hz` either: no filter.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub high_pass_hz: Option<f64>,
     /// The band before the envelope, in the place of `high_pass_hz`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub band_hz: Option<EnvelopeBand>,
     /// Whether the envelope spectra are those of the whitened signal's squared envelope.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub whiten: bool,
     /// Windows whose envelope spectra are computed; may be empty.
-    #[serde(default)]
     pub envelope: Vec<TimeWindow>,
     /// Scalogram of every sensor; `None`: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub scalogram: Option<ScalogramWindow>,
     /// Whether the balance of the run's energy is taken, which costs up to a third of a fast run's time; `None`:
     /// of runs of up to 100 000 samples.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<bool>,
 }
 

@@ -7,32 +7,39 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-/// Why the form in the file does not make a value.
-#[derive(Debug, PartialEq)]
-pub(super) enum Mismatch {
-    /// Another kind of value, or a combination of keys that excludes itself.
-    Form { found: String, expected: &'static str },
-    /// A word that is none of those valid.
-    Word { found: String, valid: &'static [&'static str] },
-    /// A key that this combination needs.
-    Missing { key: &'static str },
+/// A type that is made of its form in the file.
+pub(super) trait ReadAs<Form>: Sized {
+    /// Makes it, or refuses the form: another kind of value, keys that exclude each other or need another.
+    fn read_as<E: de::Error>(form: Form) -> Result<Self, E>;
 }
 
-impl Mismatch {
-    pub(super) fn form(found: impl Into<String>, expected: &'static str) -> Self {
-        Self::Form { found: found.into(), expected }
-    }
+/// The error for another kind of value, or a combination of keys that excludes itself.
+pub(super) fn mismatch<E: de::Error>(found: impl AsRef<str>, expected: &'static str) -> E {
+    E::invalid_value(Unexpected::Other(found.as_ref()), &expected)
+}
 
-    pub(super) fn raise<E: de::Error>(self) -> E {
-        match self {
-            Self::Form { found, expected } => E::invalid_value(Unexpected::Other(&found), &expected),
-            Self::Word { found, valid } => E::unknown_variant(&found, valid),
-            Self::Missing { key } => E::missing_field(key),
-        }
+/// The one value that several keys give; `expected` says which keys there are.
+pub(super) fn exactly_one<T, E: de::Error>(
+    values: impl IntoIterator<Item = Option<T>>,
+    expected: &'static str,
+) -> Result<T, E> {
+    let mut given = values.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (Some(value), None) => Ok(value),
+        (None, _) => Err(mismatch("none of them", expected)),
+        _ => Err(mismatch("several", expected)),
     }
 }
 
-/// Reads a type by way of the type that mirrors its form in the file (`TryFrom<Form, Error = Mismatch>`): what serde derives for flattened and
+/// Refuses the first of these keys that is given beside something that excludes it.
+pub(super) fn none_beside<E: de::Error>(keys: &[(&str, bool)], other: &str, expected: &'static str) -> Result<(), E> {
+    match keys.iter().find(|(_, given)| *given) {
+        Some((key, _)) => Err(mismatch(format!("`{key}` beside {other}"), expected)),
+        None => Ok(()),
+    }
+}
+
+/// Reads a type by way of the type that mirrors its form in the file ([`ReadAs`]): what serde derives for flattened and
 /// untagged types loses the place of an error, the path of its key and the names that are valid there. The type's schema is that of the form, or
 /// what the function returns for a form whose type does not say it.
 macro_rules! read_as {
@@ -53,7 +60,7 @@ macro_rules! read_as {
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
                 let form = <$form as serde::Deserialize>::deserialize(from)?;
-                <$type>::try_from(form).map_err(crate::app::case::union::Mismatch::raise)
+                crate::app::case::union::ReadAs::read_as(form)
             }
         }
     };
@@ -87,16 +94,16 @@ pub(super) enum Loose<T> {
 
 impl<T> Loose<T> {
     /// The error for a form that the key does not take; it takes these words.
-    pub(super) fn mismatch(self, valid: &'static [&'static str], expected: &'static str) -> Mismatch {
+    pub(super) fn mismatch<E: de::Error>(self, valid: &'static [&'static str], expected: &'static str) -> E {
         let found = match self {
-            Self::Word(found) if !valid.is_empty() => return Mismatch::Word { found, valid },
+            Self::Word(found) if !valid.is_empty() => return E::unknown_variant(&found, valid),
             Self::Word(word) => format!("\"{word}\""),
             Self::Whole(number) => number.to_string(),
             Self::Number(number) => number.to_string(),
             Self::Table(_) => "a table".to_owned(),
             Self::Other(kind) => kind,
         };
-        Mismatch::form(found, expected)
+        mismatch(found, expected)
     }
 }
 

@@ -19,6 +19,6 @@ mod read;
 mod tests;
 mod write;
 
-pub(super) use read::line_of;
 pub use read::read_modes_csv;
+pub(super) use read::{first_line, line_of, table_of};
 pub use write::write_modes_csv;

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 
-use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
+use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use super::super::{FormatError, ModeShapes};
 use crate::files::{Fault, bytes_of};
@@ -19,6 +19,18 @@ pub(in crate::formats) fn line_of(text: &str, place: &Position) -> u64 {
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
     let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#'));
     place.line() + passed.count() as u64
+}
+
+/// A table without header: comments begin with `#`, cells are trimmed, rows may differ in length.
+pub(in crate::formats) fn table_of(text: &str, separator: u8) -> Reader<&[u8]> {
+    let mut builder = ReaderBuilder::new();
+    builder.delimiter(separator).comment(Some(b'#')).trim(Trim::All).flexible(true).has_headers(false);
+    builder.from_reader(text.as_bytes())
+}
+
+/// The first line that is neither blank nor a comment.
+pub(in crate::formats) fn first_line(text: &str) -> &str {
+    text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty()).unwrap_or_default()
 }
 
 /// Where a displacement is.
@@ -96,15 +108,8 @@ impl Row<'_> {
 }
 
 fn read(text: &str) -> Result<ModeShapes, Fault> {
-    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let semicolon = header.is_some_and(|line| line.contains(';'));
-    let mut table = ReaderBuilder::new()
-        .delimiter(if semicolon { b';' } else { b',' })
-        .comment(Some(b'#'))
-        .trim(Trim::All)
-        .flexible(true)
-        .has_headers(false)
-        .from_reader(text.as_bytes());
+    let semicolon = first_line(text).contains(';');
+    let mut table = table_of(text, if semicolon { b';' } else { b',' });
     let mut columns: Option<&[&str]> = None;
     let (mut modes, mut places) = (Vec::<Mode>::new(), Vec::new());
     let mut index_of = HashMap::new();

@@ -46,8 +46,9 @@ pub(super) struct Channel {
 impl Channel {
     pub(super) fn signal(self, path: &Path, request: &SignalRequest) -> Result<MeasuredSignal, MeasuredError> {
         let (start_s, step_s) = self.clock.grid(path, request.rate_hz)?;
-        let series = TimeSeries::new(start_s, step_s, self.unit, self.values)
-            .map_err(|source| MeasuredError::Series { path: path.to_owned(), channel: self.name.clone(), source })?;
+        let series = TimeSeries::new(start_s, step_s, self.unit, self.values).map_err(|error| {
+            MeasuredError::refused(format!("{}: channel \"{}\": {error}", path.display(), self.name))
+        })?;
         let peak = series.peak();
         let [least, most] = MAGNITUDES;
         if peak > 0.0 && !(least..=most).contains(&peak) {
@@ -71,12 +72,7 @@ pub(super) fn choose(path: &Path, names: &[String], request: &SignalRequest) -> 
     let place = |wanted: &String| {
         let count = names.iter().filter(|name| *name == wanted).count();
         if count > 1 {
-            return Err(MeasuredError::Array {
-                path: path.to_owned(),
-                name: wanted.clone(),
-                expected: "one channel of this name".to_owned(),
-                found: count.to_string(),
-            });
+            return Err(MeasuredError::array(path, wanted, "one channel of this name", count.to_string()));
         }
         let place = names.iter().position(|name| name == wanted);
         place.ok_or_else(|| MeasuredError::NoChannel {

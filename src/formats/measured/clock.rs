@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use super::error::{MeasuredError, STEP_TOLERANCE};
+use super::MeasuredError;
+
+/// How far one step may be from the median step, relative: what six digits leave of 48 kHz, and far from a lost sample.
+const STEP_TOLERANCE: f64 = 0.1;
 
 /// How far an instant may be from that of equal steps, in steps: half a sample.
 const DRIFT_TOLERANCE: f64 = 0.5;
@@ -48,7 +51,13 @@ impl Clock {
     pub(super) fn agrees(&self, path: &Path, stated: Option<(&str, f64)>) -> Result<(), MeasuredError> {
         match (self.rate_hz(), stated) {
             (Some(found_hz), Some((name, rate_hz))) if (found_hz / rate_hz - 1.0).abs() > SAME_RATE => {
-                Err(MeasuredError::TwoRates { path: path.to_owned(), name: name.to_owned(), rate_hz, found_hz })
+                Err(MeasuredError::Refused {
+                    message: format!(
+                        "{}: expected one sampling rate, found {rate_hz} Hz in \"{name}\" and {found_hz} Hz by the time",
+                        path.display()
+                    ),
+                    help: Some("--rate HZ takes the place of both; or leave the wrong one out of the file".to_owned()),
+                })
             }
             _ => Ok(()),
         }
@@ -66,11 +75,8 @@ fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), Measur
     }
     let middle = steps.len() / 2;
     let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let uneven = |place: usize, found_s: f64| MeasuredError::Uneven {
-        path: path.to_owned(),
-        row: first_row + place as u64,
-        found_s,
-        expected_s: median,
+    let uneven = |place: usize, expected: String, found: String| {
+        Err(MeasuredError::Uneven { path: path.to_owned(), row: first_row + place as u64, expected, found })
     };
     let mut pairs = times.windows(2).enumerate();
     let wrong = pairs.find(|(_, pair)| {
@@ -79,17 +85,14 @@ fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), Measur
         !(median > 0.0 && (step / median - 1.0).abs() <= STEP_TOLERANCE)
     });
     if let Some((place, pair)) = wrong {
-        return Err(uneven(place + 1, pair[1] - pair[0]));
+        let expected = format!(" of {median} s (the median, within {} %)", 100.0 * STEP_TOLERANCE);
+        return uneven(place + 1, expected, format!("a step of {}", pair[1] - pair[0]));
     }
     let step = (last - first) / (times.len() - 1) as f64;
     let drift = |(place, time): (usize, &f64)| (time - first - place as f64 * step).abs() > DRIFT_TOLERANCE * step;
     if let Some(place) = times.iter().enumerate().position(drift) {
-        return Err(MeasuredError::Drift {
-            path: path.to_owned(),
-            row: first_row + place as u64,
-            found_s: times[place],
-            expected_s: first + place as f64 * step,
-        });
+        let expected = format!(", so that t = {} s here within half a step", first + place as f64 * step);
+        return uneven(place, expected, times[place].to_string());
     }
     Ok((first, step))
 }

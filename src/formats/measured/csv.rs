@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use ::csv::{Position, ReaderBuilder, StringRecord, Trim};
+use ::csv::{Position, StringRecord};
 
-use super::super::csv::line_of;
+use super::super::csv::{first_line, line_of, table_of};
 use super::channel::{Channel, choose};
 use super::clock::Clock;
-use super::header::{name_and_unit, time_unit};
+use super::names::{name_and_unit, time_unit};
 use super::{MeasuredError, SignalRequest};
 use crate::files::{Fault, bytes_of};
 
@@ -41,13 +41,7 @@ pub(super) fn from_bytes(bytes: &[u8], path: &Path, request: &SignalRequest) -> 
 
 impl Table<'_> {
     fn channels(&self, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-        let mut table = ReaderBuilder::new()
-            .delimiter(self.separator())
-            .comment(Some(b'#'))
-            .trim(Trim::All)
-            .flexible(true)
-            .has_headers(false)
-            .from_reader(self.text.as_bytes());
+        let mut table = table_of(self.text, self.separator());
         let mut record = StringRecord::new();
         let mut columns: Option<Columns> = None;
         let (mut times, mut first_row) = (Vec::new(), 0);
@@ -101,14 +95,8 @@ impl Table<'_> {
 
     /// What separates the columns: the first of tab, semicolon and comma that the first line has.
     fn separator(&self) -> u8 {
-        let mut lines = self.text.lines();
-        let first = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
-        let has = |separator: char| first.is_some_and(|line| line.contains(separator));
-        match () {
-            () if has('\t') => b'\t',
-            () if has(';') => b';',
-            () => b',',
-        }
+        let first = first_line(self.text).as_bytes();
+        [b'\t', b';'].into_iter().find(|separator| first.contains(separator)).unwrap_or(b',')
     }
 
     fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
@@ -203,7 +191,11 @@ impl Table<'_> {
     }
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {
-        MeasuredError::DecimalComma { path: self.path.to_owned(), line, found: found.to_owned() }
+        let path = self.path.display();
+        MeasuredError::Refused {
+            message: format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
+            help: Some("write the table with decimal points; the separator may stay a semicolon".to_owned()),
+        }
     }
 
     fn damaged(&self, error: &::csv::Error) -> MeasuredError {

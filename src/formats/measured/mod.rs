@@ -21,11 +21,10 @@ mod channel;
 mod clock;
 mod csv;
 mod error;
-mod header;
 mod mat;
+mod names;
 mod npz;
 mod read;
-mod stated;
 #[cfg(test)]
 mod tests;
 mod wav;

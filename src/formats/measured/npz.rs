@@ -6,8 +6,7 @@ use std::rc::Rc;
 use super::super::NpzReader;
 use super::channel::{Channel, choose};
 use super::clock::Clock;
-use super::header::time_unit;
-use super::stated::{one_speed, speed_unit};
+use super::names::{one_speed, speed_unit, time_unit};
 use super::{MeasuredError, SignalRequest};
 
 /// Names of arrays of one value that are a rate in Hz.
@@ -24,15 +23,11 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             match values.as_slice() {
                 &[rate] if rate > 0.0 && rate.is_finite() => Some((name.as_str(), rate)),
                 found => {
-                    return Err(MeasuredError::Array {
-                        path: path.to_owned(),
-                        name: name.clone(),
-                        expected: "one sampling rate above 0 Hz".to_owned(),
-                        found: match found {
-                            [one] => one.to_string(),
-                            more => format!("{} values", more.len()),
-                        },
-                    });
+                    let found = match found {
+                        [one] => one.to_string(),
+                        more => format!("{} values", more.len()),
+                    };
+                    return Err(MeasuredError::array(path, name, "one sampling rate above 0 Hz", found));
                 }
             }
         }
@@ -67,15 +62,11 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
         let array = archive.real(name)?;
         let count = array.shape.iter().filter(|&&length| length != 1).count();
         if count > 1 || rows.is_some_and(|rows| rows != array.values.len()) {
-            return Err(MeasuredError::Array {
-                path: path.to_owned(),
-                name: name.clone(),
-                expected: match rows {
-                    Some(rows) => format!("a signal of {rows} samples, as the time has"),
-                    None => "a signal, an array of one dimension".to_owned(),
-                },
-                found: format!("shape {:?}", array.shape),
-            });
+            let expected = match rows {
+                Some(rows) => format!("a signal of {rows} samples, as the time has"),
+                None => "a signal, an array of one dimension".to_owned(),
+            };
+            return Err(MeasuredError::array(path, name, expected, format!("shape {:?}", array.shape)));
         }
         found.push(Channel {
             name: name.clone(),

@@ -21,7 +21,11 @@ pub fn read_signals(path: &Path, request: &SignalRequest) -> Result<Vec<Measured
         "csv" | "txt" => csv::read(path, request),
         "wav" => wav::read(path, request),
         "uff" | "unv" => universal(path, request),
-        _ => Err(MeasuredError::Ending { path: path.to_owned() }),
+        _ => {
+            const EXPECTED: &str =
+                "a file .npz, .mat, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`";
+            Err(MeasuredError::refused(format!("{}: expected {EXPECTED}", path.display())))
+        }
     }?;
     let made = channels.into_iter().map(|channel| channel.signal(path, request));
     made.collect()

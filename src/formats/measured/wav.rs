@@ -10,6 +10,7 @@ use super::channel::{Channel, choose};
 use super::clock::Clock;
 use super::{MeasuredError, SignalRequest};
 use crate::files::bytes_of;
+use crate::formats::bytes::{ByteOrder, NumberType};
 
 /// Format tags.
 const PCM: u16 = 1;
@@ -22,7 +23,10 @@ const IDENTIFIER_END: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38
 /// Data Specifications 1.0" (1991); extensible heads: Microsoft, "Multiple channel audio data and WAVE files" (2007).
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let bytes = bytes_of(path)?;
-    let fault = |found: String| MeasuredError::Wav { path: path.to_owned(), found };
+    let fault = |found: String| {
+        const EXPECTED: &str = "a sound file (RIFF WAVE, PCM of 8 to 32 bits, float of 32 or 64)";
+        MeasuredError::refused(format!("{}: expected {EXPECTED}, found: {found}", path.display()))
+    };
     let (format, data) = parts(&bytes).map_err(fault)?;
     let names: Vec<String> = (1..=format.channels).map(|n| format!("channel {n}")).collect();
     let wanted = choose(path, &names, request)?;
@@ -45,22 +49,18 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
 #[derive(Debug, Clone, Copy)]
 enum Decode {
     Unsigned8,
-    Signed16,
-    Signed24,
-    Signed32,
-    Float32,
-    Float64,
+    /// Whole numbers of so many bytes, 2 to 4.
+    Signed(usize),
+    Float(NumberType),
 }
 
 impl Decode {
     fn of(tag: u16, bits: u16) -> Option<Self> {
         match (tag, bits) {
             (PCM, 8) => Some(Self::Unsigned8),
-            (PCM, 16) => Some(Self::Signed16),
-            (PCM, 24) => Some(Self::Signed24),
-            (PCM, 32) => Some(Self::Signed32),
-            (FLOAT, 32) => Some(Self::Float32),
-            (FLOAT, 64) => Some(Self::Float64),
+            (PCM, 16 | 24 | 32) => Some(Self::Signed(usize::from(bits) / 8)),
+            (FLOAT, 32) => Some(Self::Float(NumberType::F32)),
+            (FLOAT, 64) => Some(Self::Float(NumberType::F64)),
             _ => None,
         }
     }
@@ -69,29 +69,22 @@ impl Decode {
     fn width(self) -> usize {
         match self {
             Self::Unsigned8 => 1,
-            Self::Signed16 => 2,
-            Self::Signed24 => 3,
-            Self::Signed32 | Self::Float32 => 4,
-            Self::Float64 => 8,
+            Self::Signed(width) => width,
+            Self::Float(number) => number.width(),
         }
     }
 
     /// A sample of so many bytes, full scale 1.
     fn value(self, bytes: &[u8]) -> f64 {
-        // an integer's bytes as the upper ones of 32 bits: full scale is 2^31 for all depths
-        let upper = || {
-            let mut word = [0; 4];
-            word[4 - bytes.len()..].copy_from_slice(bytes);
-            f64::from(i32::from_le_bytes(word)) / 2_f64.powi(31)
-        };
         match self {
             Self::Unsigned8 => (f64::from(bytes[0]) - 128.0) / 128.0,
-            Self::Signed16 | Self::Signed24 | Self::Signed32 => upper(),
-            Self::Float32 => f64::from(f32::from_bits(word(bytes))),
-            Self::Float64 => {
-                let [low, high] = [&bytes[..4], &bytes[4..]].map(|half| u64::from(word(half)));
-                f64::from_bits(high << 32 | low)
+            // an integer's bytes as the upper ones of 32 bits: full scale is 2^31 for all depths
+            Self::Signed(width) => {
+                let mut word = [0; 4];
+                word[4 - width..].copy_from_slice(bytes);
+                f64::from(i32::from_le_bytes(word)) / 2_f64.powi(31)
             }
+            Self::Float(number) => number.value(bytes, ByteOrder::Little),
         }
     }
 }
@@ -105,8 +98,7 @@ struct Format {
 
 /// The first four bytes as a number; of fewer those that there are.
 fn word(bytes: &[u8]) -> u32 {
-    let bytes = bytes.iter().take(4).rev();
-    bytes.fold(0, |word, byte| word << 8 | u32::from(*byte))
+    ByteOrder::Little.u32(bytes)
 }
 
 fn half_word(bytes: &[u8]) -> u16 {

@@ -1,5 +1,7 @@
 //! Bytes of an array to numbers and text.
 
+use super::super::bytes::{ByteOrder, NumberType};
+
 /// Reads a value from its bytes.
 type Decode<T> = dyn Fn(&[u8]) -> T;
 
@@ -14,57 +16,43 @@ pub(super) struct Decoder<T> {
 /// Most characters a text that are believed.
 const LONGEST_TEXT: usize = 1 << 14;
 
-/// The bytes of one value, lowest first.
-fn lowest_first<const N: usize>(bytes: &[u8], big: bool) -> [u8; N] {
-    let mut own = [0; N];
-    for (to, from) in own.iter_mut().zip(bytes) {
-        *to = *from;
-    }
-    if big {
-        own.reverse();
-    }
-    own
-}
-
-/// NumPy's name of a type without its byte order, and whether the highest byte comes first.
-fn order(type_name: &str) -> Option<(bool, &str)> {
-    let big = type_name.starts_with('>');
+/// Byte order and name of NumPy's type.
+fn order(type_name: &str) -> Option<(ByteOrder, &str)> {
+    let order = if type_name.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
     let name = type_name.strip_prefix(['<', '>']);
     // a single byte has no order
     let single = || type_name.strip_prefix('|').filter(|name| name.ends_with('1'));
-    Some((big, name.or_else(single)?))
-}
-
-fn decoder<T, const N: usize>(big: bool, number: impl Fn([u8; N]) -> T + 'static) -> Option<Decoder<T>> {
-    Some(Decoder { bytes: N, decode: Box::new(move |bytes| number(lowest_first(bytes, big))) })
+    Some((order, name.or_else(single)?))
 }
 
 /// Real numbers: f8, f4, and whole ones of one to eight bytes.
 pub(super) fn real(type_name: &str) -> Option<Decoder<f64>> {
-    let (big, name) = order(type_name)?;
-    match name {
-        "f8" => decoder(big, f64::from_le_bytes),
-        "f4" => decoder(big, |bytes| f64::from(f32::from_le_bytes(bytes))),
-        "i8" => decoder(big, |bytes| i64::from_le_bytes(bytes) as f64),
-        "i4" => decoder(big, |bytes| f64::from(i32::from_le_bytes(bytes))),
-        "i2" => decoder(big, |bytes| f64::from(i16::from_le_bytes(bytes))),
-        "i1" => decoder(big, |bytes| f64::from(i8::from_le_bytes(bytes))),
-        "u4" => decoder(big, |bytes| f64::from(u32::from_le_bytes(bytes))),
-        "u2" => decoder(big, |bytes| f64::from(u16::from_le_bytes(bytes))),
-        "u1" => decoder(big, |bytes| f64::from(u8::from_le_bytes(bytes))),
-        _ => None,
-    }
+    let (order, name) = order(type_name)?;
+    let number = match name {
+        "f8" => NumberType::F64,
+        "f4" => NumberType::F32,
+        "i8" => NumberType::I64,
+        "i4" => NumberType::I32,
+        "i2" => NumberType::I16,
+        "i1" => NumberType::I8,
+        "u4" => NumberType::U32,
+        "u2" => NumberType::U16,
+        "u1" => NumberType::U8,
+        _ => return None,
+    };
+    Some(Decoder { bytes: number.width(), decode: Box::new(move |bytes| number.value(bytes, order)) })
 }
 
 /// Whole numbers: i8, i4, u4.
 pub(super) fn whole(type_name: &str) -> Option<Decoder<i64>> {
-    let (big, name) = order(type_name)?;
-    match name {
-        "i8" => decoder(big, i64::from_le_bytes),
-        "i4" => decoder(big, |bytes| i64::from(i32::from_le_bytes(bytes))),
-        "u4" => decoder(big, |bytes| i64::from(u32::from_le_bytes(bytes))),
-        _ => None,
-    }
+    let (order, name) = order(type_name)?;
+    let (bytes, decode): (_, Box<Decode<i64>>) = match name {
+        "i8" => (8, Box::new(move |bytes| i64::from_le_bytes(order.lowest_first(bytes)))),
+        "i4" => (4, Box::new(move |bytes| i64::from(i32::from_le_bytes(order.lowest_first(bytes))))),
+        "u4" => (4, Box::new(move |bytes| i64::from(order.u32(bytes)))),
+        _ => return None,
+    };
+    Some(Decoder { bytes, decode })
 }
 
 /// Text: U (four bytes a character) and S (one), padded with zeros.
@@ -83,13 +71,13 @@ pub(super) fn text(type_name: &str) -> Option<Decoder<String>> {
             }),
         });
     }
-    let (big, name) = order(type_name)?;
+    let (order, name) = order(type_name)?;
     let bytes = 4 * length(name.strip_prefix('U')?)?;
     Some(Decoder {
         bytes,
         decode: Box::new(move |bytes| {
             let codes = bytes.chunks_exact(4);
-            let codes = codes.map(|code| u32::from_le_bytes(lowest_first(code, big)));
+            let codes = codes.map(|code| order.u32(code));
             let character = |code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER);
             let padded: String = codes.map(character).collect();
             padded.trim_end_matches('\0').to_owned()

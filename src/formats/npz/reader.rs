@@ -203,35 +203,24 @@ fn header_text(from: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
 
 /// Up to `count` values, and whether anything follows them.
 fn numbers<T>(from: &mut impl Read, count: usize, decoder: &Decoder<T>) -> io::Result<(Vec<T>, bool)> {
-    let mut values = Vec::new();
     let size = decoder.bytes;
-    let mut bytes = vec![0_u8; (BUFFER / size).max(1) * size];
+    let most = (BUFFER / size).max(1) * size;
+    let (mut values, mut bytes) = (Vec::new(), Vec::new());
+    let mut read = |bytes: &mut Vec<u8>, wanted: usize| {
+        bytes.clear();
+        from.by_ref().take(wanted as u64).read_to_end(bytes)
+    };
     while values.len() < count {
-        let wanted = (count - values.len()).saturating_mul(size).min(bytes.len());
-        let found = fill(from, &mut bytes[..wanted])?;
-        let whole = bytes[..found].chunks_exact(size);
-        values.extend(whole.map(&decoder.decode));
+        let wanted = (count - values.len()).saturating_mul(size).min(most);
+        let found = read(&mut bytes, wanted)?;
+        values.extend(bytes.chunks_exact(size).map(&decoder.decode));
         if found < wanted {
             return Ok((values, false));
         }
     }
     // reading on to the end also compares the checksum
-    let more = fill(from, &mut bytes[..1])? > 0;
+    let more = read(&mut bytes, 1)? > 0;
     Ok((values, more))
-}
-
-/// Reads until the buffer is full or there is no more; returns how much.
-fn fill(from: &mut impl Read, buffer: &mut [u8]) -> io::Result<usize> {
-    let mut filled = 0;
-    while filled < buffer.len() {
-        match from.read(&mut buffer[filled..]) {
-            Ok(0) => break,
-            Ok(more) => filled += more,
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(filled)
 }
 
 impl Header {

@@ -72,7 +72,7 @@ impl NpzWriter {
     /// Writes a matrix of `rows` x `columns`, `values` row by row (C order).
     ///
     /// # Errors
-    /// As [`begin`](Self::begin), and [`FormatError::Count`] unless there are rows x columns values.
+    /// As [`begin`](Self::begin), and [`FormatError::Refused`] unless there are rows x columns values.
     pub fn matrix<T: NpzElement>(
         &mut self,
         name: &str,
@@ -88,7 +88,7 @@ impl NpzWriter {
     /// Begins an array of a known shape whose values come in pieces, last index fastest (C order).
     ///
     /// # Errors
-    /// [`FormatError::ArrayName`], [`FormatError::DuplicateArray`], [`FormatError::Incomplete`] if an earlier array is,
+    /// [`FormatError::Refused`] for a name that is improper or taken and after an array that is incomplete,
     /// [`FormatError::File`].
     pub(crate) fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
@@ -140,10 +140,11 @@ impl NpzWriter {
     /// Begins an entry whose values, `length` bytes, will follow its header.
     fn start(&mut self, name: &str, header: &[u8], length: usize) -> Result<(), FormatError> {
         if !is_array_name(name) {
-            return Err(FormatError::ArrayName { name: name.into() });
+            let rule = "array name must be letters, digits, '_', '-', '.' or spaces";
+            return Err(FormatError::Refused(format!("{rule}, found \"{name}\"")));
         }
         if self.names.iter().any(|n| n == name) {
-            return Err(FormatError::DuplicateArray { name: name.into() });
+            return Err(FormatError::Refused(format!("array \"{name}\" is already in the archive")));
         }
         self.check_complete()?;
         self.names.push(name.to_owned());
@@ -161,7 +162,7 @@ impl NpzWriter {
     /// Completes the archive and gives it its name, in place of an earlier one.
     ///
     /// # Errors
-    /// [`FormatError::Incomplete`], [`FormatError::File`]; the temporary file is then removed.
+    /// [`FormatError::Refused`] after an array that is incomplete, [`FormatError::File`]; the temporary file is then removed.
     pub fn finish(mut self) -> Result<(), FormatError> {
         self.check_complete()?;
         let Some(archive) = self.archive.take() else {
@@ -174,7 +175,7 @@ impl NpzWriter {
 
     fn check_complete(&self) -> Result<(), FormatError> {
         match &self.incomplete {
-            Some(name) => Err(FormatError::Incomplete { name: name.clone() }),
+            Some(name) => Err(FormatError::Refused(format!("array \"{name}\" was begun and not completed"))),
             None => Ok(()),
         }
     }
@@ -206,7 +207,7 @@ impl<T: NpzElement> NpzArray<'_, T> {
     /// Writes the next values.
     ///
     /// # Errors
-    /// [`FormatError::Count`] if there are more than the shape holds, [`FormatError::File`].
+    /// [`FormatError::Refused`] if there are more than the shape holds, [`FormatError::File`].
     pub(crate) fn extend(&mut self, values: &[T]) -> Result<(), FormatError> {
         self.written += values.len();
         if self.written > self.expected {
@@ -226,7 +227,7 @@ impl<T: NpzElement> NpzArray<'_, T> {
     /// Ends the array.
     ///
     /// # Errors
-    /// [`FormatError::Count`] if values are missing.
+    /// [`FormatError::Refused`] if values are missing.
     pub(crate) fn end(self) -> Result<(), FormatError> {
         if self.written == self.expected {
             self.writer.incomplete = None;
@@ -237,11 +238,8 @@ impl<T: NpzElement> NpzArray<'_, T> {
     }
 
     fn shape_error(&self) -> FormatError {
-        FormatError::Count {
-            what: format!("array \"{}\" of shape {:?}", self.name, self.shape),
-            expected: format!("{} values", self.expected),
-            found: self.written,
-        }
+        let Self { name, shape, expected, written, .. } = self;
+        FormatError::Refused(format!("array \"{name}\" of shape {shape:?} takes {expected} values, found {written}"))
     }
 }
 

@@ -1,6 +1,6 @@
 //! ASCII files: whole numbers in columns of 8, reals as the header says.
 
-use super::super::fortran::{columns, quoted, real};
+use super::super::fortran::{columns, fields, quoted, real, take_line};
 use super::Op4Matrix;
 use super::builder::{Builder, Column, Header};
 use crate::files::Fault;
@@ -43,9 +43,7 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
         Some(text) => (text, 16),
         None => (line.as_str(), 8),
     };
-    let whole = |begin: usize, width: usize| whole(text, begin, width);
-    let numbers = (whole(0, wide), whole(wide, wide), whole(2 * wide, 8), whole(2 * wide + 8, 8));
-    let (Some(columns), Some(rows), Some(form), Some(kind)) = numbers else {
+    let Some([columns, rows, form, kind]) = integers(text, [wide, wide, 8, 8]) else {
         return Err(fault(lines, HEADER));
     };
     let name_at = 2 * wide + 16;
@@ -58,8 +56,7 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
     const COLUMN: &str = "column, first row and length of a column";
     loop {
         let line = lines.next(COLUMN)?;
-        let words = integers::<3>(&line).ok_or_else(|| lines.fault(COLUMN, &line))?;
-        let [column, row, length] = words;
+        let [column, row, length] = integers(&line, [8; 3]).ok_or_else(|| lines.fault(COLUMN, &line))?;
         let begun = builder.column(column, row);
         match begun.map_err(|expected| lines.fault(expected, &line))? {
             Column::End => {
@@ -80,7 +77,7 @@ fn sparse(lines: &mut Lines, builder: &mut Builder, format: RealFormat, mut word
     while words > 0 {
         let line = lines.next(RUN)?;
         let key = if builder.big {
-            integers::<2>(&line)
+            integers(&line, [8; 2])
         } else {
             let key = line.trim().parse::<i64>().ok();
             key.map(|key| [key >> 16, key & 0xffff])
@@ -114,35 +111,19 @@ impl RealFormat {
     }
 }
 
-/// A whole number in columns.
-fn whole(text: &str, begin: usize, width: usize) -> Option<i64> {
-    let text = text.get(begin..text.len().min(begin + width))?;
-    text.trim().parse().ok()
-}
-
-/// Whole numbers in columns of 8.
-fn integers<const N: usize>(line: &str) -> Option<[i64; N]> {
-    let mut numbers = [0; N];
-    for (place, number) in numbers.iter_mut().enumerate() {
-        *number = whole(line, 8 * place, 8)?;
-    }
-    Some(numbers)
+/// Whole numbers in columns of these widths.
+fn integers<const N: usize>(line: &str, widths: [usize; N]) -> Option<[i64; N]> {
+    let numbers: Option<Vec<i64>> = fields(line, &widths).into_iter().map(|field| field.parse().ok()).collect();
+    numbers?.try_into().ok()
 }
 
 impl Lines<'_> {
     fn next(&mut self, expected: &'static str) -> Result<String, Fault> {
         self.line += 1;
-        if self.rest.is_empty() {
+        let Some(line) = take_line(&mut self.rest) else {
             return Err(Fault::new(expected, "the end of the file").at(format_args!("line {}", self.line)));
-        }
-        let end = self.rest.iter().position(|&byte| byte == b'\n');
-        let (line, rest) = match end {
-            Some(end) => (&self.rest[..end], &self.rest[end + 1..]),
-            None => (self.rest, &[][..]),
         };
-        self.rest = rest;
-        let text = String::from_utf8_lossy(line);
-        Ok(text.trim_end().to_owned())
+        Ok(String::from_utf8_lossy(line).trim_end().to_owned())
     }
 
     /// Tells of the line that was read last.

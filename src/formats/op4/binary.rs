@@ -3,11 +3,12 @@
 use super::Op4Matrix;
 use super::builder::{Builder, Column, Header};
 use crate::files::Fault;
+use crate::formats::bytes::{ByteOrder, NumberType};
 
 /// Byte order and length of words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Words {
-    big_endian: bool,
+    order: ByteOrder,
     /// Bytes of a whole number, 4 or 8.
     bytes: usize,
 }
@@ -16,42 +17,26 @@ impl Words {
     /// What the length of the first record says, four whole numbers and two words of text.
     pub(super) fn of_first_record(first: [u8; 4]) -> Option<Self> {
         let (little, big) = (u32::from_le_bytes(first), u32::from_be_bytes(first));
-        let (big_endian, length) = match (little, big) {
-            (24 | 48, _) => (false, little),
-            (_, 24 | 48) => (true, big),
+        let (order, length) = match (little, big) {
+            (24 | 48, _) => (ByteOrder::Little, little),
+            (_, 24 | 48) => (ByteOrder::Big, big),
             _ => return None,
         };
         let bytes = if length == 24 { 4 } else { 8 };
-        Some(Self { big_endian, bytes })
+        Some(Self { order, bytes })
     }
 
-    fn chunk<const N: usize>(self, bytes: &[u8]) -> Option<[u8; N]> {
-        let mut own = *bytes.first_chunk::<N>()?;
-        if self.big_endian {
-            own.reverse();
-        }
-        Some(own)
-    }
-
-    /// The whole number at the beginning.
-    fn whole(self, bytes: &[u8]) -> Option<i64> {
+    /// The whole number of these bytes.
+    fn whole(self, bytes: &[u8]) -> i64 {
         match self.bytes {
-            4 => Some(i64::from(i32::from_le_bytes(self.chunk(bytes)?))),
-            _ => Some(i64::from_le_bytes(self.chunk(bytes)?)),
+            4 => i64::from(i32::from_le_bytes(self.order.lowest_first(bytes))),
+            _ => i64::from_le_bytes(self.order.lowest_first(bytes)),
         }
     }
 
-    /// Bytes of a real number. With words of 64 bits single precision has them too.
-    fn bytes_of_real(self, single: bool) -> usize {
-        if single && self.bytes == 4 { 4 } else { 8 }
-    }
-
-    fn real(self, bytes: &[u8]) -> f64 {
-        let read = match bytes.len() {
-            4 => self.chunk(bytes).map(|own| f64::from(f32::from_le_bytes(own))),
-            _ => self.chunk(bytes).map(f64::from_le_bytes),
-        };
-        read.unwrap_or(f64::NAN)
+    /// Type of real numbers. With words of 64 bits single precision has as many bytes as double.
+    fn real(self, single: bool) -> NumberType {
+        if single && self.bytes == 4 { NumberType::F32 } else { NumberType::F64 }
     }
 }
 
@@ -142,13 +127,13 @@ fn sparse(builder: &mut Builder, record: &mut Record) -> Result<(), Fault> {
 /// Numbers of so many bytes, from a row on.
 fn run(builder: &mut Builder, record: &mut Record, row: i64, bytes: usize) -> Result<(), Fault> {
     const NUMBERS: &str = "whole real numbers that the column has";
-    let size = record.words.bytes_of_real(builder.is_single());
+    let (real, order) = (record.words.real(builder.is_single()), record.words.order);
+    let size = real.width();
     let rest = record.content.split_at_checked(bytes);
     let Some((numbers, rest)) = rest.filter(|_| bytes.is_multiple_of(size)) else {
         return Err(record.fault(NUMBERS, format!("{bytes} bytes from row {row}")));
     };
-    let words = record.words;
-    let values = numbers.chunks_exact(size).map(|bytes| words.real(bytes));
+    let values = numbers.chunks_exact(size).map(|bytes| real.value(bytes, order));
     let count = bytes / size;
     let taken = builder.run(row, count, values);
     taken.map_err(|expected| record.fault(expected, format!("{count} from row {row}")))?;
@@ -162,7 +147,7 @@ impl<'a> Records<'a> {
         let place = self.place;
         let fault = |found: String| Fault::new(expected, found).at(format_args!("byte {place}"));
         let rest = self.bytes.get(place..).unwrap_or_default();
-        let length = |bytes: &[u8]| self.words.chunk(bytes).map(u32::from_le_bytes);
+        let length = |bytes: &[u8]| bytes.get(..4).map(|bytes| self.words.order.u32(bytes));
         let Some(first) = length(rest) else {
             return Err(fault("the end of the file".to_owned()));
         };
@@ -187,13 +172,11 @@ impl<'a> Records<'a> {
 impl Record<'_> {
     /// Takes a whole number.
     fn whole(&mut self, expected: &'static str) -> Result<i64, Fault> {
-        let number = self.words.whole(self.content);
-        let rest = self.content.get(self.words.bytes..);
-        let (Some(number), Some(rest)) = (number, rest) else {
+        let Some((number, rest)) = self.content.split_at_checked(self.words.bytes) else {
             return Err(self.fault(expected, "the end of the record".to_owned()));
         };
         self.content = rest;
-        Ok(number)
+        Ok(self.words.whole(number))
     }
 
     fn fault(&self, expected: &'static str, found: String) -> Fault {

@@ -24,7 +24,7 @@ mod record;
 pub(in crate::formats) mod samples;
 
 pub use check::SYMMETRY_LIMIT;
-pub use mbdyn::{MbdynError, MbdynReference, MbdynSummary, write_mbdyn_fem};
+pub use mbdyn::{MbdynReference, MbdynSummary, write_mbdyn_fem};
 pub use npz_read::read_superelement_npz;
 pub use npz_write::write_superelement_npz;
 pub use op4::{read_superelement_op4, write_superelement_op4};

@@ -1,5 +1,6 @@
 //! Binary functions, dataset 58b.
 
+use super::super::bytes::{ByteOrder, NumberType};
 use super::cursor::{Cursor, Line};
 use super::function::Form;
 use crate::files::Fault;
@@ -10,8 +11,7 @@ pub(super) struct Binary<'a> {
     pub(super) lines: Vec<Line>,
     /// The bytes of its numbers.
     pub(super) bytes: &'a [u8],
-    /// Whether the lowest byte comes first.
-    little_endian: bool,
+    order: ByteOrder,
     /// Whether the numbers are those of IEEE 754.
     pub(super) ieee: bool,
 }
@@ -37,27 +37,15 @@ pub(super) fn read_binary<'a>(cursor: &mut Cursor<'a>, head: &Line) -> Result<Bi
     let ends = sizes.iter().find(|&&bytes| cursor.delimiter_after(bytes));
     let bytes = cursor.take(ends.copied().unwrap_or(bytes));
     cursor.skip()?;
-    Ok(Binary { lines, bytes, little_endian: number(1) != Some(2), ieee: number(2) == Some(2) })
+    let order = if number(1) == Some(2) { ByteOrder::Big } else { ByteOrder::Little };
+    Ok(Binary { lines, bytes, order, ieee: number(2) == Some(2) })
 }
 
 impl Binary<'_> {
     /// The numbers, in single or double precision; a rest that is no whole number is left out.
     pub(super) fn numbers(&self, single: bool) -> Vec<f64> {
-        if single {
-            let real = match self.little_endian {
-                true => f32::from_le_bytes,
-                false => f32::from_be_bytes,
-            };
-            let (chunks, _) = self.bytes.as_chunks::<4>();
-            chunks.iter().map(|chunk| f64::from(real(*chunk))).collect()
-        } else {
-            let real = match self.little_endian {
-                true => f64::from_le_bytes,
-                false => f64::from_be_bytes,
-            };
-            let (chunks, _) = self.bytes.as_chunks::<8>();
-            chunks.iter().map(|chunk| real(*chunk)).collect()
-        }
+        let real = if single { NumberType::F32 } else { NumberType::F64 };
+        self.bytes.chunks_exact(real.width()).map(|bytes| real.value(bytes, self.order)).collect()
     }
 }
 

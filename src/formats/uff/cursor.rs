@@ -1,6 +1,6 @@
 //! Lines of a universal file, with their numbers.
 
-use super::super::fortran::{columns, quoted, real};
+use super::super::fortran::{columns, quoted, real, take_line};
 use crate::files::Fault;
 
 /// A line and its number, counted from 1.
@@ -51,15 +51,7 @@ impl<'a> Cursor<'a> {
 
     /// The next line, if there is one.
     pub(super) fn next(&mut self) -> Option<Line> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let end = self.rest.iter().position(|&byte| byte == b'\n');
-        let (line, rest) = match end {
-            Some(end) => (&self.rest[..end], &self.rest[end + 1..]),
-            None => (self.rest, &[][..]),
-        };
-        self.rest = rest;
+        let line = take_line(&mut self.rest)?;
         self.line += 1;
         Some(Line { number: self.line, text: String::from_utf8_lossy(line).into_owned() })
     }

@@ -1,6 +1,6 @@
 //! What datasets 58 and 58b have in common: units, the head, the form of the numbers.
 
-use super::super::fortran::{columns, real};
+use super::super::fortran::{columns, fields, real};
 use super::cursor::{Cursor, Line};
 use super::response::ResponsePoint;
 use crate::files::Fault;
@@ -111,15 +111,8 @@ const POINTS: &str =
 /// Record 6, in its columns, else as words.
 fn identification(line: &Line) -> Result<Identification, Fault> {
     const WIDTHS: [usize; 10] = [5, 10, 5, 10, 11, 10, 4, 11, 10, 4];
-    let mut begin = 0;
-    let mut fields = Vec::new();
-    for width in WIDTHS {
-        fields.push(line.text.get(begin..line.text.len().min(begin + width)));
-        begin += width;
-    }
-    let fields: Vec<&str> = fields.into_iter().flatten().map(str::trim).collect();
     let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
-    let own = point_fields(&fields).or_else(|| point_fields(&words));
+    let own = point_fields(&fields(&line.text, &WIDTHS)).or_else(|| point_fields(&words));
     own.ok_or_else(|| line.fault(POINTS))
 }
 

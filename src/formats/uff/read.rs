@@ -56,11 +56,8 @@ pub fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, FormatE
 fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let mut cursor = Cursor::new(bytes);
     let mut content = Content::default();
-    while let Some(line) = cursor.next() {
-        // Text between datasets means nothing.
-        if line.is_delimiter() {
-            content.dataset(&mut cursor)?;
-        }
+    while let Some(head) = cursor.next_dataset() {
+        content.dataset(&mut cursor, &head)?;
     }
     let mentioned: HashSet<u64> =
         content.modes.iter().flat_map(|mode| mode.displacements.iter().map(|&(tag, _)| tag)).collect();
@@ -99,33 +96,21 @@ impl System {
 }
 
 impl Content {
-    /// Reads what follows the line that begins a dataset, to the line that ends it.
-    fn dataset(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
-        const NUMBER: &str = "the number of a dataset";
-        let Some(mut head) = cursor.next() else {
-            // a file may end in one delimiter too many
-            return Ok(());
-        };
-        while head.text.trim().is_empty() {
-            let Some(line) = cursor.next() else {
-                return Ok(());
-            };
-            head = line;
-        }
-        let words: Vec<&str> = head.text.split_ascii_whitespace().collect();
-        match words.as_slice() {
-            ["2411" | "781", ..] => self.nodes_on_two_lines(cursor),
-            ["15", ..] => self.nodes_on_one_line(cursor),
-            ["164", ..] => self.units(cursor),
-            ["2420", ..] => self.systems(cursor),
-            ["18", ..] => self.old_systems(cursor),
-            ["55", ..] => {
+    /// Reads what follows the line with a dataset's number, to the line that ends it.
+    fn dataset(&mut self, cursor: &mut Cursor, head: &Line) -> Result<(), Fault> {
+        match head.text.split_ascii_whitespace().next() {
+            Some("2411" | "781") => self.nodes_on_two_lines(cursor),
+            Some("15") => self.nodes_on_one_line(cursor),
+            Some("164") => self.units(cursor),
+            Some("2420") => self.systems(cursor),
+            Some("18") => self.old_systems(cursor),
+            Some("55") => {
                 self.modes.extend(read_mode(cursor)?);
                 Ok(())
             }
-            ["58b", ..] => read_binary(cursor, &head).map(|_| ()),
-            [number, ..] if number.parse::<u32>().is_ok() => cursor.skip(),
-            _ => Err(head.fault(NUMBER)),
+            Some("58b") => read_binary(cursor, head).map(|_| ()),
+            Some(number) if number.parse::<u32>().is_ok() => cursor.skip(),
+            _ => Err(head.fault("the number of a dataset")),
         }
     }
 

@@ -183,15 +183,7 @@ fn name(head: &FunctionHead) -> String {
         (false, _) => own,
         (true, false) => point.name.clone(),
         (true, true) => {
-            let axis = match point.signed_axis() {
-                1 => " +x",
-                -1 => " -x",
-                2 => " +y",
-                -2 => " -y",
-                3 => " +z",
-                -3 => " -z",
-                _ => "",
-            };
+            let axis = [" -z", " -y", " -x", "", " +x", " +y", " +z"][(point.signed_axis() + 3) as usize];
             format!("node {}{axis}", point.node.unwrap_or(0))
         }
     }

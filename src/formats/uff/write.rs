@@ -46,7 +46,7 @@ pub fn write_uff(
             Some((block.kind, *block.tags.get(id.index)?, nodes))
         });
         let Some((kind, label, nodes)) = found else {
-            return Err(FormatError::Element { id });
+            return Err(FormatError::no_element(id));
         };
         let Some(descriptor) = descriptor(kind) else {
             let expected = "surface and solid elements";

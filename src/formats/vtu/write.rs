@@ -54,7 +54,7 @@ impl<'a> Grid<'a> {
             let block = mesh.blocks.get(id.block);
             let found = block.and_then(|block| Some((block.kind, block.element(id.index)?)));
             let Some((kind, nodes)) = found else {
-                return Err(FormatError::Element { id });
+                return Err(FormatError::no_element(id));
             };
             for &node in nodes {
                 place[node] = 0;
@@ -81,17 +81,14 @@ impl<'a> Grid<'a> {
                 return Err(Fault::new(expected, format!("{name:?}")).into());
             }
             if fields[..index].iter().any(|other| other.name == name) {
-                let name = name.to_owned();
-                return Err(FormatError::DuplicateField { name });
+                return Err(FormatError::Refused(format!("two fields are called \"{name}\"")));
             }
             let expected = field.values.components() * count;
             let found = field.values.len();
             if found != expected {
-                return Err(FormatError::Count {
-                    what: format!("field \"{name}\""),
-                    expected: format!("{expected} values (a fixed number for each {what})"),
-                    found,
-                });
+                return Err(FormatError::Refused(format!(
+                    "field \"{name}\" takes {expected} values (a fixed number for each {what}), found {found}"
+                )));
             }
         }
         Ok(())

@@ -5,8 +5,11 @@ use std::f64::consts::PI;
 use super::super::{
     Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Section, Slip,
 };
-use super::range::{above, above_zero, below, degrees, known_isotropic, not_empty, ratio, zero_or_more};
-use super::rule::{BrokenRule, Rule};
+use super::range::{
+    above, above_zero, below, count, degrees, kept, known_isotropic, needs, not_beside, not_empty, ratio, repeated,
+    zero_or_more,
+};
+use super::rule::{BrokenRule, Rule, short};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
@@ -14,13 +17,8 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     let Some(bearing) = &case.bearing else {
         return Ok(());
     };
-    if case.ring.is_none() {
-        return Err(Rule::Needs { other: "[ring]" }.at("bearing"));
-    }
-    if !(3..=40).contains(&bearing.balls) {
-        let (found, expected) = (bearing.balls, "3 to 40 balls");
-        return Err(Rule::Count { found, expected }.at("bearing.balls"));
-    }
+    needs("bearing", "[ring]", case.ring.is_some())?;
+    count("bearing.balls", bearing.balls, 3..=40, "3 to 40 balls")?;
     ball(case, bearing)?;
     races(case, bearing)?;
     room(bearing)?;
@@ -28,12 +26,8 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
     zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
     if bearing.balls_inertia == Some(BallsInertia::QuasiStatic) {
         let other = "bearing.balls_inertia = \"quasi-static\"";
-        if bearing.contact_damping > 0.0 {
-            return Err(Rule::Beside { other }.at("bearing.contact_damping"));
-        }
-        if bearing.formulation == Formulation::Printed {
-            return Err(Rule::Beside { other }.at("bearing.formulation"));
-        }
+        not_beside("bearing.contact_damping", other, bearing.contact_damping > 0.0)?;
+        not_beside("bearing.formulation", other, bearing.formulation == Formulation::Printed)?;
     }
     if let ContactStiffness::Given { inner, outer } = bearing.stiffness {
         above_zero("bearing.stiffness.inner", inner)?;
@@ -47,28 +41,21 @@ pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
 fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
     for (index, wave) in bearing.waviness.iter().enumerate() {
         let at = |key: &str| format!("bearing.waviness[{index}].{key}");
-        if wave.order == 0 {
-            let (found, expected) = (0, "at least 1");
-            return Err(Rule::Count { found, expected }.at(at("order")));
-        }
+        count(at("order"), wave.order as usize, 1.., "at least 1")?;
         degrees(at("phase_deg"), wave.phase_deg)?;
         zero_or_more(at("amplitude"), wave.amplitude)?;
-        let limit = 0.1 * bearing.ball_radius;
-        let what = "a tenth of the ball's radius";
-        below(at("amplitude"), wave.amplitude, what, limit)?;
+        below(at("amplitude"), wave.amplitude, "a tenth of the ball's radius", 0.1 * bearing.ball_radius)?;
     }
     let differences = &bearing.ball_radius_differences;
     let key = "bearing.ball_radius_differences";
-    if !differences.is_empty() && differences.len() != bearing.balls {
-        let (found, expected) = (differences.len(), "as many numbers as there are balls");
-        return Err(Rule::Count { found, expected }.at(key));
+    if !differences.is_empty() {
+        count(key, differences.len(), bearing.balls..=bearing.balls, "as many numbers as there are balls")?;
     }
     let limit = 0.01 * bearing.ball_radius;
     for (index, &difference) in differences.iter().enumerate() {
         let key = format!("{key}[{index}]");
-        let [what, minus] = ["a hundredth of the ball's radius", "minus a hundredth of the ball's radius"];
-        above(key.as_str(), difference, minus, -limit)?;
-        below(key, difference, what, limit)?;
+        above(key.as_str(), difference, "minus a hundredth of the ball's radius", -limit)?;
+        below(key, difference, "a hundredth of the ball's radius", limit)?;
     }
     Ok(())
 }
@@ -96,16 +83,9 @@ fn slip(slip: &Slip) -> Result<(), BrokenRule> {
 
 fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     above_zero("bearing.ball_radius", bearing.ball_radius)?;
-    if let Some(mass) = bearing.ball_mass {
-        above_zero("bearing.ball_mass", mass)?;
-    }
-    if let Some(density) = bearing.density {
-        above_zero("bearing.density", density)?;
-    }
-    if bearing.ball_mass.is_some() && bearing.density.is_some() {
-        let other = "bearing.density";
-        return Err(Rule::Beside { other }.at("bearing.ball_mass"));
-    }
+    above_zero("bearing.ball_mass", bearing.ball_mass)?;
+    above_zero("bearing.density", bearing.density)?;
+    not_beside("bearing.ball_mass", "bearing.density", bearing.ball_mass.is_some() && bearing.density.is_some())?;
     known_isotropic(case, "bearing.ball_material", &bearing.ball_material)?;
     Ok(())
 }
@@ -147,26 +127,26 @@ fn outer_face(case: &Case) -> Option<f64> {
 fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
     let limit = 0.1 * bearing.ball_radius;
     let play = bearing.play_from_radii();
-    if bearing.radial_play.is_none() && play.abs() > limit {
-        return Err(Rule::BallsDoNotFit { play, limit }.at("bearing.outer_race_radius"));
-    }
-    if let Some(found) = bearing.radial_play
-        && found.abs() > limit
-    {
-        let (how, what) = ("at most", "a tenth of the ball's radius either way");
-        let other = limit;
-        return Err(Rule::Beyond { found, how, what, other }.at("bearing.radial_play"));
+    match bearing.radial_play {
+        None => kept(play.abs() <= limit, "bearing.outer_race_radius", || {
+            let (play, limit) = (short(play), short(limit));
+            Rule::new(format!(
+                "the radii leave a radial play of {play} m, expected at most a tenth of the ball's radius ({limit} m) either way"
+            ))
+            .with_help("check that all radii are in m and none is a diameter; `bearing.radial_play` overrides the play")
+        })?,
+        Some(found) => kept(found.abs() <= limit, "bearing.radial_play", || {
+            Rule::beyond(found, "at most a tenth of the ball's radius either way", limit)
+        })?,
     }
     let pitch = 0.5 * (bearing.inner_race_radius + bearing.outer_race_radius);
     // A ball of the pitch radius or more leaves no angle: then none fits beside it.
     let half_angle = (bearing.ball_radius / pitch).min(1.0).asin();
     // A small positive number.
     let most = (PI / half_angle).floor() as usize;
-    if bearing.balls > most {
-        let found = bearing.balls;
-        return Err(Rule::BallsOverlap { found, most }.at("bearing.balls"));
-    }
-    Ok(())
+    kept(bearing.balls <= most, "bearing.balls", || {
+        Rule::found(bearing.balls, &format!("at most {most}: balls of this radius would overlap"))
+    })
 }
 
 pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
@@ -186,10 +166,8 @@ pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
             Defect::Measured(_) => {}
             Defect::Flat(flat) => {
                 flat_rules(bearing, flat, at)?;
-                if with_flat.contains(&flat.ball) {
-                    let name = format!("ball {}", flat.ball);
-                    return Err(Rule::Repeated { name }.at(at("ball")));
-                }
+                let first = !with_flat.contains(&flat.ball);
+                kept(first, at("ball"), || repeated(&format!("ball {}", flat.ball)))?;
                 with_flat.push(flat.ball);
             }
         }
@@ -201,13 +179,10 @@ fn dent_rules(bearing: &Bearing, dent: &DentDefect, at: impl Fn(&str) -> String)
     above_zero(at("length"), dent.length)?;
     above_zero(at("depth"), dent.depth)?;
     above_zero(at("rim_radius"), dent.rim_radius)?;
-    if let Some(width) = dent.width {
-        above_zero(at("width"), width)?;
-        if dent.profile == DentProfile::Surface {
-            // every groove is wider than the ball
-            let diameter = 2.0 * bearing.ball_radius;
-            below(at("width"), width, "twice `bearing.ball_radius`", diameter)?;
-        }
+    above_zero(at("width"), dent.width)?;
+    if let (Some(width), DentProfile::Surface) = (dent.width, dent.profile) {
+        // every groove is wider than the ball
+        below(at("width"), width, "twice `bearing.ball_radius`", 2.0 * bearing.ball_radius)?;
     }
     let radius = match dent.on {
         Race::Inner => bearing.inner_race_radius,
@@ -219,10 +194,7 @@ fn dent_rules(bearing: &Bearing, dent: &DentDefect, at: impl Fn(&str) -> String)
 }
 
 fn flat_rules(bearing: &Bearing, flat: &FlatDefect, at: impl Fn(&str) -> String) -> Result<(), BrokenRule> {
-    if flat.ball >= bearing.balls {
-        let (found, expected) = (flat.ball, "the number of a ball, counted from 0");
-        return Err(Rule::Count { found, expected }.at(at("ball")));
-    }
+    count(at("ball"), flat.ball, ..bearing.balls, "the number of a ball, counted from 0")?;
     let ball = bearing.ball_radius;
     above(at("flat_radius"), flat.flat_radius, "`bearing.ball_radius`", ball)?;
     above_zero(at("depth"), flat.depth)?;

@@ -20,7 +20,7 @@ impl Case {
     /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
     pub(crate) fn validate(&self) -> Result<(), BrokenRule> {
         if self.housing.is_none() && self.ring.is_none() {
-            return Err(Rule::NothingToModel.at("housing"));
+            return Err(Rule::nothing_to_model().at("housing"));
         }
         structure::materials(self)?;
         structure::housing(self)?;

@@ -1,15 +1,45 @@
-//! Ranges that many keys share.
+//! Ranges and relations that many keys share.
+
+use std::ops::RangeBounds;
 
 use super::super::nearest::Choices;
 use super::super::{Case, IsotropicMaterial, Material};
-use super::rule::{BrokenRule, Rule};
+use super::rule::{BrokenRule, Rule, short};
 
 fn within(holds: bool, key: impl Into<String>, found: f64, expected: &'static str) -> Result<(), BrokenRule> {
-    if holds { Ok(()) } else { Err(Rule::Range { found, expected }.at(key)) }
+    kept(holds, key, || Rule::found(short(found), expected))
 }
 
-pub(super) fn above_zero(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within(found > 0.0, key, found, "a number above 0")
+/// A rule that a key keeps or breaks.
+pub(super) fn kept(holds: bool, key: impl Into<String>, rule: impl FnOnce() -> Rule) -> Result<(), BrokenRule> {
+    if holds { Ok(()) } else { Err(rule().at(key)) }
+}
+
+/// A key that makes sense only with another.
+pub(super) fn needs(key: impl Into<String>, other: &'static str, there: bool) -> Result<(), BrokenRule> {
+    kept(there, key, || Rule::new(format!("needs {other}, which the case lacks")))
+}
+
+/// A key that excludes another.
+pub(super) fn not_beside(key: impl Into<String>, other: &'static str, there: bool) -> Result<(), BrokenRule> {
+    kept(!there, key, || Rule::found(format!("beside `{other}`"), "one of the two"))
+}
+
+pub(super) fn count(
+    key: impl Into<String>,
+    found: usize,
+    range: impl RangeBounds<usize>,
+    expected: &'static str,
+) -> Result<(), BrokenRule> {
+    kept(range.contains(&found), key, || Rule::found(found, expected))
+}
+
+/// What is not given is not refused.
+pub(super) fn above_zero(key: impl Into<String>, found: impl Into<Option<f64>>) -> Result<(), BrokenRule> {
+    match found.into() {
+        Some(found) => within(found > 0.0, key, found, "a number above 0"),
+        None => Ok(()),
+    }
 }
 
 /// Wide beyond all materials: further out, products of matrix entries leave the numbers.
@@ -73,22 +103,17 @@ pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRu
 }
 
 pub(super) fn above(key: impl Into<String>, found: f64, what: &'static str, other: f64) -> Result<(), BrokenRule> {
-    if found > other { Ok(()) } else { Err(Rule::NotAbove { found, what, other }.at(key)) }
+    kept(found > other, key, || Rule::beyond(found, &format!("more than {what}"), other))
 }
 
 pub(super) fn below(key: impl Into<String>, found: f64, what: &'static str, other: f64) -> Result<(), BrokenRule> {
-    if found < other {
-        Ok(())
-    } else {
-        let how = "below";
-        Err(Rule::Beyond { found, how, what, other }.at(key))
-    }
+    kept(found < other, key, || Rule::beyond(found, &format!("below {what}"), other))
 }
 
 pub(super) fn direction(key: impl Into<String>, vector: [f64; 3]) -> Result<(), BrokenRule> {
     let longest = vector.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     if longest <= 0.0 {
-        return Err(Rule::NoDirection.at(key));
+        return Err(Rule::found("a vector of length zero", "a direction").at(key));
     }
     // beyond, the square of its length is zero or infinite
     let expected = "a direction whose largest component is from 1e-150 to 1e150";
@@ -96,7 +121,7 @@ pub(super) fn direction(key: impl Into<String>, vector: [f64; 3]) -> Result<(), 
 }
 
 pub(super) fn not_empty(key: impl Into<String>, length: usize, expected: &'static str) -> Result<(), BrokenRule> {
-    if length > 0 { Ok(()) } else { Err(Rule::Empty { expected }.at(key)) }
+    kept(length > 0, key, || Rule::found("nothing", expected))
 }
 
 /// No name twice; `key` gives the path of the item at a position.
@@ -107,12 +132,15 @@ pub(super) fn each_once<'a>(
     let mut seen = Vec::new();
     for (index, name) in names.into_iter().enumerate() {
         if seen.contains(&name) {
-            let name = name.to_owned();
-            return Err(Rule::Repeated { name }.at(key(index)));
+            return Err(repeated(name).at(key(index)));
         }
         seen.push(name);
     }
     Ok(())
+}
+
+pub(super) fn repeated(name: &str) -> Rule {
+    Rule::new(format!("\"{name}\" stands here a second time, expected each once"))
 }
 
 /// The material of a name.
@@ -122,22 +150,18 @@ pub(in crate::app::case) fn known_material<'c>(
     name: &str,
 ) -> Result<&'c Material, BrokenRule> {
     case.material(name).ok_or_else(|| {
-        Rule::UnknownMaterial {
-            found: name.to_owned(),
-            names: Box::new(Choices::new(name, case.materials.keys().cloned().collect())),
-        }
-        .at(key)
+        let names = Choices::new(name, case.materials.keys().cloned().collect());
+        Rule::new(format!("no material is called \"{name}\"")).with_help(names.help("materials")).at(key)
     })
 }
 
 /// A name of one of the case's sensors.
 pub(super) fn known_sensor(case: &Case, key: impl Into<String>, name: &str) -> Result<(), BrokenRule> {
-    let names = case.sensors.iter().map(|sensor| sensor.name.clone());
-    let names: Vec<String> = names.collect();
-    if names.iter().any(|known| known == name) {
-        return Ok(());
-    }
-    Err(Rule::UnknownSensor { found: name.to_owned(), names: Box::new(Choices::new(name, names)) }.at(key))
+    let names: Vec<String> = case.sensors.iter().map(|sensor| sensor.name.clone()).collect();
+    kept(names.iter().any(|known| known == name), key, || {
+        let names = Choices::new(name, names.clone());
+        Rule::new(format!("no sensor is called \"{name}\"")).with_help(names.help("sensors"))
+    })
 }
 
 /// A material that rings and contacts can be made of.
@@ -148,14 +172,15 @@ pub(in crate::app::case) fn known_isotropic<'c>(
 ) -> Result<&'c IsotropicMaterial, BrokenRule> {
     let key = key.into();
     match known_material(case, key.as_str(), name)? {
-        Material::Isotropic(material) if material.loss_factor > 0.0 => {
-            let found = name.to_owned();
-            Err(Rule::LossFactor { found }.at(key))
-        }
+        Material::Isotropic(material) if material.loss_factor > 0.0 => Err(Rule::new(format!(
+            "\"{name}\" has a loss factor, expected a material without: structural damping is for parts of the housing"
+        ))
+        .with_help("give this part a material of its own name, without `loss_factor`")
+        .at(key)),
         Material::Isotropic(material) => Ok(material),
-        Material::Orthotropic(_) => {
-            let found = name.to_owned();
-            Err(Rule::NotIsotropic { found }.at(key))
-        }
+        Material::Orthotropic(_) => Err(Rule::new(format!(
+            "\"{name}\" is orthotropic, expected an isotropic material: rings and contacts have no other"
+        ))
+        .at(key)),
     }
 }

@@ -3,8 +3,8 @@
 use super::super::path::quoted;
 use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring, RingSupport};
 use super::range::{
-    above, above_zero, below, degrees, density, direction, each_once, known_isotropic, known_material, loss_factor,
-    modulus, not_empty, poisson, share, zero_or_more,
+    above, above_zero, below, count, degrees, density, direction, each_once, kept, known_isotropic, known_material,
+    loss_factor, modulus, needs, not_beside, not_empty, poisson, share, zero_or_more,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::fe::material::{MaterialError, RadiusRule};
@@ -31,7 +31,7 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
                         MaterialError::ParallelAxes { .. } => "y_axis",
                         _ => "poisson",
                     };
-                    Rule::UnstableMaterial(error).at(at(key))
+                    Rule::new(error.to_string()).at(at(key))
                 })?;
             }
         }
@@ -51,14 +51,9 @@ fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
 
 pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     let Some(housing) = case.meshed_housing() else {
-        return match (case.superelement(), &case.ring) {
-            (Some(_), None) => Err(Rule::Needs { other: "[ring]" }.at("housing.superelement")),
-            _ => Ok(()),
-        };
+        return needs("housing.superelement", "[ring]", case.superelement().is_none() || case.ring.is_some());
     };
-    if let Some(plane) = &housing.plane {
-        above_zero("housing.plane.thickness", plane.thickness)?;
-    }
+    above_zero("housing.plane.thickness", housing.plane.map(|plane| plane.thickness))?;
     not_empty("housing.parts", housing.parts.len(), "at least one part")?;
     for (index, part) in housing.parts.iter().enumerate() {
         let key = format!("housing.parts[{index}].material");
@@ -87,9 +82,7 @@ fn housing_supports(housing: &Housing) -> Result<(), BrokenRule> {
                     Axis::Z => "z",
                 });
                 each_once(names, |_| at("fixed"))?;
-                if plane && axes.contains(&Axis::Z) {
-                    return Err(Rule::NoZ.at(at("fixed")));
-                }
+                kept(!plane || !axes.contains(&Axis::Z), at("fixed"), no_z)?;
             }
             Hold::Spring(stiffness, _) => springs(at, *stiffness, plane)?,
         }
@@ -122,20 +115,18 @@ fn springs(at: impl Fn(&str) -> String, stiffness: SpringStiffness, plane: bool)
     }
     let acting = parts.iter().filter(|(_, stiffness)| *stiffness > 0.0);
     not_empty(key.as_str(), acting.count(), "a stiffness above 0")?;
-    if plane && z > 0.0 {
-        return Err(Rule::NoZ.at(key));
-    }
-    Ok(())
+    kept(!plane || z <= 0.0, key, no_z)
+}
+
+fn no_z() -> Rule {
+    Rule::found("a component z", "x and y only in a plane model")
 }
 
 pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
     let Some(ring) = &case.ring else {
         return Ok(());
     };
-    if !(8..=2000).contains(&ring.nodes) {
-        let (found, expected) = (ring.nodes, "8 to 2000 nodes");
-        return Err(Rule::Count { found, expected }.at("ring.nodes"));
-    }
+    count("ring.nodes", ring.nodes, 8..=2000, "8 to 2000 nodes")?;
     sections(case, ring)?;
     for (index, support) in ring.supports.iter().enumerate() {
         // whether a superelement is plane is told by its file
@@ -153,11 +144,8 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         known_isotropic(case, at("material"), &section.material)?;
         above_zero(at("area"), section.area)?;
         above_zero(at("inertia"), section.inertia)?;
-        for (key, given) in [("axial_inertia", section.axial_inertia), ("torsion", section.torsion)] {
-            if let Some(value) = given {
-                above_zero(at(key), value)?;
-            }
-        }
+        above_zero(at("axial_inertia"), section.axial_inertia)?;
+        above_zero(at("torsion"), section.torsion)?;
         above_zero(at("radius"), section.radius)?;
         below(
             at("inertia"),
@@ -170,27 +158,17 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
             above("ring.outer_radius", outer, "the section's radius", section.radius)?;
         }
     }
-    if ring.bond == Bond::Composite && ring.radius_rule == RadiusRule::CommonCentroid {
-        let other = "`ring.bond = \"slip\"`";
-        return Err(Rule::Needs { other }.at("ring.radius_rule"));
-    }
-    Ok(())
+    let slips = ring.bond == Bond::Slip || ring.radius_rule == RadiusRule::Own;
+    needs("ring.radius_rule", "`ring.bond = \"slip\"`", slips)
 }
 
 fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), BrokenRule> {
     degrees(format!("{key}.from_deg"), support.from_deg)?;
     let to = format!("{key}.to_deg");
     above(&to, support.to_deg, "`from_deg`", support.from_deg)?;
-    let sector = support.to_deg - support.from_deg;
-    if sector > 360.0 {
-        return Err(Rule::Beyond {
-            found: support.to_deg,
-            how: "at most",
-            what: "a full turn after `from_deg`",
-            other: support.from_deg + 360.0,
-        }
-        .at(to));
-    }
+    kept(support.to_deg - support.from_deg <= 360.0, to, || {
+        Rule::beyond(support.to_deg, "at most a full turn after `from_deg`", support.from_deg + 360.0)
+    })?;
     let at = |name: &str| format!("{key}.{name}");
     springs(at, support.spring.into(), plane)
 }
@@ -200,14 +178,14 @@ fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         // the interface of a superelement is the ring itself
         (None, None | Some(HousingSource::Superelement(_))) => return Ok(()),
         (Some(_), Some(HousingSource::Superelement(_))) => {
-            let other = "housing.superelement";
-            return Err(Rule::Beside { other }.at("ring.tie"));
+            return not_beside("ring.tie", "housing.superelement", true);
         }
-        (None, Some(HousingSource::Mesh(_))) => return Err(Rule::Unconnected.at("ring")),
-        (Some(_), None) => {
-            let other = "[housing]";
-            return Err(Rule::Needs { other }.at("ring.tie"));
+        (None, Some(HousingSource::Mesh(_))) => {
+            return Err(Rule::new("found a housing and no `ring.tie`, which leaves the ring unconnected")
+                .with_help("add tie = { group = \"NAME OF THE BORE\" } to [ring]")
+                .at("ring"));
         }
+        (Some(_), None) => return needs("ring.tie", "[housing]", false),
         (Some(tie), Some(HousingSource::Mesh(_))) => tie,
     };
     direction("ring.tie.axis", tie.axis)?;
@@ -215,12 +193,13 @@ fn tie(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     let across = cross(tie.axis, tie.zero_deg);
     // Directions nearer than about a millionth of a turn count as one.
     if dot(across, across) <= 1e-12 * dot(tie.axis, tie.axis) * dot(tie.zero_deg, tie.zero_deg) {
-        return Err(Rule::AlongAxis.at("ring.tie.zero_deg"));
+        return Err(Rule::found("the direction of `ring.tie.axis`", "one across it").at("ring.tie.zero_deg"));
     }
-    if tie.fit == Fit::Sliding && ring.supports.is_empty() {
-        return Err(Rule::FreeToTurn.at("ring.tie.fit"));
-    }
-    Ok(())
+    kept(tie.fit != Fit::Sliding || !ring.supports.is_empty(), "ring.tie.fit", || {
+        Rule::new("found \"sliding\" and no springs in `ring.supports`, which leaves the ring free to turn").with_help(
+            "use fit = \"bonded\", or add springs in x and y (in a solid housing in z too) to `ring.supports`",
+        )
+    })
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

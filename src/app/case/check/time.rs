@@ -2,13 +2,13 @@
 
 use super::super::{
     Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, Method, ModesKept,
-    SensorSpot, StepLength,
+    SensorSpot, StepLength, Transient,
 };
 use super::range::{
-    above, above_zero, below, cycles, degrees, direction, each_once, fraction, known_sensor, not_empty, ratio, share,
-    zero_or_more, zero_to_one,
+    self, above, above_zero, below, cycles, degrees, direction, each_once, fraction, kept, known_sensor, needs,
+    not_beside, not_empty, ratio, share, zero_or_more, zero_to_one,
 };
-use super::rule::{BrokenRule, Rule};
+use super::rule::{BrokenRule, Rule, short};
 use crate::fe::modal::ModeRange;
 use crate::formats::is_array_name;
 
@@ -77,14 +77,13 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
     for (index, sensor) in case.sensors.iter().enumerate() {
         let at = |key: &str| format!("sensors[{index}].{key}");
         not_empty(at("name"), sensor.name.len(), "a name")?;
-        if !is_array_name(&sensor.name) {
-            let name = sensor.name.clone();
-            return Err(Rule::SignalName { name }.at(at("name")));
-        }
-        if RESERVED_NAMES.contains(&sensor.name.as_str()) {
-            let name = sensor.name.clone();
-            return Err(Rule::ReservedName { name }.at(at("name")));
-        }
+        let name = sensor.name.as_str();
+        kept(is_array_name(name), at("name"), || {
+            let expected = "letters, digits, `_`, `-`, `.` and spaces: the signal is saved under this name";
+            Rule::found(format!("\"{}\"", name.escape_debug()), expected)
+        })?;
+        let reserved = RESERVED_NAMES.contains(&name);
+        kept(!reserved, at("name"), || Rule::new(format!("\"{name}\" is the name of another signal")))?;
         if !matches!(sensor.spot, SensorSpot::Recovered(_)) {
             direction(at("direction"), sensor.direction)?;
         }
@@ -100,9 +99,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
             SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
             SensorSpot::Recovered(_) => ("recovered", "`housing.superelement`", case.superelement().is_some()),
         };
-        if !present {
-            return Err(Rule::Needs { other }.at(at(key)));
-        }
+        needs(at(key), other, present)?;
         if let SensorSpot::RingDeg(angle) = sensor.spot {
             degrees(at("ring_deg"), angle)?;
         }
@@ -111,25 +108,14 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
     each_once(names, |index| format!("sensors[{index}].name"))
 }
 
-fn at_least_one(key: &str, found: usize) -> Result<(), BrokenRule> {
-    if found > 0 {
-        Ok(())
-    } else {
-        let expected = "at least 1";
-        Err(Rule::Count { found, expected }.at(key))
-    }
-}
-
 pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
     match case.modes.extent {
-        ModeRange::Count(count) | ModeRange::AtMost(count) => at_least_one("modes.count", count)?,
+        ModeRange::Count(count) | ModeRange::AtMost(count) => range::count("modes.count", count, 1.., "at least 1")?,
         ModeRange::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
         ModeRange::BandHz(band) => band_of("modes.band_hz", band)?,
     }
-    if case.modes.ball_pass && case.modes.linearise == Linearise::None {
-        let other = "`modes.linearise = \"static\"`";
-        return Err(Rule::Needs { other }.at("modes.ball_pass"));
-    }
+    let passes = !case.modes.ball_pass || case.modes.linearise != Linearise::None;
+    needs("modes.ball_pass", "`modes.linearise = \"static\"`", passes)?;
     for (index, expected) in case.modes.expected.iter().enumerate() {
         above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
         fraction(format!("modes.expected[{index}].within"), expected.within)?;
@@ -146,19 +132,14 @@ fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
         let at = |key: &str| format!("modes.compare[{index}].{key}");
         share(at("mac"), other.mac)?;
         fraction(at("within"), other.within)?;
-        if let Some(distance) = other.points_within {
-            above_zero(at("points_within"), distance)?;
-        }
+        above_zero(at("points_within"), other.points_within)?;
     }
     let Some(convergence) = &case.modes.convergence else {
         return Ok(());
     };
     let Some(housing) = case.meshed_housing() else {
-        let other = match case.superelement() {
-            None => "[housing]",
-            Some(_) => "`housing.mesh`",
-        };
-        return Err(Rule::Needs { other }.at("modes.convergence"));
+        let other = if case.superelement().is_none() { "[housing]" } else { "`housing.mesh`" };
+        return needs("modes.convergence", other, false);
     };
     let key = "modes.convergence.meshes";
     not_empty(key, convergence.meshes.len(), "at least one other mesh")?;
@@ -168,10 +149,7 @@ fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
     let names: Vec<_> = [own].into_iter().chain(others).collect();
     let names = names.iter().map(AsRef::as_ref);
     each_once(names, |place| format!("{key}[{}]", place.saturating_sub(1)))?;
-    match convergence.order {
-        Some(order) => above_zero("modes.convergence.order", order),
-        None => Ok(()),
-    }
+    above_zero("modes.convergence.order", convergence.order)
 }
 
 /// A band begins at zero or above and ends above its beginning.
@@ -181,13 +159,10 @@ fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
 }
 
 pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
-    if case.superelement().is_some() && case.condense.interface != Interface::Ring {
+    if case.superelement().is_some() {
         let other = "housing.superelement";
-        return Err(Rule::Beside { other }.at("condense.interface"));
-    }
-    if case.superelement().is_some() && case.condense.interface_modes != InterfaceModes::None {
-        let other = "housing.superelement";
-        return Err(Rule::Beside { other }.at("condense.interface_modes"));
+        not_beside("condense.interface", other, case.condense.interface != Interface::Ring)?;
+        not_beside("condense.interface_modes", other, case.condense.interface_modes != InterfaceModes::None)?;
     }
     match case.condense.interface_modes {
         InterfaceModes::None => {}
@@ -247,46 +222,33 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
     above("transient.end", transient.end, "`transient.start`", transient.start)?;
     if let Some(radius) = transient.spectral_radius {
         zero_to_one("transient.spectral_radius", radius)?;
-        if transient.method != Method::GeneralizedAlpha {
-            return Err(
-                Rule::Needs { other: "`transient.method = \"generalized-alpha\"`" }.at("transient.spectral_radius")
-            );
-        }
+        let other = "`transient.method = \"generalized-alpha\"`";
+        needs("transient.spectral_radius", other, transient.method == Method::GeneralizedAlpha)?;
     }
     if let StepLength::Seconds(step) = transient.step {
         above_zero("transient.step", step)?;
-        let length = transient.end - transient.start;
-        below("transient.step", step, "the simulated time", length)?;
+        below("transient.step", step, "the simulated time", transient.end - transient.start)?;
     }
     if let Some(tolerance) = transient.tolerance {
         fraction("transient.tolerance", tolerance)?;
-        if !matches!(transient.method, Method::Dop853 | Method::ExponentialAdams) {
-            return Err(Rule::Needs { other: "`transient.method = \"dop853\"` or `\"exponential-adams\"`" }
-                .at("transient.tolerance"));
-        }
+        let other = "`transient.method = \"dop853\"` or `\"exponential-adams\"`";
+        let chooses = matches!(transient.method, Method::Dop853 | Method::ExponentialAdams);
+        needs("transient.tolerance", other, chooses)?;
     }
     if let ModesKept::Count(count) = transient.modes {
-        at_least_one("transient.modes", count)?;
+        range::count("transient.modes", count, 1.., "at least 1")?;
     }
-    let ensemble = transient.ensemble;
-    if !(2..=10_000).contains(&ensemble.runs) {
-        let (found, expected) = (ensemble.runs, "2 to 10000 runs");
-        return Err(Rule::Count { found, expected }.at("transient.ensemble.runs"));
-    }
-    fraction("transient.ensemble.perturbation", ensemble.perturbation)?;
+    range::count("transient.ensemble.runs", transient.ensemble.runs, 2..=10_000, "2 to 10000 runs")?;
+    fraction("transient.ensemble.perturbation", transient.ensemble.perturbation)?;
     above_zero("transient.output_hz", transient.output_hz)?;
-    if let Some(accuracy) = &case.accuracy
-        && transient.output_hz < 2.0 * accuracy.band_hz[1]
-    {
-        return Err(Rule::Beyond {
-            found: transient.output_hz,
-            how: "at least",
-            what: "twice the highest frequency of `accuracy.band_hz`",
-            other: 2.0 * accuracy.band_hz[1],
-        }
-        .at("transient.output_hz"));
-    }
-    Ok(())
+    let Some(accuracy) = &case.accuracy else {
+        return Ok(());
+    };
+    let (found, other) = (transient.output_hz, 2.0 * accuracy.band_hz[1]);
+    kept(found >= other, "transient.output_hz", || {
+        Rule::beyond(found, "at least twice the highest frequency of `accuracy.band_hz`", other)
+            .with_help("raise the sampling rate or narrow `accuracy.band_hz`")
+    })
 }
 
 pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
@@ -296,10 +258,7 @@ pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
     }
     if let Some(band) = case.analysis.band_hz {
         let key = "analysis.band_hz";
-        if case.analysis.high_pass_hz.is_some() {
-            let other = "analysis.high_pass_hz";
-            return Err(Rule::Beside { other }.at(key));
-        }
+        not_beside(key, "analysis.high_pass_hz", case.analysis.high_pass_hz.is_some())?;
         if let EnvelopeBand::Between(edges) = band {
             within_rate(case, key, edges)?;
         }
@@ -334,10 +293,11 @@ fn below_half_the_rate(case: &Case, key: &str, frequency_hz: f64) -> Result<(), 
 /// A window of that key is one, and lies in the simulation.
 fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), BrokenRule> {
     above(format!("{key}.to"), to, "`from`", from)?;
-    match &case.transient {
-        Some(transient) if from < transient.start || to > transient.end => {
-            Err(Rule::OutsideRun { from, to, start: transient.start, end: transient.end }.at(key))
-        }
-        _ => Ok(()),
-    }
+    let Some(&Transient { start, end, .. }) = case.transient.as_ref() else {
+        return Ok(());
+    };
+    kept(from >= start && to <= end, key, || {
+        let [from, to, start, end] = [from, to, start, end].map(short);
+        Rule::found(format!("{from} to {to} s"), &format!("a window within the simulation ({start} to {end} s)"))
+    })
 }

@@ -28,3 +28,12 @@ pub(super) fn refusal(set: &[&str]) -> (String, Option<String>) {
 pub(super) fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs()
 }
+
+impl Case {
+    /// The case of that name under `examples`, with these keys set.
+    pub(crate) fn example(name: &str, set: &[&str]) -> Self {
+        let path = format!("{}/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let set: Vec<String> = set.iter().map(|&key| key.to_owned()).collect();
+        Self::load(path, &set).unwrap()
+    }
+}

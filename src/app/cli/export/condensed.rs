@@ -8,7 +8,7 @@ use crate::app::commands::condense::superelement_record;
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::formats::{
-    DofLabel, MbdynError, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
+    DofLabel, FormatError, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
     write_superelement_op4,
 };
 
@@ -92,11 +92,11 @@ pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> 
 }
 
 /// What cannot be written for MBDyn: wrong input, unless the file or the eigenvalue problem failed.
-fn of_mbdyn(error: MbdynError) -> CliError {
-    let is_input = !matches!(error, MbdynError::File(_) | MbdynError::Eigen { .. });
+fn of_mbdyn(error: FormatError) -> CliError {
+    let is_input = !matches!(error, FormatError::File(_) | FormatError::Eigen(_));
     let wrong = CliError { is_input, ..CliError::input(format!("--to mbdyn: {error}")) };
     match error {
-        MbdynError::RigidMotions { .. } => {
+        FormatError::RigidMotions { .. } => {
             wrong.with_help("MBDyn's bodies are solid: a housing that is free in space, or held by its supports")
         }
         _ => wrong,

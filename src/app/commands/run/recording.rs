@@ -23,13 +23,13 @@ pub trait Recording {
     /// Appends rows of the same sensors and balls.
     ///
     /// # Errors
-    /// [`ComputeError::Columns`].
+    /// [`ComputeError::Format`].
     fn append(&mut self, rows: &RunRecord) -> Result<(), ComputeError>;
 
     /// Hands the numbers of some rows of a column to `take`, piece by piece. Rows that are not there are left out.
     ///
     /// # Errors
-    /// [`ComputeError::Columns`] and what `take` returns.
+    /// [`ComputeError::Format`] and what `take` returns.
     fn read(&self, column: Column, rows: Range<usize>, take: TakePiece<'_>) -> Result<(), ComputeError>;
 }
 

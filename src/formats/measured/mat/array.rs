@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use super::super::stated::{is_bare_rate, is_rate, speed_unit};
-use super::element::{ByteOrder, Element, Elements, Fault, MATRIX};
-use super::numbers::Numbers;
+use super::super::names::{is_bare_rate, is_rate, speed_unit};
+use super::element::{Element, Elements, MATRIX, fault, of_array};
+use crate::files::Fault;
+use crate::formats::bytes::{ByteOrder, NumberType};
 
 /// Deepest struct in a struct.
 const DEEPEST: usize = 32;
@@ -40,7 +41,7 @@ pub(super) struct Array {
     pub(super) variable: usize,
     pub(super) shape: Shape,
     pub(super) complex: bool,
-    pub(super) numbers: Numbers,
+    pub(super) numbers: NumberType,
     /// Where its numbers are in that variable.
     pub(super) data: Range<usize>,
 }
@@ -91,7 +92,7 @@ impl Search<'_> {
         let flags = &self.whole[flags.data];
         if flags.len() < 8 {
             let found = format!("{} bytes", flags.len());
-            return Err(Fault::new(at, "8 bytes of flags of an array", found));
+            return Err(fault(at, "8 bytes of flags of an array", found));
         }
         let flags = self.order.u32(flags);
         let class = flags & 0xff;
@@ -99,8 +100,7 @@ impl Search<'_> {
             2 | 6..=15 => {}
             1 | 3..=5 | 16 | 17 => return Ok(()),
             _ => {
-                let found = format!("{class}");
-                return Err(Fault::new(at, "a class of arrays from 1 to 17", found));
+                return Err(fault(at, "a class of arrays from 1 to 17", class));
             }
         }
         let at = parts.place();
@@ -116,7 +116,7 @@ impl Search<'_> {
             2 => self.structs(parts, &sizes, &path, depth),
             _ => self.numbers(parts, &sizes, &path, flags & COMPLEX != 0),
         };
-        inside.map_err(|fault| fault.of(&path))
+        inside.map_err(|fault| of_array(fault, &path))
     }
 
     /// Length in each dimension.
@@ -127,7 +127,7 @@ impl Search<'_> {
         let usual = sizes.filter(|sizes| (2..=DIMENSIONS).contains(&sizes.len()));
         usual.ok_or_else(|| {
             let found = format!("{} bytes, or a size below 0", bytes.len());
-            Fault::new(at, format!("2 to {DIMENSIONS} sizes of an array"), found)
+            fault(at, format!("2 to {DIMENSIONS} sizes of an array"), found)
         })
     }
 
@@ -136,7 +136,7 @@ impl Search<'_> {
         let at = parts.place();
         if depth == DEEPEST {
             let expected = format!("structs in structs, up to {DEEPEST} deep");
-            return Err(Fault::new(at, expected, "a deeper one"));
+            return Err(fault(at, expected, "a deeper one"));
         }
         let length = parts.take("the length of field names")?;
         let length = self.order.u32(&self.whole[length.data]) as usize;
@@ -149,7 +149,7 @@ impl Search<'_> {
         if !usual || !names.len().is_multiple_of(length) {
             let expected = format!("field names of 1 to {LONGEST_FIELD} bytes each");
             let found = format!("{} bytes of names of {length}", names.len());
-            return Err(Fault::new(at, expected, found));
+            return Err(fault(at, expected, found));
         }
         let fields = names.len() / length;
         let count = product(sizes);
@@ -157,7 +157,7 @@ impl Search<'_> {
         let room = parts.left() / 8 / fields;
         let Some(count) = count.filter(|&count| count <= room) else {
             let found = format!("{fields} fields in {} bytes", parts.left());
-            return Err(Fault::new(at, format!("structs of sizes {sizes:?}"), found));
+            return Err(fault(at, format!("structs of sizes {sizes:?}"), found));
         };
         for number in 1..=count {
             let one = match count {
@@ -169,7 +169,7 @@ impl Search<'_> {
                 let element = parts.take("a field of a struct")?;
                 if element.kind != MATRIX {
                     let found = format!("an element of type {}", element.kind);
-                    return Err(Fault::new(at, "a field of a struct", found));
+                    return Err(fault(at, "a field of a struct", found));
                 }
                 // names are looked at only for fields that have something
                 if element.data.is_empty() {
@@ -188,15 +188,15 @@ impl Search<'_> {
     fn numbers(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, complex: bool) -> Result<(), Fault> {
         let at = parts.place();
         let element = parts.take("numbers")?;
-        let Some(numbers) = Numbers::of(element.kind) else {
+        let Some(numbers) = number_type(element.kind) else {
             let found = format!("an element of type {}", element.kind);
-            return Err(Fault::new(at, "numbers", found));
+            return Err(fault(at, "numbers", found));
         };
         let bytes = element.data.len();
         let count = product(sizes).filter(|count| count.checked_mul(numbers.width()) == Some(bytes));
         let Some(count) = count else {
             let expected = format!("{} bytes each for sizes {sizes:?}", numbers.width());
-            return Err(Fault::new(at, expected, format!("{bytes} bytes")));
+            return Err(fault(at, expected, format!("{bytes} bytes")));
         };
         let mut long = sizes.iter().copied().filter(|&size| size != 1);
         let shape = match (long.next(), long.next(), long.next()) {
@@ -218,7 +218,7 @@ impl Search<'_> {
         *self.count += array.signals().max(1);
         if *self.count > MOST {
             let expected = format!("at most {MOST} signals");
-            return Err(Fault::new(at, expected, "more"));
+            return Err(fault(at, expected, "more"));
         }
         self.found.push(array);
         Ok(())
@@ -229,6 +229,23 @@ impl Search<'_> {
 fn says_something(array: &Array) -> bool {
     let (_, name) = array.scope_and_name();
     !array.complex && (is_rate(name) || is_bare_rate(name) || speed_unit(name).is_some())
+}
+
+/// The type of an element's numbers, which may be narrower than the array's class; `None` if it holds none.
+fn number_type(element: u32) -> Option<NumberType> {
+    Some(match element {
+        1 => NumberType::I8,
+        2 => NumberType::U8,
+        3 => NumberType::I16,
+        4 => NumberType::U16,
+        5 => NumberType::I32,
+        6 => NumberType::U32,
+        7 => NumberType::F32,
+        9 => NumberType::F64,
+        12 => NumberType::I64,
+        13 => NumberType::U64,
+        _ => return None,
+    })
 }
 
 fn product(sizes: &[usize]) -> Option<usize> {

@@ -4,8 +4,7 @@
 
 use std::path::Path;
 
-use super::super::header::time_unit;
-use super::super::stated::{is_bare_rate, is_rate, one_speed, same, speed_unit};
+use super::super::names::{is_bare_rate, is_rate, one_speed, same, speed_unit, time_unit};
 use super::super::{MeasuredError, SignalRequest};
 use super::array::{Array, Shape};
 
@@ -78,12 +77,10 @@ pub(super) fn taken<'a>(
         }
     }
     match other_length {
-        Some(length) if request.rate_hz.is_none() => Err(MeasuredError::Array {
-            path: path.to_owned(),
-            name: array.path.clone(),
-            expected: format!("a signal of {length} samples, as the time has"),
-            found: format!("{count} samples"),
-        }),
+        Some(length) if request.rate_hz.is_none() => {
+            let expected = format!("a signal of {length} samples, as the time has");
+            Err(MeasuredError::array(path, &array.path, expected, format!("{count} samples")))
+        }
         _ => Ok(Taken::Unknown),
     }
 }
@@ -94,12 +91,7 @@ fn rate<'a>(arrays: &'a [Array], scope: &'a str, path: &Path) -> Result<Option<(
     let Some((array, rate)) = rates.next() else {
         return Ok(None);
     };
-    let wrong = |expected: &str, found: String| MeasuredError::Array {
-        path: path.to_owned(),
-        name: array.path.clone(),
-        expected: expected.to_owned(),
-        found,
-    };
+    let wrong = |expected: &str, found: String| MeasuredError::array(path, &array.path, expected, found);
     if !(rate > 0.0 && rate.is_finite()) {
         return Err(wrong("one sampling rate above 0 Hz", rate.to_string()));
     }

@@ -1,6 +1,11 @@
 //! Data elements: a tag with type and size, and the bytes that it speaks of.
 
+use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
+
+use crate::files::{Fault, Place};
+use crate::formats::bytes::ByteOrder;
 
 /// Types of elements that hold others.
 pub(super) const MATRIX: u32 = 14;
@@ -11,52 +16,19 @@ const TAG: usize = 8;
 /// Most bytes that stand in the tag itself.
 const SMALL: usize = 4;
 
-/// Which byte of a number comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ByteOrder {
-    Little,
-    Big,
+/// What is wrong at a byte, counted from 0 in the file or in what was unpacked.
+pub(super) fn fault(at: usize, expected: impl Into<Cow<'static, str>>, found: impl Display) -> Fault {
+    Fault::new(expected, found).at(format_args!("byte {at}"))
 }
 
-impl ByteOrder {
-    /// The first bytes, lowest first; those that are missing are zero.
-    pub(super) fn lowest_first<const N: usize>(self, bytes: &[u8]) -> [u8; N] {
-        let mut own = [0; N];
-        for (to, from) in own.iter_mut().zip(bytes) {
-            *to = *from;
+/// The same, of an array; the innermost one stays.
+pub(super) fn of_array(fault: Fault, array: &str) -> Fault {
+    match &fault.place {
+        Place::At(place) => {
+            let place = format!("array \"{array}\", {place}");
+            fault.within(place)
         }
-        if self == Self::Big {
-            own.reverse();
-        }
-        own
-    }
-
-    /// The first four bytes as a number.
-    pub(super) fn u32(self, bytes: &[u8]) -> u32 {
-        u32::from_le_bytes(self.lowest_first(bytes))
-    }
-}
-
-/// Something that is not what the format has there.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Fault {
-    /// Byte, counted from 0 in the file or in what was unpacked.
-    pub(super) at: usize,
-    /// The array, if its name is known.
-    pub(super) array: Option<String>,
-    pub(super) expected: String,
-    pub(super) found: String,
-}
-
-impl Fault {
-    pub(super) fn new(at: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self { at, array: None, expected: expected.into(), found: found.into() }
-    }
-
-    /// The same, of an array; the innermost one stays.
-    pub(super) fn of(mut self, array: &str) -> Self {
-        self.array.get_or_insert_with(|| array.to_owned());
-        self
+        _ => fault,
     }
 }
 
@@ -99,11 +71,11 @@ impl<'a> Elements<'a> {
     }
 
     /// The next element.
-    pub(super) fn take(&mut self, expected: &str) -> Result<Element, Fault> {
+    pub(super) fn take(&mut self, expected: &'static str) -> Result<Element, Fault> {
         let at = self.at;
         let left = self.left();
         let Some(tag) = self.whole[at..].get(..TAG) else {
-            return Err(Fault::new(at, expected, format!("{left} bytes")));
+            return Err(fault(at, expected, format!("{left} bytes")));
         };
         let word = self.order.u32(tag);
         // a size in the upper half: type, size and data share the eight bytes
@@ -112,7 +84,7 @@ impl<'a> Elements<'a> {
             let size = small as usize;
             if size > SMALL {
                 let found = format!("{size} bytes in four");
-                return Err(Fault::new(at, expected, found));
+                return Err(fault(at, expected, found));
             }
             self.at += TAG;
             let start = at + TAG - SMALL;
@@ -122,7 +94,7 @@ impl<'a> Elements<'a> {
         let start = at + TAG;
         if size > left - TAG {
             let found = format!("{size} bytes, of which {} are there", left - TAG);
-            return Err(Fault::new(at, expected, found));
+            return Err(fault(at, expected, found));
         }
         let end = start + size;
         // elements that hold others are as long as they say; the last one may lack its padding

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::super::MeasuredError;
-use super::element::ByteOrder;
 use crate::files::Fault;
+use crate::formats::bytes::ByteOrder;
 
 /// Bytes of the head.
 pub(super) const HEAD: usize = 128;
@@ -14,7 +14,16 @@ const HDF5_PLACES: [usize; 2] = [0, 512];
 
 /// Byte order of a file of version 5 to 7, or why it is none.
 pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, MeasuredError> {
-    let version = |found| MeasuredError::MatVersion { path: path.to_owned(), found };
+    let version = |found: &str| {
+        let (path, name) = (path.display(), path.file_stem().unwrap_or_default().to_string_lossy());
+        MeasuredError::Refused {
+            message: format!("{path}: expected a MATLAB file of version 5 to 7, found version {found}"),
+            help: Some(format!(
+                "write it again as version 7: in MATLAB m = load('{name}.mat'); save('{name}-v7.mat', '-struct', 'm', '-v7'), \
+                 or in Python scipy.io.savemat('{name}-v7.mat', {{'x': x}})"
+            )),
+        }
+    };
     let hdf5 = |&place: &usize| bytes.get(place..).is_some_and(|at| at.starts_with(HDF5));
     if HDF5_PLACES.iter().any(hdf5) || bytes.starts_with(b"MATLAB 7.3") {
         return Err(version("7.3 (HDF5)"));

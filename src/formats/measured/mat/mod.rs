@@ -22,7 +22,6 @@ mod element;
 mod header;
 #[cfg(test)]
 mod made_tests;
-mod numbers;
 mod signals;
 #[cfg(test)]
 mod tests;

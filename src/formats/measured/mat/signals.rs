@@ -9,10 +9,10 @@ use super::super::clock::Clock;
 use super::super::{MeasuredError, MeasuredSignal, SignalRequest};
 use super::array::{Array, Search, Shape};
 use super::beside::{Taken, is_time, speed_hz, taken};
-use super::element::{ByteOrder, Fault};
 use super::header::byte_order;
 use super::variable::{Variable, variables};
-use crate::files::{self, bytes_of};
+use crate::files::{self, Fault, bytes_of};
+use crate::formats::bytes::ByteOrder;
 
 /// A file whose arrays are known and not read.
 struct MatFile<'a> {
@@ -72,12 +72,7 @@ fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Ch
         let place = places[chosen];
         let array = &file.arrays[place.array];
         if array.complex {
-            return Err(MeasuredError::Array {
-                path: path.to_owned(),
-                name: names[chosen].clone(),
-                expected: "a signal of real numbers".to_owned(),
-                found: "complex numbers".to_owned(),
-            });
+            return Err(MeasuredError::array(path, &names[chosen], "a signal of real numbers", "complex numbers"));
         }
         let taken = taken(&file.arrays, array, place.count, path, request)?;
         let own = match (taken, &clock) {
@@ -178,13 +173,11 @@ impl<'a> MatFile<'a> {
 
 /// A fault of a variable or of the file, with its place.
 fn wrong(path: &Path, variable: Option<&Variable>, fault: Fault) -> MeasuredError {
-    let mut place = match variable.and_then(Variable::packed_at) {
-        Some(packed) => format!("byte {} of what byte {packed} packs", fault.at),
-        None => format!("byte {}", fault.at),
+    let packed = variable.and_then(Variable::packed_at);
+    let packed = packed.map(|packed| format!(" of what byte {packed} packs")).unwrap_or_default();
+    let place = match &fault.place {
+        files::Place::At(place) | files::Place::In(place) => format!("{place}{packed}"),
+        files::Place::Whole | files::Place::Line(_) => packed,
     };
-    if let Some(array) = fault.array {
-        place = format!("array \"{array}\", {place}");
-    }
-    let fault = files::Fault::new(fault.expected, fault.found).within(place);
-    fault.of(path).into()
+    fault.within(place).of(path).into()
 }

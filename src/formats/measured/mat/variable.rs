@@ -6,8 +6,10 @@ use std::ops::Range;
 
 use flate2::read::ZlibDecoder;
 
-use super::element::{ByteOrder, COMPRESSED, Elements, Fault, MATRIX};
+use super::element::{COMPRESSED, Elements, MATRIX, fault};
 use super::header::HEAD;
+use crate::files::Fault;
+use crate::formats::bytes::ByteOrder;
 
 /// Most bytes a variable, as of MATLAB itself: "2 GB per variable" (The MathWorks, "MAT-file versions", version 7).
 const LARGEST: usize = 1 << 31;
@@ -35,7 +37,7 @@ pub(super) fn variables(file: &[u8], order: ByteOrder) -> Result<Vec<Variable>, 
             COMPRESSED => true,
             other => {
                 let found = format!("an element of type {other}");
-                return Err(Fault::new(at, "a variable", found));
+                return Err(fault(at, "a variable", found));
             }
         };
         found.push(Variable { data: element.data, packed });
@@ -63,18 +65,18 @@ impl Variable {
 
 /// What was packed, without its tag. Neither the size in the tag nor the length of the stream is believed alone.
 fn unpack(packed: &[u8], order: ByteOrder) -> Result<Vec<u8>, Fault> {
-    let damaged = |error: io::Error| Fault::new(0, "a compressed variable", error.to_string());
+    let damaged = |error: io::Error| fault(0, "a compressed variable", error.to_string());
     let mut from = ZlibDecoder::new(packed);
     let mut tag = [0; TAG];
     from.read_exact(&mut tag).map_err(damaged)?;
     if order.u32(&tag) != MATRIX {
         let found = format!("an element of type {}", order.u32(&tag));
-        return Err(Fault::new(0, "a compressed variable", found));
+        return Err(fault(0, "a compressed variable", found));
     }
     let size = order.u32(&tag[4..]) as usize;
     if size > LARGEST || size / PACKING > packed.len() {
         let most = LARGEST.min(PACKING.saturating_mul(packed.len()));
-        return Err(Fault::new(0, format!("a compressed variable of at most {most} bytes"), format!("{size} bytes")));
+        return Err(fault(0, format!("a compressed variable of at most {most} bytes"), format!("{size} bytes")));
     }
     // no more is taken at once than this; the rest comes as it is unpacked
     let mut bytes = Vec::with_capacity(size.min(1 << 16));
@@ -82,12 +84,12 @@ fn unpack(packed: &[u8], order: ByteOrder) -> Result<Vec<u8>, Fault> {
     part.map_err(damaged)?;
     if bytes.len() < size {
         let found = format!("{size} bytes, of which {} are there", bytes.len());
-        return Err(Fault::new(0, "a compressed variable", found));
+        return Err(fault(0, "a compressed variable", found));
     }
     // reading on to the end also compares the checksum
     if from.read(&mut tag).map_err(damaged)? > 0 {
         let found = "more than its size".to_owned();
-        return Err(Fault::new(size, "the end of a compressed variable", found));
+        return Err(fault(size, "the end of a compressed variable", found));
     }
     Ok(bytes)
 }

@@ -10,7 +10,6 @@
 //! Source: MBDyn Input File Format, appendix "Modal Element Data", section "FEM File Format" (records 1 to 13) and its
 //! subsection "Usage"; section "Modal" of the joint elements for the node that is held, `origin node` and `clamped`.
 
-mod error;
 mod modal;
 mod nodes;
 mod rigid;
@@ -18,5 +17,4 @@ mod rigid;
 mod tests;
 mod write;
 
-pub use error::MbdynError;
 pub use modal::{MbdynReference, MbdynSummary, write_mbdyn_fem};

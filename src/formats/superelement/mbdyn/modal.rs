@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use super::super::SuperelementRecord;
-use super::MbdynError;
 use super::nodes::nodes;
 use super::rigid::inertia;
 use super::write::{Body, write};
 use crate::files::Fault;
-use crate::formats::DofBody;
+use crate::formats::{DofBody, FormatError};
 use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen};
 
 /// What the shapes of a free body are relative to: where MBDyn's modal node sits. Of no account for a body that is held by
@@ -56,20 +55,20 @@ const RIGID_LIMIT: f64 = 1e-12;
 /// part of the stiffness, which the format does not have.
 ///
 /// # Errors
-/// [`MbdynError`]: for bodies that are neither free nor held, such as plane ones; free bodies whose interface is not fully
+/// [`FormatError`]: for bodies that are neither free nor held, such as plane ones; free bodies whose interface is not fully
 /// labelled; a reference that has not six coordinates; no nodes; no modes; and when the file cannot be written.
 pub fn write_mbdyn_fem(
     path: &Path,
     record: &SuperelementRecord,
     reference: MbdynReference,
-) -> Result<MbdynSummary, MbdynError> {
+) -> Result<MbdynSummary, FormatError> {
     record.check()?;
     let all: Vec<usize> = (0..record.order()).collect();
     let (mut modes, rigid) = eigenmodes(record, &all)?;
     let inertia = match rigid {
         0 => None,
         6 => Some(inertia(record)?),
-        found => return Err(MbdynError::RigidMotions { found }),
+        found => return Err(FormatError::RigidMotions { found }),
     };
     if let (Some(_), MbdynReference::Node { body, node }) = (&inertia, reference) {
         let mut free = all;
@@ -87,7 +86,7 @@ pub fn write_mbdyn_fem(
         let found;
         (modes, found) = eigenmodes(record, &free)?;
         if found != 0 {
-            return Err(MbdynError::RigidMotions { found });
+            return Err(FormatError::RigidMotions { found });
         }
     }
     let (eigenvalues, vectors) = modes;
@@ -123,10 +122,10 @@ type Modes = (Vec<f64>, DenseMatrix);
 ///
 /// Eigenvalues are quotients `v^T k v / v^T m v`, which have the square of the vectors' error: the solver's own are less
 /// accurate the higher they are above the lowest.
-fn eigenmodes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usize), MbdynError> {
+fn eigenmodes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usize), FormatError> {
     let part = |matrix: &DenseMatrix| DenseMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])]);
     let (stiffness, mass) = (part(&record.stiffness), part(&record.mass));
-    let spectrum = acting_generalised_eigen(&stiffness, &mass).map_err(|source| MbdynError::Eigen { source })?;
+    let spectrum = acting_generalised_eigen(&stiffness, &mass).map_err(FormatError::Eigen)?;
     let finite = spectrum.values.iter().copied().filter(|v| v.is_finite());
     let limit = RIGID_LIMIT * finite.clone().fold(0.0, f64::max);
     let rigid = finite.filter(|&value| value <= limit).count();

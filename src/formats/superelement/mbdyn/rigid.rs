@@ -1,9 +1,8 @@
 //! A free body's inertia.
 
 use super::super::SuperelementRecord;
-use super::MbdynError;
 use crate::files::Fault;
-use crate::formats::DofDirection;
+use crate::formats::{DofDirection, FormatError};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Mass, centre of mass and moments of inertia.
@@ -34,7 +33,7 @@ const FORCE_LIMIT: f64 = 1e-6;
 /// rotations w about the mesh's origin a node at p moves by `t + w x p`, so that
 /// `R^T m R = [[M I, M S^T], [M S, J]]` with `S v = c x v` and, by the parallel axis theorem,
 /// `J = J_c + M (c.c I - c c^T)`.
-pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, MbdynError> {
+pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, FormatError> {
     let motions = rigid_motions(record)?;
     check_forces(record, &motions)?;
     let inertia = motions.transpose() * &record.mass * &motions;
@@ -50,7 +49,7 @@ pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, MbdynError
 }
 
 /// Coordinates in the six rigid motions \[n x 6\]: modes with a fixed interface are zero.
-fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, MbdynError> {
+fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, FormatError> {
     let mut motions = DenseMatrix::zeros(record.order(), 6);
     for (coordinate, label) in record.interface.iter().enumerate() {
         let known = label.position.iter().chain(&label.axis);
@@ -62,7 +61,12 @@ fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, MbdynError>
                 [a, b, c, y * c - z * b, z * a - x * c, x * b - y * a]
             }
             DofDirection::About(_) if known => [0.0, 0.0, 0.0, a, b, c],
-            _ => return Err(MbdynError::Place { coordinate }),
+            _ => {
+                return Err(FormatError::Refused(format!(
+                    "expected node, direction, position and axis of every interface coordinate of a free body, not known for \
+                     coordinate {coordinate}"
+                )));
+            }
         };
         for (motion, value) in row.into_iter().enumerate() {
             motions[(coordinate, motion)] = value;

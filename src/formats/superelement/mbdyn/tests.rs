@@ -6,7 +6,7 @@ use std::path::Path;
 use super::super::SuperelementRecord;
 use super::*;
 use crate::formats::superelement::samples::{dense, record};
-use crate::formats::{DofBody, DofDirection, DofLabel, FieldRecovery};
+use crate::formats::{DofBody, DofDirection, DofLabel, FieldRecovery, FormatError};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Words of a record, without comments and without the headings of shapes.
@@ -270,7 +270,7 @@ fn what_mbdyn_cannot_have_is_told() {
     assert_eq!(refused(&wrong), "array \"modal_hz\": expected 2 entries, found 0");
     let error = write_mbdyn_fem(Path::new("no/such.fem"), &free_body(), MbdynReference::Floating);
     let error = error.unwrap_err();
-    assert!(matches!(error, MbdynError::File(_)));
+    assert!(matches!(error, FormatError::File(_)));
     let negative = SuperelementRecord::of_matrices(
         dense(&[[1.0, 0.0], [0.0, 1.0]]),
         dense(&[[-3.0, 0.0], [0.0, 1.0]]),

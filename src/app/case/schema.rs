@@ -1,9 +1,72 @@
-//! From what Rust's types say to what a TOML file can hold, in words for its writer.
+//! The JSON Schema of the case file, from the types that it is read into: what an editor completes and checks by.
+//!
+//! Draft 07, which editors of TOML know. Kinds of values, names of keys and options, required keys and keys that exclude each
+//! other are in it; ranges and what needs the mesh are for the reader. Whatever the reader takes, the schema takes.
+//!
+//! **Limitations**: a whole number written as `7.0` is one for JSON Schema, and none for the reader.
 
-use serde_json::{Map, Value};
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value, json};
+
+use super::Case;
+
+impl Case {
+    /// Returns the JSON Schema (draft 07) of a case file as read from TOML, its paths not resolved.
+    #[must_use]
+    pub fn schema() -> Value {
+        let generator = SchemaSettings::draft07().into_generator();
+        let mut schema = generator.into_root_schema_for::<Self>().to_value();
+        tidy(&mut schema);
+        if let Some(root) = schema.as_object_mut() {
+            root.insert("title".to_owned(), "case file of plummer".into());
+        }
+        schema
+    }
+}
+
+/// One of these words.
+pub(super) fn words(words: &[&str]) -> Schema {
+    json_schema!({ "type": "string", "enum": words })
+}
+
+/// Any text.
+pub(super) fn text() -> Schema {
+    json_schema!({ "type": "string" })
+}
+
+/// A number.
+pub(super) fn number() -> Schema {
+    json_schema!({ "type": "number" })
+}
+
+/// A whole number, 0 or more.
+pub(super) fn whole() -> Schema {
+    json_schema!({ "type": "integer", "minimum": 0 })
+}
+
+/// The table that a type is written as.
+pub(super) fn table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    T::json_schema(generator)
+}
+
+/// A value of any of these forms.
+pub(super) fn any_of(forms: &[Schema]) -> Schema {
+    json_schema!({ "anyOf": forms })
+}
+
+/// A table with exactly one of these keys, for `oneOf`.
+pub(super) fn one_of(keys: &[&str]) -> Value {
+    keys.iter().map(|key| json!({ "required": [key] })).collect()
+}
+
+/// A table that has all of these keys, for `not`.
+pub(super) fn together(keys: &[&str]) -> Value {
+    json!({ "required": keys })
+}
 
 /// TOML has no null, and descriptions are in words.
-pub(super) fn tidy(value: &mut Value) {
+fn tidy(value: &mut Value) {
     in_words(value, "absent");
     without_nulls(value);
 }
@@ -64,12 +127,12 @@ fn plain(schema: &mut Map<String, Value>, none: &str) {
         schema.remove("format");
     }
     if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = words(text, none);
+        *text = plain_words(text, none);
     }
 }
 
 /// Without links and line ends; `none` in the place of `None`.
-fn words(text: &str, none: &str) -> String {
+fn plain_words(text: &str, none: &str) -> String {
     let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let unlinked = joined.replace("[`", "`").replace("`]", "`");
     unlinked.replace("`None`", none)
