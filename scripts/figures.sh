@@ -52,7 +52,7 @@ run_up() {
         --set 'bearing.defects=[{on="inner", angle_deg=0, length=0.8e-3, depth=0.015e-3}]' \
         --set transient.end=3.0 --set 'analysis.envelope=[{from=1.5, to=3.0}]'
     "$plummer" analyze $out/inner --out $out/inner-verdict --force
-    cp $out/outer/figures/run-1-acceleration-at-p1.svg "$to/signal.svg"
+    cp $out/outer/figures/run-*-acceleration-at-p1.svg "$to/signal.svg"
     cp $out/outer-verdict/figures/analysis-1-*.svg "$to/outer-orders.svg"
     cp $out/inner-verdict/figures/analysis-1-*.svg "$to/inner-orders.svg"
 }

@@ -58,9 +58,9 @@
 //!
 //! # The wings
 //!
-//! Each wing imports from those above it in this list alone:
+//! The library has nine modules. Each uses only modules that stand above it in this list:
 //!
-//! 1. [`files`]: files that a user named, whole files, one error for both;
+//! 1. [`files`]: reads and writes the files that a user names, each whole or not at all, with one error type;
 //! 2. [`numerics`]: linear algebra, integrators, series, units;
 //! 3. [`fe`]: mesh, elements, model, assembly, modes, reduction;
 //! 4. [`bearing`]: geometry, contact, kinematics, defects, catalogue; [`signal`]: filters, spectra, diagnosis;

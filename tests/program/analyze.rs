@@ -132,7 +132,8 @@ fn a_flat_on_a_ball_is_named() {
 #[test]
 fn a_run_and_its_folder_have_the_same_verdict() {
     let folder = scratch("analyze-run");
-    let (case, set) = (example("outer-dent"), short(0.3));
+    // 18 revolutions: of 13 one in four trajectories, which part by round-off, lacks evidence
+    let (case, set) = (example("outer-dent"), short(0.4));
     let mut words = vec!["run", &case, "--out", "dent", "--json"];
     words.extend(set.iter().flat_map(|set| ["--set", set]));
     let run = json(&plummer(&folder, &words));
