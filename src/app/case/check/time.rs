@@ -248,6 +248,12 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
     kept(found >= other, "transient.output_hz", || {
         Rule::beyond(found, "at least twice the highest frequency of `accuracy.band_hz`", other)
             .with_help("raise the sampling rate or narrow `accuracy.band_hz`")
+    })?;
+    // the recording filter's length grows with the ratio: at this one it takes 80 MB
+    let (found, other) = (accuracy.band_hz[1], 1e-5 * transient.output_hz);
+    kept(found >= other, "accuracy.band_hz[1]", || {
+        Rule::beyond(found, "at least a hundred-thousandth of `transient.output_hz`", other)
+            .with_help("widen the band, or record at a lower `transient.output_hz`")
     })
 }
 

@@ -9,7 +9,6 @@ use crate::report::{
 use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource};
 
 /// Composes the report of signals from files; `source` is the file or folder, `command` the line that made it.
-#[must_use]
 pub(crate) fn analysis_report(
     source: &str,
     assumptions: &[String],

@@ -9,7 +9,6 @@ use crate::report::{Report, Section, Verdict};
 pub const SHOWN_WINDOWS: usize = 12;
 
 /// A window's section in a report of many files.
-#[must_use]
 pub(crate) fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
     let mut section = window_section(window);
     section.title = format!("{input}: {}", section.title);
@@ -18,7 +17,6 @@ pub(crate) fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
 
 /// Composes the report of `inputs` files: the table of their rows, then the sections of the windows, if they are at most
 /// [`SHOWN_WINDOWS`]; `command` is the line that made it.
-#[must_use]
 pub(crate) fn survey_report(
     inputs: usize,
     rows: &[AnalysisRow],

@@ -181,7 +181,6 @@ impl WindowFigures {
 }
 
 /// The table of the rows, in their order; numbers whole in files. Where any has a change, columns of changes follow the others.
-#[must_use]
 pub(crate) fn analysis_table(rows: &[AnalysisRow]) -> Table {
     let mut columns = vec![
         Column::text("File"),

@@ -183,27 +183,6 @@ pub(crate) fn complete(survey: &ModalSurvey) -> Verdict {
     Verdict::of(check.counted == check.found)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn round_off_of_a_centroid_has_no_sign() {
-        let mass = MassProperties {
-            mass: 2.0,
-            distribution: MassDistribution::Space {
-                centroid: [-1e-19, 2e-3, -3e-3],
-                inertia: [[1.0, -1e-17, 0.0], [-1e-17, 2.0, 0.0], [0.0, 0.0, 3.0]],
-            },
-        };
-        let facts = mass_facts(&mass);
-        let value = |name: &str| facts.iter().find(|fact| fact.name == name).unwrap();
-        assert_eq!(value("Centroid").value, "(0.0000, 2.0000, −3.0000) mm");
-        let axes = &value("Principal axes").value;
-        assert!(!axes.contains("-0.0") && !axes.contains("−0.0000"), "{axes}");
-    }
-}
-
 /// Shares below this are not listed by number.
 const LISTED_SHARE: f64 = 0.005;
 
@@ -269,4 +248,25 @@ fn energy_table(
         cells
     });
     Some(Table::new(caption, columns).rows(rows).showing_modes(shown_places(survey)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_off_of_a_centroid_has_no_sign() {
+        let mass = MassProperties {
+            mass: 2.0,
+            distribution: MassDistribution::Space {
+                centroid: [-1e-19, 2e-3, -3e-3],
+                inertia: [[1.0, -1e-17, 0.0], [-1e-17, 2.0, 0.0], [0.0, 0.0, 3.0]],
+            },
+        };
+        let facts = mass_facts(&mass);
+        let value = |name: &str| facts.iter().find(|fact| fact.name == name).unwrap();
+        assert_eq!(value("Centroid").value, "(0.0000, 2.0000, −3.0000) mm");
+        let axes = &value("Principal axes").value;
+        assert!(!axes.contains("-0.0") && !axes.contains("−0.0000"), "{axes}");
+    }
 }

@@ -102,6 +102,10 @@ fn signals_are_sampled_finely_enough() {
         read(FULL, &["transient.output_hz=79999"]).unwrap_err().help().unwrap(),
         "raise the sampling rate or narrow `accuracy.band_hz`"
     );
+    // a filter for a lower band would not fit into the memory
+    let rule = "found 0.9, expected at least a hundred-thousandth of `transient.output_hz` (1)";
+    full("accuracy.band_hz[1]=0.9", rule);
+    holds(FULL, &["accuracy.band_hz[1]=1"]);
 }
 
 #[test]
