@@ -7,7 +7,7 @@
 //! Before the first and after the last knot the speed is constant. `θ(0) = 0` whatever the knots, so
 //! that angles of a cage or an unbalance are those at time zero. Any sign of speed is allowed. The
 //! acceleration jumps at a knot: there it is that of the interval to the right, and an integrator of high
-//! order should end a step at [`SpeedProfile::knot_times`].
+//! order should end a step at `SpeedProfile::knot_times`.
 
 use std::f64::consts::TAU;
 

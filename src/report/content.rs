@@ -256,7 +256,7 @@ impl Report {
         self
     }
 
-    /// The report with its tables as files beside it, `FOLDER/PREFIX-NUMBER-CAPTION.csv`; [`Report::csv_files`] gives
+    /// The report with its tables as files beside it, `FOLDER/PREFIX-NUMBER-CAPTION.csv`; `Report::csv_files` gives
     /// their contents.
     pub fn tables_in(mut self, folder: impl Into<String>, prefix: impl Into<String>) -> Self {
         self.table_files = Some(TableFiles { folder: folder.into(), prefix: prefix.into() });

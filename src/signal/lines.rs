@@ -135,7 +135,7 @@ impl Default for PeakSearch {
 /// peaks i at distance d_i Hz and their images at -f_i (T the window's length, s, l the bound of the window function's
 /// side lobes, [`WindowFunction::leakage`], 1 / (pi d T) for a boxcar); or closer than the resolution to a stronger peak;
 /// or below 1 % of the strongest. So a weak line close beside a
-/// strong one is not listed either: the window cannot tell them apart; look with [`EnvelopeSpectrum::peak_near`] and
+/// strong one is not listed either: the window cannot tell them apart; look with `EnvelopeSpectrum::peak_near` and
 /// take a longer window.
 pub fn envelope_peaks(spectrum: &EnvelopeSpectrum, lines: &[NamedLine], search: &PeakSearch) -> Vec<EnvelopePeak> {
     let duration_s = spectrum.window.to - spectrum.window.from;

@@ -14,7 +14,7 @@ pub struct MovingFigures {
     pub rms: Vec<f64>,
     /// Largest magnitude over root mean square; 1.41 for a sinusoid, 0 for a signal of zeros.
     pub crest_factor: Vec<f64>,
-    /// Kurtosis after Pearson, 3 for Gaussian noise ([`TimeSeries::kurtosis`]); `None` where the signal is constant.
+    /// Kurtosis after Pearson, 3 for Gaussian noise (`TimeSeries::kurtosis`); `None` where the signal is constant.
     pub kurtosis: Vec<Option<f64>>,
     /// Unit of the root mean square, that of the signal.
     pub unit: String,

@@ -16,7 +16,7 @@ use crate::numerics::series::{Decimator, DecimatorState, SeriesError};
 /// at the instant.
 ///
 /// A sensor's value comes some output intervals after its instant ([`intervals_past_the_end`](Self::intervals_past_the_end)).
-/// Rows leave the recorder when they are complete and [confirmed](Self::confirm): what it holds does not grow with time.
+/// Rows leave the recorder when they are complete and confirmed: what it holds does not grow with time.
 #[derive(Debug)]
 pub struct Recorder {
     ratio: u64,

@@ -43,7 +43,7 @@ impl fmt::Display for Place {
 }
 
 /// Why a case could not be read. Display gives the place, the key, what was found and what was expected;
-/// [`CaseError::help`] the nearest valid name and what to do.
+/// `CaseError::help` the nearest valid name and what to do.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CaseError {

@@ -26,7 +26,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CaseError`] when the file cannot be read, is not TOML, has unknown, missing or unsupported keys or values, or
-    /// breaks a rule of [`Case::validate`]; the same for any of its variants.
+    /// breaks a rule of `Case::validate`; the same for any of its variants.
     pub fn load(path: impl AsRef<Path>, set: &[String]) -> Result<Self, CaseError> {
         let path = path.as_ref();
         let text = crate::files::read_text(path).map_err(|source| CaseError::Read { path: path.to_owned(), source })?;

@@ -6,7 +6,7 @@
 //! 1. text to a tree of values, every one with its line; `--set` arguments change single values;
 //! 2. keys and values of the format that this version cannot honour are refused, never ignored;
 //! 3. the tree becomes a [`Case`]; unknown keys and names come with the nearest valid one;
-//! 4. [`Case::validate`]: ranges, and values that contradict each other;
+//! 4. `Case::validate`: ranges, and values that contradict each other;
 //! 5. the same for each of [`Case::variants`].
 //!
 //! What a command needs is checked by [`Case::ready_for`] (of a run, its parts are in a [`RunCase`]), what the mesh must have by [`Case::check_groups`].
@@ -150,7 +150,7 @@ impl Case {
 
     /// Returns the mass of one ball in kg: given, or that of a full sphere, m = 4/3 pi rho_b^3 times the density.
     ///
-    /// `None` without a bearing, or when its ball material is none of the case's (which [`Case::validate`] refuses).
+    /// `None` without a bearing, or when its ball material is none of the case's (which `Case::validate` refuses).
     #[must_use]
     pub fn ball_mass(&self) -> Option<f64> {
         self.mass_of_ball(self.bearing.as_ref()?).ok()

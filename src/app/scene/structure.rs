@@ -50,7 +50,7 @@ pub struct CoupledStructure {
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
     /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement by
-    /// [`ImportedHousing::complete_hz`]; infinite without a housing.
+    /// `ImportedHousing::complete_hz`; infinite without a housing.
     pub complete_hz: f64,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,

@@ -51,7 +51,7 @@ pub struct PrincipalInertia {
 
 impl MassProperties {
     /// From the rigid-body inertia `R^T M R` [3 x 3 or 6 x 6] of the motions about the point `about` (m), in the
-    /// order of [`rigid_motions`].
+    /// order of `rigid_motions`.
     ///
     /// With s from `about` to the centroid: `m` on the diagonal, `m e_k x s` beside it, and
     /// `I_c = I_about - m (|s|^2 1 - s s^T)`. Take `about` near the centroid: the difference loses digits

@@ -7,7 +7,7 @@ use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
 /// Participation factors and effective masses of modes.
 ///
 /// Columns are rigid motions: x, y, rotation about z; or x, y, z and rotations about x, y, z
-/// ([`rigid_motions`](super::rigid_motions)). A ground that moves along one of them loads mode k by
+/// (`rigid_motions`). A ground that moves along one of them loads mode k by
 /// `Gamma_k`; the forces on the ground in that mode are those of the effective mass on a spring. Source: Craig
 /// and Kurdila (2006).
 #[derive(Debug, Clone, PartialEq)]

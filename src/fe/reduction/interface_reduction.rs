@@ -31,7 +31,7 @@ impl InterfaceReduction {
     /// The superelement of a condensed housing on as many modes of its interface as `size` says.
     ///
     /// # Errors
-    /// As [`CharacteristicModes::kept`].
+    /// As `CharacteristicModes::kept`.
     pub fn new(
         condensed: &CraigBampton,
         modes: &CharacteristicModes,

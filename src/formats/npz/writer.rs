@@ -62,7 +62,7 @@ impl NpzWriter {
     /// Writes a one-dimensional array.
     ///
     /// # Errors
-    /// As [`begin`](Self::begin).
+    /// As `begin`.
     pub fn array<T: NpzElement>(&mut self, name: &str, values: &[T]) -> Result<(), FormatError> {
         let mut array = self.begin(name, &[values.len()])?;
         array.extend(values)?;
@@ -72,7 +72,7 @@ impl NpzWriter {
     /// Writes a matrix of `rows` x `columns`, `values` row by row (C order).
     ///
     /// # Errors
-    /// As [`begin`](Self::begin), and [`FormatError::Refused`] unless there are rows x columns values.
+    /// As `begin`, and [`FormatError::Refused`] unless there are rows x columns values.
     pub fn matrix<T: NpzElement>(
         &mut self,
         name: &str,
@@ -191,7 +191,7 @@ impl NpzWriter {
     }
 }
 
-/// An array that is being written piece by piece; made by [`NpzWriter::begin`].
+/// An array that is being written piece by piece; made by `NpzWriter::begin`.
 #[derive(Debug)]
 #[must_use = "an array is complete only after `end`"]
 pub struct NpzArray<'a, T> {

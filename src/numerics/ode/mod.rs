@@ -14,8 +14,8 @@
 //! - [`Method::Dop853`]: explicit Runge-Kutta of order 8 by a tolerance, interpolated at the samples; its steps may end where
 //!   contacts begin and end.
 //!
-//! How long a step may be is asked of the methods themselves: [`growth`] steps a [`Linearised`] system, and
-//! [`Method::step_limit`] searches the step at which a small motion begins to grow.
+//! How long a step may be is asked of the methods themselves: `growth` steps a [`Linearised`] system, and
+//! `Method::step_limit` searches the step at which a small motion begins to grow.
 //!
 //! [`integrate`] goes through a [`Schedule`]; an [`Integration`] does so interval by interval. A state that means nothing any
 //! more is noticed within a few steps ([`BlowUp`]), with the method's limit there ([`StepLimit`]).

@@ -38,9 +38,9 @@ const STENCIL: usize = SECOND_DIFFERENCE.len() - 1;
 /// unchanged. Input n = 0 is the start, and output 0 belongs to it.
 ///
 /// Before the start the signal is zero ([`new`](Self::new)), or the displacement has its first value
-/// ([`second_derivative`](Self::second_derivative)). Output k is complete, and handed out, when input
+/// (`second_derivative`). Output k is complete, and handed out, when input
 /// (k + 14) M - 1 has been pushed: to get the output at the last instant of a run, go on for
-/// [`half_length_outputs`](Self::half_length_outputs) output intervals.
+/// `half_length_outputs` output intervals.
 ///
 /// Cost: 28 multiply-adds an input, no allocation. Clones share the taps: clone a fresh one for each channel.
 ///

@@ -140,7 +140,7 @@ impl TimeSeries {
         &self.unit
     }
 
-    /// The samples, length n >= 1, in [`unit`](Self::unit).
+    /// The samples, length n >= 1, in `unit`.
     pub fn values(&self) -> &[f64] {
         &self.values
     }

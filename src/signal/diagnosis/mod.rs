@@ -9,8 +9,8 @@
 //!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
 //!    `doubts`: lines of a part that may be something else's.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
-//! 8. [`line_changes`]: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
-//!    [`level_changes`]: the same of the vibration as a whole and in octaves.
+//! 8. `line_changes`: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
+//!    `level_changes`: the same of the vibration as a whole and in octaves.
 //!
 //! A healthy bearing has the ball-pass line of the outer race too: balls that pass under the load make its compliance vary. That is a smooth
 //! modulation; impacts have many harmonics ([`FaultVerdict::impulsiveness`]). Sound bearings of real machines have weak lines with all

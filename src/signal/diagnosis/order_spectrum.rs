@@ -59,7 +59,7 @@ impl EnvelopeOrderSpectrum {
     /// angle at a time (s), in turns.
     ///
     /// # Errors
-    /// As [`AngleGrid::new`], and of a window outside the envelope.
+    /// As `AngleGrid::new`, and of a window outside the envelope.
     pub fn new(
         envelope: &TimeSeries,
         window: TimeWindow,

@@ -39,7 +39,7 @@ pub struct Diagnosis {
     pub faults: Vec<FaultVerdict>,
     /// Impacts that belong to no part.
     pub unexplained: Vec<UnexplainedImpacts>,
-    /// Faults that the signal alone indicates and something else speaks against, [`doubt`](Self::doubt).
+    /// Faults that the signal alone indicates and something else speaks against, `doubt`.
     pub by_signal_alone: Vec<Fault>,
 }
 

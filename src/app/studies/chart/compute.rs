@@ -34,7 +34,7 @@ pub struct Chart {
     pub chosen: usize,
     /// Place of the source paper's method.
     pub source: usize,
-    /// Errors of these two over every start, where points take [some of them](Settings::point_stride).
+    /// Errors of these two over every start, where points take some of them.
     pub over_all_starts: [Result<PointError, Failure>; 2],
     /// Statistics beyond the horizon.
     pub statistics: Vec<ModelStatistics>,

@@ -1,11 +1,11 @@
 //! Speed against accuracy: methods, steps and sizes of the model on one scene, against a reference that is measured first.
 //!
-//! [`compute_chart`] goes through it: [`Starts`] over a ball pass; the [`Reference`] of two methods of different kind that
+//! `compute_chart` goes through it: [`Starts`] over a ball pass; the [`Reference`] of two methods of different kind that
 //! are refined until they agree; the [`Growth`] of small perturbations, and with it the horizon inside which signals can be
 //! compared point by point; the [`Point`]s; the front of those that none beats; and beyond the horizon
-//! statistics over an ensemble. [`chart_report`] shows it.
+//! statistics over an ensemble. `chart_report` shows it.
 //!
-//! Beside it [`compute_stability`] asks which steps each method can take at all, under which conditions.
+//! Beside it `compute_stability` asks which steps each method can take at all, under which conditions.
 //!
 //! **Limitations.** Errors are those of the sensors' accelerations up to the band's highest frequency; what lies below its
 //! lowest is not taken out. Statistics are those of the first sensor.

@@ -122,10 +122,10 @@ impl Trace {
         Ok(squares.sqrt())
     }
 
-    /// [`difference`](Self::difference) over the reference's [`rms`](Self::rms) in the same time.
+    /// `difference` over the reference's `rms` in the same time.
     ///
     /// # Errors
-    /// [`SignalError::ZeroReference`] and as these.
+    /// `SignalError::ZeroReference` and as these.
     pub fn error(&self, reference: &Self, from: f64, to: f64) -> Result<f64, SignalError> {
         let size = reference.rms(from, to)?;
         if size <= 0.0 {

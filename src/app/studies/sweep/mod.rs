@@ -1,9 +1,9 @@
 //! Many runs of one case: the values that its keys take, what became of each point, one table.
 //!
 //! A [`Plan`] is the product of its [`Axis`]es; it is a file, so that points can be computed by other processes, on other
-//! machines, and at other times ([`slurm_scripts`]). Each point leaves the files of its command in a folder of its own and,
-//! last, a [`PointRecord`]. [`SweepResult::collect`] reads them; [`SweepResult::table`], [`write_sweep_npz`] and
-//! [`sweep_report`] show them. Nothing here starts a process: that is the command line's.
+//! machines, and at other times (`slurm_scripts`). Each point leaves the files of its command in a folder of its own and,
+//! last, a [`PointRecord`]. [`SweepResult::collect`] reads them; `SweepResult::table`, `write_sweep_npz` and
+//! `sweep_report` show them. Nothing here starts a process: that is the command line's.
 //!
 //! **Limitations.** Axes are combined as a product; keys that move together are two sweeps. Each point reads and condenses
 //! its housing anew: condense a large one once and name it by `housing.superelement`.

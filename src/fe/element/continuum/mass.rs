@@ -36,10 +36,10 @@ pub(crate) fn nodal_mass_into(
     for_kind!(kind, mass(kind, coords, density, out))
 }
 
-/// [`nodal_mass_into`] a new matrix.
+/// `nodal_mass_into` a new matrix.
 ///
 /// # Errors
-/// As [`nodal_mass_into`].
+/// As `nodal_mass_into`.
 pub fn nodal_mass(
     kind: ElementKind,
     coords: &[[f64; 3]],
@@ -62,7 +62,7 @@ pub(crate) fn measure_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<D
 
 /// Area (m^2) of a plane element or volume (m^3) of a solid one, exact for straight and curved edges.
 ///
-/// `coords` as for [`stiffness_into`](super::stiffness_into).
+/// `coords` as for `stiffness_into`.
 ///
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates, coordinates that are not finite, or an element that is

@@ -6,8 +6,8 @@
 //!
 //! From coordinates to matrix: [`shape_derivatives`] at the points of a [`QuadratureRule`] are tabulated once a
 //! kind; the Jacobian turns them into gradients, whose products are summed over the points and contracted with
-//! the elasticity of [`ContinuumProperties`]; every element is checked on the way ([`stiffness_into`],
-//! [`nodal_mass_into`]). Nothing is allocated.
+//! the elasticity of [`ContinuumProperties`]; every element is checked on the way (`stiffness_into`,
+//! `nodal_mass_into`). Nothing is allocated.
 //!
 //! Frequencies from the compatible elements lie above those of the continuum and fall as the mesh is refined,
 //! as far as the integration is exact: which rule is exact for what stands with

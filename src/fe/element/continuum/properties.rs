@@ -16,7 +16,7 @@ pub enum PlaneAssumption {
 }
 
 /// What a continuum element needs beside its coordinates; built by [`ContinuumProperties::solid`] or
-/// [`ContinuumProperties::plane`].
+/// `ContinuumProperties::plane`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuumProperties {
     /// 2 for a plane part, 3 for a solid one.

@@ -49,10 +49,10 @@ pub(crate) fn stiffness_into(
     }
 }
 
-/// [`stiffness_into`] a new matrix.
+/// `stiffness_into` a new matrix.
 ///
 /// # Errors
-/// As [`stiffness_into`].
+/// As `stiffness_into`.
 pub fn stiffness(
     kind: ElementKind,
     coords: &[[f64; 3]],

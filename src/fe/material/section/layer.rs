@@ -13,9 +13,9 @@ pub struct RingLayer {
     /// Second moment I of the area about its own centroid, axis along the ring's axis, m^4, > 0.
     pub inertia: f64,
     /// Second moment I_a of the area about the radial axis, m^4, > 0: bending out of the ring's plane.
-    /// `None`: that of the rectangle, [`RingLayer::out_of_plane_inertia`].
+    /// `None`: that of the rectangle, `RingLayer::out_of_plane_inertia`.
     pub axial_inertia: Option<f64>,
-    /// Torsion constant J, m^4, > 0. `None`: that of the rectangle, [`RingLayer::torsion_constant`].
+    /// Torsion constant J, m^4, > 0. `None`: that of the rectangle, `RingLayer::torsion_constant`.
     pub torsion: Option<f64>,
     /// Radius of its centroid line, m, > 0.
     pub radius: f64,

@@ -2,8 +2,8 @@
 //!
 //! From matrices ([`ReducedSystem`]) and where forces act and motions are read ([`FrfPaths`]) to receptance, mobility or
 //! accelerance over frequency ([`FrequencyResponse`]): directly for any damping ([`direct_response`]), or as a sum of
-//! modes ([`ModalSuperposition`]) that says which mode carries a path. [`frequency_list`] chooses the frequencies,
-//! [`rank_in_band`] compares variants. Amplitudes follow `exp(+i w t)`.
+//! modes ([`ModalSuperposition`]) that says which mode carries a path. `frequency_list` chooses the frequencies,
+//! `rank_in_band` compares variants. Amplitudes follow `exp(+i w t)`.
 //!
 //! **Limitations**: one dense factorisation for each frequency in the direct method; modal superposition neglects what
 //! damping couples between modes.

@@ -101,7 +101,7 @@ impl ModalSuperposition {
     /// the system's own damping matrices in modal coordinates.
     ///
     /// # Errors
-    /// [`FrfError`], what [`ModalDamping::rates`] refuses;
+    /// [`FrfError`], what `ModalDamping::rates` refuses;
     /// [`FrfError`] for the statics of motions without mass.
     pub fn new(
         system: &ReducedSystem,
