@@ -250,9 +250,9 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
             .with_help("raise the sampling rate or narrow `accuracy.band_hz`")
     })?;
     // the recording filter's length grows with the ratio: at this one it takes 80 MB
-    let (found, other) = (accuracy.band_hz[1], 1e-5 * transient.output_hz);
+    let (found, other) = (accuracy.band_hz[1], (1e-5 * transient.output_hz).min(1.0));
     kept(found >= other, "accuracy.band_hz[1]", || {
-        Rule::beyond(found, "at least a hundred-thousandth of `transient.output_hz`", other)
+        Rule::beyond(found, "at least 1 Hz, or a hundred-thousandth of `transient.output_hz` where that is less", other)
             .with_help("widen the band, or record at a lower `transient.output_hz`")
     })
 }

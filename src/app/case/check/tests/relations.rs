@@ -103,7 +103,8 @@ fn signals_are_sampled_finely_enough() {
         "raise the sampling rate or narrow `accuracy.band_hz`"
     );
     // a filter for a lower band would not fit into the memory
-    let rule = "found 0.9, expected at least a hundred-thousandth of `transient.output_hz` (1)";
+    let rule =
+        "found 0.9, expected at least 1 Hz, or a hundred-thousandth of `transient.output_hz` where that is less (1)";
     full("accuracy.band_hz[1]=0.9", rule);
     holds(FULL, &["accuracy.band_hz[1]=1"]);
 }
