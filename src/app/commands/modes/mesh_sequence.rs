@@ -166,3 +166,25 @@ pub(crate) fn modes_on_mesh(case: &Case, path: PathBuf, extent: ModeRange) -> Re
     }?;
     Ok((bodies.mode_set(&modes), modes.free_dof()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chords of a circle cut off 0.5 % where they are 36; a body that is 2 % longer is another one.
+    #[test]
+    fn bodies_of_another_size_are_told() {
+        let level = |measure: f64| Level {
+            mesh: PathBuf::from("other.msh"),
+            elements: 1,
+            kinds: Vec::new(),
+            measure,
+            element_size: 1.0,
+        };
+        let sequence = |other: f64| MeshSequence { levels: vec![level(2.0), level(other)], formal_order: 2.0 };
+        assert!(sequence(1.99).doubts().is_empty());
+        let told = sequence(2.04).doubts().join(" ");
+        let expected = "The body of modes.convergence.meshes[0] (other.msh) is 2.0 % larger";
+        assert!(told.starts_with(expected), "{told}");
+    }
+}

@@ -176,3 +176,57 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
     facts.extend(energy);
     facts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::run::compute_run;
+    use crate::numerics::Unwatched;
+    use crate::report::Block;
+
+    /// Twelve sensors are drawn, and of more than twelve windows there is one table.
+    #[test]
+    fn a_report_of_many_sensors_shows_some_and_says_so() {
+        let sections = |sensors: usize| {
+            let sensor = |at| format!("{{name='P{at}',ring_deg={at},direction=[0,1,0]}}");
+            let all: Vec<String> = (0..sensors).map(sensor).collect();
+            let all = format!("sensors=[{}]", all.join(","));
+            let window = "analysis.envelope=[{from=0.2e-3,to=0.8e-3}]";
+            let set = [&*all, window, "transient.end=1e-3", "transient.modes=3"];
+            let case = Case::example("scenes/smooth", &set);
+            let result = compute_run(&case, &Unwatched).unwrap();
+            assert_eq!(result.windows.len(), sensors, "{:?}", result.not_analysed);
+            run_report(&case, &result, "").unwrap().sections
+        };
+        let plots = |sections: &[Section]| {
+            let blocks = sections.iter().flat_map(|section| &section.blocks);
+            blocks.filter(|block| matches!(block, Block::Plot(_))).count()
+        };
+        let titled = |sections: &[Section], title: &str| sections.iter().any(|section| section.title == title);
+        let (few, many) = (sections(SHOWN_WINDOWS), sections(SHOWN_WINDOWS + 1));
+        assert!(!titled(&few, "Verdicts") && titled(&many, "Verdicts"));
+        assert!(plots(&few) > 2 * SHOWN_WINDOWS && plots(&many) < plots(&few));
+        let said = many.iter().flat_map(|section| &section.blocks);
+        let said = said
+            .filter(|block| matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors")));
+        assert_eq!(said.count(), 1);
+    }
+
+    /// A run to its end in steps that are too long is no good one.
+    #[test]
+    fn a_run_that_cannot_be_trusted_has_no_good_headline() {
+        let set = ["transient.end=1e-3", "transient.modes=3"];
+        let case = Case::example("scenes/smooth", &set);
+        let mut result = compute_run(&case, &Unwatched).unwrap();
+        let verdict = |result: &RunResult| {
+            let headlines = run_report(&case, result, "").unwrap().headlines;
+            let simulated = headlines.iter().find(|found| found.label == "Simulated");
+            simulated.unwrap().verdict
+        };
+        assert!(matches!(result.simulation.end, RunEnd::Complete));
+        assert_eq!(verdict(&result), Verdict::Ok);
+        result.choice.stable_s = Some(1e-9);
+        assert!(result.distrust().is_some());
+        assert_eq!(verdict(&result), Verdict::Bad);
+    }
+}
