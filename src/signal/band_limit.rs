@@ -20,9 +20,7 @@ const STOP_OVER_PASS: f64 = 1.1;
 /// # Errors
 /// [`SignalError`] for the cut-off, or if the series is not longer than the filter reaches to one side.
 pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
-    let x = series.values();
-    let (first, last) = (x[0], x[x.len() - 1]);
-    limited(series, up_to_hz, |v| 2.0 * first - v, |v| 2.0 * last - v)
+    limited(series, up_to_hz, odd_extension)
 }
 
 /// [`band_limit`] for a series that is zero before its start, as accelerations of a run from rest are. A reflection would
@@ -32,15 +30,27 @@ pub fn band_limit(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, Sign
 /// # Errors
 /// As [`band_limit`].
 pub fn band_limit_from_rest(series: &TimeSeries, up_to_hz: f64) -> Result<TimeSeries, SignalError> {
-    limited(series, up_to_hz, |_| 0.0, |v| v)
+    limited(series, up_to_hz, |x, length| extended(x, length, |_| 0.0, |v| v))
 }
 
-/// The filtered series; `before` and `after` make the value beyond an end of the one as far inside.
+/// The values with `length` more (fewer than there are) at each end, by their odd reflection, 2 x_0 - x_k.
+pub(super) fn odd_extension(x: &[f64], length: usize) -> Vec<f64> {
+    let (first, last) = (x[0], x[x.len() - 1]);
+    extended(x, length, |v| 2.0 * first - v, |v| 2.0 * last - v)
+}
+
+/// The same where `before` and `after` make the value beyond an end of the one as far inside.
+fn extended(x: &[f64], length: usize, before: impl Fn(f64) -> f64, after: impl Fn(f64) -> f64) -> Vec<f64> {
+    let before = x[1..=length].iter().rev().map(|v| before(*v));
+    let after = x[x.len() - 1 - length..x.len() - 1].iter().rev().map(|v| after(*v));
+    before.chain(x.iter().copied()).chain(after).collect()
+}
+
+/// The filtered series; `extend` makes the values with as many more at each end as the filter reaches.
 fn limited(
     series: &TimeSeries,
     up_to_hz: f64,
-    before: impl Fn(f64) -> f64,
-    after: impl Fn(f64) -> f64,
+    extend: impl Fn(&[f64], usize) -> Vec<f64>,
 ) -> Result<TimeSeries, SignalError> {
     let filter = filter(series.step_s(), up_to_hz)?;
     let (x, half) = (series.values(), filter.half_length());
@@ -48,9 +58,7 @@ fn limited(
     if samples <= half {
         return Err(SignalError::too_short(samples, half + 1));
     }
-    let before = x[1..=half].iter().rev().map(|v| before(*v));
-    let after = x[samples - 1 - half..samples - 1].iter().rev().map(|v| after(*v));
-    let extended: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();
+    let extended = extend(x, half);
     // Circular convolution: the middle part reaches `half` to each side, never round the end.
     let points = fast_length(extended.len());
     let mut taps = vec![0.0; points];

@@ -1,9 +1,11 @@
 //! Butterworth filters: low-, high- and band-pass, without phase shift or causal.
 
-use sci_rs::signal::filter::design::{DigitalFilter, FilterBandType, FilterOutputType, Sos, butter_dyn};
-use sci_rs::signal::filter::{sosfilt_dyn, sosfiltfilt_dyn};
+use std::f64::consts::PI;
+
+use realfft::num_complex::Complex;
 
 use super::SignalError;
+use super::band_limit::odd_extension;
 use crate::numerics::series::TimeSeries;
 
 /// Order of a filter unless another is asked for. Forward and backward together it acts like order 8.
@@ -49,9 +51,9 @@ pub enum FilterBand {
 /// `order` 1 to 12.
 ///
 /// Second-order sections from the poles, never from a polynomial of the whole filter, so narrow bands and high orders stay
-/// stable; design and runs are those of the `sci-rs` library, input is checked here. Agrees with
-/// `scipy.signal.butter(order, edges, kind, fs=1/step, output="sos")` and `sosfiltfilt` or `sosfilt` to rounding. Source of
-/// the equations: Oppenheim & Schafer, "Discrete-Time Signal Processing", 3rd ed., sections 7.2 and 7.3.
+/// stable. Agrees with `scipy.signal.butter(order, edges, kind, fs=1/step, output="sos")` and `sosfiltfilt` or `sosfilt` to
+/// rounding. Source of the equations: Oppenheim & Schafer, "Discrete-Time Signal Processing", 3rd ed., sections 6.3, 7.2
+/// and 7.3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Butterworth {
     /// What passes.
@@ -85,8 +87,15 @@ impl Butterworth {
         if samples <= extension {
             return Err(SignalError::too_short(samples, extension + 1));
         }
-        let filtered = sosfiltfilt_dyn(series.values().iter(), &sections);
-        Ok(series.with_values(filtered)?)
+        let mut values = odd_extension(series.values(), extension);
+        for _ in 0..2 {
+            for section in &sections {
+                let settled = values[0];
+                section.run(&mut values, settled);
+            }
+            values.reverse();
+        }
+        Ok(series.with_values(values[extension..extension + samples].to_vec())?)
     }
 
     /// The series (unit and instants unchanged) filtered forward from rest: gain |H|, with the filter's phase; what comes
@@ -95,34 +104,49 @@ impl Butterworth {
     /// # Errors
     /// As [`zero_phase`](Self::zero_phase); any length will do.
     pub fn causal(&self, series: &TimeSeries) -> Result<TimeSeries, SignalError> {
-        let mut sections = self.sections(series.step_s())?;
-        let filtered = sosfilt_dyn(series.values().iter(), &mut sections);
-        Ok(series.with_values(filtered)?)
+        let mut values = series.values().to_vec();
+        for section in self.sections(series.step_s())? {
+            section.run(&mut values, 0.0);
+        }
+        Ok(series.with_values(values)?)
     }
 
-    /// Second-order sections for samples every `step_s` seconds.
-    fn sections(&self, step_s: f64) -> Result<Vec<Sos<f64>>, SignalError> {
+    /// Second-order sections for samples every `step_s` seconds, those with poles near the unit circle last.
+    ///
+    /// The low-pass of cut-off 1 rad/s has its poles at p = -exp(i pi m / (2 order)); they go to w_c p (low-pass), w_c / p
+    /// (high-pass), or to both roots of s^2 - (w_2 - w_1) p s + w_1 w_2 = 0 (band-pass).
+    fn sections(&self, step_s: f64) -> Result<Vec<Section>, SignalError> {
         self.check(step_s)?;
-        let (edges_hz, kind) = match self.band {
-            FilterBand::LowPass { cut_off_hz } => (vec![cut_off_hz], FilterBandType::Lowpass),
-            FilterBand::HighPass { cut_off_hz } => (vec![cut_off_hz], FilterBandType::Highpass),
-            FilterBand::BandPass { from_hz, to_hz } => (vec![from_hz, to_hz], FilterBandType::Bandpass),
+        let warped = |hz: f64| (PI * hz * step_s).tan();
+        // those of the upper half plane, the one on the real axis first
+        let poles = ((self.order + 1) % 2..self.order).step_by(2);
+        let poles = poles.map(|m| -Complex::from_polar(1.0, PI * m as f64 / (2 * self.order) as f64));
+        // a pole at s = -1 is one at z = 0, which is none
+        let low_or_high = |s: Complex<f64>, sign: f64, gain: f64| match s.im == 0.0 {
+            true => Section::new([s, Complex::new(-1.0, 0.0)], [1.0, sign, 0.0], 2.0 * gain),
+            false => Section::new([s, s.conj()], [1.0, 2.0 * sign, 1.0], gain * gain),
         };
-        let design = butter_dyn::<f64>(
-            self.order,
-            edges_hz,
-            Some(kind),
-            Some(false),
-            Some(FilterOutputType::Sos),
-            Some(1.0 / step_s),
-        );
-        match design {
-            DigitalFilter::Sos(filter) => Ok(filter.sos),
-            DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Err(SignalError(format!(
-                "Butterworth design of order {} did not give second-order sections",
-                self.order
-            ))),
-        }
+        Ok(match self.band {
+            FilterBand::LowPass { cut_off_hz } => {
+                let w = warped(cut_off_hz);
+                poles.map(|p| low_or_high(p * w, 1.0, w)).collect()
+            }
+            FilterBand::HighPass { cut_off_hz } => {
+                let w = warped(cut_off_hz);
+                poles.map(|p| low_or_high(w / p, -1.0, 1.0)).collect()
+            }
+            FilterBand::BandPass { from_hz, to_hz } => {
+                let [from, to] = [from_hz, to_hz].map(warped);
+                let section = |poles| Section::new(poles, [1.0, 0.0, -1.0], to - from);
+                let pairs = poles.flat_map(|p| {
+                    let middle = p * (0.5 * (to - from));
+                    let root = (middle * middle - from * to).sqrt();
+                    let [one, other] = [middle - root, middle + root];
+                    if p.im == 0.0 { vec![[one, other]] } else { vec![[one, one.conj()], [other, other.conj()]] }
+                });
+                pairs.map(section).collect()
+            }
+        })
     }
 
     fn check(&self, step_s: f64) -> Result<(), SignalError> {
@@ -158,12 +182,39 @@ impl Butterworth {
     }
 }
 
+/// (b_0 + b_1 / z + b_2 / z^2) / (a_0 + a_1 / z + a_2 / z^2), a_0 = 1.
+#[derive(Debug)]
+struct Section {
+    b: [f64; 3],
+    a: [f64; 3],
+}
+
+impl Section {
+    /// From two poles s, conjugate or real, by the bilinear transform z = (1 + s) / (1 - s).
+    fn new(poles: [Complex<f64>; 2], b: [f64; 3], gain: f64) -> Self {
+        let [one, other] = poles.map(|s| (1.0 + s) / (1.0 - s));
+        let gain = gain / ((1.0 - poles[0]) * (1.0 - poles[1])).re;
+        Self { b: b.map(|b| gain * b), a: [1.0, -(one + other).re, (one * other).re] }
+    }
+
+    /// Filters in place (direct form II, transposed) from the steady state for a value that was `held` before.
+    fn run(&self, values: &mut [f64], held: f64) {
+        let ([b_0, b_1, b_2], [_, a_1, a_2]) = (self.b, self.a);
+        let settled = held * (b_0 + b_1 + b_2) / (1.0 + a_1 + a_2);
+        let (mut first, mut second) = (settled - b_0 * held, b_2 * held - a_2 * settled);
+        for value in values {
+            let x = *value;
+            *value = b_0 * x + first;
+            first = b_1 * x - a_1 * *value + second;
+            second = b_2 * x - a_2 * *value;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::signal::samples::{items, load, numbers, worst};
-    use realfft::num_complex::Complex;
-    use std::f64::consts::PI;
 
     fn high_pass(cut_off_hz: f64) -> Butterworth {
         Butterworth::new(FilterBand::HighPass { cut_off_hz })
@@ -202,7 +253,7 @@ mod tests {
     }
 
     /// |H| at f cycles per sample.
-    fn gain(sections: &[Sos<f64>], f: f64) -> f64 {
+    fn gain(sections: &[Section], f: f64) -> f64 {
         let delay = Complex::from_polar(1.0, -2.0 * PI * f);
         let at = |c: &[f64; 3]| (delay * c[2] + c[1]) * delay + c[0];
         sections.iter().map(|s| (at(&s.b) / at(&s.a)).norm()).product()
