@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use super::error::BearingError;
 use super::geometry::BearingGeometry;
-use super::rotation::{Piece, Rotation, RotationCursor, RotationState};
+use super::rotation::{Piece, Rotation, RotationState};
 use super::slip::SlipProfile;
 use super::speed::SpeedProfile;
 
@@ -20,10 +20,11 @@ pub struct Cage {
     /// Cage turns per shaft turn without slip.
     rolling_ratio: f64,
     shaft: SpeedProfile,
-    slip: SlipProfile,
-    spacing: f64,
+    pub(crate) slip: SlipProfile,
+    /// Angle between neighbouring balls, rad.
+    pub(crate) spacing: f64,
     /// Of ball 0.
-    rotation: Rotation,
+    pub(crate) rotation: Rotation,
 }
 
 impl Cage {
@@ -44,7 +45,7 @@ impl Cage {
         let rolling_ratio = bearing.orders().cage;
         let times = slip.knot_times(&shaft);
         let piece = |place: usize| {
-            let time = times.get(place).copied().unwrap_or(0.0);
+            let time = times[place];
             let driving = shaft.motion(time);
             let start = slip.at(time, driving.speed);
             let slope = times.get(place + 1).map_or(0.0, |&next| {
@@ -59,11 +60,11 @@ impl Cage {
                 ..Piece::default()
             }
         };
-        let rest: Vec<Piece> = (1..times.len()).map(piece).collect();
+        let pieces = (0..times.len()).map(piece).collect();
         Ok(Self {
             rolling_ratio,
             spacing: TAU / f64::from(bearing.balls()),
-            rotation: Rotation::new(piece(0), &rest, first_ball_angle),
+            rotation: Rotation::new(pieces, first_ball_angle),
             shaft,
             slip,
         })
@@ -75,12 +76,6 @@ impl Cage {
         &self.shaft
     }
 
-    /// Slip of the cage.
-    #[must_use]
-    pub(crate) fn slip(&self) -> &SlipProfile {
-        &self.slip
-    }
-
     /// Cage turns per shaft turn between two times (s); without slip where the shaft does not turn.
     #[must_use]
     pub(crate) fn ratio_between(&self, from: f64, to: f64) -> f64 {
@@ -89,31 +84,11 @@ impl Cage {
         if ratio.is_finite() { ratio } else { self.rolling_ratio }
     }
 
-    /// The first time (s) after `time` at which the motion of shaft or cage changes its law; infinity if there is none.
-    #[must_use]
-    pub(crate) fn next_knot(&self, time: f64) -> f64 {
-        self.rotation.next_knot(time)
-    }
-
-    /// Angle between neighbouring balls, rad.
-    #[must_use]
-    #[inline]
-    pub(crate) fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
     /// Motion at `time` (s); the angle is that of ball 0 (not reduced to one turn).
     #[must_use]
     #[inline]
     pub fn motion(&self, time: f64) -> RotationState {
         self.rotation.at(time)
-    }
-
-    /// The same, searching from where `cursor` was left.
-    #[must_use]
-    #[inline]
-    pub(crate) fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
-        self.rotation.at_from(cursor, time)
     }
 
     /// Angle of `ball` (counted counter-clockwise from ball 0), rad, not reduced, from the cage angle.

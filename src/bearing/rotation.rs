@@ -53,7 +53,7 @@ impl Piece {
 
 /// A rotation over all time.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Rotation {
+pub(crate) struct Rotation {
     /// Constant speed before the first knot; its reference time is the first knot's.
     before: Piece,
     /// One piece a knot.
@@ -63,13 +63,12 @@ pub(super) struct Rotation {
 impl Rotation {
     /// A rotation by `angle_at_zero` (rad) at time zero from `pieces`, at least one, times ascending; the first one's speed
     /// holds before it.
-    pub(super) fn new(first: Piece, rest: &[Piece], angle_at_zero: f64) -> Self {
-        let mut pieces: Vec<Piece> = Vec::with_capacity(1 + rest.len());
-        for &piece in std::iter::once(&first).chain(rest) {
-            let angle = pieces.last().map_or(0.0, |last| last.at(piece.time).angle);
-            pieces.push(Piece { angle, ..piece });
-        }
+    pub(super) fn new(mut pieces: Vec<Piece>, angle_at_zero: f64) -> Self {
+        let first = pieces.first().copied().unwrap_or_default();
         let before = Piece { time: first.time, speed: first.speed, ..Piece::default() };
+        for next in 1..pieces.len() {
+            pieces[next].angle = pieces[next - 1].at(pieces[next].time).angle;
+        }
         let mut rotation = Self { before, pieces };
         let shift = angle_at_zero - rotation.at(0.0).angle;
         rotation.before.angle += shift;
@@ -85,7 +84,7 @@ impl Rotation {
     }
 
     /// The first knot after `time` (s), s; infinity if there is none. O(log n).
-    pub(super) fn next_knot(&self, time: f64) -> f64 {
+    pub(crate) fn next_knot(&self, time: f64) -> f64 {
         let started = self.pieces.partition_point(|piece| piece.time <= time);
         self.pieces.get(started).map_or(f64::INFINITY, |piece| piece.time)
     }
@@ -100,7 +99,7 @@ impl Rotation {
     /// State at `time` (s), searching from where `cursor` was left: constant cost for times that move in small steps,
     /// either way.
     #[inline]
-    pub(super) fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+    pub(crate) fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
         let mut started = cursor.piece.min(self.pieces.len());
         while started < self.pieces.len() && self.pieces[started].time <= time {
             started += 1;

@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use super::error::{BearingError, refused};
-use super::rotation::{Piece, Rotation, RotationCursor, RotationState};
+use super::rotation::{Piece, Rotation, RotationState};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub struct SpeedKnot {
 /// Piecewise linear speed over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
-    rotation: Rotation,
+    pub(crate) rotation: Rotation,
 }
 
 impl SpeedProfile {
@@ -39,9 +39,9 @@ impl SpeedProfile {
     /// # Errors
     /// [`BearingError`] if the table is empty, an entry is not finite or times do not increase.
     pub fn new(knots: &[SpeedKnot]) -> Result<Self, BearingError> {
-        let Some(first) = knots.first() else {
+        if knots.is_empty() {
             return Err(BearingError("speed profile is empty: give at least one { time, hz }".to_owned()));
-        };
+        }
         for (row, knot) in knots.iter().enumerate() {
             for (name, value) in [("time", knot.time), ("hz", knot.frequency_hz)] {
                 if !value.is_finite() {
@@ -58,16 +58,14 @@ impl SpeedProfile {
                 )));
             }
         }
-        let piece = |row: usize, knot: &SpeedKnot| {
+        let piece = |(row, knot): (usize, &SpeedKnot)| {
             let rise = knots
                 .get(row + 1)
                 .map_or(0.0, |next| (next.frequency_hz - knot.frequency_hz) / (next.time - knot.time));
             let (speed, acceleration) = (TAU * knot.frequency_hz, TAU * rise);
             Piece { time: knot.time, speed, acceleration, ..Piece::default() }
         };
-        let rest = knots.iter().enumerate().skip(1);
-        let rest: Vec<Piece> = rest.map(|(row, knot)| piece(row, knot)).collect();
-        Ok(Self { rotation: Rotation::new(piece(0, first), &rest, 0.0) })
+        Ok(Self { rotation: Rotation::new(knots.iter().enumerate().map(piece).collect(), 0.0) })
     }
 
     /// Constant speed (Hz).
@@ -110,13 +108,6 @@ impl SpeedProfile {
     #[inline]
     pub fn motion(&self, time: f64) -> RotationState {
         self.rotation.at(time)
-    }
-
-    /// All three at `time` (s), searching from where `cursor` was left.
-    #[must_use]
-    #[inline]
-    pub(crate) fn motion_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
-        self.rotation.at_from(cursor, time)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Speed tables: closed form of the source's run-up, derivatives, cursor, rules.
 
 use super::*;
+use crate::bearing::RotationCursor;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
@@ -82,7 +83,7 @@ proptest! {
         let profile = varied();
         let mut cursor = RotationCursor::default();
         for time in times.into_iter().chain([-0.5, 0.7, 2.001, 2.0]) {
-            prop_assert_eq!(profile.motion_from(&mut cursor, time), profile.motion(time));
+            prop_assert_eq!(profile.rotation.at_from(&mut cursor, time), profile.motion(time));
         }
     }
 }
@@ -90,9 +91,9 @@ proptest! {
 #[test]
 fn cursor_of_another_profile_is_harmless() {
     let mut cursor = RotationCursor::default();
-    let _ = varied().motion_from(&mut cursor, 10.0);
+    let _ = varied().rotation.at_from(&mut cursor, 10.0);
     let short = SpeedProfile::constant(1.0).unwrap();
-    assert_eq!(short.motion_from(&mut cursor, 1.0), short.motion(1.0));
+    assert_eq!(short.rotation.at_from(&mut cursor, 1.0), short.motion(1.0));
 }
 
 #[test]

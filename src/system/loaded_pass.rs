@@ -52,7 +52,7 @@ impl LoadedPass {
             Ok(LoadedPoint { at, modes: Some(modes) })
         };
         let angle = |place: usize| {
-            let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
+            let turned = setup.cage.spacing * place as f64 / (ANGLES - 1) as f64;
             point(turned, condition.turned_by(setup, turned))
         };
         let load = |place: usize| {

@@ -33,7 +33,7 @@ impl Statics {
         let condition = StaticCondition::at(setup, time);
         let equilibria = Equilibrium::find_all(structure, setup, condition)?;
         let point = |place: usize| {
-            let turned = setup.cage.spacing() * place as f64 / (ANGLES - 1) as f64;
+            let turned = setup.cage.spacing * place as f64 / (ANGLES - 1) as f64;
             let condition = condition.turned_by(setup, turned);
             PassPoint { turned, equilibrium: Equilibrium::find(structure, setup, condition).ok() }
         };

@@ -20,7 +20,6 @@
 use super::contacts::{DefectContact, Feature};
 use super::vector::Vector;
 use crate::bearing::geometry::BearingGeometry;
-use crate::bearing::hertz::PrincipalCurvatures;
 use crate::bearing::materials::{ContactStiffness, Race};
 
 /// Carrier and roller, undamaged.
@@ -34,6 +33,8 @@ pub(super) struct Circles {
     pub roller: f64,
     /// Relative curvature of ball and race in the rolling plane from their nominal radii, 1/m.
     pub relative: f64,
+    /// The same across the rolling direction, of ball and groove.
+    pub across: f64,
     /// k of the undamaged pair, N/m^{3/2}.
     pub stiffness: f64,
 }
@@ -47,13 +48,7 @@ impl Circles {
             Race::Inner => (bearing.effective_inner_race_radius(), -1.0),
             Race::Outer => (bearing.outer_race_radius(), 1.0),
         };
-        Self {
-            carrier,
-            side,
-            roller: bearing.ball_radius(),
-            relative: relative(bearing, race),
-            stiffness: stiffness.at(race),
-        }
+        Self::pair(bearing, race, stiffness, [carrier, side, bearing.ball_radius()])
     }
 
     /// A ball that carries the defect, and the race that meets it.
@@ -62,13 +57,22 @@ impl Circles {
             Race::Inner => bearing.effective_inner_race_radius(),
             Race::Outer => -bearing.outer_race_radius(),
         };
-        Self {
-            carrier: bearing.ball_radius(),
-            side: -1.0,
-            roller,
-            relative: relative(bearing, race),
-            stiffness: stiffness.at(race),
-        }
+        Self::pair(bearing, race, stiffness, [bearing.ball_radius(), -1.0, roller])
+    }
+
+    fn pair(
+        bearing: &BearingGeometry,
+        race: Race,
+        stiffness: ContactStiffness,
+        [carrier, side, roller]: [f64; 3],
+    ) -> Self {
+        let ball = bearing.ball_curvatures();
+        let groove = match race {
+            Race::Inner => bearing.inner_curvatures(),
+            Race::Outer => bearing.outer_curvatures(),
+        };
+        let (relative, across) = (ball.plane_2 + groove.plane_2, ball.plane_1 + groove.plane_1);
+        Self { carrier, side, roller, relative, across, stiffness: stiffness.at(race) }
     }
 
     /// +1 for a convex roller, −1 for a concave one.
@@ -132,18 +136,5 @@ impl Circles {
             normal_tangential: sign * inward.dot(direction.tangent()),
             stiffness,
         }
-    }
-}
-
-/// Relative curvature of ball and race in the rolling plane, 1/m.
-fn relative(bearing: &BearingGeometry, race: Race) -> f64 {
-    bearing.ball_curvatures().plane_2 + race_curvatures(bearing, race).plane_2
-}
-
-/// Nominal curvatures of a race, 1/m.
-pub(super) fn race_curvatures(bearing: &BearingGeometry, race: Race) -> PrincipalCurvatures {
-    match race {
-        Race::Inner => bearing.inner_curvatures(),
-        Race::Outer => bearing.outer_curvatures(),
     }
 }

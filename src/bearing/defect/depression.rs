@@ -7,8 +7,6 @@ use super::floor::{Floor, Reach};
 use super::rim::Rim;
 use super::stiffness::{self, CurvatureStiffness, Fade};
 use crate::bearing::error::{BearingError, refused};
-use crate::bearing::geometry::BearingGeometry;
-use crate::bearing::materials::Race;
 
 /// A rim may not open the defect to more than this multiple of its length.
 pub(super) const OPENING_LIMIT: f64 = 1.5;
@@ -58,19 +56,12 @@ pub(super) struct Depression {
 }
 
 impl Depression {
-    /// Solves `floor` in `circles` (at `race`) with rims of `rim_radius` (m); `floor_base` (1/m) is the relative
+    /// Solves `floor` in `circles` with rims of `rim_radius` (m); `floor_base` (1/m) is the relative
     /// curvature from which the floor's loss is taken for the stiffness.
     ///
     /// # Errors
     /// [`BearingError`]: rims too large; more than a quarter of the circle; a curvature that Hertz theory refuses.
-    pub(super) fn new(
-        bearing: &BearingGeometry,
-        race: Race,
-        circles: Circles,
-        floor: Floor,
-        rim_radius: f64,
-        floor_base: f64,
-    ) -> Result<Self, BearingError> {
+    pub(super) fn new(circles: Circles, floor: Floor, rim_radius: f64, floor_base: f64) -> Result<Self, BearingError> {
         let length = floor.length(&circles);
         let limit = 2.0 * FRAC_PI_4 * circles.carrier;
         if length > limit {
@@ -95,12 +86,12 @@ impl Depression {
         {
             let end = if reach.meets_rim { rim.joint } else { 0.0 };
             for t in [0.0, end] {
-                stiffness::per_modulus(bearing, race, floor_base - floor.loss(t))?;
+                stiffness::per_modulus(circles.across, floor_base - floor.loss(t))?;
             }
         }
         let most = circles.roller_curvature() + 1.0 / rim_radius;
         Ok(Self {
-            stiffness: CurvatureStiffness::new(bearing, race, &circles, most)?,
+            stiffness: CurvatureStiffness::new(&circles, most)?,
             reach,
             fade: Fade::new(&circles, 0.0),
             contact_angle: rim.farthest_centre(&circles).max(rim.angle),

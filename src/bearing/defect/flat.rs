@@ -76,9 +76,7 @@ impl BallFlat {
         let arc = Arc::new(ball, shape.radius, shape.depth, loss);
         let solve = |race| {
             let circles = Circles::ball(bearing, race, stiffness);
-            let floor = Floor::Arc(arc);
-            let base = circles.relative;
-            Depression::new(bearing, race, circles, floor, shape.rim_radius, base)
+            Depression::new(circles, Floor::Arc(arc), shape.rim_radius, circles.relative)
         };
         Ok(Self { shape, included_angle: 2.0 * arc.half_angle, inner: solve(Race::Inner)?, outer: solve(Race::Outer)? })
     }

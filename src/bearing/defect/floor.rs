@@ -31,10 +31,10 @@ impl Reach {
         Self { parameter, end_point: end.point, end_tangent: end.tangent(), meets_rim }
     }
 
-    /// Whether the foot of a roller's centre lies before its end.
+    /// Whether the foot of the `centre` of a convex (`sign` +1) or concave (−1) roller lies before its end.
     #[inline]
-    pub(super) fn holds(&self, centre: Vector) -> bool {
-        self.end_point.minus(centre).dot(self.end_tangent) > 0.0
+    pub(super) fn holds(&self, centre: Vector, sign: f64) -> bool {
+        sign * self.end_point.minus(centre).dot(self.end_tangent) > 0.0
     }
 }
 

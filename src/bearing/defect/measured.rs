@@ -78,7 +78,7 @@ impl MeasuredProfile {
             half_angle,
             brackets: Brackets::new(&profile, half_angle),
             fade: brackets::fade(&circles),
-            stiffness: CurvatureStiffness::new(bearing, race, &circles, most)?,
+            stiffness: CurvatureStiffness::new(&circles, most)?,
             profile,
         })
     }

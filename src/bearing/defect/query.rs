@@ -46,10 +46,7 @@ impl Depression {
     fn floor_contact(&self, centre: Vector, mirrored: Vector, direction: Vector) -> Option<DefectContact> {
         let reach = self.reach.as_ref()?;
         let circles = &self.circles;
-        let inside = |centre: Vector| {
-            if reach.meets_rim { self.rim.beyond_joint(circles, centre) } else { reach.holds(centre) }
-        };
-        if !(inside(centre) && inside(mirrored)) {
+        if !(reach.holds(centre, circles.sign()) && reach.holds(mirrored, circles.sign())) {
             return None;
         }
         let (t, foot) = self.floor.foot(circles, centre, reach.parameter);

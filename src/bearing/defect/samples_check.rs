@@ -15,12 +15,10 @@ const DEPTH_LIMIT: f64 = 0.25;
 /// # Errors
 /// [`BearingError`] for too few samples, with the number of a sample that breaks a rule, or for the length.
 pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], BearingError> {
-    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
-        return Err(too_few(samples.len()));
+    let (Some(first), Some(last), LEAST_KNOTS..) = (samples.first(), samples.last(), samples.len()) else {
+        let count = samples.len();
+        return Err(BearingError(format!("defect profile has {count} samples: it needs at least {LEAST_KNOTS}")));
     };
-    if samples.len() < LEAST_KNOTS {
-        return Err(too_few(samples.len()));
-    }
     let mut before = f64::NEG_INFINITY;
     for (index, &(s, depth)) in samples.iter().enumerate() {
         for (what, value) in [("arc length", s), ("depth", depth)] {
@@ -50,10 +48,6 @@ pub(super) fn span(samples: &[(f64, f64)], limit: f64) -> Result<[f64; 2], Beari
         return Err(refused(index, "depth", samples[index].1, rule));
     }
     Ok([first.0, last.0])
-}
-
-fn too_few(count: usize) -> BearingError {
-    BearingError(format!("defect profile has {count} samples: it needs at least {LEAST_KNOTS}"))
 }
 
 fn refused(index: usize, what: &str, value: f64, rule: &str) -> BearingError {

@@ -6,12 +6,10 @@
 //! the nodes only; between them k is a cubic Hermite polynomial in ln A. k falls with A: the sharper the
 //! curvature, the smaller the patch.
 
-use super::circles::{Circles, race_curvatures};
+use super::circles::Circles;
 use super::rim::smoothstep;
 use crate::bearing::error::BearingError;
-use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::hertz::{self, PrincipalCurvatures};
-use crate::bearing::materials::Race;
 
 /// Intervals of the table. Over a ratio of 2600 in A the largest relative error measured on the source's
 /// bearing is 8e-7 with 20, 3e-9 with 80; a bearing with closer grooves has room.
@@ -52,49 +50,32 @@ impl CurvatureStiffness {
     ///
     /// # Errors
     /// [`BearingError`] if Hertz theory refuses a node.
-    pub(super) fn new(
-        bearing: &BearingGeometry,
-        race: Race,
-        circles: &Circles,
-        most: f64,
-    ) -> Result<Self, BearingError> {
-        let least = LEAST_RELATIVE * circles.relative;
-        Self::over(bearing, race, circles, [least, most])
+    pub(super) fn new(circles: &Circles, most: f64) -> Result<Self, BearingError> {
+        Self::over(circles, [LEAST_RELATIVE * circles.relative, most])
     }
 
     /// The same for [`Self::of_pair`] with curvatures up to `most` (1/m).
     ///
     /// # Errors
     /// [`BearingError`] if Hertz theory refuses a node.
-    pub(super) fn for_pairs(
-        bearing: &BearingGeometry,
-        race: Race,
-        circles: &Circles,
-        most: f64,
-    ) -> Result<Self, BearingError> {
-        let across = across(bearing, race);
-        let least = across.min(LEAST_RELATIVE * circles.relative);
-        Self::over(bearing, race, circles, [least, most / LEAST_RELATIVE])
+    pub(super) fn for_pairs(circles: &Circles, most: f64) -> Result<Self, BearingError> {
+        let least = circles.across.min(LEAST_RELATIVE * circles.relative);
+        Self::over(circles, [least, most / LEAST_RELATIVE])
     }
 
-    fn over(
-        bearing: &BearingGeometry,
-        race: Race,
-        circles: &Circles,
-        [least, most]: [f64; 2],
-    ) -> Result<Self, BearingError> {
+    fn over(circles: &Circles, [least, most]: [f64; 2]) -> Result<Self, BearingError> {
+        let across = circles.across;
         let most = most.min(MOST_RELATIVE * circles.relative);
         let step = (most / least).ln() / INTERVALS as f64;
         let mut nodes = Vec::with_capacity(INTERVALS + 1);
         for i in 0..=INTERVALS {
             let log = least.ln() + step * i as f64;
-            let value = per_modulus(bearing, race, log.exp())?;
-            let above = per_modulus(bearing, race, (log + SLOPE_STEP).exp())?;
-            let below = per_modulus(bearing, race, (log - SLOPE_STEP).exp())?;
+            let value = per_modulus(across, log.exp())?;
+            let above = per_modulus(across, (log + SLOPE_STEP).exp())?;
+            let below = per_modulus(across, (log - SLOPE_STEP).exp())?;
             nodes.push(Node { value, rise: (above - below) / (2.0 * SLOPE_STEP) * step });
         }
-        let mut table =
-            Self { least, most, across: across(bearing, race), log_least: least.ln(), per_log: 1.0 / step, nodes };
+        let mut table = Self { least, most, across, log_least: least.ln(), per_log: 1.0 / step, nodes };
         let scale = circles.stiffness / table.at(circles.relative);
         for node in &mut table.nodes {
             node.value *= scale;
@@ -124,22 +105,15 @@ impl CurvatureStiffness {
     }
 }
 
-/// Relative curvature of ball and groove across the rolling direction, 1/m.
-pub(super) fn across(bearing: &BearingGeometry, race: Race) -> f64 {
-    bearing.ball_curvatures().plane_1 + race_curvatures(bearing, race).plane_1
-}
-
-/// Hertz stiffness of a ball on `race` over the effective modulus, at relative curvature `curvature` (1/m) in the
-/// rolling plane.
+/// Hertz stiffness of a ball on a race over the effective modulus, at relative curvatures `across` the rolling direction
+/// and `curvature` in it (1/m).
 ///
 /// # Errors
 /// [`BearingError`] for a curvature that is zero or negative: the surfaces conform.
-pub(super) fn per_modulus(bearing: &BearingGeometry, race: Race, curvature: f64) -> Result<f64, BearingError> {
-    let bodies = PrincipalCurvatures { plane_1: across(bearing, race), plane_2: curvature };
-    match hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0) {
-        Ok(contact) => Ok(contact.stiffness),
-        Err(error) => Err(BearingError(format!("contact on the defect: {error}"))),
-    }
+pub(super) fn per_modulus(across: f64, curvature: f64) -> Result<f64, BearingError> {
+    let bodies = PrincipalCurvatures { plane_1: across, plane_2: curvature };
+    let contact = hertz::stiffness(bodies, PrincipalCurvatures::flat(), 1.0);
+    contact.map(|contact| contact.stiffness).map_err(|error| BearingError(format!("contact on the defect: {error}")))
 }
 
 /// Fraction of the way from the race's curvature to the ball's at which the contact begins to
@@ -178,8 +152,8 @@ impl Fade {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bearing::ContactStiffness;
     use crate::bearing::samples::{source_bearing, source_stiffness};
+    use crate::bearing::{ContactStiffness, Race};
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
@@ -188,7 +162,7 @@ mod tests {
     }
 
     fn table_of(stiffness: ContactStiffness) -> CurvatureStiffness {
-        CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles(stiffness), 21_000.0).unwrap()
+        CurvatureStiffness::new(&circles(stiffness), 21_000.0).unwrap()
     }
 
     fn table() -> CurvatureStiffness {
@@ -197,7 +171,7 @@ mod tests {
 
     fn direct(curvature: f64) -> f64 {
         let modulus = hertz::effective_modulus([206e9; 2], [0.3; 2]).unwrap();
-        per_modulus(&source_bearing(), Race::Outer, curvature).unwrap() * modulus
+        per_modulus(circles(source_stiffness()).across, curvature).unwrap() * modulus
     }
 
     #[test]
@@ -212,9 +186,10 @@ mod tests {
 
     #[test]
     fn a_conforming_pair_is_refused() {
-        let refused = per_modulus(&source_bearing(), Race::Inner, 0.0);
+        let across = Circles::race(&source_bearing(), Race::Inner, source_stiffness()).across;
+        let refused = per_modulus(across, 0.0);
         assert!(refused.unwrap_err().to_string().starts_with("contact on the defect: curvature difference"));
-        let refused = per_modulus(&source_bearing(), Race::Inner, -50.0);
+        let refused = per_modulus(across, -50.0);
         assert!(refused.unwrap_err().to_string().starts_with("contact on the defect: curvature sum"));
     }
 
@@ -232,7 +207,7 @@ mod tests {
     fn the_sharpest_edge_is_a_nanometre() {
         let of = |most: f64| {
             let circles = circles(source_stiffness());
-            CurvatureStiffness::new(&source_bearing(), Race::Outer, &circles, most).unwrap()
+            CurvatureStiffness::new(&circles, most).unwrap()
         };
         let at_limit = of(1e9).at(1e9);
         assert!(at_limit > 0.0);
@@ -247,7 +222,7 @@ mod tests {
     #[test]
     fn pairs_agree_with_hertz() {
         let circles = circles(source_stiffness());
-        let table = CurvatureStiffness::for_pairs(&source_bearing(), Race::Outer, &circles, 21_000.0).unwrap();
+        let table = CurvatureStiffness::for_pairs(&circles, 21_000.0).unwrap();
         let modulus = hertz::effective_modulus([206e9; 2], [0.3; 2]).unwrap();
         let least = LEAST_RELATIVE * (1e3 - 1.0 / 1.07e-3);
         for one in [1.0, 20.0, 65.0, 790.0, 21_000.0] {

@@ -37,7 +37,7 @@ impl SecondOrderSystem for CoupledSystem {
     fn next_change(&self, t: f64) -> f64 {
         let loads = self.setup.shaft.loads.iter();
         let knots = loads.map(|load| load.next_knot(t));
-        knots.fold(self.setup.cage.next_knot(t), f64::min)
+        knots.fold(self.setup.cage.rotation.next_knot(t), f64::min)
     }
 
     fn events(&self) -> usize {
@@ -97,8 +97,8 @@ fn evaluate_sized<const B: usize, const M: usize>(
     g: &mut [f64],
 ) {
     let shaft = system.setup.cage.shaft();
-    let shaft = shaft.motion_from(&mut system.cursors[0], t);
-    let cage = system.setup.cage.motion_from(&mut system.cursors[1], t);
+    let shaft = shaft.rotation.at_from(&mut system.cursors[0], t);
+    let cage = system.setup.cage.rotation.at_from(&mut system.cursors[1], t);
     system.take::<B, M>(y, v);
     system.place_balls::<B>(&shaft, &cage);
     system.approach_outer_race::<B, M>(&shaft, &cage);

@@ -28,8 +28,8 @@ impl CoupledSystem {
             return;
         }
         let shaft = self.setup.cage.shaft();
-        let shaft = shaft.motion_from(&mut self.cursors[0], t);
-        let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
+        let shaft = shaft.rotation.at_from(&mut self.cursors[0], t);
+        let cage = self.setup.cage.rotation.at_from(&mut self.cursors[1], t);
         self.take::<0, 0>(y, v);
         self.place_balls::<0>(&shaft, &cage);
         self.approach_outer_race::<0, 0>(&shaft, &cage);

@@ -47,7 +47,7 @@ impl CoupledSystem {
     /// Adds the tangent at the state that was evaluated last, whose force is `g`.
     pub(super) fn add_tangent(&mut self, t: f64, [y, v, g]: [&[f64]; 3], tangent: &mut Tangent) {
         let shaft = self.setup.cage.shaft();
-        let shaft = shaft.motion_from(&mut self.cursors[0], t);
+        let shaft = shaft.rotation.at_from(&mut self.cursors[0], t);
         if self.setup.balls_inertia == BallsInertia::QuasiStatic {
             for j in 0..self.balls.count {
                 self.add_in_series(j, &shaft, tangent);

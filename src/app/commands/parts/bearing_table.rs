@@ -117,7 +117,7 @@ fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {
 fn order_rows(rows: Rows, setup: &BearingSetup) -> Rows {
     let orders = setup.geometry.orders();
     let unit = "per shaft turn";
-    let [least, most] = setup.cage.slip().range().map(|slip| 1e2 * slip);
+    let [least, most] = setup.cage.slip.range().map(|slip| 1e2 * slip);
     let slip = if least < most {
         Cell::text(format!("{} to {}", significant(least, 4), significant(most, 4)))
     } else {

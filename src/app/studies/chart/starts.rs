@@ -82,13 +82,13 @@ fn ball_pass(scene: &Scene, length: f64) -> f64 {
     let cage = &scene.setup.cage;
     let from = cage.motion(scene.start).angle;
     let turned = |time: f64| (cage.motion(scene.start + time).angle - from).abs();
-    if turned(length) <= cage.spacing() {
+    if turned(length) <= cage.spacing {
         return length;
     }
     let (mut low, mut high) = (0.0, length);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if turned(middle) < cage.spacing() {
+        if turned(middle) < cage.spacing {
             low = middle;
         } else {
             high = middle;

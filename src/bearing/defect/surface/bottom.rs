@@ -21,8 +21,6 @@ pub(super) struct Bottom {
     ellipse: Ellipse,
     circles: Circles,
     fade: Fade,
-    /// κ_t, 1/m.
-    across: f64,
     /// b/c², 1/m.
     spread: f64,
     /// Relative curvature from which the ellipse's is taken for the stiffness, 1/m, and what it lacks of the race's.
@@ -53,7 +51,6 @@ impl Bottom {
             ellipse,
             circles,
             fade: Fade::new(&circles, 0.0),
-            across: outline.across,
             spread: outline.depth / (outline.half_width * outline.half_width),
             base,
             shortfall: (circles.relative - base).max(0.0),
@@ -85,7 +82,7 @@ impl Bottom {
     /// Relative curvature across the rolling direction, 1/m.
     #[inline]
     fn across_left(&self, t: f64) -> f64 {
-        self.across - self.spread / t.cos()
+        self.circles.across - self.spread / t.cos()
     }
 
     /// Contact of a ball at `centre`, in `direction` from the race's centre.
@@ -97,7 +94,7 @@ impl Bottom {
         stiffness: &CurvatureStiffness,
     ) -> Option<DefectContact> {
         let reach = self.reach.as_ref()?;
-        if !(reach.holds(centre) && reach.holds(centre.mirrored())) {
+        if !(reach.holds(centre, 1.0) && reach.holds(centre.mirrored(), 1.0)) {
             return None;
         }
         let circles = &self.circles;
@@ -107,7 +104,7 @@ impl Bottom {
         let left = self.across_left(t);
         let fading = 1.0 - FLOOR_FADE;
         let weight = self.fade.weight(foot.concavity(circles.side) + self.shortfall)
-            * smoothstep(left / (fading * self.across))
+            * smoothstep(left / (fading * circles.across))
             * smoothstep((t.cos() / self.corner.cos() - 1.0) / fading);
         let k = stiffness.of_pair([self.base - self.ellipse.curvature(t), left]);
         Some(circles.contact(Feature::Floor, delta, inward, direction, weight * k))

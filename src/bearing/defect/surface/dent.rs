@@ -21,16 +21,6 @@ use std::f64::consts::FRAC_PI_2;
 /// Places of half an outline at which the steepest contact with its rim is looked for.
 const LOOKS: u32 = 32;
 
-/// What queries need.
-#[derive(Debug, Clone, PartialEq)]
-pub(in super::super) struct Surface {
-    pub(in super::super) outline: Outline,
-    pub(super) bottom: Bottom,
-    pub(super) stiffness: CurvatureStiffness,
-    /// Half the arc within which the ball can press on rim or floor, rad.
-    pub(super) contact_angle: f64,
-}
-
 /// A dent in one race of one bearing that is as wide as it is: the ball bridges it where the groove lets it.
 ///
 /// [`DentShape::width`] is felt, and the depth is that of the ellipsoid `b sqrt(1 − (s/a)² − (z/c)²)`. Unlike the rim
@@ -41,7 +31,11 @@ pub struct SurfaceDent {
     race: Race,
     /// Angle of the middle within ±π, rad.
     middle: f64,
-    pub(in super::super) surface: Surface,
+    pub(in super::super) outline: Outline,
+    pub(super) bottom: Bottom,
+    pub(super) stiffness: CurvatureStiffness,
+    /// Half the arc within which the ball can press on rim or floor, rad.
+    pub(super) contact_angle: f64,
 }
 
 impl SurfaceDent {
@@ -73,22 +67,23 @@ impl SurfaceDent {
                 Race::Inner => dimensions.inner_groove_radius,
                 Race::Outer => dimensions.outer_groove_radius,
             },
-            across: stiffness::across(bearing, race),
         };
         check_sizes(&outline)?;
         let base = shape.curvature.base(&circles);
         let bottom = Bottom::new(&outline, base);
         if base < circles.relative && bottom.reach.is_some() {
-            stiffness::per_modulus(bearing, race, bottom.middle_curvature())?;
+            stiffness::per_modulus(circles.across, bottom.middle_curvature())?;
         }
         let sharpest = circles.roller_curvature() + 1.0 / shape.rim_radius;
-        let surface = Surface {
-            stiffness: CurvatureStiffness::for_pairs(bearing, race, &circles, sharpest)?,
+        Ok(Self {
+            shape,
+            race,
+            middle: reduced(shape.angle),
+            stiffness: CurvatureStiffness::for_pairs(&circles, sharpest)?,
             contact_angle: contact_angle(&outline),
             bottom,
             outline,
-        };
-        Ok(Self { shape, race, middle: reduced(shape.angle), surface })
+        })
     }
 
     /// What was asked for.
@@ -109,30 +104,30 @@ impl RaceProfile for SurfaceDent {
 
     /// Of the outline in the plane.
     fn half_angle(&self) -> f64 {
-        self.surface.outline.angle()
+        self.outline.angle()
     }
 
     fn contact_half_angle(&self) -> f64 {
-        self.surface.contact_angle
+        self.contact_angle
     }
 
     fn profile_radius(&self, angle: f64) -> f64 {
-        let (outline, offset) = (&self.surface.outline, self.offset(angle));
+        let (outline, offset) = (&self.outline, self.offset(angle));
         let Circles { carrier, side, .. } = outline.circles;
         if !within(offset, outline.angle()) {
             return carrier;
         }
-        let depth = side * (self.surface.bottom.polar_radius(offset) - carrier);
+        let depth = side * (self.bottom.polar_radius(offset) - carrier);
         let clear = |depth: f64| to_tube(outline, carrier + side * depth, offset) > outline.rim;
         if clear(depth) { carrier + side * depth } else { carrier + side * bisect(0.0, depth, clear) }
     }
 
     fn ball_drop(&self) -> f64 {
-        let Outline { circles, depth, .. } = self.surface.outline;
+        let Outline { circles, depth, .. } = self.outline;
         let held = |drop: f64| {
             let distance = circles.carrier - circles.side * (circles.roller - drop);
             let mut found = DefectContacts::none();
-            self.surface.contacts_into(distance, 0.0, &mut found);
+            self.contacts_at(distance, 0.0, &mut found);
             found.as_slice().iter().any(|contact| contact.delta >= 0.0)
         };
         bisect(0.0, depth, |drop| !held(drop))
@@ -149,7 +144,7 @@ impl RaceProfile for SurfaceDent {
     #[inline]
     fn contacts_into(&self, ball: PolarPosition, found: &mut DefectContacts) {
         let offset = self.offset(ball.angle);
-        self.surface.contacts_into(ball.radius, offset, found);
+        self.contacts_at(ball.radius, offset, found);
     }
 }
 

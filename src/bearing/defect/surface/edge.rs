@@ -86,7 +86,7 @@ impl Edge {
     #[inline]
     pub(super) fn curvatures(&self, outline: &Outline) -> [f64; 2] {
         let share = smoothstep(self.sine / RIM_BLEND);
-        let (rolling, across) = (outline.circles.relative, outline.across);
+        let (rolling, across) = (outline.circles.relative, outline.circles.across);
         let [b_s, b_z] = self.outward;
         let along_outline = rolling * b_z * b_z + across * b_s * b_s;
         let edge = outline.circles.roller_curvature() + 1.0 / outline.rim;

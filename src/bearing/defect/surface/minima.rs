@@ -90,11 +90,11 @@ fn inner_places(over: &Over<'_>, ends: [[f64; 4]; 2]) -> Places {
         }
         return minima;
     }
-    let pieces = zeros(&curvature_breaks(over), |v| {
+    let stretches = stretches(&curvature_breaks(over), |v| {
         let [_, _, second, third] = over.squares(v);
         [second, third]
     });
-    for pair in with_ends(&pieces).as_slice().windows(2) {
+    for pair in stretches.as_slice().windows(2) {
         let ends = [pair[0], pair[1]];
         let [low, high] = ends.map(|v| slope(v)[0]);
         if low < 0.0 && high > 0.0 {
@@ -132,9 +132,11 @@ fn curvature_breaks(over: &Over<'_>) -> Places {
     breaks
 }
 
-/// Zeros of a function (given with its derivative) that is monotone between neighbouring places.
-fn zeros(places: &Places, function: impl Fn(f64) -> [f64; 2]) -> Places {
+/// Both ends, and between them the zeros of a function (given with its derivative) that is monotone between neighbouring
+/// places.
+fn stretches(places: &Places, function: impl Fn(f64) -> [f64; 2]) -> Places {
     let mut found = Places::none();
+    found.push(-1.0);
     for pair in places.as_slice().windows(2) {
         let ends = [pair[0], pair[1]];
         let values = ends.map(|v| function(v)[0]);
@@ -142,17 +144,8 @@ fn zeros(places: &Places, function: impl Fn(f64) -> [f64; 2]) -> Places {
             found.push(zero(ends, values, &function));
         }
     }
+    found.push(1.0);
     found
-}
-
-fn with_ends(inner: &Places) -> Places {
-    let mut all = Places::none();
-    all.push(-1.0);
-    for &place in inner.as_slice() {
-        all.push(place);
-    }
-    all.push(1.0);
-    all
 }
 
 /// The zero between two ends with values of different sign: Newton kept inside the shrinking bracket.

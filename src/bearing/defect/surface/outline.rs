@@ -26,8 +26,6 @@ pub(in super::super) struct Outline {
     pub rim: f64,
     /// r_g, m.
     pub groove: f64,
-    /// Relative curvature of ball and groove across the rolling direction, 1/m.
-    pub across: f64,
 }
 
 impl Outline {

@@ -2,16 +2,16 @@
 
 use super::super::angle::within;
 use super::super::contacts::{DefectContact, DefectContacts, Feature};
-use super::dent::Surface;
+use super::dent::SurfaceDent;
 use super::edge::Edge;
 use super::minima::{Minimum, inner_minima};
 use super::outline::Over;
 use super::weight;
 
-impl Surface {
-    /// See [`super::SurfaceDent::contacts_into`]; `offset` (rad) within ±π from the middle.
+impl SurfaceDent {
+    /// The contacts of a ball at `distance` (m) from the race's centre and `offset` (rad, within ±π) from the middle.
     #[inline]
-    pub(crate) fn contacts_into(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
+    pub(super) fn contacts_at(&self, distance: f64, offset: f64, found: &mut DefectContacts) {
         let outline = &self.outline;
         found.clear();
         let plain = outline.circles.plain(distance);

@@ -28,7 +28,7 @@ pub(super) const PATCH: f64 = 1e-3;
 /// Contacts that a pair at height `z` (m) above and below the plane counts as, 1 to 2.
 #[inline]
 pub(super) fn patches(outline: &Outline, z: f64) -> f64 {
-    1.0 + smoothstep(outline.across * z * z / (PATCH * outline.circles.roller))
+    1.0 + smoothstep(outline.circles.across * z * z / (PATCH * outline.circles.roller))
 }
 
 /// g of F'' (m²).

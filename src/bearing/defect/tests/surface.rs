@@ -27,7 +27,7 @@ pub fn surface_dent(race: Race, shape: DentShape) -> SurfaceDent {
 }
 
 pub fn source_outline(race: Race) -> Outline {
-    surface_dent(race, source_surface(race)).surface.outline
+    surface_dent(race, source_surface(race)).outline
 }
 
 fn groove(race: Race) -> f64 {
@@ -251,7 +251,7 @@ fn a_scratch_is_the_healthy_race() {
 fn profile_in_the_plane() {
     for race in RACES {
         let dent = surface_dent(race, source_surface(race));
-        let Outline { circles, half_length, .. } = dent.surface.outline;
+        let Outline { circles, half_length, .. } = dent.outline;
         let depth = |x: f64| {
             let radius = dent.profile_radius(MIDDLE + x * dent.half_angle());
             circles.side * (radius - circles.carrier)

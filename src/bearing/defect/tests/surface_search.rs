@@ -223,7 +223,7 @@ impl<'a> Sampled<'a> {
                 let beside = self.point(part, u, 0.02);
                 let bend = 2.0 * (to(beside) - to(point)) / (beside[2] * beside[2]);
                 let free = bend - 1.0 / to(point) + 1.0 / self.outline.circles.roller;
-                doubtful |= free < 0.2 * self.outline.across;
+                doubtful |= free < 0.2 * self.outline.circles.across;
                 v < IN_PLANE && clear > 0.0
             }
         };
@@ -283,7 +283,7 @@ impl Tally {
     fn compare(&mut self, name: &str, subject: &Subject, positions: u32, numbers: &mut Numbers) {
         let Kind::Race(defect) = &subject.kind else { panic!("{name}") };
         let RaceDefect::SurfaceDent(dent) = &**defect else { panic!("{name}") };
-        let sampled = Sampled::new(&dent.surface.outline, dent.contact_half_angle());
+        let sampled = Sampled::new(&dent.outline, dent.contact_half_angle());
         for _ in 0..positions {
             let sunk = 25e-6 * numbers.next();
             let offset = 1.15 * subject.contact_half_angle() * (2.0 * numbers.next() - 1.0);

@@ -276,7 +276,7 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
         return fastest;
     }
     let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
-    let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing());
+    let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing);
     let until = edge / passing.abs();
     match until <= spare - (fastest - asked.start) {
         true => fastest + until,
@@ -321,7 +321,7 @@ mod tests {
         let case = Case::example("tadina2011/outer-dent", &[]);
         let scene = Scene::build(case.for_run().unwrap(), &Unwatched).unwrap();
         let (cage, defect) = (scene.setup.cage.motion(begin), &scene.setup.race_defects[0]);
-        let ahead = (defect.angle() - cage.angle).rem_euclid(scene.setup.cage.spacing());
+        let ahead = (defect.angle() - cage.angle).rem_euclid(scene.setup.cage.spacing);
         let edge = ahead / defect.contact_half_angle();
         assert!((edge - 1.5).abs() < 0.5, "{edge}");
         assert!(cage.speed > 0.9 * scene.setup.cage.motion(case.transient.as_ref().unwrap().end).speed);

@@ -272,7 +272,7 @@ fn longest_step(asked: &case::Transient, scene: &Scene) -> Option<f64> {
     let setup = &scene.setup;
     let orders = setup.geometry.orders();
     let shaft = setup.cage.shaft().fastest(asked.start, asked.end);
-    let [least_slip, most_slip] = setup.cage.slip().range();
+    let [least_slip, most_slip] = setup.cage.slip.range();
     // of a ball along the race, rad/s; as seen from the inner race it is the faster the more the cage slips
     let along = |race: Race| match race {
         Race::Outer => shaft * orders.cage * (1.0 - least_slip),
