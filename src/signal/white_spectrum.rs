@@ -3,7 +3,7 @@
 use rustfft::num_complex::Complex;
 
 use super::SignalError;
-use super::raw_spectrum::{BandEnvelope, RawSpectrum};
+use super::raw_spectrum::RawSpectrum;
 use super::whitening::impulsive_gains;
 use crate::numerics::series::TimeSeries;
 
@@ -26,7 +26,8 @@ const LIMIT: f64 = 3.0;
 /// 370-384, which loses the strength of a resonance's bins with their phase kept; the bound of three keeps more of weak impacts.
 #[derive(Debug, Clone)]
 pub(crate) struct WhiteSpectrum {
-    whitened: RawSpectrum,
+    /// The spectrum itself: envelopes of its bands have about four times the band's width as their rate.
+    pub whitened: RawSpectrum,
     /// Amplitude of each bin over the median about it, before it is bounded; [`bin`](Self::bin) is that of a frequency.
     pub over_median: Vec<f64>,
 }
@@ -58,7 +59,7 @@ impl WhiteSpectrum {
     ///
     /// # Errors
     /// A series that is too short for a kurtosis.
-    pub(crate) fn impulsive(&self, series: &TimeSeries) -> Result<Self, SignalError> {
+    pub(crate) fn impulsive(&self, series: &TimeSeries) -> Result<RawSpectrum, SignalError> {
         let (hz, gains) = impulsive_gains(series)?;
         let mut whitened = self.whitened.clone();
         let bin_hz = 1.0 / (whitened.step_s * whitened.points as f64);
@@ -67,19 +68,12 @@ impl WhiteSpectrum {
         for (bin, value) in whitened.bins.iter_mut().enumerate() {
             *value *= gain(bin);
         }
-        Ok(Self { whitened, over_median: self.over_median.clone() })
+        Ok(whitened)
     }
 
     /// Place of a frequency (Hz) among the bins, not rounded.
     pub(crate) fn bin(&self, hz: f64) -> f64 {
         hz * self.whitened.step_s * self.whitened.points as f64
-    }
-
-    /// Squared envelope of the band between two frequencies (Hz), at a rate of about four times the band's width: twice what its
-    /// spectrum needs.
-    #[must_use]
-    pub(crate) fn envelope(&self, band_hz: [f64; 2]) -> BandEnvelope {
-        self.whitened.envelope(band_hz)
     }
 }
 
@@ -152,7 +146,7 @@ mod tests {
             2.0 * sum.norm() / squared.len() as f64
         };
         let white = WhiteSpectrum::of(&series).unwrap();
-        let found = white.envelope([500.0, 1500.0]);
+        let found = white.whitened.envelope([500.0, 1500.0]);
         // scatter of a line of noise: 2 / sqrt(10 s 1000 Hz)
         assert!(beat(&found.squared, found.step_s) < 0.06);
         // the series itself: all of it
@@ -169,7 +163,7 @@ mod tests {
             noise.iter().enumerate().map(|(k, noise)| noise * (1.0 + 0.8 * (TAU * 40.0 * k as f64 / rate).cos()));
         let series = TimeSeries::new(2.0, 1.0 / rate, "g", values.collect()).unwrap();
         let white = WhiteSpectrum::of(&series).unwrap();
-        let found = white.envelope([2e3, 6e3]);
+        let found = white.whitened.envelope([2e3, 6e3]);
         assert!((found.start_s - 2.0).abs() < 1e-12);
         assert!((found.step_s * found.squared.len() as f64 - 10.0).abs() < 1e-9);
         let mean = found.squared.iter().sum::<f64>() / found.squared.len() as f64;

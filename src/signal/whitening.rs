@@ -58,9 +58,9 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
     let last = gains.len() - 1;
     (gains[0], gains[last]) = (gains[1], gains[last - 1]);
     if emphasis == Emphasis::Impulsive {
-        let kurtosis = smoothed_kurtosis(series)?;
+        let (_, impulsive) = impulsive_gains(series)?;
         for (bin, gain) in gains.iter_mut().enumerate() {
-            *gain *= kurtosis[bin.min(kurtosis.len() - 1)].powf(0.25);
+            *gain *= impulsive[bin.min(impulsive.len() - 1)];
         }
     }
     let points = fast_length(series.values().len());
@@ -81,30 +81,25 @@ pub fn whiten(series: &TimeSeries, emphasis: Emphasis) -> Result<TimeSeries, Sig
     Ok(TimeSeries::new(start, step, "", values)?)
 }
 
-/// Kurtosis of the bins from zero to half the rate, averaged over five; at least a thousandth.
-fn smoothed_kurtosis(series: &TimeSeries) -> Result<Vec<f64>, SignalError> {
-    let segment = segment_samples(series);
-    let found = spectral_kurtosis(series, WindowFunction::Hann, segment, overlap(segment), 0.99)?;
-    // without the bins at zero and at half the rate
-    let kurtosis = found.kurtosis;
-    let mean = |bin: usize| {
-        let middle = bin.clamp(1, kurtosis.len()) - 1;
-        let first = middle.saturating_sub(SMOOTHED_BINS);
-        let end = (middle + SMOOTHED_BINS + 1).min(kurtosis.len());
-        let mean = kurtosis[first..end].iter().sum::<f64>() / (end - first) as f64;
-        mean.max(LEAST_KURTOSIS)
-    };
-    Ok((0..=kurtosis.len() + 1).map(mean).collect())
-}
-
-/// Gains at frequencies that are `hz` apart, from zero to half the rate, that emphasise impulsive ones: see [`Emphasis::Impulsive`].
+/// Gains at frequencies that are `hz` apart, from zero to half the rate, that emphasise impulsive ones: see [`Emphasis::Impulsive`]. The
+/// kurtosis is averaged over five bins, and a thousandth at least.
 ///
 /// # Errors
 /// As [`whiten`].
 pub(super) fn impulsive_gains(series: &TimeSeries) -> Result<(f64, Vec<f64>), SignalError> {
-    let kurtosis = smoothed_kurtosis(series)?;
-    let hz = series.rate_hz() / segment_samples(series) as f64;
-    Ok((hz, kurtosis.into_iter().map(|k| k.powf(0.25)).collect()))
+    let segment = segment_samples(series);
+    let found = spectral_kurtosis(series, WindowFunction::Hann, segment, overlap(segment), 0.99)?;
+    // without the bins at zero and at half the rate
+    let kurtosis = found.kurtosis;
+    let gain = |bin: usize| {
+        let middle = bin.clamp(1, kurtosis.len()) - 1;
+        let first = middle.saturating_sub(SMOOTHED_BINS);
+        let end = (middle + SMOOTHED_BINS + 1).min(kurtosis.len());
+        let mean = kurtosis[first..end].iter().sum::<f64>() / (end - first) as f64;
+        mean.max(LEAST_KURTOSIS).powf(0.25)
+    };
+    let hz = series.rate_hz() / segment as f64;
+    Ok((hz, (0..=kurtosis.len() + 1).map(gain).collect()))
 }
 
 fn segment_samples(series: &TimeSeries) -> usize {

@@ -93,9 +93,18 @@ impl AngleGrid {
     /// Means of a series between the instants; each value of it holds for a step, the first from `start_s` on. Beyond its ends the
     /// series goes on with its last value.
     pub(super) fn means(&self, start_s: f64, step_s: f64, values: &[f64]) -> Vec<f64> {
-        let mut integral = Integral::new(values);
+        let (mut whole, mut sum) = (0, 0.0);
+        // integral of the values up to a place; places grow
+        let mut up_to = |place: f64| {
+            let wanted = (place.max(0.0) as usize).min(values.len() - 1).max(whole);
+            for value in &values[whole..wanted] {
+                sum += value;
+            }
+            whole = wanted;
+            sum + (place - whole as f64) * values[whole]
+        };
         let places = self.times.iter().map(|time| (time - start_s) / step_s);
-        let mut ends = places.map(|place| (place, integral.up_to(place)));
+        let mut ends = places.map(|place| (place, up_to(place)));
         let mut last = ends.next().unwrap_or((0.0, 0.0));
         ends.map(|end| {
             let mean = (end.1 - last.1) / (end.0 - last.0);
@@ -103,27 +112,5 @@ impl AngleGrid {
             mean
         })
         .collect()
-    }
-}
-
-/// Integral of values that hold for a step each, asked for at places that grow.
-struct Integral<'a> {
-    values: &'a [f64],
-    whole: usize,
-    sum: f64,
-}
-
-impl<'a> Integral<'a> {
-    fn new(values: &'a [f64]) -> Self {
-        Self { values, whole: 0, sum: 0.0 }
-    }
-
-    fn up_to(&mut self, place: f64) -> f64 {
-        let wanted = (place.max(0.0) as usize).min(self.values.len() - 1);
-        for value in &self.values[self.whole..wanted.max(self.whole)] {
-            self.sum += value;
-        }
-        self.whole = wanted.max(self.whole);
-        self.sum + (place - self.whole as f64) * self.values[self.whole]
     }
 }

@@ -6,7 +6,7 @@ use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
 use super::line_spectrum::{LineSpectrum, REVOLUTIONS, stretches};
 use crate::numerics::series::TimeSeries;
-use crate::signal::WhiteSpectrum;
+use crate::signal::RawSpectrum;
 
 /// The lowest frequency of a band over the highest at which a part strikes: an envelope needs a carrier that is faster than it.
 const LOWEST_CARRIER: f64 = 2.0;
@@ -102,8 +102,8 @@ pub(super) struct Spectra {
 /// Spectra up to the order `highest` of the envelopes of all bands within `within_hz`, and of the whole of the emphasised signal;
 /// `strikes_hz` is the highest frequency at which a part strikes.
 pub(super) fn band_spectra(
-    signal: &WhiteSpectrum,
-    impulsive: Option<&WhiteSpectrum>,
+    signal: &RawSpectrum,
+    impulsive: Option<&RawSpectrum>,
     grid: &AngleGrid,
     within_hz: [f64; 2],
     strikes_hz: f64,

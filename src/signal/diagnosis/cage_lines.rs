@@ -124,7 +124,7 @@ impl Search<'_> {
     fn clear_cage_lines(&self, masked: &[Masked<'_>], known: &[KnownLine], best: &Candidate) -> Option<CageLines> {
         let own = self.own_lines(best, self.end());
         let chance = self.chance(masked, best, &own)?;
-        let harmonics = self.part_harmonics(best, Fault::Cage, known);
+        let harmonics = self.harmonics(&best.fit, Some(Fault::Cage), known);
         let band = &self.spectra[best.fit.spectrum];
         let evidence = Evidence::of(&harmonics, &band.lines);
         let strength_db = evidence.strength_db?;

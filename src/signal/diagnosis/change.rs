@@ -7,7 +7,7 @@
 
 use super::DiagnosisError;
 use super::angle_grid::AngleGrid;
-use super::comb_power::{Comb, Sought, Tooth};
+use super::comb_power::{Comb, Tooth};
 use super::compared_lines::{COMPARED_HARMONICS, Compared};
 use super::compared_signal::ComparedSignal;
 use super::known::{Strikes, shaft_lines};
@@ -61,7 +61,7 @@ pub(crate) fn line_changes(
     let others = now.diagnosis.unexplained.iter();
     let others = others.map(|impacts| Compared::impacts(impacts, now, earlier));
     let compared: Vec<Compared> = parts.chain(others).collect();
-    let orders = compared.iter().map(|compared| compared.order[0]);
+    let orders = compared.iter().map(|compared| compared.places[0][0]);
     let highest = (f64::from(COMPARED_HARMONICS) + 1.0) * orders.fold(1.0, f64::max);
     let grids = [now.grid(highest)?, earlier.grid(highest)?];
     let least = grids.iter().fold(f64::INFINITY, |least, grid| least.min(grid.turns()));
@@ -139,21 +139,18 @@ impl Compared {
         highest: f64,
     ) -> Result<Option<Found>, DiagnosisError> {
         let (spectrum, power) = side.spectrum(band_hz, highest)?;
-        let sought = Sought {
-            teeth: &self.teeth,
-            order: self.order[place],
-            reach: self.reach[place],
-            cage: self.cage,
-            speed_error: side.compared.diagnosis.speed_error,
-        };
-        let mut known = shaft_lines(spectrum.end(), sought.speed_error);
+        let (sought, speed_error) = (self.places[place], side.compared.diagnosis.speed_error);
+        let (end, resolution) = (spectrum.end(), spectrum.resolution);
+        let mut known = shaft_lines(end, speed_error);
         for other in others {
-            known.extend(other.lines(&side.compared.orders, sought.speed_error, spectrum.end(), spectrum.resolution));
+            known.extend(other.lines(&side.compared.orders, speed_error, end, resolution));
         }
-        let Some(comb) = spectrum.best_comb(&sought, &known) else {
+        let Some(comb) = spectrum.best_comb(&self.teeth, sought, &known) else {
             return Ok(None);
         };
-        let chance = spectrum.chance(&sought, &comb, &known);
+        let own = Strikes { fault: None, name: "", order: comb.order };
+        known.extend(own.impact_lines(self.cage, end, resolution));
+        let chance = spectrum.chance(&self.teeth, sought, &comb, &known);
         Ok(Some(Found { power, spectrum, comb, chance }))
     }
 

@@ -1,7 +1,7 @@
 //! A line and its harmonics in a spectrum, together: a comb whose teeth move as one.
 
 use super::bands::BandSpectrum;
-use super::known::Mask;
+use super::known::{KnownLine, half_width};
 
 /// Harmonics that are shown.
 pub(super) const SHOWN_HARMONICS: u32 = 8;
@@ -19,14 +19,32 @@ pub(super) struct Fit {
     pub(super) order: f64,
     /// Which spectrum.
     pub(super) spectrum: usize,
-    /// Whether lines beside the harmonics count too.
-    pub(super) sided: bool,
+    /// Distance of the lines beside the harmonics, where these count too.
+    pub(super) beside: Option<f64>,
 }
 
-/// A spectrum and what of it has a reason already.
+/// A spectrum, and which of its bins have a reason already.
+#[derive(Clone)]
 pub(super) struct Masked<'a> {
     pub(super) spectrum: &'a BandSpectrum,
-    pub(super) mask: Mask,
+    pub(super) taken: Vec<bool>,
+}
+
+impl Masked<'_> {
+    /// The same without the bins of more lines.
+    pub(super) fn without(mut self, known: &[KnownLine]) -> Self {
+        let lines = &self.spectrum.lines;
+        for line in known {
+            let half = half_width(lines, line);
+            let first = lines.bin((line.order - half).max(0.0));
+            let Some(first) = first else { continue };
+            let last = lines.bin(line.order + half).unwrap_or(self.taken.len() - 1);
+            for bin in first..=last {
+                self.taken[bin] |= line.explains(lines, lines.ratio[bin]);
+            }
+        }
+        self
+    }
 }
 
 /// Score of a comb; `None` where fewer than three harmonics are free, or neither of the first two.
@@ -40,10 +58,10 @@ fn score(masked: &Masked<'_>, order: f64, beside: Option<f64>) -> Option<f64> {
         let line = f64::from(harmonic) * order;
         let mut tooth = |order: f64| {
             let bin = lines.bin(order)?;
-            if masked.mask.taken(bin) {
+            if masked.taken[bin] {
                 return None;
             }
-            sum += lines.level(bin);
+            sum += lines.level[bin];
             count += 1;
             Some(())
         };
@@ -77,7 +95,7 @@ pub(super) fn best_fit(spectra: &[Masked<'_>], order: f64, reach: f64, beside: O
                 continue;
             };
             if best.is_none_or(|best| score > best.score) {
-                best = Some(Fit { score, order: at, spectrum: place, sided: beside.is_some() });
+                best = Some(Fit { score, order: at, spectrum: place, beside });
             }
         }
     }

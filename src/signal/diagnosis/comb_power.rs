@@ -1,7 +1,7 @@
 //! The power of a comb of lines in the squared envelope of a band, with its scatter.
 
 use super::control::{ByChance, factors};
-use super::known::{Impacts, KnownLine};
+use super::known::KnownLine;
 use super::ratio_interval::Scattered;
 use super::stretch_spectrum::StretchSpectrum;
 
@@ -41,18 +41,6 @@ impl Tooth {
     }
 }
 
-/// Where a comb may lie, and what lies beside it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sought<'a> {
-    pub(super) teeth: &'a [Tooth],
-    /// Order, and how far it may be off.
-    pub(super) order: f64,
-    pub(super) reach: f64,
-    pub(super) cage: Option<f64>,
-    /// Relative uncertainty of the shaft's speed.
-    pub(super) speed_error: f64,
-}
-
 /// A comb where it fits best in a spectrum.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Comb {
@@ -72,17 +60,18 @@ impl StretchSpectrum {
         known.iter().any(|line| (line.order - order).abs() < reach + line.error * line.order)
     }
 
-    /// The comb within its reach whose teeth stand highest above their floor, a strong one counting tenfold at most.
-    pub(super) fn best_comb(&self, sought: &Sought<'_>, known: &[KnownLine]) -> Option<Comb> {
-        let last = sought.teeth.iter().map(|tooth| tooth.harmonic).max()?;
-        let reach = sought.reach.max(0.5 * self.resolution);
+    /// The comb of `teeth` whose teeth stand highest above their floor, a strong one counting tenfold at most, within a reach about an
+    /// order.
+    pub(super) fn best_comb(&self, teeth: &[Tooth], [sought, reach]: [f64; 2], known: &[KnownLine]) -> Option<Comb> {
+        let last = teeth.iter().map(|tooth| tooth.harmonic).max()?;
+        let reach = reach.max(0.5 * self.resolution);
         let steps = (reach * f64::from(last) * PLACES / self.resolution).ceil();
         let mut best: Option<Comb> = None;
         for step in -(steps as i32)..=steps as i32 {
-            let order = sought.order + reach * f64::from(step) / steps;
+            let order = sought + reach * f64::from(step) / steps;
             let mut free = Vec::new();
             let mut sum = 0.0;
-            for (place, tooth) in sought.teeth.iter().enumerate() {
+            for (place, tooth) in teeth.iter().enumerate() {
                 let line = tooth.order(order);
                 let Some(bins) = self.bins(line, SOUGHT_WIDTH * self.half(line)) else {
                     continue;
@@ -106,15 +95,11 @@ impl StretchSpectrum {
         best
     }
 
-    /// Probability that chance makes as good a comb beside what is known: by the same search at other orders.
-    pub(super) fn chance(&self, sought: &Sought<'_>, comb: &Comb, known: &[KnownLine]) -> f64 {
-        let own = Impacts { name: "", order: comb.order, cage: sought.cage, of_race: false, foreign: false };
-        let own = own.lines(self.end(), self.resolution);
-        let known: Vec<KnownLine> = known.iter().cloned().chain(own).collect();
-        let relative = sought.reach / sought.order;
-        let scores = factors(relative).filter_map(|factor| {
-            let other = Sought { order: sought.order * factor, reach: sought.reach * factor, ..*sought };
-            self.best_comb(&other, &known).map(|comb| comb.score)
+    /// Probability that chance makes as good a comb beside what is `known`, its own lines among it: by the same search at other orders.
+    pub(super) fn chance(&self, teeth: &[Tooth], sought: [f64; 2], comb: &Comb, known: &[KnownLine]) -> f64 {
+        let scores = factors(sought[1] / sought[0]).filter_map(|factor| {
+            let other = sought.map(|order| order * factor);
+            self.best_comb(teeth, other, known).map(|comb| comb.score)
         });
         ByChance::of(scores.collect()).map_or(1.0, |chance| chance.probability(comb.score, 1.0))
     }

@@ -22,10 +22,8 @@ pub(super) struct Compared {
     pub(super) name: String,
     pub(super) band_hz: Option<[f64; 2]>,
     pub(super) teeth: Vec<Tooth>,
-    /// Expected in each signal, this one first.
-    pub(super) order: [f64; 2],
-    /// How far the order may be off.
-    pub(super) reach: [f64; 2],
+    /// Order that is expected in each signal, this one first, and how far it may be off.
+    pub(super) places: [[f64; 2]; 2],
     pub(super) cage: Option<f64>,
     /// Whether the verdict says that chance would not do it.
     pub(super) seen: bool,
@@ -57,7 +55,6 @@ impl Compared {
                 None => [expected, signal.error(fault) * expected],
             }
         };
-        let [place_now, place_earlier] = [place(now), place(earlier)];
         let name = verdict.fault.name();
         Self {
             fault: Some(verdict.fault),
@@ -67,8 +64,7 @@ impl Compared {
             },
             band_hz,
             teeth: free_teeth(harmonics, spacing),
-            order: [place_now[0], place_earlier[0]],
-            reach: [place_now[1], place_earlier[1]],
+            places: [place(now), place(earlier)],
             cage: cage.filter(|_| fault != Fault::Cage),
             seen: is_seen(verdict),
             why_not: verdict.why.clone(),
@@ -80,15 +76,14 @@ impl Compared {
         now: &ComparedSignal<'_>,
         earlier: &ComparedSignal<'_>,
     ) -> Self {
-        let reach = |signal: &ComparedSignal<'_>| signal.error(Fault::OuterRace) * impacts.order;
+        let place = |signal: &ComparedSignal<'_>| [impacts.order, signal.error(Fault::OuterRace) * impacts.order];
         let teeth = (1..=COMPARED_HARMONICS).map(|harmonic| Tooth { harmonic, beside: 0.0 });
         Self {
             fault: None,
             name: format!("impacts at {:.2} Hz", impacts.frequency_hz),
             band_hz: Some(impacts.band_hz),
             teeth: teeth.collect(),
-            order: [impacts.order; 2],
-            reach: [reach(now), reach(earlier)],
+            places: [place(now), place(earlier)],
             cage: now.orders.order(Fault::Cage),
             seen: true,
             why_not: String::new(),
@@ -110,7 +105,8 @@ impl Compared {
             };
             Some(Strikes { fault: Some(fault), name: fault.name(), order: order.filter(|_| other)? })
         });
-        let is_same = |order: f64| self.fault.is_none() && (order - self.order[1]).abs() <= self.reach[1];
+        let [expected, reach] = self.places[1];
+        let is_same = |order: f64| self.fault.is_none() && (order - expected).abs() <= reach;
         let unexplained = found.unexplained.iter().filter_map(|impacts| {
             let other = !is_same(impacts.order) && stronger(impacts.strength_db);
             other.then_some(Strikes { fault: None, name: "impacts of no part", order: impacts.order })

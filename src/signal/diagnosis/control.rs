@@ -1,9 +1,5 @@
 //! How good a comb is by chance, measured on the signal itself: the same comb at orders at which nothing is known to strike.
 
-use rayon::prelude::*;
-
-use super::comb::{Masked, best_fit};
-
 /// Orders at which the comb is tried.
 const CONTROLS: u32 = 400;
 /// They lie within this factor of the part's own order, to each side.
@@ -43,18 +39,6 @@ impl ByChance {
         let expected = searches * (-(score - self.mode) / self.scale).exp();
         -(-expected).exp_m1()
     }
-}
-
-/// Scores of the same comb at control orders about `order`; `relative_reach` is the reach of its search over its order.
-pub(super) fn control_scores(spectra: &[Masked<'_>], order: f64, relative_reach: f64, beside: Option<f64>) -> Vec<f64> {
-    factors(relative_reach)
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .filter_map(|factor| {
-            let at = order * factor;
-            best_fit(spectra, at, relative_reach * at, beside).map(|fit| fit.score)
-        })
-        .collect()
 }
 
 /// Control orders over the part's own.

@@ -12,9 +12,10 @@ const HIGHEST_ORDER: f64 = 200.0;
 const LARGEST_ERROR: f64 = 0.1;
 
 /// A part that may be damaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum Fault {
     /// The outer race, at rest: each ball that passes strikes.
+    #[default]
     #[serde(rename = "outer race")]
     OuterRace,
     /// The inner race, turning with the shaft: struck harder where the load is.

@@ -22,7 +22,12 @@ impl Search<'_> {
     }
 
     pub(super) fn empty(&self, fault: Fault, expected: f64) -> FaultVerdict {
-        FaultVerdict::new(fault, expected, self.side_spacing(fault))
+        FaultVerdict {
+            fault,
+            expected_order: expected,
+            side_spacing: self.side_spacing(fault),
+            ..FaultVerdict::default()
+        }
     }
 
     pub(super) fn too_short(&self, fault: Fault, expected: f64) -> FaultVerdict {
@@ -41,9 +46,8 @@ impl Search<'_> {
             .max_by(|&a, &b| ends(&self.spectra[a]).total_cmp(&ends(&self.spectra[b])))
             .unwrap_or(0);
         let ends = ends(&self.spectra[widest]);
-        let fit = Fit { score: 0.0, order: expected, spectrum: widest, sided: false };
-        let candidate = Candidate::at(Some(fault), fit);
-        let harmonics = self.part_harmonics(&candidate, fault, known);
+        let fit = Fit { score: 0.0, order: expected, spectrum: widest, beside: None };
+        let harmonics = self.harmonics(&fit, Some(fault), known);
         let why = if ends < LEAST_FREE as f64 * expected {
             format!(
                 "The envelope's spectrum ends at order {ends:.1}, below the third harmonic of this part. A higher sampling rate is needed."
@@ -100,7 +104,7 @@ impl Search<'_> {
         let fit = candidate.fit;
         let band = &self.spectra[fit.spectrum];
         let spacing = self.side_spacing(fault);
-        let harmonics = self.part_harmonics(candidate, fault, known);
+        let harmonics = self.harmonics(&fit, Some(fault), known);
         let side_lines = self.side_lines(&fit, spacing, known);
         let mut evidence = Evidence::of(&harmonics, &band.lines);
         if fault == Fault::InnerRace {
@@ -133,30 +137,19 @@ impl Search<'_> {
         verdict
     }
 
-    /// The harmonics of a part's comb.
-    pub(super) fn part_harmonics(&self, candidate: &Candidate, fault: Fault, known: &[KnownLine]) -> Vec<Harmonic> {
-        self.harmonics(candidate, known, |harmonic, side| line_name(fault, harmonic, side))
-    }
-
-    /// The harmonics of a comb, and the lines beside them where they count.
-    pub(super) fn harmonics(
-        &self,
-        candidate: &Candidate,
-        known: &[KnownLine],
-        name: impl Fn(u32, i32) -> String,
-    ) -> Vec<Harmonic> {
-        let fit = candidate.fit;
+    /// The harmonics of a comb of a part or of something else, and the lines beside them where they count.
+    pub(super) fn harmonics(&self, fit: &Fit, fault: Option<Fault>, known: &[KnownLine]) -> Vec<Harmonic> {
         let lines = &self.spectra[fit.spectrum].lines;
-        let sides: &[i32] = if fit.sided { &[-1, 0, 1] } else { &[0] };
+        let sides: &[i32] = if fit.beside.is_some() { &[-1, 0, 1] } else { &[0] };
         let places = (1..=SHOWN_HARMONICS).flat_map(|k| sides.iter().map(move |side| (k, *side)));
         places
             .filter_map(|(harmonic, side)| {
-                let beside = f64::from(side) * candidate.beside.unwrap_or(0.0);
+                let beside = f64::from(side) * fit.beside.unwrap_or(0.0);
                 let order = f64::from(harmonic) * fit.order + beside;
                 lines.bin(order)?;
                 let other = coincidence(lines, order, known);
                 Some(Harmonic {
-                    name: name(harmonic, side),
+                    name: fault.map_or_else(|| harmonic.to_string(), |fault| line_name(fault, harmonic, side)),
                     harmonic,
                     side,
                     order,

@@ -9,57 +9,41 @@ const SIDEBANDS: f64 = 3.0;
 /// than the given one is 0.85 (0.86 to 0.97 where its lines are blurred); made inner races of four bearings score 1.07 to 1.57.
 const BETTER: f64 = 1.05;
 
-/// An inner race that turns at the given speed.
-pub(super) struct InnerRaceLines {
-    order: Option<f64>,
-    /// Relative uncertainty of the order.
-    order_error: f64,
-    /// Relative uncertainty of the given speed.
-    speed_error: f64,
-    /// Largest relative distance of one of its lines from a multiple of the shaft's that it can be taken for.
-    farthest: f64,
+/// Whether the lines of these orders' inner race explain more of the `level` of an order than the comb of these multiples of the shaft at
+/// another speed does, which scores `shafts`. The race turns at the given speed, whose relative uncertainty is the first of two errors; none
+/// of its lines is farther from a multiple that it is taken for than the second, relative. Speeds are tried `step` apart.
+pub(super) fn inner_race_explains_more(
+    orders: &FaultOrders,
+    [speed_error, farthest]: [f64; 2],
+    shafts: f64,
+    multiples: &[f64],
+    step: f64,
+    level: &impl Fn(f64) -> f64,
+) -> bool {
+    let (Some(order), Some(highest)) = (orders.order(Fault::InnerRace), multiples.last()) else {
+        return false;
+    };
+    let step_of_order = 0.5 * step * highest / order;
+    around(speed_error, step).any(|speed| {
+        around(orders.error(Fault::InnerRace), step_of_order).any(|factor| {
+            let lines = multiples.iter();
+            let lines = lines.map(|&multiple| nearest(multiple, factor * order, farthest));
+            lines.map(|line| level(speed * line)).sum::<f64>() > BETTER * shafts
+        })
+    })
 }
 
-impl InnerRaceLines {
-    /// The lines of these orders' inner race, at a given speed of this relative uncertainty.
-    pub(super) fn of(orders: &FaultOrders, speed_error: f64, farthest: f64) -> Self {
-        Self {
-            order: orders.order(Fault::InnerRace),
-            order_error: orders.error(Fault::InnerRace),
-            speed_error,
-            farthest,
-        }
-    }
-
-    /// Whether they explain more of the `level` of an order than the comb of these multiples at another speed does, which scores `shafts`.
-    /// Speeds are tried `step` apart.
-    pub(super) fn explain_more(&self, shafts: f64, multiples: &[f64], step: f64, level: &impl Fn(f64) -> f64) -> bool {
-        let (Some(order), Some(highest)) = (self.order, multiples.last()) else {
-            return false;
-        };
-        let step_of_order = 0.5 * step * highest / order;
-        around(self.speed_error, step).any(|speed| {
-            around(self.order_error, step_of_order).any(|factor| {
-                let lines = multiples.iter();
-                let lines = lines.map(|&multiple| self.nearest(multiple, factor * order));
-                lines.map(|line| level(speed * line)).sum::<f64>() > BETTER * shafts
-            })
-        })
-    }
-
-    /// The line of a race of this order that may be taken for a multiple of the shaft's, with the fewest sidebands between; the multiple itself
-    /// where there is none.
-    fn nearest(&self, multiple: f64, order: f64) -> f64 {
-        let lines = (1..=HARMONICS).map(|harmonic| {
-            let carrier = f64::from(harmonic) * order;
-            let sideband = (multiple - carrier).round();
-            (carrier + sideband, sideband.abs())
-        });
-        let near = lines
-            .filter(|(line, sideband)| *sideband <= SIDEBANDS && (line - multiple).abs() < self.farthest * multiple);
-        let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map_or(multiple, |(line, _)| line)
-    }
+/// The line of a race of this order that may be taken for a multiple of the shaft's, with the fewest sidebands between; the multiple itself
+/// where there is none within the relative distance `farthest`.
+fn nearest(multiple: f64, order: f64, farthest: f64) -> f64 {
+    let lines = (1..=HARMONICS).map(|harmonic| {
+        let carrier = f64::from(harmonic) * order;
+        let sideband = (multiple - carrier).round();
+        (carrier + sideband, sideband.abs())
+    });
+    let near = lines.filter(|(line, sideband)| *sideband <= SIDEBANDS && (line - multiple).abs() < farthest * multiple);
+    let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or(multiple, |(line, _)| line)
 }
 
 /// Factors within `reach` of 1, at most `step` apart.
@@ -71,18 +55,17 @@ fn around(reach: f64, step: f64) -> impl Iterator<Item = f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::InnerRaceLines;
+    use super::nearest;
 
     /// BPFI = 4.95: sidebands of the first harmonic up to the seventh multiple, of the second from the eighth on.
     #[test]
     fn the_lines_beside_the_shafts_multiples() {
-        let race = InnerRaceLines { order: Some(4.95), order_error: 0.0, speed_error: 0.0, farthest: 0.03 };
         let expected = [1.0, 1.95, 2.95, 3.95, 4.95, 5.95, 6.95, 7.9, 8.9, 9.9, 10.9, 11.9];
         for (multiple, expected) in (1..=12).zip(expected) {
-            let line = race.nearest(f64::from(multiple), 4.95);
+            let line = nearest(f64::from(multiple), 4.95, 0.03);
             assert!((line - expected).abs() < 1e-12, "{multiple}: {line}");
         }
         // none of its lines is near a multiple
-        assert!((race.nearest(5.0, 5.42) - 5.0).abs() < 1e-12);
+        assert!((nearest(5.0, 5.42, 0.03) - 5.0).abs() < 1e-12);
     }
 }

@@ -44,7 +44,7 @@ impl KnownLine {
     }
 
     /// Whether it may have so much power over the floor.
-    fn explains(&self, spectrum: &LineSpectrum, ratio: f64) -> bool {
+    pub(super) fn explains(&self, spectrum: &LineSpectrum, ratio: f64) -> bool {
         self.carrier.is_none_or(|carrier| ratio <= spectrum.ratio(carrier))
     }
 }
@@ -73,63 +73,6 @@ pub(crate) fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
     }
 }
 
-/// Repeated impacts whose lines have a reason.
-pub(super) struct Impacts<'a> {
-    pub(super) name: &'a str,
-    pub(super) order: f64,
-    /// Order of the cage.
-    pub(super) cage: Option<f64>,
-    /// Whether they are those of a race, whose sidebands at the cage's distance are weaker than their carriers.
-    pub(super) of_race: bool,
-    /// Whether they are of no part of the bearing.
-    pub(super) foreign: bool,
-}
-
-impl Impacts<'_> {
-    /// Their lines: harmonics up to an order, and those beside them at the distance of the shaft and of the cage, since load and sensor
-    /// see an impact once a revolution of either.
-    pub(super) fn lines(&self, highest: f64, resolution: f64) -> Vec<KnownLine> {
-        let fine = resolution < FINE_RESOLUTION;
-        let sides = |count: u32| if fine { count } else { 1 };
-        let count = (highest / self.order).min(10_000.0) as u32 + 1;
-        let mut lines = Vec::new();
-        for harmonic in 1..=count {
-            let line = f64::from(harmonic) * self.order;
-            lines.push(KnownLine {
-                foreign: self.foreign,
-                ..KnownLine::new(line, WANDERING, format!("{harmonic} x {}", self.name))
-            });
-            let mut beside = |(spacing, carrier): (f64, &str), step: u32, count: u32| {
-                // lines nearer than they are wide are not told apart
-                if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
-                    return;
-                }
-                let offsets = (1..=count).flat_map(|side| {
-                    let offset = f64::from(step * side);
-                    [-offset, offset]
-                });
-                lines.extend(offsets.map(|offset| KnownLine {
-                    order: line + offset * spacing,
-                    error: WANDERING,
-                    name: format!("{harmonic} x {} {offset:+} x {carrier}", self.name),
-                    carrier: (self.of_race && carrier == "cage").then_some(line),
-                    foreign: self.foreign,
-                }));
-            };
-            let shaft = (1.0, "shaft");
-            beside(shaft, 1, sides(SHAFT_SIDES));
-            if harmonic <= HARMONICS_BESIDE {
-                beside(shaft, harmonic, COMBS_BESIDE);
-            }
-            if let Some(cage) = self.cage {
-                beside((cage, "cage"), 1, sides(CAGE_SIDES));
-            }
-        }
-        lines.retain(|line| line.order > 0.0);
-        lines
-    }
-}
-
 /// What strikes at an order: a part, or something else.
 pub(super) struct Strikes<'a> {
     pub(super) fault: Option<Fault>,
@@ -148,14 +91,7 @@ impl Strikes<'_> {
     ) -> Vec<KnownLine> {
         let cage = orders.order(Fault::Cage);
         let cage = cage.filter(|_| self.fault != Some(Fault::Cage));
-        let impacts = Impacts {
-            name: self.name,
-            order: self.order,
-            cage,
-            of_race: matches!(self.fault, Some(Fault::OuterRace | Fault::InnerRace)),
-            foreign: self.fault.is_none(),
-        };
-        let mut lines = impacts.lines(highest, resolution);
+        let mut lines = self.impact_lines(cage, highest, resolution);
         if let (Some(_), Some(cage)) = (self.fault, cage) {
             let error = orders.error(Fault::Cage) + speed_error;
             lines.extend((1..=CAGE_MULTIPLES).map(|multiple| {
@@ -165,42 +101,60 @@ impl Strikes<'_> {
         }
         lines
     }
+
+    /// Lines of its impacts beside a cage of this order: harmonics up to an order, and those beside them at the distance of the shaft
+    /// and of the cage, since load and sensor see an impact once a revolution of either. The sidebands of a race at the cage's distance
+    /// are weaker than their carriers.
+    pub(super) fn impact_lines(&self, cage: Option<f64>, highest: f64, resolution: f64) -> Vec<KnownLine> {
+        let of_race = matches!(self.fault, Some(Fault::OuterRace | Fault::InnerRace));
+        let known = |order: f64, name: String, carrier: Option<f64>| KnownLine {
+            carrier,
+            foreign: self.fault.is_none(),
+            ..KnownLine::new(order, WANDERING, name)
+        };
+        let fine = resolution < FINE_RESOLUTION;
+        let sides = |count: u32| if fine { count } else { 1 };
+        let count = (highest / self.order).min(10_000.0) as u32 + 1;
+        let mut lines = Vec::new();
+        for harmonic in 1..=count {
+            let line = f64::from(harmonic) * self.order;
+            let name = format!("{harmonic} x {}", self.name);
+            lines.push(known(line, name.clone(), None));
+            let mut beside = |(spacing, carrier): (f64, &str), step: u32, count: u32| {
+                // lines nearer than they are wide are not told apart
+                if spacing < 2.0 * STRONG_HALF_WIDTH * resolution {
+                    return;
+                }
+                let offsets = (1..=count).flat_map(|side| {
+                    let offset = f64::from(step * side);
+                    [-offset, offset]
+                });
+                lines.extend(offsets.map(|offset| {
+                    let weaker_than = (of_race && carrier == "cage").then_some(line);
+                    known(line + offset * spacing, format!("{name} {offset:+} x {carrier}"), weaker_than)
+                }));
+            };
+            let shaft = (1.0, "shaft");
+            beside(shaft, 1, sides(SHAFT_SIDES));
+            if harmonic <= HARMONICS_BESIDE {
+                beside(shaft, harmonic, COMBS_BESIDE);
+            }
+            if let Some(cage) = cage {
+                beside((cage, "cage"), 1, sides(CAGE_SIDES));
+            }
+        }
+        lines.retain(|line| line.order > 0.0);
+        lines
+    }
 }
 
 /// Half of the width, in orders, that a known line takes in a spectrum.
-fn half_width(spectrum: &LineSpectrum, line: &KnownLine) -> f64 {
+pub(super) fn half_width(spectrum: &LineSpectrum, line: &KnownLine) -> f64 {
     let mut widths = if spectrum.ratio(line.order) > STRONG { STRONG_HALF_WIDTH } else { HALF_WIDTH };
     if spectrum.is_short() {
         widths *= SHORT_WIDTH;
     }
     widths * spectrum.resolution + line.error * line.order
-}
-
-/// Which bins of a spectrum known lines take.
-#[derive(Debug, Clone)]
-pub(super) struct Mask(Vec<bool>);
-
-impl Mask {
-    pub(super) fn new(spectrum: &LineSpectrum) -> Self {
-        Self(vec![false; spectrum.bins()])
-    }
-
-    /// Takes the bins of more lines.
-    pub(super) fn take(&mut self, spectrum: &LineSpectrum, lines: &[KnownLine]) {
-        for line in lines {
-            let half = half_width(spectrum, line);
-            let first = spectrum.bin((line.order - half).max(0.0));
-            let Some(first) = first else { continue };
-            let last = spectrum.bin(line.order + half).unwrap_or(self.0.len() - 1);
-            for bin in first..=last {
-                self.0[bin] |= line.explains(spectrum, spectrum.ratio_at(bin));
-            }
-        }
-    }
-
-    pub(super) fn taken(&self, bin: usize) -> bool {
-        self.0[bin]
-    }
 }
 
 /// The known line that takes an order, the nearest.

@@ -29,9 +29,9 @@ pub(super) struct LineSpectrum {
     /// 1 / revolutions of a stretch: lines as far apart are told apart.
     pub(super) resolution: f64,
     /// Natural logarithm of the power over the floor, the largest within half of the resolution; 0 to [`LARGEST_LEVEL`].
-    level: Vec<f64>,
+    pub(super) level: Vec<f64>,
     /// Power over the floor.
-    ratio: Vec<f64>,
+    pub(super) ratio: Vec<f64>,
     /// Amplitude of a line over the mean of the envelope.
     amplitude: Vec<f64>,
     /// Harmonics that decide.
@@ -126,19 +126,6 @@ impl LineSpectrum {
     /// Order after its last bin.
     pub(super) fn end(&self) -> f64 {
         self.level.len() as f64 * self.step
-    }
-
-    pub(super) fn bins(&self) -> usize {
-        self.level.len()
-    }
-
-    pub(super) fn level(&self, bin: usize) -> f64 {
-        self.level[bin]
-    }
-
-    /// Power over the floor of a bin.
-    pub(super) fn ratio_at(&self, bin: usize) -> f64 {
-        self.ratio[bin]
     }
 
     fn largest(values: &[f64], bin: usize) -> f64 {

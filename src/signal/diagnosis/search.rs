@@ -1,10 +1,12 @@
 //! What verdicts are sought in, and how good a comb there is: its fit, the lines that it explains, its probability by chance.
 
+use rayon::prelude::*;
+
 use super::bands::BandSpectrum;
 use super::comb::{Fit, Masked, best_fit};
-use super::control::{ByChance, control_scores};
+use super::control::{ByChance, factors};
 use super::fault::{Fault, FaultOrders};
-use super::known::{KnownLine, Mask, Strikes};
+use super::known::{KnownLine, Strikes};
 use super::line_spectrum::REVOLUTIONS;
 
 /// Bins that the floor of a part's fundamental needs within half of it, to each side.
@@ -29,7 +31,6 @@ pub(super) struct Search<'a> {
 pub(super) struct Candidate {
     pub(super) fault: Option<Fault>,
     pub(super) fit: Fit,
-    pub(super) beside: Option<f64>,
     /// Reach of its search over its order.
     pub(super) relative_reach: f64,
 }
@@ -37,7 +38,7 @@ pub(super) struct Candidate {
 impl Candidate {
     /// A comb of this fault, or of something else, without lines beside its harmonics, at a known place.
     pub(super) fn at(fault: Option<Fault>, fit: Fit) -> Self {
-        Self { fault, fit, beside: None, relative_reach: 0.0 }
+        Self { fault, fit, relative_reach: 0.0 }
     }
 }
 
@@ -59,12 +60,9 @@ impl Search<'_> {
     }
 
     pub(super) fn masked(&self, known: &[KnownLine]) -> Vec<Masked<'_>> {
-        let masked = self.spectra.iter().map(|spectrum| {
-            let mut mask = Mask::new(&spectrum.lines);
-            mask.take(&spectrum.lines, known);
-            Masked { spectrum, mask }
-        });
-        masked.collect()
+        let taken = |spectrum: &BandSpectrum| vec![false; spectrum.lines.level.len()];
+        let spectra = self.spectra.iter();
+        spectra.map(|spectrum| Masked { spectrum, taken: taken(spectrum) }.without(known)).collect()
     }
 
     /// The best comb of a part; lines beside the harmonics count where that scores more.
@@ -72,7 +70,7 @@ impl Search<'_> {
         let relative_reach = self.orders.error(fault) + self.speed_error;
         let reach = relative_reach * order;
         let of = |beside| {
-            Some(Candidate { fault: Some(fault), fit: best_fit(masked, order, reach, beside)?, beside, relative_reach })
+            Some(Candidate { fault: Some(fault), fit: best_fit(masked, order, reach, beside)?, relative_reach })
         };
         let alone = of(None);
         match self.side_spacing(fault) {
@@ -97,17 +95,15 @@ impl Search<'_> {
 
     /// Probability by chance of a candidate, its own lines taken out of the controls.
     pub(super) fn chance(&self, masked: &[Masked<'_>], candidate: &Candidate, own: &[KnownLine]) -> Option<f64> {
-        let without: Vec<Masked<'_>> = masked
-            .iter()
-            .map(|masked| {
-                let mut mask = masked.mask.clone();
-                mask.take(&masked.spectrum.lines, own);
-                Masked { spectrum: masked.spectrum, mask }
-            })
-            .collect();
-        let Candidate { fit, beside, relative_reach, .. } = candidate;
-        let scores = control_scores(&without, fit.order, *relative_reach, *beside);
-        let by_chance = ByChance::of(scores)?;
+        let without: Vec<Masked<'_>> = masked.iter().map(|masked| masked.clone().without(own)).collect();
+        let fit = candidate.fit;
+        let relative_reach = candidate.relative_reach;
+        let factors: Vec<f64> = factors(relative_reach).collect();
+        let scores = factors.into_par_iter().filter_map(|factor| {
+            let at = fit.order * factor;
+            best_fit(&without, at, relative_reach * at, fit.beside).map(|fit| fit.score)
+        });
+        let by_chance = ByChance::of(scores.collect())?;
         let searches = match candidate.fault {
             Some(Fault::Ball) => 2.0,
             Some(_) => 1.0,

@@ -4,15 +4,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::angle_grid::AngleGrid;
-use super::bands::{BandSpectrum, searched_band};
-use super::comb::SHOWN_HARMONICS;
+use super::bands::BandSpectrum;
 use super::control::ByChance;
 use super::fault::{Fault, FaultOrders};
-use super::inner_race_lines::InnerRaceLines;
+use super::inner_race_lines::inner_race_explains_more;
 use super::line_spectrum::LineSpectrum;
 use super::verdict::FaultVerdict;
 use super::{Conclusion, DiagnosisError, LEAST_SHORT_HARMONICS};
-use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::numerics::series::TimeSeries;
 use crate::signal::WhiteSpectrum;
 
 /// Largest relative error of a speed that is looked for: a motor's nominal speed under load.
@@ -93,122 +92,104 @@ pub(super) struct ShaftSpeed {
 }
 
 impl ShaftSpeed {
-    /// The speed as given, sharpened by the shaft's lines in the signal and in its envelope where they show and orders are not exact.
+    /// The speed as given, sharpened by the comb of the shaft's multiples in the spectra of the signal and of its envelope within a band
+    /// (Hz). As given where the window is short or the lines do not show: those among them that are no part's at a speed nearby, as every
+    /// third is at BPFO = 3.05.
     pub(super) fn of(
         signal: &TimeSeries,
         white: &WhiteSpectrum,
-        asked_hz: Option<[f64; 2]>,
-        window: TimeWindow,
-        turns: impl Fn(f64) -> f64,
+        grid: &AngleGrid,
+        within_hz: [f64; 2],
         orders: &FaultOrders,
     ) -> Result<Self, DiagnosisError> {
-        let as_given = |error, source| Self { factor: 1.0, error, source };
+        let given = Self { factor: 1.0, error: UNSEEN_ERROR, source: SpeedSource::Given };
         if orders.is_exact() {
-            return Ok(as_given(0.0, SpeedSource::Exact));
+            return Ok(Self { error: 0.0, source: SpeedSource::Exact, ..given });
         }
-        let highest = (f64::from(SHOWN_HARMONICS) + 1.0) * orders.highest();
-        let grid = AngleGrid::new(window, signal.step_s(), turns, highest)?;
-        let strikes_hz = orders.highest() * grid.fastest_hz;
-        let envelope = white.envelope(searched_band(asked_hz, signal, strikes_hz));
-        let magnitude = envelope.magnitude();
-        let shown = sharpened(
-            &grid,
-            orders,
-            &[(signal.start_s(), signal.step_s(), signal.values()), (envelope.start_s, envelope.step_s, &magnitude)],
-        )?;
-        Ok(shown.unwrap_or_else(|| as_given(UNSEEN_ERROR, SpeedSource::Given)))
-    }
-}
-
-/// Sharpens the speed by the comb of the shaft's multiples in the spectra of `series` (start and step in s, values). `None` where the
-/// window is short or the lines do not show: those among them that are no part's at a speed nearby, as every third is at BPFO = 3.05.
-fn sharpened(
-    grid: &AngleGrid,
-    orders: &FaultOrders,
-    series: &[(f64, f64, &[f64])],
-) -> Result<Option<ShaftSpeed>, DiagnosisError> {
-    if grid.turns() < FEWEST_REVOLUTIONS {
-        return Ok(None);
-    }
-    let highest = (f64::from(MULTIPLES) + 1.0) * CONTROLS[1];
-    let spectra: Result<Vec<LineSpectrum>, DiagnosisError> = series
-        .iter()
-        .map(|(start_s, step_s, values)| {
-            let means = grid.means(*start_s, *step_s, values);
+        if grid.turns() < FEWEST_REVOLUTIONS {
+            return Ok(given);
+        }
+        let highest = (f64::from(MULTIPLES) + 1.0) * CONTROLS[1];
+        let spectrum = |start_s: f64, step_s: f64, values: &[f64]| {
+            let means = grid.means(start_s, step_s, values);
             LineSpectrum::new(&means, grid.per_turn, highest, 1.0, REVOLUTIONS)
-        })
-        .collect();
-    let spectra = spectra?;
-    let Some(resolution) = spectra.first().map(|spectrum| spectrum.resolution) else {
-        return Ok(None);
-    };
-    let level = |line: f64| {
-        let levels = spectra.iter().map(move |spectrum| {
-            let level = spectrum.bin(line).map(|bin| spectrum.level(bin));
-            level.unwrap_or(0.0)
-        });
-        levels.sum::<f64>()
-    };
-    let score = |order: f64, teeth: &[f64]| {
-        let teeth = teeth.iter().map(|tooth| level(tooth * order));
-        teeth.sum::<f64>()
-    };
-    let step = resolution / (f64::from(MULTIPLES) * PLACES);
-    let best = |centre: f64, teeth: &[f64], reach: f64| {
-        let steps = (reach * centre / step).ceil();
-        let places = -(steps as i32)..=steps as i32;
-        let fits = places.map(|place| {
-            let order = centre * (1.0 + reach * f64::from(place) / steps);
-            (score(order, teeth), order)
-        });
-        let fits: Vec<(f64, f64)> = fits.collect();
-        let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
-        // the middle of those that are about as good, and how far they reach
-        let near = fits.iter().filter(|fit| fit.0 >= AS_GOOD * most);
-        let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| (low.min(fit.1), high.max(fit.1)));
-        (most, low, high)
-    };
-    // probability that chance finds as good a comb in as wide a search
-    let chance = |most: f64, teeth: &[f64], reach: f64| {
-        let scores = controls().map(|centre| best(centre, teeth, reach).0);
-        ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
-    };
-    let fit = |teeth: &[f64]| {
-        let highest_tooth = teeth.last()?;
-        let (most, low, high) = best(1.0, teeth, LARGEST_ERROR);
-        let error = (0.5 * (high - low)).max(resolution / highest_tooth);
-        let factor = 0.5 * (low + high);
-        // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
-        let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
-        let clear = sharper && high - low < LARGEST_ERROR;
-        (clear && chance(most, teeth, LARGEST_ERROR) < SEEN_BELOW).then_some((factor, error))
-    };
-    let seen = |centre: f64, teeth: &[f64], reach: f64| chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW;
-    // every multiple together is sharpest, where those show too that no part's lines can be taken for
-    let free = free_multiples(orders);
-    let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
-    let moves = |factor: f64| (factor - 1.0).abs() > UNSEEN_ERROR;
-    // a strong line of the shaft at the given speed reaches a little farther than it should
-    let better = |factor: f64, error: f64| AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0;
-    let shown =
-        fit(&every).filter(|&(factor, error)| seen(factor, &free, error) && (!moves(factor) || better(factor, error)));
-    let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
-        return Ok(None);
-    };
-    let moved = moves(factor);
-    let inner = InnerRaceLines::of(orders, UNSEEN_ERROR, LARGEST_ERROR);
-    if moved && inner.explain_more(best(factor, &every, error).0, &every, step, &level) {
-        return Ok(None);
+        };
+        let envelope = white.whitened.envelope(within_hz);
+        let spectra = [
+            spectrum(signal.start_s(), signal.step_s(), signal.values())?,
+            spectrum(envelope.start_s, envelope.step_s, &envelope.magnitude())?,
+        ];
+        let resolution = spectra[0].resolution;
+        let level = |line: f64| {
+            let levels = spectra.iter().map(move |spectrum| {
+                let level = spectrum.bin(line).map(|bin| spectrum.level[bin]);
+                level.unwrap_or(0.0)
+            });
+            levels.sum::<f64>()
+        };
+        let score = |order: f64, teeth: &[f64]| {
+            let teeth = teeth.iter().map(|tooth| level(tooth * order));
+            teeth.sum::<f64>()
+        };
+        let step = resolution / (f64::from(MULTIPLES) * PLACES);
+        let best = |centre: f64, teeth: &[f64], reach: f64| {
+            let steps = (reach * centre / step).ceil();
+            let places = -(steps as i32)..=steps as i32;
+            let fits = places.map(|place| {
+                let order = centre * (1.0 + reach * f64::from(place) / steps);
+                (score(order, teeth), order)
+            });
+            let fits: Vec<(f64, f64)> = fits.collect();
+            let most = fits.iter().fold(0.0_f64, |most, fit| most.max(fit.0));
+            // the middle of those that are about as good, and how far they reach
+            let near = fits.iter().filter(|fit| fit.0 >= AS_GOOD * most);
+            let (low, high) = near.fold((f64::INFINITY, 0.0_f64), |(low, high), fit| (low.min(fit.1), high.max(fit.1)));
+            (most, low, high)
+        };
+        // probability that chance finds as good a comb in as wide a search
+        let chance = |most: f64, teeth: &[f64], reach: f64| {
+            let scores = controls().map(|centre| best(centre, teeth, reach).0);
+            ByChance::of(scores.collect()).map_or(1.0, |by_chance| by_chance.probability(most, 1.0))
+        };
+        let fit = |teeth: &[f64]| {
+            let highest_tooth = teeth.last()?;
+            let (most, low, high) = best(1.0, teeth, LARGEST_ERROR);
+            let error = (0.5 * (high - low)).max(resolution / highest_tooth);
+            let factor = 0.5 * (low + high);
+            // lines that leave more room than the given speed has do not sharpen it, unless it is clearly another
+            let sharper = error < UNSEEN_ERROR || (factor - 1.0).abs() > CLEARLY * error;
+            let clear = sharper && high - low < LARGEST_ERROR;
+            (clear && chance(most, teeth, LARGEST_ERROR) < SEEN_BELOW).then_some((factor, error))
+        };
+        let seen =
+            |centre: f64, teeth: &[f64], reach: f64| chance(best(centre, teeth, reach).0, teeth, reach) < SEEN_BELOW;
+        // every multiple together is sharpest, where those show too that no part's lines can be taken for
+        let free = free_multiples(orders);
+        let every: Vec<f64> = (1..=MULTIPLES).map(f64::from).collect();
+        let moves = |factor: f64| (factor - 1.0).abs() > UNSEEN_ERROR;
+        // a strong line of the shaft at the given speed reaches a little farther than it should
+        let better =
+            |factor: f64, error: f64| AS_GOOD * best(factor, &free, error).0 > best(1.0, &free, UNSEEN_ERROR).0;
+        let shown = fit(&every)
+            .filter(|&(factor, error)| seen(factor, &free, error) && (!moves(factor) || better(factor, error)));
+        let Some((factor, error)) = shown.or_else(|| fit(&free)) else {
+            return Ok(given);
+        };
+        let moved = moves(factor);
+        let errors = [UNSEEN_ERROR, LARGEST_ERROR];
+        if moved && inner_race_explains_more(orders, errors, best(factor, &every, error).0, &every, step, &level) {
+            return Ok(given);
+        }
+        let halves: Vec<f64> = every.iter().map(|tooth| tooth - 0.5).collect();
+        let source = if seen(1.0, &halves, LARGEST_ERROR) {
+            SpeedSource::EverySecond
+        } else if seen(2.0 * factor, &every, error) && !seen(2.0 * factor, &halves, error) {
+            SpeedSource::EvenOnly
+        } else {
+            SpeedSource::Sharpened
+        };
+        Ok(Self { factor, error, source })
     }
-    let halves: Vec<f64> = every.iter().map(|tooth| tooth - 0.5).collect();
-    let source = if seen(1.0, &halves, LARGEST_ERROR) {
-        SpeedSource::EverySecond
-    } else if seen(2.0 * factor, &every, error) && !seen(2.0 * factor, &halves, error) {
-        SpeedSource::EvenOnly
-    } else {
-        SpeedSource::Sharpened
-    };
-    Ok(Some(ShaftSpeed { factor, error, source }))
 }
 
 /// Multiples of the shaft's order that are no part's line at a speed within the largest error.

@@ -24,7 +24,7 @@ pub(super) fn has_teeth_between(masked: &[Masked<'_>], fit: &Fit, part: u32) -> 
     let mean = |shared: bool| {
         let teeth = (1..=lines.harmonics).filter(|k| (k % part == 0) == shared);
         let bins = teeth.filter_map(|k| lines.bin(f64::from(k) * fit.order));
-        let levels: Vec<f64> = bins.map(|bin| lines.level(bin) - lines.typical).collect();
+        let levels: Vec<f64> = bins.map(|bin| lines.level[bin] - lines.typical).collect();
         levels.iter().sum::<f64>() / levels.len().max(1) as f64
     };
     mean(false) >= OWN_TEETH * mean(true)
@@ -117,7 +117,7 @@ impl Search<'_> {
         known: &[KnownLine],
     ) -> Option<UnexplainedImpacts> {
         let order = candidate.fit.order;
-        let harmonics = self.harmonics(candidate, known, |harmonic, _| format!("{harmonic}"));
+        let harmonics = self.harmonics(&candidate.fit, None, known);
         let band = &self.spectra[candidate.fit.spectrum];
         let evidence = Evidence::of(&harmonics, &band.lines);
         if chance >= UNEXPLAINED_BELOW || !evidence.is_clear() {

@@ -36,12 +36,13 @@ pub const LEAST_IMPULSIVENESS: f64 = 0.2;
 pub const LEAST_SHORT_IMPULSIVENESS: f64 = 0.4;
 
 /// What is said of a part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum Conclusion {
     /// The part is damaged, as far as a signal can say it.
     #[serde(rename = "named")]
     Named,
     /// Something is there, or the window cannot say.
+    #[default]
     #[serde(rename = "not enough evidence")]
     NotEnough,
     /// Nothing that chance would not do.
@@ -100,7 +101,7 @@ pub struct SideLine {
 }
 
 /// What is said of one part, and why.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct FaultVerdict {
     /// The part.
     pub fault: Fault,
@@ -160,27 +161,6 @@ pub struct CageLines {
 }
 
 impl FaultVerdict {
-    pub(super) fn new(fault: Fault, expected_order: f64, side_spacing: Option<f64>) -> Self {
-        Self {
-            fault,
-            conclusion: Conclusion::NotEnough,
-            false_alarm: None,
-            expected_order,
-            order: None,
-            frequency_hz: None,
-            band_hz: None,
-            harmonics: Vec::new(),
-            harmonics_free: 0,
-            harmonics_seen: 0,
-            strength_db: None,
-            impulsiveness: None,
-            side_spacing,
-            side_lines: Vec::new(),
-            cage_lines: None,
-            why: String::new(),
-        }
-    }
-
     /// Takes an indication back, for a reason.
     pub(super) fn take_back(&mut self, reason: &str) {
         self.conclusion = Conclusion::NotEnough;
@@ -225,12 +205,6 @@ struct Least {
     impulsiveness: f64,
 }
 
-/// Whether the fundamental or the second harmonic is seen.
-fn first_seen(harmonics: &[Harmonic]) -> bool {
-    let mut first = harmonics.iter().filter(|h| h.harmonic <= 2);
-    first.any(|harmonic| harmonic.seen)
-}
-
 impl Evidence {
     pub(super) fn of(harmonics: &[Harmonic], lines: &LineSpectrum) -> Self {
         let deciding = harmonics.iter().filter(|h| h.side == 0 && h.harmonic <= lines.harmonics);
@@ -251,7 +225,7 @@ impl Evidence {
         Self {
             free: free.len(),
             seen: free.iter().filter(|h| h.seen).count(),
-            first: first_seen(harmonics),
+            first: harmonics.iter().any(|h| h.harmonic <= 2 && h.seen),
             strength_db: (!free.is_empty()).then_some(strength + finer_db),
             impulsiveness: impulsiveness(&free),
             least,
@@ -316,39 +290,35 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
             carrier(verdict.fault)
         ));
     }
-    let reason = |text: &str| format!("{found}. {text}");
-    let not_enough = |text: &str| (Conclusion::NotEnough, reason(text));
-    if chance >= NAMED_BELOW {
-        return not_enough(
+    let least = evidence.least;
+    let too_few = format!("That is too few: {} have to, the first or the second among them.", least.seen);
+    let objections = [
+        (
+            chance >= NAMED_BELOW,
             "Chance makes as much once in a thousand windows or more often. A longer window may decide.",
-        );
-    }
-    if seen < evidence.least.seen || !evidence.first {
-        return not_enough(&format!(
-            "That is too few: {} have to, the first or the second among them.",
-            evidence.least.seen
-        ));
-    }
-    if verdict.impulsiveness.is_some_and(|x| x < evidence.least.impulsiveness) {
-        return not_enough("That is a slow modulation, which balls passing under the load make without any damage.");
-    }
-    if strength < evidence.least.strength_db {
-        return not_enough(
+        ),
+        (seen < least.seen || !evidence.first, too_few.as_str()),
+        (
+            verdict.impulsiveness.is_some_and(|x| x < least.impulsiveness),
+            "That is a slow modulation, which balls passing under the load make without any damage.",
+        ),
+        (
+            strength < least.strength_db,
             "That is weak: sound bearings have such lines too, of the load, of assembly, of damage elsewhere. Compare with an earlier signal.",
-        );
-    }
-    if verdict.fault == Fault::Cage && strength < LEAST_CAGE_STRENGTH_DB {
-        return not_enough(
+        ),
+        (
+            verdict.fault == Fault::Cage && strength < LEAST_CAGE_STRENGTH_DB,
             "A ball that differs from the others, by damage or size, shows once a revolution of the cage as well.",
-        );
+        ),
+    ];
+    if let Some((_, text)) = objections.into_iter().find(|(holds, _)| *holds) {
+        return (Conclusion::NotEnough, format!("{found}. {text}"));
     }
-    if verdict.fault == Fault::OuterRace {
-        return (
-            Conclusion::Named,
-            reason(
-                "In a bearing with play, balls that strike as they enter the load zone do so at this order too: compare with an earlier signal.",
-            ),
-        );
-    }
-    (Conclusion::Named, format!("{found}."))
+    let beside = match verdict.fault {
+        Fault::OuterRace => {
+            " In a bearing with play, balls that strike as they enter the load zone do so at this order too: compare with an earlier signal."
+        }
+        _ => "",
+    };
+    (Conclusion::Named, format!("{found}.{beside}"))
 }

@@ -72,14 +72,14 @@ impl Diagnosis {
         check_noise(signal, within_hz)?;
         check_repeated(&judged)?;
         let white = WhiteSpectrum::of(signal)?;
-        let mut speed = ShaftSpeed::of(signal, &white, asked_hz, window, &turns, orders)?;
+        let mut speed = ShaftSpeed::of(signal, &white, &grid, within_hz, orders)?;
         // a signal too short for its kurtosis has no emphasis
         let impulsive = white.impulsive(signal).ok();
         let given_speed_hz = (turns(window.to) - turns(window.from)).abs() / (window.to - window.from);
         let search = |speed: ShaftSpeed| -> Result<(Spectra, Found), DiagnosisError> {
             let sharp = |time: f64| speed.factor * turns(time);
             let grid = AngleGrid::new(window, signal.step_s(), sharp, highest)?;
-            let spectra = band_spectra(&white, impulsive.as_ref(), &grid, within_hz, strikes_hz, highest)?;
+            let spectra = band_spectra(&white.whitened, impulsive.as_ref(), &grid, within_hz, strikes_hz, highest)?;
             let search = Search {
                 spectra: &spectra.lines,
                 fine: &spectra.fine,
@@ -102,7 +102,7 @@ impl Diagnosis {
         let sharp = |time: f64| speed.factor * turns(time);
         let none = || DiagnosisError::Refused("expected an envelope at least, found none".to_owned());
         let best = spectra.lines.get(found.spectrum).ok_or_else(none)?;
-        let envelope = white.envelope(best.band_hz);
+        let envelope = white.whitened.envelope(best.band_hz);
         Ok(Self {
             speed_hz: speed.factor * given_speed_hz,
             given_speed_hz,
