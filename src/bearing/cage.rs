@@ -77,7 +77,6 @@ impl Cage {
     }
 
     /// Cage turns per shaft turn between two times (s); without slip where the shaft does not turn.
-    #[must_use]
     pub(crate) fn ratio_between(&self, from: f64, to: f64) -> f64 {
         let shaft = self.shaft.angle(to) - self.shaft.angle(from);
         let ratio = (self.rotation.at(to).angle - self.rotation.at(from).angle) / shaft;

@@ -47,7 +47,6 @@ impl HertzContact {
     /// Force and derivatives at penetration `delta` (m) growing at `rate` (m/s).
     ///
     /// At the edges (δ = 0, or damping that cancels the force) the derivatives of the free side, zero, are given.
-    #[must_use]
     #[inline]
     pub(crate) fn linearised(&self, delta: f64, rate: f64) -> ContactForce {
         let factor = 1.0 + self.damping * rate;
@@ -60,7 +59,6 @@ impl HertzContact {
     }
 
     /// Elastic energy at penetration `delta` (m), J: `(2/5) k δ^{5/2}`, the paper's (9).
-    #[must_use]
     #[inline]
     pub(crate) fn energy(&self, delta: f64) -> f64 {
         if delta <= 0.0 { 0.0 } else { 0.4 * self.stiffness * delta * delta * delta.sqrt() }

@@ -201,19 +201,15 @@ impl BearingGeometry {
     /// Curvatures of the inner race, 1/m: concave groove, convex along the rolling direction.
     #[must_use]
     pub fn inner_curvatures(&self) -> PrincipalCurvatures {
-        PrincipalCurvatures {
-            plane_1: -1.0 / self.dimensions.inner_groove_radius,
-            plane_2: 1.0 / self.dimensions.inner_race_radius,
-        }
+        let BearingDimensions { inner_groove_radius, inner_race_radius, .. } = self.dimensions;
+        PrincipalCurvatures { plane_1: -1.0 / inner_groove_radius, plane_2: 1.0 / inner_race_radius }
     }
 
     /// Curvatures of the outer race, 1/m: concave both ways.
     #[must_use]
     pub fn outer_curvatures(&self) -> PrincipalCurvatures {
-        PrincipalCurvatures {
-            plane_1: -1.0 / self.dimensions.outer_groove_radius,
-            plane_2: -1.0 / self.dimensions.outer_race_radius,
-        }
+        let BearingDimensions { outer_groove_radius, outer_race_radius, .. } = self.dimensions;
+        PrincipalCurvatures { plane_1: -1.0 / outer_groove_radius, plane_2: -1.0 / outer_race_radius }
     }
 }
 

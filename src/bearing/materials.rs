@@ -117,7 +117,6 @@ impl ContactStiffness {
     }
 
     /// Both in series, N/m^{3/2}: `(k_i^{-2/3} + k_o^{-2/3})^{-3/2}`, shaft against outer race through one ball.
-    #[must_use]
     pub(crate) fn series(&self) -> f64 {
         let compliance = self.inner.powf(-2.0 / 3.0) + self.outer.powf(-2.0 / 3.0);
         compliance.powf(-1.5)

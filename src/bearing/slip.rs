@@ -49,14 +49,12 @@ impl SlipProfile {
     }
 
     /// Smallest and largest slip of the table.
-    #[must_use]
     pub(crate) fn range(&self) -> [f64; 2] {
         let slips = self.points.iter().map(|point| point.1);
         slips.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], slip| [low.min(slip), high.max(slip)])
     }
 
     /// Slip at a `time` (s) when the shaft turns at `speed` (rad/s).
-    #[must_use]
     pub(crate) fn at(&self, time: f64, speed: f64) -> f64 {
         let place = match self.over {
             Over::Time => time,

@@ -89,7 +89,6 @@ impl SpeedProfile {
     }
 
     /// Largest magnitude of the angular speed from `start` to `end` (s), rad/s.
-    #[must_use]
     pub(crate) fn fastest(&self, start: f64, end: f64) -> f64 {
         let knots = self.knot_times().filter(|&time| start < time && time < end);
         let times = knots.chain([start, end]);

@@ -69,28 +69,24 @@ pub struct Waviness {
 
 impl Waviness {
     /// Those of `waves` that are on `race`.
-    #[must_use]
     pub(crate) fn of(race: Race, waves: &[Wave]) -> Self {
         let own = waves.iter().filter(|wave| wave.race == race && wave.amplitude > 0.0);
         Self { waves: own.copied().collect() }
     }
 
     /// Whether there is none.
-    #[must_use]
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.waves.is_empty()
     }
 
     /// Largest deviation that is possible, m.
-    #[must_use]
     pub(crate) fn most(&self) -> f64 {
         self.waves.iter().map(|wave| wave.amplitude).sum()
     }
 
     /// Deviation h at `angle` (rad, in the race's own frame), m, and its first two derivatives, m/rad and m/rad²; outwards
     /// positive.
-    #[must_use]
     #[inline]
     pub(crate) fn at(&self, angle: f64) -> [f64; 3] {
         let mut sum = [0.0; 3];

@@ -17,7 +17,6 @@ const HIGH_PASS_PART: f64 = 0.125;
 
 /// Corner of the high-pass before an envelope unless another is asked for, Hz: 5 kHz, or an eighth of the sampling rate (Hz) if
 /// that is lower.
-#[must_use]
 pub(crate) fn usual_high_pass_hz(rate_hz: f64) -> f64 {
     HIGH_PASS_HZ.min(HIGH_PASS_PART * rate_hz)
 }

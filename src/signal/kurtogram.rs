@@ -82,7 +82,6 @@ impl Kurtogram {
     }
 
     /// Of these bands alone. The limits stay, which are for all: on the safe side.
-    #[must_use]
     pub(crate) fn of_those(&self, wanted: impl Fn(&KurtogramBand) -> bool) -> Self {
         let bands = self.bands.iter().copied();
         Self { bands: bands.filter(wanted).collect(), confidence: self.confidence }

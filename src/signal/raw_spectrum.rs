@@ -65,7 +65,6 @@ impl RawSpectrum {
     /// unit, at a rate of about twice the band's width or more. Its mean is twice the mean square of what lies in the band.
     ///
     /// The series is taken as periodic: cut a window out of a longer stretch where its ends matter.
-    #[must_use]
     pub(crate) fn envelope(&self, [from_hz, to_hz]: [f64; 2]) -> BandEnvelope {
         let bin_of = |hz: f64| (hz * self.step_s * self.points as f64).round() as usize;
         let first = bin_of(from_hz).max(1).min(self.bins.len() - 1);

@@ -129,8 +129,10 @@ impl WaveletTransform {
             .collect();
         let to_outputs = planner.plan_fft_inverse(outputs);
         let rows = bands.par_iter().map(|band| {
-            let mut row =
-                if ratio == 1 { magnitudes(band, &spectrum) } else { decimated(band, &spectrum, to_outputs.as_ref()) };
+            let mut row: Vec<f64> = match ratio {
+                1 => coefficients(band, &spectrum).iter().map(|w| w.norm_sqr().sqrt()).collect(),
+                _ => decimated(band, &spectrum, to_outputs.as_ref()),
+            };
             row.truncate(instants);
             row
         });
@@ -176,11 +178,6 @@ fn coefficients(band: &Band, spectrum: &[Complex<f64>]) -> Vec<Complex<f64>> {
     }
     band.back.process(&mut values);
     values
-}
-
-fn magnitudes(band: &Band, spectrum: &[Complex<f64>]) -> Vec<f64> {
-    let values = coefficients(band, spectrum);
-    values.iter().map(|w| w.norm_sqr().sqrt()).collect()
 }
 
 /// Roots of the smoothed power at as many instants as `to_outputs` has points.

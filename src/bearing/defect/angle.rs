@@ -12,7 +12,6 @@ const TAU_LOW: f64 = (TAU - TAU_HIGH) + 2.449_293_598_294_706_4e-16;
 /// `angle` (rad) less a whole number of turns, within ±π (and rounding).
 ///
 /// Accurate to rounding of the result for up to 6e7 turns, where the angle itself is known to 6e-8 rad.
-#[must_use]
 #[inline]
 pub(crate) fn reduced(angle: f64) -> f64 {
     if angle.abs() <= PI {

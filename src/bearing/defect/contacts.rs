@@ -5,9 +5,10 @@
 pub const MOST_CONTACTS: usize = 8;
 
 /// Part of the profile on which a contact lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum Feature {
     /// Undamaged race or ball beside the defect.
+    #[default]
     Plain,
     /// Rim at the clockwise end, passed first by a ball that moves counter-clockwise.
     RimBefore,
@@ -29,7 +30,7 @@ pub enum Feature {
 /// At the side edges of a dent with a width these are the components in the plane of a pair's two normals, whose third
 /// ones cancel: n is shorter than 1, and k is both contacts'.
 /// `∂δ/∂ρ = n_radial` and `(1/ρ) ∂δ/∂θ = n_tangential`, with race and ball kept from turning.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct DefectContact {
     /// Where on the profile.
     pub feature: Feature,
@@ -48,7 +49,6 @@ impl DefectContact {
     ///
     /// On a race that turns at ω, tangential is `ρ (θ̇ − ω)`; for a flat on a ball that turns at the spin ω_b
     /// (in the fixed frame) it is `ρ (θ̇ − ω_b)`.
-    #[must_use]
     #[inline]
     pub(crate) fn rate(&self, radial: f64, tangential: f64) -> f64 {
         self.normal_radial * radial + self.normal_tangential * tangential
@@ -64,17 +64,9 @@ pub struct DefectContacts {
 
 impl DefectContacts {
     /// No contact: what a query `_into` starts from.
-    #[must_use]
     #[inline]
     pub(crate) fn none() -> Self {
-        let blank = DefectContact {
-            feature: Feature::Plain,
-            delta: 0.0,
-            normal_radial: 0.0,
-            normal_tangential: 0.0,
-            stiffness: 0.0,
-        };
-        Self { items: [blank; MOST_CONTACTS], count: 0 }
+        Self { items: [DefectContact::default(); MOST_CONTACTS], count: 0 }
     }
 
     /// Takes all contacts out.
@@ -117,7 +109,6 @@ impl DefectContacts {
     }
 
     /// The contacts, in order of angle.
-    #[must_use]
     #[inline]
     pub(crate) fn as_slice(&self) -> &[DefectContact] {
         self.items.get(..self.count).unwrap_or(&self.items)

@@ -114,7 +114,7 @@ impl Dent {
             shape,
             race,
             middle: reduced(shape.angle),
-            profile: Depression::new(circles, floor, shape.rim_radius, base)?,
+            profile: Depression::new(circles, floor, shape.length, shape.rim_radius, base)?,
         })
     }
 

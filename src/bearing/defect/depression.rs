@@ -56,13 +56,18 @@ pub(super) struct Depression {
 }
 
 impl Depression {
-    /// Solves `floor` in `circles` with rims of `rim_radius` (m); `floor_base` (1/m) is the relative
+    /// Solves `floor`, `length` (m) long without rims, in `circles` with rims of `rim_radius` (m); `floor_base` (1/m) is the relative
     /// curvature from which the floor's loss is taken for the stiffness.
     ///
     /// # Errors
     /// [`BearingError`]: rims too large; more than a quarter of the circle; a curvature that Hertz theory refuses.
-    pub(super) fn new(circles: Circles, floor: Floor, rim_radius: f64, floor_base: f64) -> Result<Self, BearingError> {
-        let length = floor.length(&circles);
+    pub(super) fn new(
+        circles: Circles,
+        floor: Floor,
+        length: f64,
+        rim_radius: f64,
+        floor_base: f64,
+    ) -> Result<Self, BearingError> {
         let limit = 2.0 * FRAC_PI_4 * circles.carrier;
         if length > limit {
             return Err(too_long(length, length, limit));

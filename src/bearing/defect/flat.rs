@@ -76,7 +76,8 @@ impl BallFlat {
         let arc = Arc::new(ball, shape.radius, shape.depth, loss);
         let solve = |race| {
             let circles = Circles::ball(bearing, race, stiffness);
-            Depression::new(circles, Floor::Arc(arc), shape.rim_radius, circles.relative)
+            let length = 2.0 * arc.half_angle * circles.carrier;
+            Depression::new(circles, Floor::Arc(arc), length, shape.rim_radius, circles.relative)
         };
         Ok(Self { shape, included_angle: 2.0 * arc.half_angle, inner: solve(Race::Inner)?, outer: solve(Race::Outer)? })
     }

@@ -55,14 +55,6 @@ impl Floor {
         }
     }
 
-    /// Length along the carrier's circle without rims, m.
-    pub(super) fn length(&self, circles: &Circles) -> f64 {
-        match self {
-            Self::Ellipse(ellipse) => 2.0 * ellipse.half_length,
-            Self::Arc(arc) => 2.0 * arc.half_angle * circles.carrier,
-        }
-    }
-
     /// By how much the floor is less convex (or more concave) than its carrier, as the stiffness takes it, 1/m.
     #[inline]
     pub(super) fn loss(&self, t: f64) -> f64 {

@@ -51,7 +51,6 @@ pub trait RaceProfile {
 
     /// Whether a ball at `angle` (rad, any turn) can touch anything but the race: half-open arc `[φ_D − φ, φ_D + φ)` with φ the
     /// [`Self::contact_half_angle`]. Outside it the race contact alone holds, and [`Self::contacts`] need not be asked.
-    #[must_use]
     fn contains(&self, angle: f64) -> bool {
         within(self.offset(angle), self.contact_half_angle())
     }
@@ -60,7 +59,6 @@ pub trait RaceProfile {
     ///
     /// One on the race if the ball is not over the profile; beside it on a far rim if that is within reach. Of a ball that does not
     /// reach the undamaged race none presses: the whole profile lies there or beyond.
-    #[must_use]
     fn contacts(&self, ball: PolarPosition) -> DefectContacts {
         let mut found = DefectContacts::none();
         self.contacts_into(ball, &mut found);

@@ -40,13 +40,9 @@ impl Piece {
 /// Fewest knots that a spline with these ends needs.
 pub(super) const LEAST_KNOTS: usize = 4;
 
-/// The spline through `knots` (angle strictly ascending, depth; zero depth at both ends), empty for fewer than
-/// [`LEAST_KNOTS`].
+/// The spline through `knots`, [`LEAST_KNOTS`] at least (angle strictly ascending, depth; zero depth at both ends).
 pub(super) fn through(knots: &[(f64, f64)]) -> Vec<Piece> {
-    let last = knots.len().saturating_sub(1);
-    if knots.len() < LEAST_KNOTS {
-        return Vec::new();
-    }
+    let last = knots.len() - 1;
     let width = |i: usize| knots[i + 1].0 - knots[i].0;
     let depth = |i: usize| knots[i].1;
     let slope = |i: usize| (depth(i + 1) - depth(i)) / width(i);

@@ -75,14 +75,9 @@ impl AngleGrid {
         Ok(Self { times, per_turn, fastest_hz: fastest / step_s })
     }
 
-    /// Values in all.
-    pub(super) fn count(&self) -> usize {
-        self.times.len() - 1
-    }
-
     /// Turns of the shaft.
     pub(super) fn turns(&self) -> f64 {
-        self.count() as f64 / self.per_turn
+        (self.times.len() - 1) as f64 / self.per_turn
     }
 
     /// Highest order that its means show.

@@ -5,7 +5,7 @@ use super::Fault;
 use super::comb_power::Tooth;
 use super::compared_signal::ComparedSignal;
 use super::known::Strikes;
-use super::verdict::{FaultVerdict, Harmonic, UNSEEN_ABOVE, UnexplainedImpacts};
+use super::verdict::{FaultVerdict, UNSEEN_ABOVE, UnexplainedImpacts};
 
 /// Harmonics that are compared.
 pub(super) const COMPARED_HARMONICS: u32 = 5;
@@ -56,6 +56,10 @@ impl Compared {
             }
         };
         let name = verdict.fault.name();
+        // the first harmonics, with the lines beside them where they count, that coincide with nothing else in this signal
+        let first = harmonics.iter().filter(|line| line.harmonic <= COMPARED_HARMONICS);
+        let free = first.filter(|line| line.coincides_with.is_none());
+        let teeth = free.map(|line| Tooth { harmonic: line.harmonic, beside: f64::from(line.side) * spacing });
         Self {
             fault: Some(verdict.fault),
             name: match by_cage {
@@ -63,7 +67,7 @@ impl Compared {
                 false => name.to_owned(),
             },
             band_hz,
-            teeth: free_teeth(harmonics, spacing),
+            teeth: teeth.collect(),
             places: [place(now), place(earlier)],
             cage: cage.filter(|_| fault != Fault::Cage),
             seen: is_seen(verdict),
@@ -113,13 +117,4 @@ impl Compared {
         });
         parts.chain(unexplained).collect()
     }
-}
-
-/// The first harmonics, with the lines beside them where they count, that coincide with nothing else in this signal.
-fn free_teeth(harmonics: &[Harmonic], spacing: f64) -> Vec<Tooth> {
-    harmonics
-        .iter()
-        .filter(|line| line.harmonic <= COMPARED_HARMONICS && line.coincides_with.is_none())
-        .map(|line| Tooth { harmonic: line.harmonic, beside: f64::from(line.side) * spacing })
-        .collect()
 }

@@ -45,7 +45,6 @@ impl Fault {
     }
 
     /// What the field calls its line. BSF is the spin of a ball, and a flaw meets both races once a spin.
-    #[must_use]
     pub(crate) fn line(self) -> &'static str {
         match self {
             Self::OuterRace => "BPFO",
@@ -109,7 +108,6 @@ impl FaultOrders {
     }
 
     /// Relative error of a fault's order.
-    #[must_use]
     pub(crate) fn error(&self, fault: Fault) -> f64 {
         match fault {
             Fault::Ball => self.ball * self.error,
@@ -118,13 +116,11 @@ impl FaultOrders {
     }
 
     /// Whether orders and speed are those of a simulation, known exactly.
-    #[must_use]
     pub(crate) fn is_exact(&self) -> bool {
         self.error <= 0.0
     }
 
     /// The highest order that is known, at least 1.
-    #[must_use]
     pub(crate) fn highest(&self) -> f64 {
         self.orders.iter().flatten().fold(1.0, |most, &o| most.max(o))
     }

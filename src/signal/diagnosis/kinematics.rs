@@ -31,7 +31,6 @@ pub enum Kinematics<'a> {
 
 impl<'a> Kinematics<'a> {
     /// Of a simulated bearing, whose motion is known exactly.
-    #[must_use]
     pub(crate) fn of(cage: &'a Cage, geometry: &BearingGeometry) -> Self {
         Self::Cage { cage, balls: geometry.balls(), rolling: geometry.orders(), error: 0.0 }
     }
@@ -44,20 +43,17 @@ impl<'a> Kinematics<'a> {
     }
 
     /// Angle of the shaft at a time (s), in turns.
-    #[must_use]
     pub(crate) fn turns(&self, time: f64) -> f64 {
         self.shaft().angle(time) / TAU
     }
 
     /// Mean speed of the shaft in a window, either way, Hz.
-    #[must_use]
     pub(crate) fn mean_speed_hz(&self, window: TimeWindow) -> f64 {
         let turned = self.turns(window.to) - self.turns(window.from);
         (turned / (window.to - window.from)).abs()
     }
 
     /// How far the speed of the shaft changes in a window: the highest less the lowest, Hz.
-    #[must_use]
     pub(crate) fn speed_spread_hz(&self, window: TimeWindow) -> f64 {
         let shaft = self.shaft();
         let (from, to) = (window.from, window.to);

@@ -64,7 +64,6 @@ pub(super) fn carrier(fault: Fault) -> &'static str {
 }
 
 /// What a line of a part is called: "2 x ball -1 x cage".
-#[must_use]
 pub(crate) fn line_name(fault: Fault, harmonic: u32, side: i32) -> String {
     let name = fault.name();
     match side {

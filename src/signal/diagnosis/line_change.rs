@@ -34,7 +34,6 @@ pub enum ChangeConclusion {
 
 impl ChangeConclusion {
     /// In words.
-    #[must_use]
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Grew => "grew",
@@ -46,7 +45,6 @@ impl ChangeConclusion {
     }
 
     /// Of a 95 % interval in dB; an end that is `None` is open.
-    #[must_use]
     pub(crate) fn of([low, high]: [Option<f64>; 2]) -> Self {
         if low.is_some_and(|low| low > LEAST_CHANGE_DB) {
             return Self::Grew;
@@ -96,14 +94,12 @@ pub struct LineChange {
 
 impl LineChange {
     /// "+12.3 dB (11.0 to 13.6)", "at least +14.1 dB", "at most -8.0 dB"; empty where nothing is known.
-    #[must_use]
     pub(crate) fn words(&self) -> String {
         change_words(self.change_db, self.interval_db)
     }
 }
 
 /// A change with its interval, in words.
-#[must_use]
 pub(crate) fn change_words(change_db: Option<f64>, interval_db: [Option<f64>; 2]) -> String {
     match (change_db, interval_db) {
         (Some(change), [Some(low), Some(high)]) => {

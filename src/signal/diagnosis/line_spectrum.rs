@@ -95,11 +95,8 @@ impl LineSpectrum {
                 _ => 0.0,
             })
             .collect();
-        let near = |bin: usize| {
-            let about = &ratio[bin.saturating_sub(1)..(bin + 2).min(bins)];
-            about.iter().fold(1.0_f64, |most, &ratio| most.max(ratio))
-        };
-        let level: Vec<f64> = (0..bins).map(|bin| near(bin).sqrt().min(LARGEST_LEVEL)).collect();
+        let near = |bin: usize| Self::largest(&ratio, bin).max(1.0);
+        let level = (0..bins).map(|bin| near(bin).sqrt().min(LARGEST_LEVEL)).collect();
         // of the two or three bins of a tooth the largest: 0.8 deviations above the mean
         let typical = gamma_quantile(averages, 0.8).sqrt();
         // one-sided, and the gain of the window

@@ -9,7 +9,6 @@ use super::search::turns_needed;
 impl FaultOrders {
     /// Revolutions of the shaft that a window needs for a verdict on a part whose order is exact. `None` where its order is not known,
     /// or where its lines lie so close to the shaft's that no window tells them apart.
-    #[must_use]
     pub(crate) fn turns_to_judge(&self, fault: Fault) -> Option<f64> {
         let order = self.order(fault)?;
         let distance = |harmonic: u32| {

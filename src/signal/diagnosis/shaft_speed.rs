@@ -68,7 +68,6 @@ pub enum SpeedSource {
 
 impl SpeedSource {
     /// In words.
-    #[must_use]
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Exact => "exact",

@@ -66,10 +66,29 @@ fn near_tones(white: &WhiteSpectrum) -> Vec<bool> {
 fn comb(
     tones: &[bool],
     white: &WhiteSpectrum,
-    within_hz: [f64; 2],
+    [from_hz, to_hz]: [f64; 2],
     (line_hz, reach): (f64, f64),
 ) -> Option<(f64, usize)> {
-    let search = |line_hz: f64| best(tones, white, within_hz, (line_hz, reach));
+    let tone = |frequency_hz: f64, k: u32| {
+        let bin = white.bin(f64::from(k) * frequency_hz).round() as usize;
+        tones.get(bin).copied().unwrap_or(false)
+    };
+    // the most pairs of neighbouring multiples that are both tones, of which frequency, and how many of its multiples are tones
+    let search = |line_hz: f64| {
+        let first = (from_hz / line_hz).ceil().max(1.0);
+        let last = (to_hz / (line_hz * (1.0 + reach))).min(first + MOST_HARMONICS);
+        // so that the highest harmonic moves by a bin
+        let steps = (reach * white.bin(last * line_hz)).ceil();
+        let (first, last) = (first as u32, last as u32);
+        let places = (-(steps as i32)..=steps as i32).map(|step| {
+            let frequency_hz = line_hz * (1.0 + reach * f64::from(step) / steps);
+            let both = |k: &u32| tone(frequency_hz, *k) && tone(frequency_hz, k + 1);
+            ((first..last).filter(both).count(), frequency_hz)
+        });
+        let (pairs, frequency_hz) = places.max_by_key(|place| place.0)?;
+        let harmonics = (first..=last).filter(|k| tone(frequency_hz, *k)).count();
+        Some((pairs, frequency_hz, harmonics))
+    };
     let (pairs, frequency_hz, harmonics) = search(line_hz)?;
     if pairs < LEAST_PAIRS {
         return None;
@@ -78,32 +97,6 @@ fn comb(
     let scores = controls.filter_map(|factor| Some(search(line_hz * factor)?.0 as f64));
     let chance = ByChance::of(scores.collect())?.probability(pairs as f64, 1.0);
     (chance < SAID_BELOW).then_some((frequency_hz, harmonics))
-}
-
-/// The most pairs of neighbouring multiples that are both tones, of which frequency (Hz), and how many of its multiples are tones.
-fn best(
-    tones: &[bool],
-    white: &WhiteSpectrum,
-    [from_hz, to_hz]: [f64; 2],
-    (line_hz, reach): (f64, f64),
-) -> Option<(usize, f64, usize)> {
-    let first = (from_hz / line_hz).ceil().max(1.0);
-    let last = (to_hz / (line_hz * (1.0 + reach))).min(first + MOST_HARMONICS);
-    // so that the highest harmonic moves by a bin
-    let steps = (reach * white.bin(last * line_hz)).ceil();
-    let tone = |frequency_hz: f64, k: u32| {
-        let bin = white.bin(f64::from(k) * frequency_hz).round() as usize;
-        tones.get(bin).copied().unwrap_or(false)
-    };
-    let (first, last) = (first as u32, last as u32);
-    let places = (-(steps as i32)..=steps as i32).map(|step| {
-        let frequency_hz = line_hz * (1.0 + reach * f64::from(step) / steps);
-        let both = |k: &u32| tone(frequency_hz, *k) && tone(frequency_hz, k + 1);
-        ((first..last).filter(both).count(), frequency_hz)
-    });
-    let (pairs, frequency_hz) = places.max_by_key(|place| place.0)?;
-    let harmonics = (first..=last).filter(|k| tone(frequency_hz, *k)).count();
-    Some((pairs, frequency_hz, harmonics))
 }
 
 #[cfg(test)]

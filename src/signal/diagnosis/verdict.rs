@@ -52,7 +52,6 @@ pub enum Conclusion {
 
 impl Conclusion {
     /// In words.
-    #[must_use]
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Named => "fault indicated",
@@ -254,7 +253,6 @@ fn impulsiveness(free: &[&Harmonic]) -> Option<f64> {
 }
 
 /// A probability in words: "below 1e-12", "3e-5", "0.2".
-#[must_use]
 pub(crate) fn probability(chance: f64) -> String {
     if chance < 1e-12 {
         "below 1e-12".to_owned()

@@ -139,7 +139,6 @@ impl Diagnosis {
     }
 
     /// Whether any part was judged: the window is long enough, and lines are free.
-    #[must_use]
     pub(crate) fn is_judged(&self) -> bool {
         let mut faults = self.faults.iter();
         faults.any(|verdict| verdict.false_alarm.is_some())
@@ -147,7 +146,6 @@ impl Diagnosis {
 
     /// Why a verdict is right at the given speed alone: no line shows that this speed is right. At a wrong one faults are hidden, and one part's
     /// lines are another's.
-    #[must_use]
     pub(crate) fn speed_doubt(&self) -> Option<String> {
         let consequence = match (self.named().next(), self.unexplained.as_slice()) {
             (Some(_), _) => "at another the same lines are another part's",
@@ -170,7 +168,6 @@ impl Diagnosis {
     }
 
     /// What is to be checked where the speed that is used is more than 1 % from the given one.
-    #[must_use]
     pub(crate) fn speed_change(&self) -> Option<String> {
         let change = self.speed_hz / self.given_speed_hz - 1.0;
         (change.abs() > SAID_CHANGE).then(|| {

@@ -18,13 +18,13 @@ use super::outline::Outline;
 /// The floor's section in the plane, as far as a ball can touch it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bottom {
-    ellipse: Ellipse,
+    pub(super) ellipse: Ellipse,
     circles: Circles,
     fade: Fade,
     /// b/c², 1/m.
     spread: f64,
     /// Relative curvature from which the ellipse's is taken for the stiffness, 1/m, and what it lacks of the race's.
-    base: f64,
+    pub(super) base: f64,
     shortfall: f64,
     /// Where the floor meets the rim, rad.
     corner: f64,
@@ -67,16 +67,6 @@ impl Bottom {
             floor.reach = Some(Reach::new(limit, ellipse.at(limit), false));
         }
         floor
-    }
-
-    /// Relative curvature at the middle as the stiffness takes it, 1/m.
-    pub(super) fn middle_curvature(&self) -> f64 {
-        self.base - self.ellipse.curvature(0.0)
-    }
-
-    /// Distance (m) from the axis at `offset` (rad) from the middle, without the rim.
-    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
-        self.ellipse.polar_radius(offset)
     }
 
     /// Relative curvature across the rolling direction, 1/m.

@@ -68,11 +68,15 @@ impl SurfaceDent {
                 Race::Outer => dimensions.outer_groove_radius,
             },
         };
-        check_sizes(&outline)?;
+        let limit = FRAC_PI_2 * circles.carrier;
+        if shape.length > limit {
+            return Err(depression::too_long(shape.length, shape.length, limit));
+        }
+        depression::rim_rules(&circles, shape.rim_radius)?;
         let base = shape.curvature.base(&circles);
         let bottom = Bottom::new(&outline, base);
         if base < circles.relative && bottom.reach.is_some() {
-            stiffness::per_modulus(circles.across, bottom.middle_curvature())?;
+            stiffness::per_modulus(circles.across, bottom.base - bottom.ellipse.curvature(0.0))?;
         }
         let sharpest = circles.roller_curvature() + 1.0 / shape.rim_radius;
         Ok(Self {
@@ -117,7 +121,7 @@ impl RaceProfile for SurfaceDent {
         if !within(offset, outline.angle()) {
             return carrier;
         }
-        let depth = side * (self.bottom.polar_radius(offset) - carrier);
+        let depth = side * (self.bottom.ellipse.polar_radius(offset) - carrier);
         let clear = |depth: f64| to_tube(outline, carrier + side * depth, offset) > outline.rim;
         if clear(depth) { carrier + side * depth } else { carrier + side * bisect(0.0, depth, clear) }
     }
@@ -168,16 +172,6 @@ fn width(shape: &DentShape, ball_radius: f64) -> Result<f64, BearingError> {
         )));
     }
     Ok(width)
-}
-
-/// Refuses a dent longer than a quarter of the race, and a rim radius out of range.
-fn check_sizes(outline: &Outline) -> Result<(), BearingError> {
-    let length = 2.0 * outline.half_length;
-    let limit = FRAC_PI_2 * outline.circles.carrier;
-    if length > limit {
-        return Err(depression::too_long(length, length, limit));
-    }
-    depression::rim_rules(&outline.circles, outline.rim)
 }
 
 /// Angle from the middle within which the ball can press on rim or floor, rad: as [`rim::farthest_centre`] has it for
