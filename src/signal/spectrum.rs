@@ -63,8 +63,18 @@ pub fn amplitude_spectrum(
     }
     let points = fast_length((wanted as usize).max(LEAST_PADDING * samples));
     let bin_hz = 1.0 / (points as f64 * series.step_s());
+    let window = window_function.samples(samples);
+    let sum: f64 = window.iter().sum();
+    let mean = series.mean();
+    let tapered = series.values().iter().zip(&window).map(|(v, w)| (v - mean) * w);
+    let bins = Forward::new(points).transform(tapered)?;
+    let last = bins.len() - 1;
+    let amplitude = bins.iter().enumerate().map(|(m, bin)| {
+        let sides = if m == 0 || m == last { 1.0 } else { 2.0 };
+        sides * bin.norm() / sum
+    });
     Ok(AmplitudeSpectrum {
-        amplitude: amplitudes(series.values(), series.mean(), window_function, points)?,
+        amplitude: amplitude.collect(),
         frequency_hz: (0..=points / 2).map(|m| m as f64 * bin_hz).collect(),
         unit: series.unit().to_owned(),
         window: series.span(),
@@ -73,25 +83,6 @@ pub fn amplitude_spectrum(
         bin_hz,
         resolution_hz: window_function.main_lobe_bins() / series.duration_s(),
     })
-}
-
-/// One-sided amplitudes of values with their mean removed, windowed and padded to an even number of points.
-pub(super) fn amplitudes(
-    values: &[f64],
-    mean: f64,
-    window_function: WindowFunction,
-    points: usize,
-) -> Result<Vec<f64>, SignalError> {
-    let window = window_function.samples(values.len());
-    let sum: f64 = window.iter().sum();
-    let tapered = values.iter().zip(&window).map(|(v, w)| (v - mean) * w);
-    let bins = Forward::new(points).transform(tapered)?;
-    let last = bins.len() - 1;
-    let amplitude = bins.iter().enumerate().map(|(m, bin)| {
-        let sides = if m == 0 || m == last { 1.0 } else { 2.0 };
-        sides * bin.norm() / sum
-    });
-    Ok(amplitude.collect())
 }
 
 impl AmplitudeSpectrum {

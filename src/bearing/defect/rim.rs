@@ -85,19 +85,14 @@ impl Rim {
         }
     }
 
-    /// Whether the foot of a roller's `centre` on the profile near the joint lies on the floor's side of it.
-    #[inline]
-    pub(super) fn beyond_joint(&self, circles: &Circles, centre: Vector) -> bool {
-        circles.sign() * self.joint_point.minus(centre).dot(self.joint_tangent) > 0.0
-    }
-
     /// Contact of a roller whose angle is not beyond φ_c, if its foot lies on the arc.
     #[inline]
     pub(super) fn contact(&self, circles: &Circles, centre: Vector) -> Option<RimContact> {
-        if self.beyond_joint(circles, centre) {
+        let sign = circles.sign();
+        // the foot on the profile near the joint lies on the floor's side of it
+        if sign * self.joint_point.minus(centre).dot(self.joint_tangent) > 0.0 {
             return None;
         }
-        let sign = circles.sign();
         let gap = self.centre.minus(centre);
         let distance = gap.length();
         let inward = if distance > 0.0 {

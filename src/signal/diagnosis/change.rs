@@ -33,21 +33,6 @@ struct Side<'a> {
     revolutions: f64,
 }
 
-impl Side<'_> {
-    /// Spectra of the squared envelope of a band (Hz), and the band's mean square.
-    fn spectrum(&self, band_hz: [f64; 2], highest: f64) -> Result<(StretchSpectrum, f64), DiagnosisError> {
-        let envelope = self.raw.envelope(band_hz);
-        let means = self.grid.means(envelope.start_s, envelope.step_s, &envelope.squared);
-        // an envelope has nothing beyond the width of its band
-        let own = (band_hz[1] - band_hz[0]) / self.grid.fastest_hz;
-        let highest = highest.min(own);
-        let power = 0.5 * means.iter().sum::<f64>() / means.len() as f64;
-        let per_turn = self.grid.per_turn;
-        let spectrum = StretchSpectrum::new(&means, per_turn, highest, self.revolutions)?;
-        Ok((spectrum, power))
-    }
-}
-
 /// How the impacts of each part of a diagnosis, and of those that belong to none, changed since an earlier signal.
 ///
 /// # Errors
@@ -138,7 +123,12 @@ impl Compared {
         band_hz: [f64; 2],
         highest: f64,
     ) -> Result<Option<Found>, DiagnosisError> {
-        let (spectrum, power) = side.spectrum(band_hz, highest)?;
+        let envelope = side.raw.envelope(band_hz);
+        let means = side.grid.means(envelope.start_s, envelope.step_s, &envelope.squared);
+        // an envelope has nothing beyond the width of its band
+        let highest = highest.min((band_hz[1] - band_hz[0]) / side.grid.fastest_hz);
+        let power = 0.5 * means.iter().sum::<f64>() / means.len() as f64;
+        let spectrum = StretchSpectrum::new(&means, side.grid.per_turn, highest, side.revolutions)?;
         let (sought, speed_error) = (self.places[place], side.compared.diagnosis.speed_error);
         let (end, resolution) = (spectrum.end(), spectrum.resolution);
         let mut known = shaft_lines(end, speed_error);

@@ -100,8 +100,7 @@ impl Diagnosis {
         }
         say_strictly_periodic(&mut found.faults, &white, within_hz, orders, speed.factor * given_speed_hz, speed);
         let sharp = |time: f64| speed.factor * turns(time);
-        let none = || DiagnosisError::Refused("expected an envelope at least, found none".to_owned());
-        let best = spectra.lines.get(found.spectrum).ok_or_else(none)?;
+        let best = &spectra.lines[found.spectrum];
         let envelope = white.whitened.envelope(best.band_hz);
         Ok(Self {
             speed_hz: speed.factor * given_speed_hz,
