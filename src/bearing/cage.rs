@@ -71,7 +71,6 @@ impl Cage {
     }
 
     /// Speed of the shaft that drives it.
-    #[must_use]
     pub fn shaft(&self) -> &SpeedProfile {
         &self.shaft
     }
@@ -84,14 +83,12 @@ impl Cage {
     }
 
     /// Motion at `time` (s); the angle is that of ball 0 (not reduced to one turn).
-    #[must_use]
     #[inline]
     pub fn motion(&self, time: f64) -> RotationState {
         self.rotation.at(time)
     }
 
     /// Angle of `ball` (counted counter-clockwise from ball 0), rad, not reduced, from the cage angle.
-    #[must_use]
     #[inline]
     pub fn ball_angle(&self, cage_angle: f64, ball: u32) -> f64 {
         cage_angle + self.spacing * f64::from(ball)

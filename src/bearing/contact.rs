@@ -31,7 +31,6 @@ pub struct HertzContact {
 
 impl HertzContact {
     /// Force at penetration `delta` (m) growing at `rate` (m/s).
-    #[must_use]
     #[inline]
     pub fn force(&self, delta: f64, rate: f64) -> f64 {
         if delta <= 0.0 {

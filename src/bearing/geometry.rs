@@ -99,77 +99,65 @@ impl BearingGeometry {
     }
 
     /// The dimensions as given.
-    #[must_use]
     pub fn dimensions(&self) -> &BearingDimensions {
         &self.dimensions
     }
 
     /// Number of balls.
-    #[must_use]
     pub fn balls(&self) -> u32 {
         self.dimensions.balls
     }
 
     /// Ball radius ρ_b, m.
-    #[must_use]
     #[inline]
     pub fn ball_radius(&self) -> f64 {
         self.dimensions.ball_radius
     }
 
     /// Mass of one ball, kg.
-    #[must_use]
     #[inline]
     pub fn ball_mass(&self) -> f64 {
         self.dimensions.ball_mass
     }
 
     /// Radius R_0 of the undeformed outer raceway, m.
-    #[must_use]
     #[inline]
     pub fn outer_race_radius(&self) -> f64 {
         self.dimensions.outer_race_radius
     }
 
     /// Inner raceway radius `R_0 − 2 ρ_b − c` that belongs in δ_i, m; the nominal r unless play was given.
-    #[must_use]
     #[inline]
     pub fn effective_inner_race_radius(&self) -> f64 {
         self.dimensions.outer_race_radius - 2.0 * self.dimensions.ball_radius - self.radial_play
     }
 
     /// Pitch radius `(R_0 + r) / 2` from the nominal radii, m.
-    #[must_use]
     pub fn pitch_radius(&self) -> f64 {
         0.5 * (self.dimensions.outer_race_radius + self.dimensions.inner_race_radius)
     }
 
     /// Ball over pitch diameter, below one.
-    #[must_use]
     pub fn diameter_ratio(&self) -> f64 {
         self.dimensions.ball_radius / self.pitch_radius()
     }
 
     /// Radial play c, m: how far the shaft can move from the middle; negative is preload.
-    #[must_use]
     pub fn radial_play(&self) -> f64 {
         self.radial_play
     }
 
     /// Diametral clearance 2 c, m: what catalogues list.
-    #[must_use]
     pub fn diametral_clearance(&self) -> f64 {
         2.0 * self.radial_play
     }
 
     /// Inner groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
-    #[must_use]
     pub fn inner_conformity(&self) -> f64 {
         0.5 * self.dimensions.inner_groove_radius / self.dimensions.ball_radius
     }
 
     /// Outer groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
-    #[must_use]
     pub fn outer_conformity(&self) -> f64 {
         0.5 * self.dimensions.outer_groove_radius / self.dimensions.ball_radius
     }
@@ -178,7 +166,6 @@ impl BearingGeometry {
     ///
     /// `cos α = 1 − c / ((f_i + f_o − 1) D_b)` with c the radial play (T. A. Harris, *Rolling Bearing Analysis*, 4th
     /// edition, section 2.2). The model of this crate is loaded radially: its own contact angle is zero.
-    #[must_use]
     pub fn free_contact_angle(&self) -> Option<f64> {
         let between_centres =
             (self.inner_conformity() + self.outer_conformity() - 1.0) * 2.0 * self.dimensions.ball_radius;
@@ -187,26 +174,22 @@ impl BearingGeometry {
     }
 
     /// Defect orders for pure rolling, per shaft turn.
-    #[must_use]
     pub fn orders(&self) -> DefectOrders {
         self.orders
     }
 
     /// Curvatures of a ball, 1/m.
-    #[must_use]
     pub fn ball_curvatures(&self) -> PrincipalCurvatures {
         PrincipalCurvatures::sphere(self.dimensions.ball_radius)
     }
 
     /// Curvatures of the inner race, 1/m: concave groove, convex along the rolling direction.
-    #[must_use]
     pub fn inner_curvatures(&self) -> PrincipalCurvatures {
         let BearingDimensions { inner_groove_radius, inner_race_radius, .. } = self.dimensions;
         PrincipalCurvatures { plane_1: -1.0 / inner_groove_radius, plane_2: 1.0 / inner_race_radius }
     }
 
     /// Curvatures of the outer race, 1/m: concave both ways.
-    #[must_use]
     pub fn outer_curvatures(&self) -> PrincipalCurvatures {
         let BearingDimensions { outer_groove_radius, outer_race_radius, .. } = self.dimensions;
         PrincipalCurvatures { plane_1: -1.0 / outer_groove_radius, plane_2: -1.0 / outer_race_radius }

@@ -37,13 +37,11 @@ pub struct PrincipalCurvatures {
 
 impl PrincipalCurvatures {
     /// A sphere of the given radius (m): the same curvature in both planes.
-    #[must_use]
     pub fn sphere(radius: f64) -> Self {
         Self { plane_1: 1.0 / radius, plane_2: 1.0 / radius }
     }
 
     /// A flat surface: no curvature.
-    #[must_use]
     pub fn flat() -> Self {
         Self { plane_1: 0.0, plane_2: 0.0 }
     }
@@ -85,7 +83,6 @@ impl HertzStiffness {
     /// ```text
     /// a = a* (3 Q / (2 Σρ E*))^{1/3},   a* = (2 κ² E / π)^{1/3},   b = a / κ,   p_max = 3 Q / (2 π a b)
     /// ```
-    #[must_use]
     pub fn patch(&self, force: f64) -> ContactPatch {
         let scale = 1.5 * force / (self.curvature_sum * self.effective_modulus);
         let longer = self.half_axis * scale.cbrt();

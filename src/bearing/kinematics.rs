@@ -69,7 +69,6 @@ impl BallRow {
     }
 
     /// All defect orders.
-    #[must_use]
     pub fn orders(&self) -> DefectOrders {
         let gamma = self.projected_ratio;
         let cage = 0.5 * (1.0 - gamma);

@@ -66,7 +66,6 @@ impl RaceContacts {
     }
 
     /// The two stiffnesses alone.
-    #[must_use]
     pub fn stiffness(&self) -> ContactStiffness {
         ContactStiffness { inner: self.inner.stiffness, outer: self.outer.stiffness }
     }
@@ -94,21 +93,18 @@ impl ContactStiffness {
     }
 
     /// Ball on inner race, N/m^{3/2}.
-    #[must_use]
     #[inline]
     pub fn inner(&self) -> f64 {
         self.inner
     }
 
     /// Ball on outer race, N/m^{3/2}.
-    #[must_use]
     #[inline]
     pub fn outer(&self) -> f64 {
         self.outer
     }
 
     /// Ball on the given race, N/m^{3/2}.
-    #[must_use]
     pub fn at(&self, race: Race) -> f64 {
         match race {
             Race::Inner => self.inner,

@@ -82,7 +82,6 @@ impl SpeedProfile {
     }
 
     /// Angular speed at `time` (s), rad/s.
-    #[must_use]
     #[inline]
     pub fn speed(&self, time: f64) -> f64 {
         self.motion(time).speed
@@ -96,14 +95,12 @@ impl SpeedProfile {
     }
 
     /// Angle at `time` (s), rad, zero at time zero.
-    #[must_use]
     #[inline]
     pub fn angle(&self, time: f64) -> f64 {
         self.motion(time).angle
     }
 
     /// All three at `time` (s); O(log n).
-    #[must_use]
     #[inline]
     pub fn motion(&self, time: f64) -> RotationState {
         self.rotation.at(time)

@@ -89,7 +89,6 @@ pub struct LineMatch {
 
 impl LineMatch {
     /// Harmonic and name ("2 x outer race").
-    #[must_use]
     pub fn label(&self) -> String {
         format!("{} x {}", self.harmonic, self.nearest)
     }

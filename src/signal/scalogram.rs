@@ -59,7 +59,6 @@ impl Scalogram {
     }
 
     /// The instants from `from_s` to `to_s` alone, s.
-    #[must_use]
     pub fn within(mut self, from_s: f64, to_s: f64) -> Self {
         let first = self.time_s.partition_point(|t| *t < from_s);
         let end = self.time_s.partition_point(|t| *t <= to_s).max(first);

@@ -14,7 +14,6 @@ impl Source {
     pub const ALL: [Self; 2] = [Self::Gmn, Self::Timken];
 
     /// A word for tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Gmn => "GMN",
@@ -23,7 +22,6 @@ impl Source {
     }
 
     /// Title, number, year and page.
-    #[must_use]
     pub fn citation(self) -> &'static str {
         match self {
             Self::Gmn => "GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), pp. 52-55",
@@ -66,13 +64,11 @@ pub struct CatalogueBearing {
 
 impl CatalogueBearing {
     /// Diameter of the outer raceway at the groove's bottom without clearance: pitch and ball diameter.
-    #[must_use]
     pub fn outer_race_diameter(&self) -> f64 {
         self.pitch_diameter + self.ball_diameter
     }
 
     /// Diameter of the inner raceway at the groove's bottom without clearance.
-    #[must_use]
     pub fn inner_race_diameter(&self) -> f64 {
         self.pitch_diameter - self.ball_diameter
     }
@@ -92,7 +88,6 @@ const GROUP_N: [(f64, f64, f64, f64); 7] = [
 
 /// Smallest and largest diametral clearance (m) of a new bearing of group N that is not mounted, for a bore in m; `None` outside
 /// the table, 1.5 to 50 mm. Interference fits take part of it away, and so does a warm inner ring.
-#[must_use]
 pub fn normal_clearance(bore: f64) -> Option<[f64; 2]> {
     // bores of the table are whole millimetres: rounding must not put one into the next row
     let bore = 1e3 * bore - 1e-6;

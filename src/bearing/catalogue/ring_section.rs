@@ -17,7 +17,6 @@ pub struct OuterRingSection {
 
 impl OuterRingSection {
     /// A rectangle between two diameters.
-    #[must_use]
     pub fn rectangle(outer_diameter: f64, inner_diameter: f64, width: f64) -> Self {
         let height = 0.5 * (outer_diameter - inner_diameter);
         Self {
@@ -30,7 +29,6 @@ impl OuterRingSection {
 
     /// The section of a bearing's outer ring with a [typical groove](GROOVES): down to the shoulders where their diameter is
     /// published, else down to the groove's bottom alone, which leaves the shoulders out.
-    #[must_use]
     pub fn of(bearing: &CatalogueBearing) -> Self {
         let bottom = bearing.outer_race_diameter();
         let Some(shoulder) = bearing.shoulder_diameter else {

@@ -82,13 +82,11 @@ const BEARINGS: [CatalogueBearing; 34] = [
 
 impl CatalogueBearing {
     /// Every bearing, by series and bore.
-    #[must_use]
     pub fn all() -> &'static [Self] {
         &BEARINGS
     }
 
     /// The bearing of this designation; suffixes after a blank, a hyphen or a slash (`6205-2RS`, `6205/C3`) count for nothing.
-    #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         let wanted = name.trim().split([' ', '-', '/']).next()?;
         Self::all().iter().find(|bearing| bearing.name == wanted)
@@ -96,7 +94,6 @@ impl CatalogueBearing {
 
     /// The bearings whose outer diameter is nearest to a length in m, with the relative difference; those of equal difference in
     /// the order of the table. Empty for a length that is not above 0.
-    #[must_use]
     pub fn nearest(outer_diameter: f64) -> Vec<(&'static Self, f64)> {
         if !(outer_diameter.is_finite() && outer_diameter > 0.0) {
             return Vec::new();

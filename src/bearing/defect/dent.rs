@@ -119,14 +119,12 @@ impl Dent {
     }
 
     /// What was asked for.
-    #[must_use]
     pub fn shape(&self) -> &DentShape {
         &self.shape
     }
 
     /// Curvature of the floor at its middle, 1/m, convex positive: `±1/R − b/a²`, whichever reading the
     /// stiffness takes.
-    #[must_use]
     pub fn bottom_curvature(&self) -> f64 {
         -self.profile.circles.carrier_concavity() - self.profile.floor.loss(0.0)
     }

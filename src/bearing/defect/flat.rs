@@ -83,44 +83,37 @@ impl BallFlat {
     }
 
     /// What was asked for.
-    #[must_use]
     pub fn shape(&self) -> &FlatShape {
         &self.shape
     }
 
     /// Angle (rad) that the flat takes of the ball, seen from its centre, without rims.
-    #[must_use]
     pub fn included_angle(&self) -> f64 {
         self.included_angle
     }
 
     /// Half the arc that is not the ball's circle any more, rims included, rad.
-    #[must_use]
     pub fn half_angle(&self) -> f64 {
         self.inner.rim.angle
     }
 
     /// Half the range of spin angle within which `race` can feel the flat, rad; [`Self::half_angle`] or more.
-    #[must_use]
     pub fn contact_half_angle(&self, race: Race) -> f64 {
         self.on(race).contact_angle
     }
 
     /// How far, m, the ball moves towards `race` when the flat faces it: the depth, or less when its rims
     /// hold it.
-    #[must_use]
     pub fn ball_drop(&self, race: Race) -> f64 {
         self.on(race).ball_drop()
     }
 
     /// Distance (m) from the ball's centre to its contour at `angle` (rad, any turn) from the flat's middle.
-    #[must_use]
     pub fn contour_radius(&self, angle: f64) -> f64 {
         self.inner.polar_radius(reduced(angle))
     }
 
     /// Whether `race` can feel the flat at this spin angle; outside, the plain contact alone holds.
-    #[must_use]
     #[inline]
     pub fn contains(&self, race: Race, spin_angle: f64) -> bool {
         within(offset(race, spin_angle), self.on(race).contact_angle)
@@ -128,7 +121,6 @@ impl BallFlat {
 
     /// All contacts of the ball with `race`, gaps included, for a ball centre at `radius` (m) from that race's
     /// centre. No allocation; a few tenths of a microsecond over the flat.
-    #[must_use]
     #[inline]
     pub fn contacts(&self, race: Race, spin_angle: f64, radius: f64) -> DefectContacts {
         let mut found = DefectContacts::none();

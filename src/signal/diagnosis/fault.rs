@@ -34,7 +34,6 @@ impl Fault {
     pub const ALL: [Self; 4] = [Self::OuterRace, Self::InnerRace, Self::Ball, Self::Cage];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::OuterRace => "outer race",
@@ -102,7 +101,6 @@ impl FaultOrders {
     }
 
     /// Order of a fault, if it is known.
-    #[must_use]
     pub fn order(&self, fault: Fault) -> Option<f64> {
         self.orders[fault as usize]
     }

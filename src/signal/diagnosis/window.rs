@@ -180,7 +180,6 @@ impl Diagnosis {
     }
 
     /// The verdict in a line.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let of = |conclusion: Conclusion| {
             let of = self.faults.iter().filter(|verdict| verdict.conclusion == conclusion);

@@ -91,7 +91,6 @@ impl SurfaceDent {
     }
 
     /// What was asked for.
-    #[must_use]
     pub fn shape(&self) -> &DentShape {
         &self.shape
     }
