@@ -5,9 +5,9 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::curve::{Abscissa, Curve, CurveStyle};
-use super::layout::{AxisView, Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
+use super::layout::{AxisView, Layout};
 use super::palette::COLOURS;
-use super::plot::{Axis, Family, Level, Plot, is_positive};
+use super::plot::{Family, Level, Plot, is_positive};
 use super::svg_plot::colour;
 use super::{ReportError, decimate};
 
@@ -19,18 +19,8 @@ pub(crate) const SIGNAL_POINTS: usize = 500_000;
 
 #[derive(Debug, Serialize)]
 struct PlotData<'a> {
-    width: f64,
-    height: f64,
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-    ticks: [usize; 2],
-    rows: usize,
-    row: f64,
-    character: f64,
-    x: AxisData<'a>,
-    y: AxisData<'a>,
+    #[serde(flatten)]
+    layout: &'a Layout<'a>,
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -48,26 +38,9 @@ struct RasterData {
     y: [f64; 2],
 }
 
+/// How a curve is drawn, in the legend too.
 #[derive(Debug, Serialize)]
-struct AxisData<'a> {
-    log: bool,
-    low: f64,
-    high: f64,
-    unit: &'a str,
-    /// Of an axis over time or frequency: what one over a difference of shown values is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reciprocal: Option<Reciprocal>,
-}
-
-/// 1 / difference = factor / difference of shown values, in `unit`.
-#[derive(Debug, Serialize)]
-struct Reciprocal {
-    unit: &'static str,
-    factor: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct CurveData<'a> {
+pub(super) struct CurveLook<'a> {
     name: &'a str,
     colour: usize,
     style: &'static str,
@@ -75,6 +48,25 @@ struct CurveData<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     symbol: Option<String>,
     open: bool,
+}
+
+impl<'a> CurveLook<'a> {
+    /// Of the curve with this number in its plot, from 0.
+    pub(super) fn of(curve: &'a Curve, number: usize) -> Self {
+        Self {
+            name: &curve.name,
+            colour: colour(curve, number),
+            style: curve.style.class(),
+            symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
+            open: curve.symbol.is_open(),
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct CurveData<'a> {
+    #[serde(flatten)]
+    look: CurveLook<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     labels: Vec<&'a str>,
     #[serde(flatten)]
@@ -152,18 +144,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
     let levels = plot.levels.iter().filter(|level| level.at.is_finite());
     let markers = plot.markers.iter().filter(|m| m.at.is_finite());
     let data = PlotData {
-        width: WIDTH,
-        height: layout.height,
-        left: layout.left,
-        right: layout.right,
-        top: layout.top,
-        bottom: layout.bottom,
-        ticks: TICKS,
-        rows: layout.rows,
-        row: MARKER_ROW,
-        character: MARKER_CHARACTER,
-        x: axis_data(&plot.x, &layout.x),
-        y: axis_data(&plot.y, &layout.y),
+        layout,
         curves: curves.map(|(k, c)| curve_data(c, layout, k, share)).collect(),
         markers: markers
             .map(|marker| MarkerData {
@@ -212,21 +193,6 @@ fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
         .collect()
 }
 
-fn axis_data<'a>(axis: &Axis, view: &'a AxisView) -> AxisData<'a> {
-    let unit = match axis.unit.as_str() {
-        "s" => Some("Hz"),
-        "Hz" => Some("s"),
-        _ => None,
-    };
-    AxisData {
-        log: view.log,
-        low: view.low,
-        high: view.high,
-        unit: &view.unit,
-        reciprocal: unit.map(|unit| Reciprocal { unit, factor: 1.0 / view.factor }),
-    }
-}
-
 fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
     let most = share / bytes_a_point(curve);
     let mut labels = Vec::new();
@@ -247,12 +213,8 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
     };
     let shown = y.iter().map(|v| (v / layout.y.factor) as f32);
     CurveData {
-        name: &curve.name,
-        colour: colour(curve, number),
-        symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
-        open: curve.symbol.is_open(),
+        look: CurveLook::of(curve, number),
         labels: labels.into_iter().map(String::as_str).collect(),
-        style: curve.style.class(),
         x,
         y: base64(shown.flat_map(f32::to_le_bytes)),
     }

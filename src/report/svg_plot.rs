@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::curve::{Curve, CurveStyle};
 use super::decimate;
-use super::layout::{Layout, MARKER_ROW, PlacedMarker, TICKS, WIDTH};
+use super::layout::{Layout, PlacedMarker, WIDTH};
 use super::palette::COLOURS;
 use super::plot::Plot;
 use super::svg::{self, Path, escape};
@@ -65,7 +65,7 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
         format!("class=\"{class}\"{faint}")
     };
     let (left, right, top, bottom) = (layout.left, layout.right, layout.top, layout.bottom);
-    for tick in layout.x.ticks(TICKS[0]) {
+    for tick in layout.x.ticks(layout.ticks[0]) {
         let x = layout.x_px(tick.at);
         svg::line(out, &look(&tick), [x, top, x, bottom]);
         if let Some(label) = tick.label {
@@ -73,7 +73,7 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
             svg::text(out, look, [x, bottom + 16.0], &label);
         }
     }
-    for tick in layout.y.ticks(TICKS[1]) {
+    for tick in layout.y.ticks(layout.ticks[1]) {
         let y = layout.y_px(tick.at);
         svg::line(out, &look(&tick), [left, y, right, y]);
         if let Some(label) = tick.label {
@@ -85,7 +85,7 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
 
 /// Lines first, labels after: a label covers the lines behind it.
 fn markers(out: &mut String, layout: &Layout) {
-    let top = |placed: &PlacedMarker| layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64;
+    let top = |placed: &PlacedMarker| layout.top - layout.row * placed.label.map_or(0, |(row, _)| row) as f64;
     let begin = |out: &mut String, placed: &PlacedMarker| {
         let family = placed.marker.family % COLOURS;
         let _ = write!(out, "<g class=\"marker m{family}\">");
