@@ -3,9 +3,9 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::content::{Block, Report, TableFiles};
+use super::content::TableFiles;
 use super::number::{pretty_unit, with_unit};
-use super::table::{Align, Cell, CellLook, Column, Table, Verdict};
+use super::{Align, Block, Cell, CellLook, Column, Report, Table, Verdict};
 
 /// Longest file name without its ending.
 const LONGEST_NAME: usize = 60;

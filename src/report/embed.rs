@@ -4,12 +4,11 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use super::curve::{Abscissa, Curve, CurveStyle};
 use super::layout::{AxisView, Layout};
 use super::palette::COLOURS;
-use super::plot::{Family, Level, Plot, is_positive};
+use super::plot::is_positive;
 use super::svg_plot::colour;
-use super::{ReportError, decimate};
+use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, decimate};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 const BUDGET: usize = 2_800_000;
@@ -227,7 +226,7 @@ fn base64(bytes: impl Iterator<Item = u8>) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::plot::Marker;
-    use super::super::{Report, Section};
+    use super::super::{Axis, Report, Section};
     use super::*;
 
     fn plot(points: usize) -> Plot {

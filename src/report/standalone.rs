@@ -2,16 +2,11 @@
 
 use std::fmt::Write;
 
-use super::content::{Block, Report};
 use super::csv::plain_name;
-use super::curve::{Curve, CurveStyle};
 use super::layout::{Layout, WIDTH};
 use super::palette::SERIES;
-use super::plot::Plot;
-use super::spans::{self, Spans};
-use super::step_map::{self, StepMap};
 use super::svg::{self, escape};
-use super::{ReportError, svg_plot};
+use super::{Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg_plot};
 
 /// Height of the title's line and of the legend's, pixels.
 const HEAD: [f64; 2] = [30.0, 22.0];

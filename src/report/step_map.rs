@@ -3,10 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
 use super::number::{significant, with_unit};
-use super::svg;
-use super::ticks;
+use super::{ReportError, svg, ticks};
 
 const WIDTH: f64 = 920.0;
 /// Where the first panel begins: the names of the rows stand left of it.

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::ReportError;
-use super::drawing::{Circle, Dent, Drawing, Point, Sensor, Spring};
 use super::svg::{self, Path, ScaleBar};
+use super::{Circle, Dent, Drawing, Point, ReportError, Sensor, Spring};
 
 const WIDTH: f64 = 920.0;
 /// Largest width and height of the model on the page, pixels.

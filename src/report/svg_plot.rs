@@ -2,14 +2,11 @@
 
 use std::fmt::Write;
 
-use super::curve::{Curve, CurveStyle};
-use super::decimate;
 use super::layout::{Layout, PlacedMarker, WIDTH};
 use super::palette::COLOURS;
-use super::plot::Plot;
 use super::svg::{self, Path, escape};
 use super::ticks::Tick;
-use super::{ReportError, raster};
+use super::{Curve, CurveStyle, Plot, ReportError, decimate, raster};
 
 /// Most points of a curve in the picture: two a pixel column.
 const MOST_POINTS: usize = 2 * WIDTH as usize;
@@ -51,8 +48,7 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
     if let Some(raster) = &plot.raster {
         raster::bar(&mut out, raster, plot, layout, id)?;
     }
-    let below = [left + 0.5 * width, layout.height - 8.0];
-    svg::title_across(&mut out, below, &layout.x.title);
+    svg::title_across(&mut out, [left + 0.5 * width, layout.height - 8.0], &layout.x.title);
     svg::title_upward(&mut out, [16.0, top + 0.5 * height], &layout.y.title);
     Ok(out + "</svg>")
 }
@@ -69,16 +65,14 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
         let x = layout.x_px(tick.at);
         svg::line(out, &look(&tick), [x, top, x, bottom]);
         if let Some(label) = tick.label {
-            let look = "class=\"tick\" text-anchor=\"middle\"";
-            svg::text(out, look, [x, bottom + 16.0], &label);
+            svg::text(out, "class=\"tick\" text-anchor=\"middle\"", [x, bottom + 16.0], &label);
         }
     }
     for tick in layout.y.ticks(layout.ticks[1]) {
         let y = layout.y_px(tick.at);
         svg::line(out, &look(&tick), [left, y, right, y]);
         if let Some(label) = tick.label {
-            let look = "class=\"tick\" text-anchor=\"end\"";
-            svg::text(out, look, [left - 7.0, y + 4.0], &label);
+            svg::text(out, "class=\"tick\" text-anchor=\"end\"", [left - 7.0, y + 4.0], &label);
         }
     }
 }

@@ -83,7 +83,7 @@ pub enum CellLook {
 
 /// A table. Every row has one cell a column.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Table {
     /// What the table shows.
     pub caption: String,
@@ -159,13 +159,7 @@ impl Cell {
 impl Table {
     /// A table without rows.
     pub fn new(caption: impl Into<String>, columns: impl IntoIterator<Item = Column>) -> Self {
-        Self {
-            caption: caption.into(),
-            columns: columns.into_iter().collect(),
-            rows: Vec::new(),
-            footnotes: Vec::new(),
-            modes: Vec::new(),
-        }
+        Self { caption: caption.into(), columns: columns.into_iter().collect(), ..Self::default() }
     }
 
     /// The table with each row tied to the mode that it speaks of, in the order of the report's shapes.
@@ -201,10 +195,7 @@ impl Table {
         let texts = |row: &Vec<Cell>| row.iter().map(|cell| cell.text.clone()).collect();
         lines.extend(self.rows.iter().map(texts));
         let widths: Vec<usize> = (0..self.columns.len())
-            .map(|place| {
-                let width = |line: &Vec<String>| line.get(place).map_or(0, |text| text.chars().count());
-                lines.iter().map(width).max().unwrap_or(0)
-            })
+            .map(|place| lines.iter().filter_map(|line| Some(line.get(place)?.chars().count())).max().unwrap_or(0))
             .collect();
         let mut text = self.caption.clone();
         for line in &lines {

@@ -1,17 +1,10 @@
 //! Eigenpairs in a band by shift-invert Lanczos (ARPACK) from its middle.
 
-use super::arpack::{Request, shift_invert};
+use super::arpack::shift_invert;
 use super::factor::Factor;
 use super::lowest::Ritz;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError};
-
-/// Restarts after which the iteration gives up; modal problems need two to ten.
-const MAX_RESTARTS: usize = 300;
-
-/// Relative tolerance of the Ritz values. Eigenvalues converge with its square, and the residuals are verified
-/// afterwards; tolerance zero costs 2.7 times the solves for nothing.
-const TOLERANCE: f64 = 1e-10;
 
 /// Searches in a row that may find nothing new in the band.
 const IDLE: usize = 2;
@@ -40,16 +33,9 @@ pub(super) fn between(
     let (mut known, mut idle) = (0, 0);
     while known < count && idle < IDLE {
         let missing = count - known;
-        let request = Request {
-            order,
-            count: missing,
-            basis: largest_basis(missing).min(order),
-            shift: *sigma,
-            tolerance: TOLERANCE,
-            max_restarts: MAX_RESTARTS,
-        };
-        let pairs = shift_invert(
-            request,
+        let (values, vectors) = shift_invert(
+            [order, missing, largest_basis(missing).min(order)],
+            *sigma,
             |b, y| {
                 let mut column = DenseMatrix::from_fn(order, 1, |row, _| b[row]);
                 factor.solve(column.as_mut());
@@ -59,9 +45,9 @@ pub(super) fn between(
             },
             |x, y| product(mass, x, y),
         )?;
-        let vectors = pairs.vectors.chunks_exact(order).map(<[f64]>::to_vec);
+        let vectors = vectors.chunks_exact(order).map(<[f64]>::to_vec);
         // those outside are taken out as well: from a place beside the middle they are nearer than the far end
-        found.extend(pairs.values.into_iter().zip(vectors));
+        found.extend(values.into_iter().zip(vectors));
         let before = std::mem::replace(&mut known, found.iter().filter(|pair| inside(pair)).count());
         idle = if known > before { 0 } else { idle + 1 };
     }

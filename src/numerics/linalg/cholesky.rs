@@ -3,7 +3,7 @@
 use super::factor::{Factor, FactorMemory, LARGEST_CONTRACTION};
 use super::numeric::Kind;
 use super::ordering::Ordering;
-use super::symbolic::Symbolic;
+use super::symbolic::analysed;
 use super::symmetric::SymmetricMatrix;
 use super::{DenseMatrix, LinalgError, SparseMatrix};
 use std::sync::Arc;
@@ -31,7 +31,7 @@ impl SparseCholesky {
         }
         let ordering = Ordering::of(a)?;
         let permuted = SymmetricMatrix::permuted(a, &ordering);
-        let symbolic = Arc::new(Symbolic::new(&permuted)?);
+        let symbolic = Arc::new(analysed(&permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();
         let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);

@@ -18,24 +18,14 @@ pub use matrices::HarmonicDamping;
 use super::factor::{Factor, FactorMemory};
 use super::numeric::Kind;
 use super::ordering::Ordering;
-use super::symbolic::Symbolic;
+use super::symbolic::{Symbolic, analysed};
 use super::{ComplexMatrix, DenseMatrix, LinalgError, SparseMatrix};
 use faer::c64;
-use krylov::Limits;
 use matrices::HarmonicMatrices;
 use std::f64::consts::TAU;
 use std::mem::take;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
-
-/// Relative residual that is aimed at.
-const TOLERANCE: f64 = 1e-12;
-
-/// Directions kept before a restart.
-const DIRECTIONS: usize = 40;
-
-/// Restarts.
-const RESTARTS: usize = 6;
 
 /// Residual that is round-off, in units of eps times what is summed in `Z x`.
 const ROUNDING: f64 = 8.0;
@@ -96,7 +86,7 @@ impl HarmonicProblem {
     ///
     /// # Errors
     /// [`HarmonicError::Coefficient`]; [`LinalgError::Shape`] for matrices that do not fit;
-    /// [`LinalgError::NothingThere`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
+    /// [`LinalgError::Refused`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
     pub fn new(k: &SparseMatrix, m: &SparseMatrix, damping: &HarmonicDamping<'_>) -> Result<Self, HarmonicError> {
         let all: Vec<usize> = (0..k.rows()).collect();
         Self::restricted(k, m, damping, &all)
@@ -114,7 +104,7 @@ impl HarmonicProblem {
     ) -> Result<Self, HarmonicError> {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
-        let symbolic = Arc::new(Symbolic::new(&matrices.real(1.0))?);
+        let symbolic = Arc::new(analysed(&matrices.real(1.0))?);
         Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })
     }
 
@@ -138,8 +128,7 @@ impl HarmonicProblem {
         let factor = self.factor(omega)?;
         let mut times = HarmonicTimes { factor: started.elapsed().as_secs_f64(), ..HarmonicTimes::default() };
         let started = Instant::now();
-        let limits = Limits { tolerance: TOLERANCE, directions: DIRECTIONS, restarts: RESTARTS };
-        let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()), limits);
+        let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
         times.iterate = started.elapsed().as_secs_f64();
         for (load, &residual) in found.residuals.iter().enumerate() {
             self.judge(omega, load, residual, &f, &found)?;
@@ -205,7 +194,7 @@ impl HarmonicProblem {
         f: &DenseMatrix,
         found: &krylov::Iterated,
     ) -> Result<(), HarmonicError> {
-        if residual <= TOLERANCE {
+        if residual <= krylov::TOLERANCE {
             return Ok(());
         }
         let columns = [2 * load, 2 * load + 1];

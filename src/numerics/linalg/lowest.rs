@@ -139,15 +139,15 @@ impl<'p> Search<'p> {
     /// # Errors
     /// [`LinalgError::DenseEigen`].
     pub(super) fn explore(&mut self, factor: &Factor) -> Result<(), LinalgError> {
-        if self.basis.size() + 2 * BLOCK > self.krylov {
+        if self.basis.size + 2 * BLOCK > self.krylov {
             self.restart(self.pursued)?;
         }
-        let before = self.basis.size();
+        let before = self.basis.size;
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
         self.mass.times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
         let mut width = BLOCK;
-        while self.basis.size() < self.krylov {
+        while self.basis.size < self.krylov {
             let [block, product, _] = &mut self.blocks;
             let mut block = first(block, width);
             factor.solve(block.rb_mut());
@@ -173,7 +173,7 @@ impl<'p> Search<'p> {
     /// Completes `V^T K V` from a vector on: many at once, so that the basis is read once for all of them. Overwrites the
     /// last block.
     fn project(&mut self, from: usize) {
-        let size = self.basis.size();
+        let size = self.basis.size;
         for begin in (from..size).step_by(CORRECTED) {
             let width = CORRECTED.min(size - begin);
             let (vectors, mut stiff) = (self.basis.vectors(), first(&mut self.blocks[2], width));
@@ -196,7 +196,7 @@ impl<'p> Search<'p> {
 
     /// Eigenvalues and combinations of the space, ascending.
     fn ritz(&self) -> Result<SymmetricSpectrum, LinalgError> {
-        let size = self.basis.size();
+        let size = self.basis.size;
         symmetric_eigen(&self.projected.as_ref().submatrix(0, 0, size, size).to_owned())
     }
 
@@ -212,7 +212,7 @@ impl<'p> Search<'p> {
     /// Keeps the space of the lowest Ritz vectors.
     fn restart(&mut self, kept: usize) -> Result<(), LinalgError> {
         let spectrum = self.ritz()?;
-        let kept = kept.min(self.basis.size());
+        let kept = kept.min(self.basis.size);
         self.basis.rotate(spectrum.vectors.subcols(0, kept));
         self.projected.fill(0.0);
         for place in 0..kept {
@@ -249,7 +249,7 @@ impl<'p> Search<'p> {
     /// Adds a correction of every pair that has not converged, or returns all of them if there is none.
     fn correct(&mut self, factor: &Factor) -> Result<Option<Ritz>, LinalgError> {
         let spectrum = self.ritz()?;
-        let pursued = self.pursued.min(self.basis.size());
+        let pursued = self.pursued.min(self.basis.size);
         let changed = (0..pursued).find(|&place| {
             let value = spectrum.values[place];
             // a rigid motion's value is all round-off, and changes with every step
@@ -286,10 +286,10 @@ impl<'p> Search<'p> {
         }
         self.keep(&open);
         if open.len() > self.basis.room() {
-            self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
+            self.restart((3 * self.pursued / 2).min(self.basis.size))?;
         }
 
-        let before = self.basis.size();
+        let before = self.basis.size;
         self.extend(open.len())?;
         self.project(before);
 

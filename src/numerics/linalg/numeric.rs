@@ -73,7 +73,7 @@ impl<T: Precision> NumericFactor<T> {
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(order, order, &a.offsets, None, &a.rows);
         let lower = SparseColMatRef::new(pattern, &scaled);
-        let (supernodes, parallelism) = (&symbolic.supernodes, Par::Seq);
+        let (supernodes, parallelism) = (symbolic, Par::Seq);
         let mut values = memory;
         values.truncate(supernodes.len_val());
         values.try_reserve_exact(supernodes.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
@@ -186,7 +186,7 @@ impl<T: Precision> NumericFactor<T> {
         }
         let pivoting =
             self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, places: &pivots.new });
-        let triangles = Triangles { supernodes: &symbolic.supernodes, values: &self.values, pivoting };
+        let triangles = Triangles { supernodes: symbolic, values: &self.values, pivoting };
         substitute(&triangles, &mut x);
         for (block, x) in x.chunks_exact(order).enumerate() {
             let width = L.min(b.ncols() - L * block);
@@ -206,10 +206,9 @@ impl<T: Precision> NumericFactor<T> {
         let Some(pivots) = &self.pivots else {
             return 0;
         };
-        let supernodes = &symbolic.supernodes;
-        let factor = SupernodalLltRef::new(supernodes, &self.values);
+        let factor = SupernodalLltRef::new(symbolic, &self.values);
         let mut negative = 0;
-        for index in 0..supernodes.n_supernodes() {
+        for index in 0..symbolic.n_supernodes() {
             let supernode = factor.supernode(index);
             let (block, start) = (supernode.val(), supernode.start());
             let mut column = 0;

@@ -1,8 +1,6 @@
 //! What can go wrong in a time integration.
 
-use super::method::{Method, Resonance, StepLimit};
-use super::stepper::Statistics;
-use crate::numerics::ode::{Divergence, SnapshotError};
+use super::{Divergence, Method, Resonance, SnapshotError, Statistics, StepLimit};
 use std::fmt;
 use thiserror::Error;
 
@@ -73,12 +71,6 @@ impl BlowUp {
     /// no limit there.
     pub(crate) fn beyond_the_limit(&self) -> Option<bool> {
         self.limit.map(|limit| self.step_s > limit.step_s)
-    }
-}
-
-impl From<BlowUp> for TransientError {
-    fn from(blow_up: BlowUp) -> Self {
-        Self::BlewUp(Box::new(blow_up))
     }
 }
 

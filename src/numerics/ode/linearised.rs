@@ -13,10 +13,13 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Linearised {
     linear: Vec<LinearCoordinate>,
-    tangent: Tangent,
+    /// What the force is by the tangent.
+    pub(super) tangent: Tangent,
     /// Where the rows of each term are not zero: left, position, velocity.
     filled: Vec<[Range<usize>; 3]>,
-    masses: Vec<f64>,
+    /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
+    /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
+    pub(super) masses: Vec<f64>,
     /// What each coordinate meets of the force as a spring of its own.
     springs: Vec<f64>,
 }
@@ -26,7 +29,7 @@ impl Linearised {
     pub fn new<S: SecondOrderSystem>(system: &mut S, state: &State) -> Self {
         let mut tangent = Tangent::new(state.y.len());
         system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
-        let filled = (0..tangent.terms()).map(|term| {
+        let filled = (0..tangent.terms).map(|term| {
             let rows = [tangent.left(term), tangent.position(term), tangent.velocity(term)];
             rows.map(filled)
         });
@@ -34,17 +37,6 @@ impl Linearised {
         let [mut springs, mut sizes] = [0, 1].map(|_| vec![0.0; linear.len()]);
         system.own_springs_into(&mut springs, &mut sizes);
         Self { springs, filled: filled.collect(), masses: masses(&linear, &tangent), linear, tangent }
-    }
-
-    /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
-    /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
-    pub(crate) fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    /// What the force is by the tangent.
-    pub(crate) fn tangent(&self) -> &Tangent {
-        &self.tangent
     }
 }
 
@@ -77,7 +69,7 @@ impl SecondOrderSystem for Linearised {
 
 fn masses(linear: &[LinearCoordinate], tangent: &Tangent) -> Vec<f64> {
     let mut masses = vec![1.0; linear.len()];
-    for term in 0..tangent.terms() {
+    for term in 0..tangent.terms {
         let (left, position) = (tangent.left(term), tangent.position(term));
         let modes = (0..linear.len()).filter(|&i| linear[i].squared_frequency > 0.0);
         // the mode that the force moves most

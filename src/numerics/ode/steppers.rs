@@ -2,13 +2,11 @@
 
 use super::adams::Adams;
 use super::dop853::Dop853;
-use super::error::{TransientError, require};
-use super::implicit::Implicit;
-use super::method::{LEAST_TOLERANCE, Method};
+use super::error::require;
+use super::implicit::{Family, Implicit};
 use super::one_evaluation::{Counted, Exponential, NewmarkExplicit, Splitting};
-use super::schedule::Schedule;
 use super::stepper::Stepper;
-use crate::numerics::ode::SecondOrderSystem;
+use super::{LEAST_TOLERANCE, Method, Schedule, SecondOrderSystem, TransientError};
 use std::f64::consts::TAU;
 
 /// The method ready to go from `start` (s) with the schedule's steps.
@@ -26,10 +24,10 @@ pub(super) fn stepper<S: SecondOrderSystem>(
             Box::new(Adams::new(system, h, tolerance))
         }
         Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
-        Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
+        Method::Newmark => Box::new(Implicit::new(system, h, Family::AVERAGE_ACCELERATION)),
         Method::GeneralizedAlpha { spectral_radius } => {
             require((0.0..=1.0).contains(&spectral_radius), "spectral radius", spectral_radius, "from 0 to 1")?;
-            Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
+            Box::new(Implicit::new(system, h, Family::generalized_alpha(spectral_radius)))
         }
         Method::Dop853 { tolerance, events } => {
             check_tolerance(tolerance)?;
@@ -49,8 +47,7 @@ fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
     let highest = system.linear().iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max).sqrt();
     if h * highest < 2.0 {
-        Ok(())
-    } else {
-        Err(TransientError::Unstable { step_s: h, limit_s: 2.0 / highest, highest_hz: highest / TAU })
+        return Ok(());
     }
+    Err(TransientError::Unstable { step_s: h, limit_s: 2.0 / highest, highest_hz: highest / TAU })
 }

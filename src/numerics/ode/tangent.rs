@@ -7,8 +7,10 @@
 /// A sum of products of rank one; all rows have one entry a coordinate.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tangent {
-    dof: usize,
-    terms: usize,
+    /// Number of coordinates.
+    pub(crate) dof: usize,
+    /// Number of terms.
+    pub(crate) terms: usize,
     /// [terms x 3 x dof]: left, position, velocity.
     values: Vec<f64>,
 }
@@ -34,18 +36,6 @@ impl Tangent {
     /// Takes all terms out; the memory stays.
     pub(crate) fn clear(&mut self) {
         self.terms = 0;
-    }
-
-    /// Number of terms.
-    #[must_use]
-    pub(crate) fn terms(&self) -> usize {
-        self.terms
-    }
-
-    /// Number of coordinates.
-    #[must_use]
-    pub(crate) fn dof(&self) -> usize {
-        self.dof
     }
 
     /// Adds a term of zeros, to be filled.
@@ -111,7 +101,7 @@ mod tests {
             tangent.apply(&[7.0, 0.5], &[9.0, 9.0], &mut dg);
             assert!((dg[0] - 1.0 - factor).abs() < 1e-15 && (dg[1] - 1.0).abs() < 1e-15);
             tangent.add().velocity[0] = 4.0;
-            assert_eq!(tangent.terms(), 2);
+            assert_eq!(tangent.terms, 2);
         }
         tangent.clear();
         tangent.add();

@@ -40,7 +40,7 @@ const STENCIL: usize = SECOND_DIFFERENCE.len() - 1;
 /// Before the start the signal is zero ([`new`](Self::new)), or the displacement has its first value
 /// (`second_derivative`). Output k is complete, and handed out, when input
 /// (k + 14) M - 1 has been pushed: to get the output at the last instant of a run, go on for
-/// `half_length_outputs` output intervals.
+/// [`HALF_LENGTH_OUTPUTS`] output intervals.
 ///
 /// Cost: 28 multiply-adds an input, no allocation. Clones share the taps: clone a fresh one for each channel.
 ///
@@ -125,12 +125,6 @@ impl Decimator {
         let first = HALF_LENGTH_OUTPUTS as isize - 1;
         let taps = (0..ratio).map(|phase| std::array::from_fn(|i| tap(phase + (first - i as isize) * ratio))).collect();
         Self { taps, before_start, phase: 0, accumulators: [0.0; ACCUMULATORS], intervals: 0 }
-    }
-
-    /// Output intervals past the last wanted output that must be pushed before it is complete: with outputs wanted
-    /// up to K, push inputs 0 .. (K + this) M - 1.
-    pub(crate) fn half_length_outputs(&self) -> usize {
-        HALF_LENGTH_OUTPUTS
     }
 
     /// Takes the next input (at n dt, n counted from 0). Returns output k = 0, 1, 2, ... (at k M dt) on the push that
@@ -318,7 +312,7 @@ mod tests {
     fn outputs_come_when_promised() {
         let (ratio, wanted) = (7, 9);
         let mut decimator = Decimator::new(ratio).expect("ratio");
-        let needed = (wanted + decimator.half_length_outputs()) * ratio;
+        let needed = (wanted + HALF_LENGTH_OUTPUTS) * ratio;
         let got = (0..needed - 1).filter_map(|_| decimator.push(1.0)).count();
         assert_eq!(got, wanted);
         assert!(decimator.push(1.0).is_some());

@@ -78,7 +78,7 @@ pub struct ShapeMode {
 /// };
 /// assert!(view.check().is_ok());
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ModeShapeView {
     /// What is shown; the caption starts with it.
     pub title: String,
@@ -123,20 +123,7 @@ impl ShapeMode {
 impl ModeShapeView {
     /// A view with nothing in it yet, z up, displacements of 6 % of the size.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            caption: None,
-            points: Vec::new(),
-            groups: Vec::new(),
-            triangles: Vec::new(),
-            edges: Vec::new(),
-            outline: Vec::new(),
-            lines: Vec::new(),
-            modes: Vec::new(),
-            amplitude: 0.06,
-            up: UpAxis::default(),
-            figures: ShapeFigures::default(),
-        }
+        Self { title: title.into(), amplitude: 0.06, ..Self::default() }
     }
 
     /// Checks that there is a surface, that every index points at something, and that all numbers are finite.

@@ -5,7 +5,6 @@
 //! hides the lowest ones: of 1029 degrees of freedom it found 100 pairs at once, and 150 never.
 
 use super::super::basis::times;
-use super::super::bound::Quality;
 use super::super::{DenseMatrix, LinalgError, band};
 use super::cuts::{Cut, Side, check_of};
 use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
@@ -165,10 +164,9 @@ impl EigenProblem {
         };
         let started = Instant::now();
         let (sigma, factor) = middle;
-        let quality = Quality::of(&self.stiffness, &self.mass, &factor, sigma, &ritz, count);
+        let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, sigma, &ritz, count);
         times.iterate += started.elapsed().as_secs_f64();
-        let check = check_of(low, high);
-        self.finished(ritz, quality, count, check, sigma, times)
+        self.finished(pairs, check_of(low, high), times)
     }
 
     /// Where the next slice ends.

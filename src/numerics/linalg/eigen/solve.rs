@@ -1,6 +1,5 @@
 //! The pairs that are asked for, by the way that suits their number: dense, by one search, in slices.
 
-use super::super::bound::Quality;
 use super::super::factor::Factor;
 use super::super::lowest::{Ritz, largest_basis};
 use super::super::numeric::Kind;
@@ -37,7 +36,7 @@ impl EigenProblem {
     /// The `count` lowest eigenpairs.
     ///
     /// # Errors
-    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::ModesTooLarge`] if there is no memory for
+    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::Refused`] if there is no memory for
     /// them; [`LinalgError::Iteration`] if pairs that exist were not found, or for a pair that
     /// does not satisfy its equation; what factorisation and iteration report.
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
@@ -161,9 +160,9 @@ impl EigenProblem {
         let ritz = Ritz { values, vectors };
         let shifted = self.stiffness.shifted(shift, &self.mass);
         let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
-        let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+        let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
         times.iterate = started.elapsed().as_secs_f64();
-        self.finished(ritz, quality, count, check, shift, times)
+        self.finished(pairs, check, times)
     }
 }
 
