@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::{display_unit, significant, with_unit};
 use super::palette::COLOURS;
-use super::{Axis, ReportError, svg, ticks};
+use super::{Axis, ReportError, display_unit, significant, svg, ticks, with_unit};
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 280.0;
@@ -121,8 +120,8 @@ pub(super) fn draw(bars: &Bars) -> Result<String, ReportError> {
         svg::text(&mut out, svg::MIDDLE, [middle(k), bottom + 17.0], label);
     }
     svg::path(&mut out, "class=\"frame\"", &format!("M{LEFT} {TOP}V{bottom}H{right}"), "");
-    svg::title_across(&mut out, [0.5 * (LEFT + right), HEIGHT - 8.0], &bars.across);
-    svg::title_upward(&mut out, [16.0, 0.5 * (TOP + bottom)], &with_unit(&bars.axis.label, &unit.text));
+    svg::text(&mut out, svg::TITLE, [0.5 * (LEFT + right), HEIGHT - 8.0], &bars.across);
+    svg::upward(&mut out, svg::TITLE, [16.0, 0.5 * (TOP + bottom)], &with_unit(&bars.axis.label, &unit.text));
     Ok(out + "</svg>")
 }
 

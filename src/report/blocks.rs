@@ -3,12 +3,14 @@
 use minijinja::context;
 use minijinja::value::{Serde, Value};
 
-use super::content::{Block, Section, TableFiles};
 use super::embed::{self, CurveLook};
 use super::layout::Layout;
 use super::palette::COLOURS;
-use super::shapes::{self, ModeShapeView, Packed, ShapeFigures, Surface};
-use super::{Plot, ReportError, Table, bars, csv, matrix, spans, step_map, svg_drawing, svg_plot};
+use super::shapes::{self, Packed, Surface};
+use super::{
+    Block, ModeShapeView, Plot, ReportError, Section, ShapeFigures, Table, TableFiles, bars, csv, matrix, spans,
+    step_map, svg_drawing, svg_plot,
+};
 
 /// Bytes that the shapes of a report may take for its script, beside still pictures (2 MB at most for a view), plots and
 /// the library: the file stays below 15 MB.

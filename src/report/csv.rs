@@ -3,9 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::content::TableFiles;
-use super::number::{pretty_unit, with_unit};
-use super::{Align, Block, Cell, CellLook, Column, Report, Table, Verdict};
+use super::{Align, Block, Cell, CellLook, Column, Report, Table, TableFiles, Verdict, pretty_unit, with_unit};
 
 /// Longest file name without its ending.
 const LONGEST_NAME: usize = 60;

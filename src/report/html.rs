@@ -7,8 +7,7 @@ use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior, context};
 
 use super::blocks::{self, Numbers};
-use super::number::{pretty_unit, raised_powers};
-use super::{Report, ReportError, shapes};
+use super::{Report, ReportError, pretty_unit, raised_powers, shapes};
 
 const TEMPLATE: &str = include_str!("templates/report.html");
 const BLOCKS: &str = include_str!("templates/blocks.html");

@@ -104,7 +104,7 @@ pub(super) fn bar(
         }
     }
     let at = [layout.right + BAR_ROOM + 8.0, top + 0.5 * height];
-    svg::title_upward(out, at, &view.title);
+    svg::upward(out, svg::TITLE, at, &view.title);
     Ok(())
 }
 

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::significant;
-use super::{ReportError, svg, ticks};
+use super::{ReportError, significant, svg, ticks};
 
 const WIDTH: f64 = 920.0;
 /// Where the axis begins: the names of the rows stand left of it.
@@ -101,7 +100,7 @@ pub(super) fn draw(spans: &Spans) -> Result<String, ReportError> {
     let base = x_of(spans.base);
     let frame = format!("M{LEFT} {TOP}V{bottom}H{right}M{base:.1} {TOP}V{bottom}");
     svg::path(&mut out, "class=\"frame\"", &frame, "");
-    svg::title_across(&mut out, [0.5 * (LEFT + right), height - 8.0], &spans.axis);
+    svg::text(&mut out, svg::TITLE, [0.5 * (LEFT + right), height - 8.0], &spans.axis);
     Ok(out + "</svg>")
 }
 

@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::number::{significant, with_unit};
-use super::{ReportError, svg, ticks};
+use super::{ReportError, significant, svg, ticks, with_unit};
 
 const WIDTH: f64 = 920.0;
 /// Where the first panel begins: the names of the rows stand left of it.
@@ -129,7 +128,7 @@ pub(super) fn draw(map: &StepMap) -> Result<String, ReportError> {
         draw_panel(&mut out, map, panel, [left, width]);
     }
     let below = [0.5 * (LEFT + WIDTH - RIGHT), height - BOTTOM + 36.0];
-    svg::title_across(&mut out, below, &with_unit(&map.axis, &map.unit));
+    svg::text(&mut out, svg::TITLE, below, &with_unit(&map.axis, &map.unit));
     legend(&mut out, height - 16.0);
     Ok(out + "</svg>")
 }

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::{significant, with_unit};
+use super::{ReportError, significant, with_unit};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -1,10 +1,7 @@
 //! Eigenpairs in a band by shift-invert Lanczos (ARPACK) from its middle.
 
 use super::arpack::shift_invert;
-use super::factor::Factor;
-use super::lowest::Ritz;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError};
+use super::{DenseMatrix, Factor, LinalgError, Ritz, SymmetricMatrix};
 
 /// Searches in a row that may find nothing new in the band.
 const IDLE: usize = 2;

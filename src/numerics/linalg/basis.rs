@@ -1,7 +1,6 @@
 //! A basis of vectors that are orthonormal in the product of the mass matrix.
 
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, symmetric_eigen};
+use super::{DenseMatrix, LinalgError, SymmetricMatrix, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, ColMut, MatMut, MatRef, Par};

@@ -1,10 +1,7 @@
 //! How far computed eigenvalues may be from the true ones.
 
 use super::basis::{norms, times};
-use super::factor::Factor;
-use super::lowest::Ritz;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, EigenPairs};
+use super::{DenseMatrix, EigenPairs, Factor, Ritz, SymmetricMatrix};
 
 /// Relative gap below which eigenvalues belong to one cluster, whose vectors are judged together.
 const CLUSTER: f64 = 1e-3;

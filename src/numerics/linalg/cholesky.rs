@@ -1,11 +1,7 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
-use super::factor::{Factor, FactorMemory, LARGEST_CONTRACTION};
-use super::numeric::Kind;
-use super::ordering::Ordering;
-use super::symbolic::analysed;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SparseMatrix};
+use super::factor::LARGEST_CONTRACTION;
+use super::{DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, SymmetricMatrix, analysed};
 use std::sync::Arc;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
@@ -79,8 +75,7 @@ impl SparseCholesky {
     /// # Errors
     /// [`LinalgError::Shape`] if the length is not n.
     pub fn solve_vector(&self, right_hand_side: &mut [f64]) -> Result<(), LinalgError> {
-        self.check(right_hand_side.len())?;
-        let mut column = DenseMatrix::from_fn(self.order(), 1, |row, _| right_hand_side[row]);
+        let mut column = DenseMatrix::from_fn(right_hand_side.len(), 1, |row, _| right_hand_side[row]);
         self.solve_columns(&mut column)?;
         right_hand_side.copy_from_slice(column.col_as_slice(0));
         Ok(())
@@ -91,19 +86,14 @@ impl SparseCholesky {
     /// # Errors
     /// [`LinalgError::Shape`] if `B` has not n rows.
     pub fn solve_columns(&self, right_hand_sides: &mut DenseMatrix) -> Result<(), LinalgError> {
-        self.check(right_hand_sides.nrows())?;
+        let (expected, found) = (self.order(), right_hand_sides.nrows());
+        if found != expected {
+            return Err(LinalgError::Shape { what: "right-hand side", expected, found });
+        }
         let mut permuted = self.ordering.forward(right_hand_sides);
         self.factor.solve(permuted.as_mut());
         self.ordering.backward(&permuted, right_hand_sides);
         Ok(())
-    }
-
-    fn check(&self, rows: usize) -> Result<(), LinalgError> {
-        if rows == self.order() {
-            Ok(())
-        } else {
-            Err(LinalgError::Shape { what: "right-hand side", expected: self.order(), found: rows })
-        }
     }
 }
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! A factor with a measure of how good it is, in single precision where that serves.
 
-use super::LinalgError;
 use super::dense::pseudo_random;
-use super::numeric::{Kind, NumericFactor};
-use super::symbolic::{SMALL, Symbolic};
-use super::symmetric::SymmetricMatrix;
+use super::numeric::NumericFactor;
+use super::symbolic::SMALL;
+use super::{Kind, LinalgError, Symbolic, SymmetricMatrix};
 use faer::MatMut;
 use std::sync::Arc;
 
@@ -173,8 +172,8 @@ impl Factor {
     pub(super) fn into_memory(self) -> FactorMemory {
         let mut memory = FactorMemory::default();
         match self.numbers {
-            Numbers::Single(numbers) => memory.single = numbers.into_memory(),
-            Numbers::Double(numbers) => memory.double = numbers.into_memory(),
+            Numbers::Single(numbers) => memory.single = numbers.values,
+            Numbers::Double(numbers) => memory.double = numbers.values,
         }
         memory
     }

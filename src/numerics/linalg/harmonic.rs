@@ -15,11 +15,9 @@ pub(crate) use dense::complex_solve;
 pub use error::HarmonicError;
 pub use matrices::HarmonicDamping;
 
-use super::factor::{Factor, FactorMemory};
-use super::numeric::Kind;
-use super::ordering::Ordering;
-use super::symbolic::{Symbolic, analysed};
-use super::{ComplexMatrix, DenseMatrix, LinalgError, SparseMatrix};
+use super::{
+    ComplexMatrix, DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, Symbolic, analysed,
+};
 use faer::c64;
 use matrices::HarmonicMatrices;
 use std::f64::consts::TAU;
@@ -85,7 +83,7 @@ impl HarmonicProblem {
     /// the caller may drop them.
     ///
     /// # Errors
-    /// [`HarmonicError::Coefficient`]; [`LinalgError::Shape`] for matrices that do not fit;
+    /// [`HarmonicError::Input`]; [`LinalgError::Shape`] for matrices that do not fit;
     /// [`LinalgError::Refused`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
     pub fn new(k: &SparseMatrix, m: &SparseMatrix, damping: &HarmonicDamping<'_>) -> Result<Self, HarmonicError> {
         let all: Vec<usize> = (0..k.rows()).collect();
@@ -116,12 +114,13 @@ impl HarmonicProblem {
     /// Response to `loads` [n x p] (N, N m) at the angular frequency `omega` (rad/s, >= 0).
     ///
     /// # Errors
-    /// [`HarmonicError::Frequency`], [`HarmonicError::Load`], [`LinalgError::Shape`];
+    /// [`HarmonicError::Input`], [`LinalgError::Shape`];
     /// [`HarmonicError::Resonance`] and [`HarmonicError::FreeAtRest`] where there is no response;
     /// [`HarmonicError::NotSolved`] if the iteration fails.
     pub fn solve(&self, omega: f64, loads: &ComplexMatrix) -> Result<HarmonicSolution, HarmonicError> {
         if !(omega >= 0.0 && omega.is_finite()) {
-            return Err(HarmonicError::Frequency { hz: omega / TAU });
+            let hz = omega / TAU;
+            return Err(HarmonicError::Input(format!("a frequency must be zero or more and finite, found {hz} Hz")));
         }
         let f = self.split(loads)?;
         let started = Instant::now();
@@ -154,10 +153,10 @@ impl HarmonicProblem {
                 factor = self.factorised(squared, true)?;
             }
             let limit = if factor.is_double() { RESONANCE } else { LARGEST_CONTRACTION[0] };
-            return if factor.contraction <= limit {
-                Ok(factor)
-            } else {
-                Err(HarmonicError::singular(omega, factor.contraction))
+            return match factor.contraction {
+                contraction if contraction <= limit => Ok(factor),
+                uncertainty if omega > 0.0 => Err(HarmonicError::Resonance { hz: omega / TAU, uncertainty }),
+                _ => Err(HarmonicError::FreeAtRest),
             };
         }
         let is_good = |factor: &Factor| factor.contraction <= LARGEST_CONTRACTION[usize::from(factor.is_double())];
@@ -211,7 +210,7 @@ impl HarmonicProblem {
     /// `w x^H (w C + K_s) x / 2`. It equals the power of the loads, `w Im(x^H f) / 2` with the sign of `exp(+i w t)`.
     ///
     /// # Errors
-    /// [`LinalgError::Shape`], [`HarmonicError::Load`] for entries that are not finite.
+    /// [`LinalgError::Shape`], [`HarmonicError::Input`] for entries that are not finite.
     pub fn dissipated_power(&self, omega: f64, displacements: &ComplexMatrix) -> Result<Vec<f64>, HarmonicError> {
         let x = self.split(displacements)?;
         let energies = self.matrices.dissipation(omega, &x);
@@ -229,7 +228,7 @@ impl HarmonicProblem {
         });
         for column in 0..parts.ncols() {
             if !parts.col_as_slice(column).iter().all(|x| x.is_finite()) {
-                return Err(HarmonicError::Load { load: column / 2 });
+                return Err(HarmonicError::Input(format!("load {} has an entry that is not finite", column / 2)));
             }
         }
         Ok(self.ordering.forward(&parts))

@@ -7,9 +7,7 @@
 
 use super::basis::{Basis, norms, times};
 use super::dense::pseudo_random;
-use super::factor::Factor;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen};
+use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, MatMut, Par};
@@ -269,12 +267,12 @@ impl<'p> Search<'p> {
         let steps = self.steps(&spectrum, &chosen, factor);
         let mut open = Vec::new();
         for (column, &place) in chosen.iter().enumerate() {
-            let length = steps.lengths[column];
+            let [length, residual, energy] = steps[column];
             let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
             let converged = if place < self.wanted {
                 length <= CONVERGED.max(floor)
-                    && steps.residuals[column] <= SMALL_RESIDUAL.max(floor)
-                    && steps.energies[column] <= SMALL_ENERGY.max(floor * floor)
+                    && residual <= SMALL_RESIDUAL.max(floor)
+                    && energy <= SMALL_ENERGY.max(floor * floor)
             } else {
                 length <= GUARD_CONVERGED
             };
@@ -297,8 +295,9 @@ impl<'p> Search<'p> {
     }
 
     /// Corrections `F^-1 (K x - lambda M x)` of the chosen Ritz pairs: into the first block, their products with M into
-    /// the second.
-    fn steps(&mut self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Steps {
+    /// the second. Gives how large they are: their lengths in the norm of M, `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`
+    /// and `r^T F^-1 r / (lambda - sigma)`.
+    fn steps(&mut self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Vec<[f64; 3]> {
         let combinations = columns(&spectrum.vectors, chosen);
         let [vectors, heavy, remainders] = &mut self.blocks;
         let width = chosen.len();
@@ -320,15 +319,13 @@ impl<'p> Search<'p> {
         vectors.copy_from(remainders.rb());
         factor.solve(vectors.rb_mut());
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
-        let energy = |(column, &place): (usize, &usize)| {
+        let lengths = norms(vectors.rb(), heavy.rb());
+        let sizes = chosen.iter().enumerate().map(|(column, &place)| {
             let energy: f64 = remainders.rb().col(column).transpose() * vectors.rb().col(column);
-            energy.abs() / (spectrum.values[place] - self.shift).abs()
-        };
-        Steps {
-            lengths: norms(vectors.rb(), heavy.rb()),
-            residuals,
-            energies: chosen.iter().enumerate().map(energy).collect(),
-        }
+            let energy = energy.abs() / (spectrum.values[place] - self.shift).abs();
+            [lengths[column], residuals[column], energy]
+        });
+        sizes.collect()
     }
 
     /// Keeps some columns of the first two blocks, ascending.
@@ -342,16 +339,6 @@ impl<'p> Search<'p> {
             }
         }
     }
-}
-
-/// How large the corrections of some pairs are.
-struct Steps {
-    /// Their lengths in the norm of M.
-    lengths: Vec<f64>,
-    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`.
-    residuals: Vec<f64>,
-    /// `r^T F^-1 r / (lambda - sigma)`.
-    energies: Vec<f64>,
 }
 
 /// The first columns.

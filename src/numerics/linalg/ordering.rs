@@ -157,7 +157,7 @@ impl<'k> Runs<'k> {
 /// Parent of every place in the elimination tree (Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172, algorithm 4.2
 /// with compressed paths); roots have none.
 fn elimination_tree(graph: &Graph, node_at: &[usize], place_of: &[usize]) -> Vec<usize> {
-    let nodes = graph.nodes();
+    let nodes = graph.weights.len();
     let mut parents = vec![NONE; nodes];
     let mut ancestors = vec![NONE; nodes];
     for (place, &node) in node_at.iter().enumerate() {

@@ -1,8 +1,6 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
 
-use super::error::gigabytes;
-use super::symmetric::SymmetricMatrix;
-use super::{LinalgError, memory};
+use super::{LinalgError, SymmetricMatrix, gigabytes, memory};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;

@@ -27,8 +27,7 @@
 mod flow;
 mod track;
 
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
+use super::{Divergence, Exchange, SecondOrderSystem, SnapshotError, Statistics, Stepper};
 use flow::Flow;
 use track::Track;
 

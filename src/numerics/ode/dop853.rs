@@ -15,8 +15,7 @@ mod dense;
 mod stages;
 mod tableau;
 
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
+use super::{Divergence, Exchange, SecondOrderSystem, SnapshotError, Statistics, Stepper};
 use control::{Controller, Scale};
 use crossings::{Crossings, Trial, resolution};
 use dense::Dense;
@@ -54,7 +53,7 @@ impl Dop853 {
             dense: Dense::new(stages.length()),
             scale: Scale::new(linear, stages.length()),
             stages,
-            controller: Controller::new(),
+            controller: Controller { before: 1e-4 },
             crossings: None,
             span: Span::new(t, t, f64::INFINITY),
             next: None,
@@ -182,7 +181,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
         self.stages.exchange(words)?;
         self.dense.exchange(words)?;
         self.scale.exchange(words)?;
-        self.controller.exchange(words)?;
+        words.number(&mut self.controller.before)?;
         let mut watches = self.crossings.is_some();
         words.flag(&mut watches)?;
         if watches {

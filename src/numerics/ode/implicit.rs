@@ -17,8 +17,7 @@
 //! counts ([`TOLERANCE`](super::newton::TOLERANCE)), so that the force belongs to the state without another evaluation.
 
 use super::newton::{NewtonMatrix, Progress, Weights};
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError, Tangent};
+use super::{Divergence, Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError, Statistics, Stepper, Tangent};
 
 /// Parameters of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,9 @@
 //! A system on its way through a schedule, one interval at a time.
 
-use super::stepper::Stepper;
 use super::steppers::stepper;
 use super::{
     BlowUp, Divergence, Exchange, Instant, Method, Observer, Schedule, SecondOrderSystem, Snapshot, SnapshotError,
-    SnapshotReader, State, Statistics, StepLimit, TransientError,
+    SnapshotReader, State, Statistics, StepLimit, Stepper, TransientError,
 };
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a

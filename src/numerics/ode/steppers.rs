@@ -4,9 +4,8 @@ use super::adams::Adams;
 use super::dop853::Dop853;
 use super::error::require;
 use super::implicit::{Family, Implicit};
-use super::one_evaluation::{Counted, Exponential, NewmarkExplicit, Splitting};
-use super::stepper::Stepper;
-use super::{LEAST_TOLERANCE, Method, Schedule, SecondOrderSystem, TransientError};
+use super::one_evaluation::OneEvaluation;
+use super::{LEAST_TOLERANCE, Method, Schedule, SecondOrderSystem, Stepper, TransientError};
 use std::f64::consts::TAU;
 
 /// The method ready to go from `start` (s) with the schedule's steps.
@@ -18,12 +17,11 @@ pub(super) fn stepper<S: SecondOrderSystem>(
 ) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
     Ok(match method {
-        Method::Exponential => Box::new(Counted::new(Exponential::new(system, h))),
         Method::ExponentialAdams { tolerance } => {
             tolerance.map_or(Ok(()), check_tolerance)?;
             Box::new(Adams::new(system, h, tolerance))
         }
-        Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
+        Method::Exponential | Method::Splitting => Box::new(OneEvaluation::new(system, method, h)),
         Method::Newmark => Box::new(Implicit::new(system, h, Family::AVERAGE_ACCELERATION)),
         Method::GeneralizedAlpha { spectral_radius } => {
             require((0.0..=1.0).contains(&spectral_radius), "spectral radius", spectral_radius, "from 0 to 1")?;
@@ -35,7 +33,7 @@ pub(super) fn stepper<S: SecondOrderSystem>(
         }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
-            Box::new(Counted::new(NewmarkExplicit::new(system, h)))
+            Box::new(OneEvaluation::new(system, method, h))
         }
     })
 }

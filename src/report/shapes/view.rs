@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::super::{ReportError, palette, significant};
 use super::camera::{UpAxis, diagonal};
-use crate::report::number::significant;
-use crate::report::{ReportError, palette};
 
 /// Which figures a view makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -112,11 +111,6 @@ impl ShapeMode {
     /// The frequency as it is printed.
     pub(in crate::report) fn frequency(&self) -> String {
         format!("{} Hz", significant(self.frequency_hz, 4))
-    }
-
-    /// Label and frequency as they are printed.
-    pub(super) fn title(&self) -> String {
-        format!("Mode {} · {}", self.label, self.frequency())
     }
 }
 

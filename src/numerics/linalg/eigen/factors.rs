@@ -1,10 +1,6 @@
 //! Which matrix is factorised: K itself, K with a shift below zero, or one from the middle of a band.
 
-use super::super::LinalgError;
-use super::super::factor::{Factor, FactorMemory};
-use super::super::numeric::Kind;
-use super::super::symmetric::SymmetricMatrix;
-use super::EigenProblem;
+use super::super::{EigenProblem, Factor, FactorMemory, Kind, LinalgError, SymmetricMatrix};
 use std::sync::Arc;
 
 /// Shift for a structure that can move freely, in units of the smallest `K_ii / M_ii`: far below the first elastic

@@ -1,11 +1,8 @@
 //! The lowest pairs, and beside the iteration the count that proves them.
 
-use super::super::LinalgError;
-use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::Search;
-use super::super::memory;
+use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, memory};
 use super::factors::FIRM;
-use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 

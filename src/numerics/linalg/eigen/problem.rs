@@ -1,13 +1,10 @@
 //! The problem `K x = lambda M x`, ordered and analysed, and what a solution of it must satisfy.
 
 use super::super::bound::ROUNDING;
-use super::super::error::gigabytes;
-use super::super::factor::Factor;
-use super::super::ordering::Ordering;
-use super::super::symbolic::{Symbolic, analysed};
-use super::super::symmetric::SymmetricMatrix;
-use super::super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, memory};
-use super::{CountCheck, EigenPairs, EigenTimes};
+use super::super::{
+    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, LinalgError, Ordering, SparseCholesky, SparseMatrix,
+    Symbolic, SymmetricMatrix, analysed, gigabytes, memory,
+};
 use std::sync::Arc;
 use std::time::Instant;
 

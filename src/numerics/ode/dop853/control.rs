@@ -127,7 +127,8 @@ impl Scale {
 /// authors' code).
 #[derive(Debug)]
 pub(super) struct Controller {
-    before: f64,
+    /// Error of the last step.
+    pub before: f64,
 }
 
 /// Share of the step that the tolerance would allow.
@@ -150,21 +151,12 @@ const LEAST_RETRY: f64 = 0.1;
 const LEAST_ERROR: f64 = 1e-10;
 
 impl Controller {
-    pub(super) fn new() -> Self {
-        Self { before: 1e-4 }
-    }
-
     /// Factor for the step after one with this error, at most 1; not above 1 after a rejected trial.
     pub(super) fn after_success(&mut self, error: f64, rejected: bool) -> f64 {
         let factor = SAFETY * error.max(LEAST_ERROR).powf(-EXPONENT) * self.before.powf(DAMPING);
         self.before = error.max(1e-4);
         let most = if rejected { 1.0 } else { FACTORS[1] };
         factor.clamp(FACTORS[0], most)
-    }
-
-    /// Writes the last error, or reads it.
-    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
-        words.number(&mut self.before)
     }
 
     /// Factor for another trial after one with this error, above 1.
