@@ -8,7 +8,7 @@ use super::layout::{AxisView, Layout};
 use super::palette::COLOURS;
 use super::plot::is_positive;
 use super::svg_plot::colour;
-use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, decimate};
+use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, Sides, decimate};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 const BUDGET: usize = 2_800_000;
@@ -23,7 +23,7 @@ struct PlotData<'a> {
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    families: Vec<FamilyData<'a>>,
+    families: Vec<FamilyData>,
     levels: Vec<Level>,
     /// Edges of the picture, whose address the script takes from the SVG.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,23 +68,16 @@ struct CurveData<'a> {
     look: CurveLook<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     labels: Vec<&'a str>,
-    #[serde(flatten)]
-    x: AbscissaData,
+    /// Of even abscissas, in shown units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<f64>,
+    /// Of others: f64, in shown units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<String>,
     /// f32, in shown units.
     y: String,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-enum AbscissaData {
-    Even {
-        start: f64,
-        step: f64,
-    },
-    /// f64, in shown units.
-    Points {
-        x: String,
-    },
 }
 
 #[derive(Debug, Serialize)]
@@ -96,17 +89,11 @@ struct MarkerData<'a> {
 
 /// In shown units.
 #[derive(Debug, Serialize)]
-struct FamilyData<'a> {
+struct FamilyData {
     at: f64,
     colour: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    sides: Option<SidesData<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct SidesData<'a> {
-    name: &'a str,
-    spacing: f64,
+    sides: Option<Sides>,
 }
 
 /// Bytes a curve needs in full.
@@ -177,11 +164,11 @@ pub(super) fn family_names(plot: &Plot) -> Vec<&str> {
 }
 
 /// What the script of the page needs of the families.
-fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
+fn family_data(plot: &Plot, x: &AxisView) -> Vec<FamilyData> {
     let shown = plot.families.iter().filter(|family| family.is_shown());
-    let sides = |family: &'a Family| {
+    let sides = |family: &Family| {
         let sides = family.sides.as_ref()?;
-        is_positive(sides.spacing).then(|| SidesData { name: &sides.name, spacing: sides.spacing / x.factor })
+        is_positive(sides.spacing).then(|| Sides { name: sides.name.clone(), spacing: sides.spacing / x.factor })
     };
     shown
         .map(|family| FamilyData {
@@ -193,30 +180,25 @@ fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
 }
 
 fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
-    let most = share / bytes_a_point(curve);
-    let mut labels = Vec::new();
-    let (x, y) = match &curve.x {
+    let (most, factor) = (share / bytes_a_point(curve), layout.x.factor);
+    let (mut even, mut x, mut labels) = (None, None, Vec::new());
+    let y: Vec<f64> = match &curve.x {
         Abscissa::Even { start, step } => {
             let thinned = decimate::even(&curve.y, most);
-            let x =
-                AbscissaData::Even { start: start / layout.x.factor, step: step * thinned.stride / layout.x.factor };
-            (x, thinned.values)
+            even = Some((start / factor, step * thinned.stride / factor));
+            thinned.values
         }
-        Abscissa::Points(x) => {
+        Abscissa::Points(all) => {
             let kept = decimate::indices(&curve.y, most);
-            labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)));
-            let shown = kept.iter().map(|k| x[*k] / layout.x.factor);
-            let x = AbscissaData::Points { x: base64(shown.flat_map(f64::to_le_bytes)) };
-            (x, kept.iter().map(|k| curve.y[*k]).collect())
+            labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)).map(String::as_str));
+            x = Some(base64(kept.iter().flat_map(|k| (all[*k] / factor).to_le_bytes())));
+            kept.iter().map(|k| curve.y[*k]).collect()
         }
     };
+    let (start, step) = even.unzip();
     let shown = y.iter().map(|v| (v / layout.y.factor) as f32);
-    CurveData {
-        look: CurveLook::of(curve, number),
-        labels: labels.into_iter().map(String::as_str).collect(),
-        x,
-        y: base64(shown.flat_map(f32::to_le_bytes)),
-    }
+    let y = base64(shown.flat_map(f32::to_le_bytes));
+    CurveData { look: CurveLook::of(curve, number), labels, start, step, x, y }
 }
 
 fn base64(bytes: impl Iterator<Item = u8>) -> String {

@@ -1,7 +1,7 @@
 //! Eigenpairs in a band by shift-invert Lanczos (ARPACK) from its middle.
 
 use super::arpack::shift_invert;
-use super::{DenseMatrix, Factor, LinalgError, Ritz, SymmetricMatrix};
+use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum};
 
 /// Searches in a row that may find nothing new in the band.
 const IDLE: usize = 2;
@@ -23,7 +23,7 @@ pub(super) fn between(
     (sigma, factor): &(f64, Factor),
     [low, high]: [f64; 2],
     count: usize,
-) -> Result<Ritz, LinalgError> {
+) -> Result<SymmetricSpectrum, LinalgError> {
     let order = stiffness.order();
     let inside = |pair: &(f64, Vec<f64>)| pair.0 > low && pair.0 < high;
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn between(
     found.retain(inside);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let vectors = DenseMatrix::from_fn(order, count, |row, mode| found[mode].1[row]);
-    Ok(Ritz { values: found.into_iter().map(|pair| pair.0).collect(), vectors })
+    Ok(SymmetricSpectrum { values: found.into_iter().map(|pair| pair.0).collect(), vectors })
 }
 
 /// Takes from `y` what lies along the known vectors, in the product of the mass.

@@ -1,7 +1,7 @@
 //! How far computed eigenvalues may be from the true ones.
 
 use super::basis::{norms, times};
-use super::{DenseMatrix, EigenPairs, Factor, Ritz, SymmetricMatrix};
+use super::{DenseMatrix, EigenPairs, Factor, SymmetricMatrix, SymmetricSpectrum};
 
 /// Relative gap below which eigenvalues belong to one cluster, whose vectors are judged together.
 const CLUSTER: f64 = 1e-3;
@@ -26,7 +26,7 @@ impl EigenPairs {
         mass: &SymmetricMatrix,
         factor: &Factor,
         sigma: f64,
-        ritz: &Ritz,
+        ritz: &SymmetricSpectrum,
         count: usize,
     ) -> Self {
         let x = ritz.vectors.subcols(0, count);

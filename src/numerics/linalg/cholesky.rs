@@ -18,12 +18,10 @@ impl SparseCholesky {
     /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
     /// matrix of which round-off leaves not one digit to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
-        if a.cols() != a.rows() || !a.is_csc() {
-            return Err(LinalgError::Shape {
-                what: "matrix to factorise (square, compressed columns)",
-                expected: a.rows(),
-                found: a.cols(),
-            });
+        let (expected, found) = (a.rows(), a.cols());
+        if found != expected || !a.is_csc() {
+            let what = "matrix to factorise (square, compressed columns)";
+            return Err(LinalgError::Shape { what, expected, found });
         }
         let ordering = Ordering::of(a)?;
         let permuted = SymmetricMatrix::permuted(a, &ordering);

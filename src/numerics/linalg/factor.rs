@@ -170,12 +170,10 @@ impl Factor {
 
     /// The memory of its entries, for another factor.
     pub(super) fn into_memory(self) -> FactorMemory {
-        let mut memory = FactorMemory::default();
         match self.numbers {
-            Numbers::Single(numbers) => memory.single = numbers.values,
-            Numbers::Double(numbers) => memory.double = numbers.values,
+            Numbers::Single(numbers) => FactorMemory { single: numbers.values, ..FactorMemory::default() },
+            Numbers::Double(numbers) => FactorMemory { double: numbers.values, ..FactorMemory::default() },
         }
-        memory
     }
 
     /// `F^-1 B` in place for `B` [n x k].

@@ -57,15 +57,6 @@ pub(super) fn round_off(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> 
     ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass)
 }
 
-/// Ritz pairs: values ascending, vectors M-orthonormal.
-#[derive(Debug)]
-pub(super) struct Ritz {
-    /// Eigenvalues, 1/s^2.
-    pub values: Vec<f64>,
-    /// Vectors [n x k].
-    pub vectors: DenseMatrix,
-}
-
 /// A search for the lowest eigenpairs of `K x = lambda M x`.
 #[derive(Debug)]
 pub(super) struct Search<'p> {
@@ -230,11 +221,11 @@ impl<'p> Search<'p> {
         Ok(values)
     }
 
-    /// Corrects the Ritz pairs until they have converged.
+    /// Corrects the Ritz pairs until they have converged; their vectors [n x pursued] are M-orthonormal.
     ///
     /// # Errors
     /// [`LinalgError::Iteration`], [`LinalgError::DenseEigen`].
-    pub(super) fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
+    pub(super) fn converge(&mut self, factor: &Factor) -> Result<SymmetricSpectrum, LinalgError> {
         for _ in 0..CORRECTIONS {
             if let Some(pairs) = self.correct(factor)? {
                 return Ok(pairs);
@@ -245,7 +236,7 @@ impl<'p> Search<'p> {
     }
 
     /// Adds a correction of every pair that has not converged, or returns all of them if there is none.
-    fn correct(&mut self, factor: &Factor) -> Result<Option<Ritz>, LinalgError> {
+    fn correct(&mut self, factor: &Factor) -> Result<Option<SymmetricSpectrum>, LinalgError> {
         let spectrum = self.ritz()?;
         let pursued = self.pursued.min(self.basis.size);
         let changed = (0..pursued).find(|&place| {
@@ -262,7 +253,7 @@ impl<'p> Search<'p> {
         if chosen.is_empty() {
             let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
             let values = spectrum.values[..pursued].to_vec();
-            return Ok(Some(Ritz { values, vectors }));
+            return Ok(Some(SymmetricSpectrum { values, vectors }));
         }
         let steps = self.steps(&spectrum, &chosen, factor);
         let mut open = Vec::new();
@@ -348,9 +339,5 @@ fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
 
 /// Some columns of a matrix.
 fn columns(a: &DenseMatrix, chosen: &[usize]) -> DenseMatrix {
-    let mut some = DenseMatrix::zeros(a.nrows(), chosen.len());
-    for (place, &column) in chosen.iter().enumerate() {
-        some.col_as_slice_mut(place).copy_from_slice(a.col_as_slice(column));
-    }
-    some
+    DenseMatrix::from_fn(a.nrows(), chosen.len(), |row, place| a[(row, chosen[place])])
 }

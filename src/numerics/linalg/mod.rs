@@ -43,7 +43,6 @@ pub(in crate::numerics::linalg) use factor::{Factor, FactorMemory};
 pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes};
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
-pub(in crate::numerics::linalg) use lowest::Ritz;
 pub(crate) use lu::SmallLu;
 pub(in crate::numerics::linalg) use numeric::Kind;
 pub(in crate::numerics::linalg) use ordering::Ordering;

@@ -13,8 +13,9 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::prelude::*;
 use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt, factorize_supernodal_numeric_intranode_lblt_scratch,
-    factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
+    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt as lblt,
+    factorize_supernodal_numeric_intranode_lblt_scratch as lblt_scratch, factorize_supernodal_numeric_llt as llt,
+    factorize_supernodal_numeric_llt_scratch as llt_scratch,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{MatMut, Par};
@@ -72,55 +73,28 @@ impl<T: Precision> NumericFactor<T> {
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(order, order, &a.offsets, None, &a.rows);
         let lower = SparseColMatRef::new(pattern, &scaled);
-        let (supernodes, parallelism) = (symbolic, Par::Seq);
         let mut values = memory;
-        values.truncate(supernodes.len_val());
-        values.try_reserve_exact(supernodes.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
-        values.resize(supernodes.len_val(), T::rounded(0.0));
+        values.truncate(symbolic.len_val());
+        values.try_reserve_exact(symbolic.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
+        values.resize(symbolic.len_val(), T::rounded(0.0));
         let scratch = match kind {
-            Kind::Definite => {
-                factorize_supernodal_numeric_llt_scratch::<u32, T>(supernodes, parallelism, Default::default())
-            }
-            Kind::Indefinite => factorize_supernodal_numeric_intranode_lblt_scratch::<u32, T>(
-                supernodes,
-                parallelism,
-                Default::default(),
-            ),
+            Kind::Definite => llt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
+            Kind::Indefinite => lblt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
         };
         let mut buffer = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
         let stack = MemStack::new(&mut buffer);
         let pivots = match kind {
             Kind::Definite => {
-                factorize_supernodal_numeric_llt(
-                    &mut values,
-                    lower,
-                    Default::default(),
-                    supernodes,
-                    parallelism,
-                    stack,
-                    Default::default(),
-                )
-                .map_err(|LltError::NonPositivePivot { index }| LinalgError::NotPositiveDefinite {
-                    order,
-                    pivot: index,
-                })?;
+                let refused =
+                    |LltError::NonPositivePivot { index: pivot }| LinalgError::NotPositiveDefinite { order, pivot };
+                llt(&mut values, lower, Default::default(), symbolic, Par::Seq, stack, Default::default())
+                    .map_err(refused)?;
                 None
             }
             Kind::Indefinite => {
-                let mut pivots =
-                    Pivots { below_diagonal: vec![T::rounded(0.0); order], old: vec![0; order], new: vec![0; order] };
-                factorize_supernodal_numeric_intranode_lblt(
-                    &mut values,
-                    &mut pivots.below_diagonal,
-                    &mut pivots.old,
-                    &mut pivots.new,
-                    lower,
-                    supernodes,
-                    parallelism,
-                    stack,
-                    Default::default(),
-                );
-                Some(pivots)
+                let (mut below, mut old, mut new) = (vec![T::rounded(0.0); order], vec![0; order], vec![0; order]);
+                lblt(&mut values, &mut below, &mut old, &mut new, lower, symbolic, Par::Seq, stack, Default::default());
+                Some(Pivots { below_diagonal: below, old, new })
             }
         };
         Ok(Self { values, scale, pivots })

@@ -5,6 +5,7 @@
 //! [`Resonance`] is told apart from the limit by what grows.
 
 use super::amplification::STEPS;
+use super::tangent::dot;
 use super::{Growth, Linearised, Method, Resonance, SecondOrderSystem, State, StepLimit, Tangent, growth};
 use crate::numerics::linalg::{DenseMatrix, general_spectrum};
 use std::f64::consts::{PI, TAU};
@@ -132,10 +133,7 @@ pub(crate) fn fastest(system: &Linearised) -> Option<f64> {
 /// `-row_k . left_l`, \[terms x terms\]: its eigenvalues that are not zero are those of the sum of the terms.
 fn of_terms(tangent: &Tangent, row: impl Fn(&Tangent, usize) -> &[f64]) -> DenseMatrix {
     let terms = tangent.terms;
-    DenseMatrix::from_fn(terms, terms, |k, l| {
-        let pairs = row(tangent, k).iter().zip(tangent.left(l));
-        -pairs.map(|(row, left)| row * left).sum::<f64>()
-    })
+    DenseMatrix::from_fn(terms, terms, |k, l| -dot(row(tangent, k), tangent.left(l)))
 }
 
 /// Linear part and tangent, \[dof x dof\].

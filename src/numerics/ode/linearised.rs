@@ -6,6 +6,7 @@
 //!
 //! A method steps this as it steps the system itself, so that what it does to small motions needs no formula of its own.
 
+use super::tangent::dot;
 use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, State, Tangent};
 use std::ops::Range;
 
@@ -48,8 +49,9 @@ impl SecondOrderSystem for Linearised {
     fn force_into(&mut self, _t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         g.fill(0.0);
         for (term, [left, position, velocity]) in self.filled.iter().enumerate() {
-            let factor =
-                product(self.tangent.position(term), y, position) + product(self.tangent.velocity(term), v, velocity);
+            let at =
+                |row: &[f64], values: &[f64], filled: &Range<usize>| dot(&row[filled.clone()], &values[filled.clone()]);
+            let factor = at(self.tangent.position(term), y, position) + at(self.tangent.velocity(term), v, velocity);
             let pairs = g[left.clone()].iter_mut();
             for (g, left) in pairs.zip(&self.tangent.left(term)[left.clone()]) {
                 *g += factor * left;
@@ -93,9 +95,4 @@ fn filled(row: &[f64]) -> Range<usize> {
     let first = row.iter().position(is_filled).unwrap_or(0);
     let end = row.iter().rposition(is_filled).map_or(0, |last| last + 1);
     first..end
-}
-
-fn product(row: &[f64], values: &[f64], at: &Range<usize>) -> f64 {
-    let pairs = row[at.clone()].iter().zip(&values[at.clone()]);
-    pairs.map(|(a, b)| a * b).sum()
 }

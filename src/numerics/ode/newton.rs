@@ -9,8 +9,9 @@
 //! so that by the identity of Woodbury (Golub and Van Loan, Matrix Computations, 4th ed., section 2.1.4) a correction costs a
 //! system of order r, the number of terms: `J^-1 b = z + D^-1 L (1 - R^T D^-1 L)^-1 R^T z`, `z = D^-1 b`.
 
+use super::tangent::{Tangent, dot};
 use crate::numerics::linalg::SmallLu;
-use crate::numerics::ode::{Divergence, Tangent};
+use crate::numerics::ode::Divergence;
 
 /// Change of the force at which the iteration ends, in units of its size. One step of 0.1 rad errs by 1e-4 of the force, one of
 /// 1e-2 rad by 1e-7.
@@ -165,10 +166,6 @@ impl Progress {
     pub(super) fn failed(&self) -> Divergence {
         Divergence::NotSolved { iterations: self.iterations, change: self.last.unwrap_or(1.0) }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn add_scaled(sum: &mut [f64], factor: f64, row: &[f64]) {

@@ -75,7 +75,6 @@ impl Tangent {
 
     /// Adds the change of force for a change of the state to `dg`, all \[dof\].
     pub(crate) fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         for term in 0..self.terms {
             let factor = dot(self.position(term), dy) + dot(self.velocity(term), dv);
             for (dg, left) in dg.iter_mut().zip(self.left(term)) {
@@ -83,6 +82,11 @@ impl Tangent {
             }
         }
     }
+}
+
+/// Sum of products, from the first on.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

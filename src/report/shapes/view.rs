@@ -234,11 +234,8 @@ pub(in crate::report) fn legend(view: &ModeShapeView) -> Vec<LegendEntry> {
 
 /// Keeps the entries of used points; those past the last point stay.
 fn keep<T>(entries: &mut Vec<T>, used: &[bool]) {
-    let mut index = 0;
-    entries.retain(|_| {
-        index += 1;
-        used.get(index - 1).copied().unwrap_or(true)
-    });
+    let mut used = used.iter();
+    entries.retain(|_| used.next().copied().unwrap_or(true));
 }
 
 #[cfg(test)]

@@ -68,12 +68,9 @@ impl EigenProblem {
         m: &SparseMatrix,
         factor: &SparseCholesky,
     ) -> Result<Self, LinalgError> {
-        if factor.order() != k.rows() {
-            return Err(LinalgError::Shape {
-                what: "factor of the stiffness",
-                expected: k.rows(),
-                found: factor.order(),
-            });
+        let (expected, found) = (k.rows(), factor.order());
+        if found != expected {
+            return Err(LinalgError::Shape { what: "factor of the stiffness", expected, found });
         }
         let started = Instant::now();
         let (ordering, factor) = factor.shared();

@@ -2,8 +2,8 @@
 
 use super::super::lowest::largest_basis;
 use super::super::{
-    CountCheck, DenseMatrix, EigenPairs, EigenProblem, EigenTimes, Factor, Kind, LinalgError, Ritz, SymmetricMatrix,
-    symmetric_generalised_eigen,
+    CountCheck, DenseMatrix, EigenPairs, EigenProblem, EigenTimes, Factor, Kind, LinalgError, SymmetricMatrix,
+    SymmetricSpectrum, symmetric_generalised_eigen,
 };
 use super::cuts::{ABOVE, BELOW, check_of};
 use super::iteration::BEYOND;
@@ -156,7 +156,7 @@ impl EigenProblem {
         };
         let check = CountCheck::from_lowest(below, counted, counted);
         let vectors = spectrum.vectors.subcols(0, available).to_owned();
-        let ritz = Ritz { values, vectors };
+        let ritz = SymmetricSpectrum { values, vectors };
         let shifted = self.stiffness.shifted(shift, &self.mass);
         let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
         let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
