@@ -38,7 +38,6 @@ pub(super) fn between(
                 factor.solve(column.as_mut());
                 y.copy_from_slice(column.col_as_slice(0));
                 remove(&found, mass, y);
-                Ok(())
             },
             |x, y| product(mass, x, y),
         )?;

@@ -108,7 +108,7 @@ impl HarmonicProblem {
 
     /// Number of degrees of freedom.
     pub fn order(&self) -> usize {
-        self.matrices.order()
+        self.matrices.stiffness.order()
     }
 
     /// Response to `loads` [n x p] (N, N m) at the angular frequency `omega` (rad/s, >= 0).

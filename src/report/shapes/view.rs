@@ -219,16 +219,9 @@ pub(in crate::report) struct LegendEntry {
 
 /// Names and colours of groups and lines, as all pictures show them.
 pub(in crate::report) fn legend(view: &ModeShapeView) -> Vec<LegendEntry> {
-    let groups = view.groups.iter().map(|group| LegendEntry {
-        name: group.name.clone(),
-        colour: palette::hex(palette::group(group.colour)),
-        line: false,
-    });
-    let lines = view.lines.iter().map(|line| LegendEntry {
-        name: line.name.clone(),
-        colour: palette::hex(palette::LINE),
-        line: true,
-    });
+    let entry = |name: &String, colour, line| LegendEntry { name: name.clone(), colour: palette::hex(colour), line };
+    let groups = view.groups.iter().map(|group| entry(&group.name, palette::group(group.colour), false));
+    let lines = view.lines.iter().map(|line| entry(&line.name, palette::LINE, true));
     groups.chain(lines).collect()
 }
 

@@ -63,10 +63,6 @@ impl HarmonicMatrices {
         })
     }
 
-    pub(super) fn order(&self) -> usize {
-        self.stiffness.order()
-    }
-
     /// Whether anything dissipates at this frequency, rad/s.
     pub(super) fn is_damped(&self, omega: f64) -> bool {
         let viscous = self.alpha > 0.0 || self.beta > 0.0 || self.viscous.is_some();
