@@ -159,13 +159,13 @@ pub(super) fn for_script(title: &str, data: &impl Serialize) -> Result<String, R
 
 /// Names of the families that a plot offers, in the order of the data.
 pub(super) fn family_names(plot: &Plot) -> Vec<&str> {
-    let shown = plot.families.iter().filter(|family| family.is_shown());
+    let shown = plot.families.iter().filter(|family| is_positive(family.fundamental));
     shown.map(|family| family.name.as_str()).collect()
 }
 
 /// What the script of the page needs of the families.
 fn family_data(plot: &Plot, x: &AxisView) -> Vec<FamilyData> {
-    let shown = plot.families.iter().filter(|family| family.is_shown());
+    let shown = plot.families.iter().filter(|family| is_positive(family.fundamental));
     let sides = |family: &Family| {
         let sides = family.sides.as_ref()?;
         is_positive(sides.spacing).then(|| Sides { name: sides.name.clone(), spacing: sides.spacing / x.factor })

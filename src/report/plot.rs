@@ -110,11 +110,6 @@ impl Family {
         self.sides = Some(Sides { name: name.into(), spacing });
         self
     }
-
-    /// Whether it has harmonics to show.
-    pub(super) fn is_shown(&self) -> bool {
-        is_positive(self.fundamental)
-    }
 }
 
 pub(super) fn is_positive(value: f64) -> bool {

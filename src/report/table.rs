@@ -127,10 +127,7 @@ impl Cell {
 
     /// A badge: "pass", "fail", or a dash where nothing was judged.
     pub fn badge(verdict: Verdict) -> Self {
-        let text = match verdict {
-            Verdict::None => "–",
-            judged => judged.word(),
-        };
+        let text = if verdict == Verdict::None { "–" } else { verdict.word() };
         Self { verdict, look: CellLook::Badge, ..Self::text(text) }
     }
 
