@@ -38,23 +38,21 @@ impl LengthUnit {
 
     /// How the unit is written in a case file.
     pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Centimetre => "cm",
-            Self::Millimetre => "mm",
-            Self::Micrometre => "um",
-            Self::Inch => "in",
-        }
+        self.symbol_and_metres().0
     }
 
     /// Length of one unit in metres: `x_metres = x * unit.to_metres()`.
     pub fn to_metres(self) -> f64 {
+        self.symbol_and_metres().1
+    }
+
+    fn symbol_and_metres(self) -> (&'static str, f64) {
         match self {
-            Self::Metre => 1.0,
-            Self::Centimetre => 1e-2,
-            Self::Millimetre => 1e-3,
-            Self::Micrometre => 1e-6,
-            Self::Inch => 25.4e-3,
+            Self::Metre => ("m", 1.0),
+            Self::Centimetre => ("cm", 1e-2),
+            Self::Millimetre => ("mm", 1e-3),
+            Self::Micrometre => ("um", 1e-6),
+            Self::Inch => ("in", 25.4e-3),
         }
     }
 }

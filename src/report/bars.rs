@@ -2,12 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::{display_unit, significant, with_unit};
 use super::palette::COLOURS;
-use super::plot::Axis;
-use super::svg;
-use super::ticks;
+use super::{Axis, ReportError, display_unit, significant, svg, ticks, with_unit};
 
 const WIDTH: f64 = 920.0;
 const HEIGHT: f64 = 280.0;
@@ -33,7 +29,7 @@ pub struct BarSeries {
 
 /// A bar chart: a group of bars, one of each series, over each label.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Bars {
     /// What it shows.
     pub title: String,
@@ -57,14 +53,8 @@ impl Bars {
         labels: impl IntoIterator<Item = String>,
         axis: Axis,
     ) -> Self {
-        Self {
-            title: title.into(),
-            caption: None,
-            across: across.into(),
-            labels: labels.into_iter().collect(),
-            axis,
-            series: Vec::new(),
-        }
+        let labels = labels.into_iter().collect();
+        Self { title: title.into(), across: across.into(), labels, axis, ..Self::default() }
     }
 
     /// The chart with a series more.
@@ -80,8 +70,7 @@ impl Bars {
         }
         for (row, BarSeries { values, .. }) in (1..).zip(&self.series) {
             if values.len() != expected {
-                let lengths = [values.len(), expected];
-                return Err(ReportError::wrong_length(&self.title, row, lengths));
+                return Err(ReportError::wrong_length(&self.title, row, [values.len(), expected]));
             }
             let good = |value: f64| value.is_finite() && value >= 0.0;
             ReportError::check_row(&self.title, row, values.iter().copied(), good)?;
@@ -108,8 +97,7 @@ pub(super) fn draw(bars: &Bars) -> Result<String, ReportError> {
     for tick in ticks::linear(0.0, end, 5) {
         let y = y_of(tick.at);
         svg::line(&mut out, "class=\"grid\"", [LEFT, y, right, y]);
-        let label = tick.label.unwrap_or_default();
-        svg::text(&mut out, svg::END, [LEFT - 7.0, y + 4.0], &label);
+        svg::text(&mut out, svg::END, [LEFT - 7.0, y + 4.0], &tick.label.unwrap_or_default());
     }
     let place = (right - LEFT) / bars.labels.len() as f64;
     let middle = |label: usize| LEFT + (label as f64 + 0.5) * place;
@@ -131,12 +119,9 @@ pub(super) fn draw(bars: &Bars) -> Result<String, ReportError> {
     for (k, label) in bars.labels.iter().enumerate().step_by(stride) {
         svg::text(&mut out, svg::MIDDLE, [middle(k), bottom + 17.0], label);
     }
-    let frame = format!("M{LEFT} {TOP}V{bottom}H{right}");
-    svg::path(&mut out, "class=\"frame\"", &frame, "");
-    let below = [0.5 * (LEFT + right), HEIGHT - 8.0];
-    svg::title_across(&mut out, below, &bars.across);
-    let title = with_unit(&bars.axis.label, &unit.text);
-    svg::title_upward(&mut out, [16.0, 0.5 * (TOP + bottom)], &title);
+    svg::path(&mut out, "class=\"frame\"", &format!("M{LEFT} {TOP}V{bottom}H{right}"), "");
+    svg::text(&mut out, svg::TITLE, [0.5 * (LEFT + right), HEIGHT - 8.0], &bars.across);
+    svg::upward(&mut out, svg::TITLE, [16.0, 0.5 * (TOP + bottom)], &with_unit(&bars.axis.label, &unit.text));
     Ok(out + "</svg>")
 }
 

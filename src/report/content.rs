@@ -2,14 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::bars::Bars;
-use super::drawing::Drawing;
-use super::matrix::Matrix;
-use super::plot::Plot;
-use super::shapes::ModeShapeView;
-use super::spans::Spans;
-use super::step_map::StepMap;
-use super::table::{Table, Verdict};
+use super::{Bars, Drawing, Matrix, ModeShapeView, Plot, Spans, StepMap, Table, Verdict};
 
 /// A whole report, built step by step:
 ///
@@ -23,7 +16,7 @@ use super::table::{Table, Verdict};
 /// # Ok::<(), plummer::report::ReportError>(())
 /// ```
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Report {
     /// Title of the page.
     pub title: String,
@@ -220,11 +213,6 @@ impl Section {
         self.block(Block::Spans(spans))
     }
 
-    /// The section with a map of steps more.
-    pub(crate) fn step_map(self, map: StepMap) -> Self {
-        self.block(Block::StepMap(map))
-    }
-
     /// The section with a matrix in colours more.
     pub fn matrix(self, matrix: Matrix) -> Self {
         self.block(Block::Matrix(matrix))
@@ -234,20 +222,7 @@ impl Section {
 impl Report {
     /// A report without contents.
     pub fn new(title: impl Into<String>, command: impl Into<String>, version: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            subtitle: None,
-            command: command.into(),
-            version: version.into(),
-            date: None,
-            document: None,
-            judgement: None,
-            headlines: Vec::new(),
-            sections: Vec::new(),
-            table_files: None,
-            assumptions: Vec::new(),
-            warnings: Vec::new(),
-        }
+        Self { title: title.into(), command: command.into(), version: version.into(), ..Self::default() }
     }
 
     /// The report with a line under its title.

@@ -1,11 +1,11 @@
 //! Tables as CSV files (RFC 4180): commas, CR LF, units in the header row, numbers whole.
 
+use std::iter::once;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::content::{Block, Report, TableFiles};
-use super::number::{pretty_unit, with_unit};
-use super::table::{Align, Cell, CellLook, Column, Table, Verdict};
+use super::{Align, Block, Cell, CellLook, Column, Report, Table, TableFiles, Verdict, pretty_unit, with_unit};
 
 /// Longest file name without its ending.
 const LONGEST_NAME: usize = 60;
@@ -25,24 +25,19 @@ impl Table {
     pub fn to_csv(&self) -> String {
         let is_judged = |k: usize| self.rows.iter().filter_map(|row| row.get(k)).any(is_judged);
         let judged: Vec<bool> = (0..self.columns.len()).map(is_judged).collect();
-        let mut header = Vec::new();
-        for (column, judged) in self.columns.iter().zip(&judged) {
-            header.push(quoted(&guarded(&title(column))));
-            if *judged {
-                header.push(quoted(&guarded(&format!("{}: verdict", column.title))));
-            }
-        }
-        let mut out = header.join(",") + "\r\n";
+        let columns = || self.columns.iter().zip(&judged);
+        let line = |fields: Vec<String>| fields.join(",") + "\r\n";
+        let header = columns().flat_map(|(column, judged)| {
+            let verdict = judged.then(|| format!("{}: verdict", column.title));
+            once(title(column)).chain(verdict).map(|text| quoted(&guarded(&text)))
+        });
+        let mut out = line(header.collect());
         for row in &self.rows {
-            let mut fields = Vec::new();
-            for ((cell, column), judged) in row.iter().zip(&self.columns).zip(&judged) {
-                fields.push(quoted(&field(cell, column)));
-                if *judged {
-                    fields.push(cell.verdict.word().to_owned());
-                }
-            }
-            out.push_str(&fields.join(","));
-            out.push_str("\r\n");
+            let fields = row.iter().zip(columns()).flat_map(|(cell, (column, judged))| {
+                let verdict = judged.then(|| cell.verdict.word().to_owned());
+                once(quoted(&field(cell, column))).chain(verdict)
+            });
+            out += &line(fields.collect());
         }
         out
     }

@@ -4,12 +4,11 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use super::curve::{Abscissa, Curve, CurveStyle};
-use super::layout::{AxisView, Layout, MARKER_CHARACTER, MARKER_ROW, TICKS, WIDTH};
+use super::layout::{AxisView, Layout};
 use super::palette::COLOURS;
-use super::plot::{Axis, Family, Level, Plot, is_positive};
+use super::plot::is_positive;
 use super::svg_plot::colour;
-use super::{ReportError, decimate};
+use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, Sides, decimate};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 const BUDGET: usize = 2_800_000;
@@ -19,22 +18,12 @@ pub(crate) const SIGNAL_POINTS: usize = 500_000;
 
 #[derive(Debug, Serialize)]
 struct PlotData<'a> {
-    width: f64,
-    height: f64,
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-    ticks: [usize; 2],
-    rows: usize,
-    row: f64,
-    character: f64,
-    x: AxisData<'a>,
-    y: AxisData<'a>,
+    #[serde(flatten)]
+    layout: &'a Layout<'a>,
     curves: Vec<CurveData<'a>>,
     markers: Vec<MarkerData<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    families: Vec<FamilyData<'a>>,
+    families: Vec<FamilyData>,
     levels: Vec<Level>,
     /// Edges of the picture, whose address the script takes from the SVG.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -48,26 +37,9 @@ struct RasterData {
     y: [f64; 2],
 }
 
+/// How a curve is drawn, in the legend too.
 #[derive(Debug, Serialize)]
-struct AxisData<'a> {
-    log: bool,
-    low: f64,
-    high: f64,
-    unit: &'a str,
-    /// Of an axis over time or frequency: what one over a difference of shown values is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reciprocal: Option<Reciprocal>,
-}
-
-/// 1 / difference = factor / difference of shown values, in `unit`.
-#[derive(Debug, Serialize)]
-struct Reciprocal {
-    unit: &'static str,
-    factor: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct CurveData<'a> {
+pub(super) struct CurveLook<'a> {
     name: &'a str,
     colour: usize,
     style: &'static str,
@@ -75,25 +47,37 @@ struct CurveData<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     symbol: Option<String>,
     open: bool,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    labels: Vec<&'a str>,
-    #[serde(flatten)]
-    x: AbscissaData,
-    /// f32, in shown units.
-    y: String,
+}
+
+impl<'a> CurveLook<'a> {
+    /// Of the curve with this number in its plot, from 0.
+    pub(super) fn of(curve: &'a Curve, number: usize) -> Self {
+        Self {
+            name: &curve.name,
+            colour: colour(curve, number),
+            style: curve.style.class(),
+            symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
+            open: curve.symbol.is_open(),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
-#[serde(untagged)]
-enum AbscissaData {
-    Even {
-        start: f64,
-        step: f64,
-    },
-    /// f64, in shown units.
-    Points {
-        x: String,
-    },
+struct CurveData<'a> {
+    #[serde(flatten)]
+    look: CurveLook<'a>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    labels: Vec<&'a str>,
+    /// Of even abscissas, in shown units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<f64>,
+    /// Of others: f64, in shown units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<String>,
+    /// f32, in shown units.
+    y: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -105,17 +89,11 @@ struct MarkerData<'a> {
 
 /// In shown units.
 #[derive(Debug, Serialize)]
-struct FamilyData<'a> {
+struct FamilyData {
     at: f64,
     colour: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    sides: Option<SidesData<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct SidesData<'a> {
-    name: &'a str,
-    spacing: f64,
+    sides: Option<Sides>,
 }
 
 /// Bytes a curve needs in full.
@@ -152,18 +130,7 @@ pub(super) fn json(plot: &Plot, layout: &Layout, share: usize) -> Result<String,
     let levels = plot.levels.iter().filter(|level| level.at.is_finite());
     let markers = plot.markers.iter().filter(|m| m.at.is_finite());
     let data = PlotData {
-        width: WIDTH,
-        height: layout.height,
-        left: layout.left,
-        right: layout.right,
-        top: layout.top,
-        bottom: layout.bottom,
-        ticks: TICKS,
-        rows: layout.rows,
-        row: MARKER_ROW,
-        character: MARKER_CHARACTER,
-        x: axis_data(&plot.x, &layout.x),
-        y: axis_data(&plot.y, &layout.y),
+        layout,
         curves: curves.map(|(k, c)| curve_data(c, layout, k, share)).collect(),
         markers: markers
             .map(|marker| MarkerData {
@@ -192,16 +159,16 @@ pub(super) fn for_script(title: &str, data: &impl Serialize) -> Result<String, R
 
 /// Names of the families that a plot offers, in the order of the data.
 pub(super) fn family_names(plot: &Plot) -> Vec<&str> {
-    let shown = plot.families.iter().filter(|family| family.is_shown());
+    let shown = plot.families.iter().filter(|family| is_positive(family.fundamental));
     shown.map(|family| family.name.as_str()).collect()
 }
 
 /// What the script of the page needs of the families.
-fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
-    let shown = plot.families.iter().filter(|family| family.is_shown());
-    let sides = |family: &'a Family| {
+fn family_data(plot: &Plot, x: &AxisView) -> Vec<FamilyData> {
+    let shown = plot.families.iter().filter(|family| is_positive(family.fundamental));
+    let sides = |family: &Family| {
         let sides = family.sides.as_ref()?;
-        is_positive(sides.spacing).then(|| SidesData { name: &sides.name, spacing: sides.spacing / x.factor })
+        is_positive(sides.spacing).then(|| Sides { name: sides.name.clone(), spacing: sides.spacing / x.factor })
     };
     shown
         .map(|family| FamilyData {
@@ -212,50 +179,26 @@ fn family_data<'a>(plot: &'a Plot, x: &AxisView) -> Vec<FamilyData<'a>> {
         .collect()
 }
 
-fn axis_data<'a>(axis: &Axis, view: &'a AxisView) -> AxisData<'a> {
-    let unit = match axis.unit.as_str() {
-        "s" => Some("Hz"),
-        "Hz" => Some("s"),
-        _ => None,
-    };
-    AxisData {
-        log: view.log,
-        low: view.low,
-        high: view.high,
-        unit: &view.unit,
-        reciprocal: unit.map(|unit| Reciprocal { unit, factor: 1.0 / view.factor }),
-    }
-}
-
 fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize) -> CurveData<'a> {
-    let most = share / bytes_a_point(curve);
-    let mut labels = Vec::new();
-    let (x, y) = match &curve.x {
+    let (most, factor) = (share / bytes_a_point(curve), layout.x.factor);
+    let (mut even, mut x, mut labels) = (None, None, Vec::new());
+    let y: Vec<f64> = match &curve.x {
         Abscissa::Even { start, step } => {
             let thinned = decimate::even(&curve.y, most);
-            let x =
-                AbscissaData::Even { start: start / layout.x.factor, step: step * thinned.stride / layout.x.factor };
-            (x, thinned.values)
+            even = Some((start / factor, step * thinned.stride / factor));
+            thinned.values
         }
-        Abscissa::Points(x) => {
+        Abscissa::Points(all) => {
             let kept = decimate::indices(&curve.y, most);
-            labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)));
-            let shown = kept.iter().map(|k| x[*k] / layout.x.factor);
-            let x = AbscissaData::Points { x: base64(shown.flat_map(f64::to_le_bytes)) };
-            (x, kept.iter().map(|k| curve.y[*k]).collect())
+            labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)).map(String::as_str));
+            x = Some(base64(kept.iter().flat_map(|k| (all[*k] / factor).to_le_bytes())));
+            kept.iter().map(|k| curve.y[*k]).collect()
         }
     };
+    let (start, step) = even.unzip();
     let shown = y.iter().map(|v| (v / layout.y.factor) as f32);
-    CurveData {
-        name: &curve.name,
-        colour: colour(curve, number),
-        symbol: (curve.style == CurveStyle::Points).then(|| curve.symbol.path()),
-        open: curve.symbol.is_open(),
-        labels: labels.into_iter().map(String::as_str).collect(),
-        style: curve.style.class(),
-        x,
-        y: base64(shown.flat_map(f32::to_le_bytes)),
-    }
+    let y = base64(shown.flat_map(f32::to_le_bytes));
+    CurveData { look: CurveLook::of(curve, number), labels, start, step, x, y }
 }
 
 fn base64(bytes: impl Iterator<Item = u8>) -> String {
@@ -265,7 +208,7 @@ fn base64(bytes: impl Iterator<Item = u8>) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::plot::Marker;
-    use super::super::{Report, Section};
+    use super::super::{Axis, Report, Section};
     use super::*;
 
     fn plot(points: usize) -> Plot {

@@ -3,14 +3,11 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use minijinja::syntax::SyntaxConfig;
-use minijinja::value::Serde;
-use minijinja::{Environment, UndefinedBehavior};
-use serde::Serialize;
+use minijinja::value::{Serde, Value};
+use minijinja::{Environment, UndefinedBehavior, context};
 
-use super::blocks::{self, Numbers, SectionView};
-use super::content::{Document, Headline, Report, TableFiles};
-use super::number::{pretty_unit, raised_powers};
-use super::{ReportError, shapes};
+use super::blocks::{self, Numbers};
+use super::{Report, ReportError, pretty_unit, raised_powers, shapes};
 
 const TEMPLATE: &str = include_str!("templates/report.html");
 const BLOCKS: &str = include_str!("templates/blocks.html");
@@ -25,32 +22,6 @@ const SHAPES_SCRIPT: &str = include_str!("templates/shapes.js");
 const LIBRARY: &str = include_str!("assets/three.module.min.js");
 const LIBRARY_LICENCE: &str = include_str!("assets/three.LICENSE");
 
-#[derive(Debug, Serialize)]
-struct Page<'a> {
-    title: &'a str,
-    subtitle: Option<&'a str>,
-    command: &'a str,
-    version: &'a str,
-    date: Option<&'a str>,
-    document: Option<&'a Document>,
-    judgement: Option<&'a Headline>,
-    headlines: &'a [Headline],
-    sections: Vec<SectionView<'a>>,
-    tables: Option<&'a TableFiles>,
-    assumptions: &'a [String],
-    warnings: &'a [String],
-    style: String,
-    script: String,
-    library: Option<Library>,
-}
-
-/// A library of others, with its licence.
-#[derive(Debug, Serialize)]
-struct Library {
-    licence: &'static str,
-    packed: String,
-}
-
 impl Report {
     /// The report as one HTML file, complete in itself: styles, drawings, data and script are inside, nothing is
     /// fetched. The plots' data take at most 3.8 MB together; longer curves are thinned such that spikes survive. Shapes
@@ -60,28 +31,29 @@ impl Report {
     /// [`ReportError`] for contents that do not fit together; nothing that depends on the machine.
     pub fn to_html(&self) -> Result<String, ReportError> {
         let mut numbers = Numbers::new(&self.sections, self.table_files.as_ref());
-        let sections = self
-            .sections
-            .iter()
-            .map(|section| blocks::section_view(section, &mut numbers))
-            .collect::<Result<_, _>>()?;
+        let sections = self.sections.iter().map(|section| blocks::section(section, &mut numbers));
+        let sections: Vec<Value> = sections.collect::<Result<_, _>>()?;
         let live = self.sections.iter().any(|section| section.blocks.iter().any(blocks::is_live));
-        let page = Page {
-            title: &self.title,
-            subtitle: self.subtitle.as_deref(),
-            command: &self.command,
-            version: &self.version,
-            date: self.date.as_deref(),
-            document: self.document.as_ref(),
-            judgement: self.judgement.as_ref(),
-            headlines: &self.headlines,
+        let page = context! {
+            title => &self.title,
+            subtitle => &self.subtitle,
+            command => &self.command,
+            version => &self.version,
+            date => &self.date,
+            document => Serde(&self.document),
+            judgement => Serde(&self.judgement),
+            headlines => Serde(&self.headlines),
             sections,
-            tables: self.table_files.as_ref(),
-            assumptions: &self.assumptions,
-            warnings: &self.warnings,
-            style: format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),
-            script: [PLOT_SCRIPT, CURSORS_SCRIPT, if live { SHAPES_SCRIPT } else { "" }].map(lean).concat(),
-            library: live.then(|| Library { licence: LIBRARY_LICENCE, packed: library() }),
+            tables => Serde(&self.table_files),
+            assumptions => &self.assumptions,
+            warnings => &self.warnings,
+            style => format!("{STYLE}{SHAPES_STYLE}{}", page_rule(self)),
+            script => [PLOT_SCRIPT, CURSORS_SCRIPT, if live { SHAPES_SCRIPT } else { "" }].map(lean).concat(),
+            // the library of others with its licence, as zlib, then base64
+            library => live.then(|| {
+                let packed = STANDARD.encode(shapes::compressed(LIBRARY.as_bytes()));
+                context! { licence => LIBRARY_LICENCE, packed }
+            }),
         };
         let mut environment = Environment::new();
         environment.add_filter("unit", |unit: String| pretty_unit(&unit));
@@ -93,7 +65,7 @@ impl Report {
         environment.add_template("report.html", TEMPLATE)?;
         environment.add_template("blocks.html", BLOCKS)?;
         environment.add_template("shapes.html", SHAPES)?;
-        Ok(environment.get_template("report.html")?.render(Serde(page))?)
+        Ok(environment.get_template("report.html")?.render(page)?)
     }
 }
 
@@ -129,11 +101,6 @@ fn lean(script: &str) -> String {
     let lines = script.lines().map(str::trim_start);
     let lines = lines.filter(|line| !line.starts_with("//"));
     lines.flat_map(|line| [line, "\n"]).collect()
-}
-
-/// The library for shapes, as the page carries it: zlib, then base64.
-fn library() -> String {
-    STANDARD.encode(shapes::compressed(LIBRARY.as_bytes()))
 }
 
 #[cfg(test)]

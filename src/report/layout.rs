@@ -1,10 +1,10 @@
 //! Where things stand in a plot: ranges, units, margins, and the map from values to pixels.
 
-use super::ReportError;
-use super::curve::{Abscissa, Curve, CurveStyle};
+use serde::Serialize;
+
 use super::number::{DisplayUnit, display_unit, with_unit};
-use super::plot::{Axis, Level, Marker, Plot, Raster, Scale};
 use super::ticks::{self, Tick};
+use super::{Abscissa, Axis, Curve, CurveStyle, Level, Marker, Plot, Raster, ReportError, Scale};
 
 /// Size of a plot, in pixels of its own coordinates; the page scales it.
 pub(super) const WIDTH: f64 = 920.0;
@@ -18,29 +18,41 @@ pub(super) const BAR_ROOM: f64 = 88.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 46.0;
 /// Height of a row of marker labels, and most rows.
-pub(super) const MARKER_ROW: f64 = 15.0;
+const MARKER_ROW: f64 = 15.0;
 const MOST_MARKER_ROWS: usize = 6;
 /// Width of a character of a marker label, pixels; generous, for the fonts that a reader may have.
-pub(super) const MARKER_CHARACTER: f64 = 6.4;
+const MARKER_CHARACTER: f64 = 6.4;
 /// Part of the range left free below and above the curves.
 const HEADROOM: f64 = 0.06;
 
 /// Ticks wanted on the x axis and on the y axis.
-pub(super) const TICKS: [usize; 2] = [9, 6];
+const TICKS: [usize; 2] = [9, 6];
 /// Part of the x range that is added to end on a round number.
 const SNAP: f64 = 0.005;
 
-/// An axis as it is shown: range and title in shown units.
-#[derive(Debug, Clone, PartialEq)]
+/// An axis as it is shown: range and title in shown units. The script of the page gets what is not skipped.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct AxisView {
     pub(super) log: bool,
     pub(super) low: f64,
     pub(super) high: f64,
     /// Shown value = value / factor.
+    #[serde(skip)]
     pub(super) factor: f64,
     /// Unit of the shown values ("" for none).
     pub(super) unit: String,
+    #[serde(skip)]
     pub(super) title: String,
+    /// Of an axis over time or frequency: what one over a difference of shown values is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reciprocal: Option<Reciprocal>,
+}
+
+/// 1 / difference = factor / difference of shown values, in `unit`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Reciprocal {
+    unit: &'static str,
+    factor: f64,
 }
 
 /// A marker that is in view: pixels from the left, and its row (0 the lowest), if there is room.
@@ -51,17 +63,24 @@ pub(super) struct PlacedMarker<'a> {
     pub(super) label: Option<(usize, f64)>,
 }
 
-/// A plot laid out.
-#[derive(Debug, Clone, PartialEq)]
+/// A plot laid out, pixels. The script of the page gets all but the markers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Layout<'a> {
-    pub(super) x: AxisView,
-    pub(super) y: AxisView,
+    width: f64,
+    pub(super) height: f64,
     pub(super) left: f64,
     pub(super) right: f64,
     pub(super) top: f64,
     pub(super) bottom: f64,
-    pub(super) height: f64,
+    /// Ticks wanted on the x axis and on the y axis.
+    pub(super) ticks: [usize; 2],
+    /// Rows of marker labels, height of a row, and width of a character.
     pub(super) rows: usize,
+    pub(super) row: f64,
+    character: f64,
+    pub(super) x: AxisView,
+    pub(super) y: AxisView,
+    #[serde(skip)]
     pub(super) markers: Vec<PlacedMarker<'a>>,
 }
 
@@ -88,7 +107,14 @@ impl AxisView {
         let powers = log && high >= 10.0 * low;
         let largest = if powers { 1.0 } else { low.abs().max(high.abs()) };
         let DisplayUnit { factor, text } = display_unit(&axis.unit, largest);
-        Self { log, low: low / factor, high: high / factor, factor, title: with_unit(&axis.label, &text), unit: text }
+        let unit = match axis.unit.as_str() {
+            "s" => Some("Hz"),
+            "Hz" => Some("s"),
+            _ => None,
+        };
+        let reciprocal = unit.map(|unit| Reciprocal { unit, factor: 1.0 / factor });
+        let title = with_unit(&axis.label, &text);
+        Self { log, low: low / factor, high: high / factor, factor, title, unit: text, reciprocal }
     }
 }
 
@@ -122,14 +148,18 @@ impl<'a> Layout<'a> {
         let top = TOP + MARKER_ROW * rows as f64;
         let area = if plot.tall { TALL_AREA_HEIGHT } else { AREA_HEIGHT };
         Ok(Self {
-            x,
-            y,
+            width: WIDTH,
+            height: top + area + BOTTOM,
             left: LEFT,
             right: WIDTH - RIGHT - plot.raster.as_ref().map_or(0.0, |_| BAR_ROOM),
             top,
             bottom: top + area,
-            height: top + area + BOTTOM,
+            ticks: TICKS,
             rows,
+            row: MARKER_ROW,
+            character: MARKER_CHARACTER,
+            x,
+            y,
             markers,
         })
     }

@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::fixed;
-use super::{palette, svg};
+use super::{ReportError, fixed, palette, svg};
 
 /// Side of a cell, pixels, at least and at most.
 const CELL: [f64; 2] = [9.0, 46.0];
@@ -90,9 +88,8 @@ pub(super) fn draw(matrix: &Matrix) -> Result<String, ReportError> {
     let full_height = (top + height.max(150.0) + 12.0).round();
     let look = format!("class=\"matrix\" style=\"max-width:{full_width}px\"");
     let mut out = svg::opening(&look, [full_width, full_height], &matrix.title);
-    let above = [left + 0.5 * width, 14.0];
-    svg::title_across(&mut out, above, &matrix.columns.0);
-    svg::title_upward(&mut out, [14.0, top + 0.5 * height], &matrix.rows.0);
+    svg::text(&mut out, svg::TITLE, [left + 0.5 * width, 14.0], &matrix.columns.0);
+    svg::upward(&mut out, svg::TITLE, [14.0, top + 0.5 * height], &matrix.rows.0);
     // Labels closer than a line of text overlap: then each second, third ... one stands.
     let stride = (13.0 / cell).ceil().max(1.0) as usize;
     for (k, label) in columns.iter().enumerate().step_by(stride) {

@@ -39,6 +39,7 @@ mod table;
 mod ticks;
 
 pub use bars::{BarSeries, Bars};
+pub(in crate::report) use content::TableFiles;
 pub use content::{Block, Document, Fact, Headline, MeshFile, Report, Section};
 pub use curve::{Abscissa, Curve, CurveStyle, Symbol};
 pub(crate) use decimate::Thinner;
@@ -47,6 +48,7 @@ pub(crate) use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
 pub(crate) use number::pretty_unit;
+pub(in crate::report) use number::{display_unit, raised_powers, with_unit};
 pub use number::{fixed, significant};
 pub(crate) use plot::Raster;
 pub use plot::{Axis, Family, Level, Marker, Plot, Scale, Sides};

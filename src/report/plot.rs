@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::curve::Curve;
 
 /// How values are spread over an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Scale {
     /// Evenly.
+    #[default]
     Linear,
     /// By their logarithm; values that are not positive are left out.
     Log,
@@ -15,7 +16,7 @@ pub enum Scale {
 
 /// One axis of a plot.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Axis {
     /// What it shows ("Frequency").
     pub label: String,
@@ -50,7 +51,7 @@ pub struct Level {
 
 /// A plot.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Plot {
     /// What it shows.
     pub title: String,
@@ -106,14 +107,8 @@ impl Family {
 
     /// The family with side lines, `spacing` in the x axis' unit.
     pub fn sides(mut self, name: impl Into<String>, spacing: f64) -> Self {
-        let name = name.into();
-        self.sides = Some(Sides { name, spacing });
+        self.sides = Some(Sides { name: name.into(), spacing });
         self
-    }
-
-    /// Whether it has harmonics to show.
-    pub(super) fn is_shown(&self) -> bool {
-        is_positive(self.fundamental)
     }
 }
 
@@ -177,18 +172,7 @@ impl Marker {
 impl Plot {
     /// A plot without curves.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self {
-            title: title.into(),
-            caption: None,
-            x,
-            y,
-            curves: Vec::new(),
-            markers: Vec::new(),
-            families: Vec::new(),
-            levels: Vec::new(),
-            tall: false,
-            raster: None,
-        }
+        Self { title: title.into(), x, y, ..Self::default() }
     }
 
     /// The plot with a curve more.
@@ -205,8 +189,7 @@ impl Plot {
 
     /// The plot with a horizontal line more, in the y axis' unit.
     pub(crate) fn level(mut self, at: f64, label: impl Into<String>) -> Self {
-        let label = label.into();
-        self.levels.push(Level { at, label });
+        self.levels.push(Level { at, label: label.into() });
         self
     }
 

@@ -7,8 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::layout::{AxisView, BAR_ROOM, Layout, checked};
 use super::palette::{VIRIDIS, hex, viridis};
-use super::plot::{Plot, Raster};
-use super::{ReportError, svg};
+use super::{Plot, Raster, ReportError, svg};
 
 /// Distance of the bar from the area, and its width, pixels.
 const BAR: [f64; 2] = [14.0, 14.0];
@@ -105,7 +104,7 @@ pub(super) fn bar(
         }
     }
     let at = [layout.right + BAR_ROOM + 8.0, top + 0.5 * height];
-    svg::title_upward(out, at, &view.title);
+    svg::upward(out, svg::TITLE, at, &view.title);
     Ok(())
 }
 

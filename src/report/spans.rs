@@ -2,10 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::significant;
-use super::svg;
-use super::ticks;
+use super::{ReportError, significant, svg, ticks};
 
 const WIDTH: f64 = 920.0;
 /// Where the axis begins: the names of the rows stand left of it.
@@ -74,11 +71,7 @@ impl Spans {
     /// Lowest and highest value shown.
     fn range(&self) -> [f64; 2] {
         let points = self.rows.iter().flat_map(|row| &row.points);
-        let [mut low, mut high] = [self.base; 2];
-        for point in points {
-            low = low.min(point.at);
-            high = high.max(point.at);
-        }
+        let [low, high] = points.fold([self.base; 2], |[low, high], point| [low.min(point.at), high.max(point.at)]);
         let room = match HEADROOM * (high - low) {
             room if room > 0.0 => room,
             _ => 1.0,
@@ -98,8 +91,7 @@ pub(super) fn draw(spans: &Spans) -> Result<String, ReportError> {
     for tick in ticks::linear(low, high, 9) {
         let x = x_of(tick.at);
         svg::line(&mut out, "class=\"grid\"", [x, TOP, x, bottom]);
-        let label = tick.label.unwrap_or_default();
-        svg::text(&mut out, svg::MIDDLE, [x, bottom + 16.0], &label);
+        svg::text(&mut out, svg::MIDDLE, [x, bottom + 16.0], &tick.label.unwrap_or_default());
     }
     for (number, row) in spans.rows.iter().enumerate() {
         let top = TOP + ROW[0] * number as f64;
@@ -108,8 +100,7 @@ pub(super) fn draw(spans: &Spans) -> Result<String, ReportError> {
     let base = x_of(spans.base);
     let frame = format!("M{LEFT} {TOP}V{bottom}H{right}M{base:.1} {TOP}V{bottom}");
     svg::path(&mut out, "class=\"frame\"", &frame, "");
-    let below = [0.5 * (LEFT + right), height - 8.0];
-    svg::title_across(&mut out, below, &spans.axis);
+    svg::text(&mut out, svg::TITLE, [0.5 * (LEFT + right), height - 8.0], &spans.axis);
     Ok(out + "</svg>")
 }
 

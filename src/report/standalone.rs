@@ -2,16 +2,11 @@
 
 use std::fmt::Write;
 
-use super::content::{Block, Report};
 use super::csv::plain_name;
-use super::curve::{Curve, CurveStyle};
 use super::layout::{Layout, WIDTH};
 use super::palette::SERIES;
-use super::plot::Plot;
-use super::spans::{self, Spans};
-use super::step_map::{self, StepMap};
 use super::svg::{self, escape};
-use super::{ReportError, svg_plot};
+use super::{Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg_plot};
 
 /// Height of the title's line and of the legend's, pixels.
 const HEAD: [f64; 2] = [30.0, 22.0];
@@ -26,7 +21,7 @@ impl Plot {
         let inner = svg_plot::draw(self, &layout, "plot")?;
         let named = self.curves.iter().enumerate();
         let named = named.filter(|(_, curve)| !curve.name.is_empty());
-        let entries: Vec<Entry> = named.map(|(k, curve)| Entry::of(curve, k)).collect();
+        let entries: Vec<(&str, String)> = named.map(|(k, curve)| (&*curve.name, sign(curve, k))).collect();
         Ok(file(&self.title, &entries, &inner, layout.height))
     }
 }
@@ -68,50 +63,40 @@ impl StepMap {
     }
 }
 
-/// A name in the legend and what stands before it.
-struct Entry<'a> {
-    name: &'a str,
-    sign: String,
-}
-
-impl<'a> Entry<'a> {
-    fn of(curve: &'a Curve, number: usize) -> Self {
-        let colour = SERIES[svg_plot::colour(curve, number)];
-        let stroke = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"");
-        let at = "transform=\"translate(9 0)";
-        let dashes = "stroke-dasharray=\"6 4\"";
-        let (look, data) = match curve.style {
-            CurveStyle::Line => (stroke, "M0 0H18".to_owned()),
-            CurveStyle::Dashed => (format!("{stroke} {dashes}"), "M0 0H18".to_owned()),
-            CurveStyle::Points if curve.symbol.is_open() => (format!("{at} scale(.8)\" {stroke}"), curve.symbol.path()),
-            CurveStyle::Points => (format!("{at}\" fill=\"{colour}\""), curve.symbol.path()),
-        };
-        let mut sign = String::new();
-        svg::path(&mut sign, &look, &data, "");
-        Self { name: &curve.name, sign }
-    }
-
-    /// Width with its sign, pixels; generous, for the fonts that a reader may have.
-    fn width(&self) -> f64 {
-        44.0 + 6.6 * self.name.chars().count() as f64
-    }
+/// What stands before the name of a curve in the legend.
+fn sign(curve: &Curve, number: usize) -> String {
+    let colour = SERIES[svg_plot::colour(curve, number)];
+    let stroke = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"");
+    let at = "transform=\"translate(9 0)";
+    let dashes = "stroke-dasharray=\"6 4\"";
+    let (look, data) = match curve.style {
+        CurveStyle::Line => (stroke, "M0 0H18".to_owned()),
+        CurveStyle::Dashed => (format!("{stroke} {dashes}"), "M0 0H18".to_owned()),
+        CurveStyle::Points if curve.symbol.is_open() => (format!("{at} scale(.8)\" {stroke}"), curve.symbol.path()),
+        CurveStyle::Points => (format!("{at}\" fill=\"{colour}\""), curve.symbol.path()),
+    };
+    let mut sign = String::new();
+    svg::path(&mut sign, &look, &data, "");
+    sign
 }
 
 /// A drawing of the page in a file: title and legend above it.
-fn file(title: &str, names: &[Entry], inner: &str, height: f64) -> String {
+fn file(title: &str, names: &[(&str, String)], inner: &str, height: f64) -> String {
     let (mut legend, mut rows, mut x) = (String::new(), 0.0, WIDTH);
-    for entry in names {
-        if x + entry.width() > WIDTH {
+    for (name, sign) in names {
+        // width with its sign; generous, for the fonts that a reader may have
+        let width = 44.0 + 6.6 * name.chars().count() as f64;
+        if x + width > WIDTH {
             x = 14.0;
             rows += 1.0;
         }
         let y = HEAD[0] + HEAD[1] * (rows - 1.0);
-        let (sign, below) = (&entry.sign, y + 8.0);
+        let below = y + 8.0;
         // Writing to a string cannot fail, here and below.
         let _ = write!(legend, "<g transform=\"translate({x:.0} {below:.0})\">{sign}</g>");
-        svg::text(&mut legend, "", [x + 24.0, y + 12.0], entry.name);
+        svg::text(&mut legend, "", [x + 24.0, y + 12.0], name);
         legend.push('\n');
-        x += entry.width();
+        x += width;
     }
     let head = HEAD[0] + HEAD[1] * rows;
     let whole = head + height;

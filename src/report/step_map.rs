@@ -3,10 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::{significant, with_unit};
-use super::svg;
-use super::ticks;
+use super::{ReportError, significant, svg, ticks, with_unit};
 
 const WIDTH: f64 = 920.0;
 /// Where the first panel begins: the names of the rows stand left of it.
@@ -39,21 +36,12 @@ pub enum StepState {
 }
 
 impl StepState {
-    /// In results and reports.
-    pub(crate) fn name(self) -> &'static str {
+    /// As in results and reports; colours are light, middle and dark, so that they differ in grey too.
+    fn name_and_colour(self) -> [&'static str; 2] {
         match self {
-            Self::Stable => "stable",
-            Self::Resonant => "resonant",
-            Self::Unstable => "unstable",
-        }
-    }
-
-    /// Light, middle and dark, so that they differ in grey too.
-    fn colour(self) -> &'static str {
-        match self {
-            Self::Stable => "#d3e3f1",
-            Self::Resonant => "#f0b03c",
-            Self::Unstable => "#9c3328",
+            Self::Stable => ["stable", "#d3e3f1"],
+            Self::Resonant => ["resonant", "#f0b03c"],
+            Self::Unstable => ["unstable", "#9c3328"],
         }
     }
 }
@@ -131,7 +119,7 @@ pub(super) fn draw(map: &StepMap) -> Result<String, ReportError> {
         draw_panel(&mut out, map, panel, [left, width]);
     }
     let below = [0.5 * (LEFT + WIDTH - RIGHT), height - BOTTOM + 36.0];
-    svg::title_across(&mut out, below, &with_unit(&map.axis, &map.unit));
+    svg::text(&mut out, svg::TITLE, below, &with_unit(&map.axis, &map.unit));
     legend(&mut out, height - 16.0);
     Ok(out + "</svg>")
 }
@@ -150,10 +138,10 @@ fn draw_panel(out: &mut String, map: &StepMap, panel: &StepPanel, [left, width]:
         for (&step, state) in steps.iter().zip(cells) {
             let Some(state) = state else { continue };
             let (name, condition) = (&panel.name, &map.rows[row]);
-            let tip = format!("{name}, {condition}: {} {}", in_unit(step), state.name());
+            let [what, colour] = state.name_and_colour();
+            let tip = format!("{name}, {condition}: {} {what}", in_unit(step));
             let cell = [x_of(step * (-half).exp()), y, cell_width, tall];
-            let look = format!("shape-rendering=\"crispEdges\" fill=\"{}\"", state.colour());
-            svg::rect(out, &look, cell, &tip);
+            svg::rect(out, &format!("shape-rendering=\"crispEdges\" fill=\"{colour}\""), cell, &tip);
         }
         let inside = |limit: &f64| (low..=high).contains(&limit.ln());
         let [predicted, measured] = panel.limits[row];
@@ -191,9 +179,9 @@ fn measured_mark(out: &mut String, at: [f64; 2], tip: &str) {
 fn legend(out: &mut String, y: f64) {
     let mut x = LEFT;
     for state in [StepState::Stable, StepState::Resonant, StepState::Unstable] {
-        let look = format!("fill=\"{}\"", state.colour());
-        svg::rect(out, &look, [x, y - 10.0, 16.0, 12.0], "");
-        svg::text(out, "", [x + 22.0, y], state.name());
+        let [name, colour] = state.name_and_colour();
+        svg::rect(out, &format!("fill=\"{colour}\""), [x, y - 10.0, 16.0, 12.0], "");
+        svg::text(out, "", [x + 22.0, y], name);
         x += 100.0;
     }
     predicted_mark(out, [x + 8.0, y - 11.0], "");

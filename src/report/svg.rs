@@ -7,7 +7,7 @@ use super::number::{display_unit, significant};
 /// Attributes of a chart.
 pub(super) const CHART: &str = "class=\"bars\"";
 /// Attributes of the title of an axis, and of a text that is centred at its place or ends there.
-const TITLE: &str = "class=\"title\" text-anchor=\"middle\"";
+pub(super) const TITLE: &str = "class=\"title\" text-anchor=\"middle\"";
 pub(super) const MIDDLE: &str = "text-anchor=\"middle\"";
 pub(super) const END: &str = "text-anchor=\"end\"";
 
@@ -36,16 +36,6 @@ pub(super) fn upward(out: &mut String, look: &str, [x, y]: [f64; 2], text: &str)
     let text = escape(text);
     begin(out, "text", look);
     let _ = write!(out, " transform=\"translate({x:.1} {y:.1}) rotate(-90)\">{text}</text>");
-}
-
-/// The title of a horizontal axis.
-pub(super) fn title_across(out: &mut String, middle: [f64; 2], title: &str) {
-    text(out, TITLE, middle, title);
-}
-
-/// The title of a vertical axis.
-pub(super) fn title_upward(out: &mut String, middle: [f64; 2], title: &str) {
-    upward(out, TITLE, middle, title);
 }
 
 /// A line from one point to another.
@@ -126,7 +116,8 @@ fn round_length(wanted: f64) -> f64 {
 /// Path data under construction: lines through points in pixels, written to a tenth of a pixel.
 #[derive(Debug, Default)]
 pub(super) struct Path {
-    data: String,
+    /// For the attribute `d`.
+    pub(super) data: String,
     last: Option<(i64, i64)>,
 }
 
@@ -156,11 +147,6 @@ impl Path {
     pub(super) fn gap(&mut self) {
         self.last = None;
     }
-
-    /// The path data for the attribute `d`.
-    pub(super) fn data(self) -> String {
-        self.data
-    }
 }
 
 #[cfg(test)]
@@ -180,6 +166,6 @@ mod tests {
         path.to(3.25, -4.0);
         path.gap();
         path.to(5.0, 6.0);
-        assert_eq!(path.data(), "M1 2L3.3 -4M5 6");
+        assert_eq!(path.data, "M1 2L3.3 -4M5 6");
     }
 }

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::ReportError;
-use super::drawing::{Circle, Dent, Drawing, Point, Sensor, Spring};
 use super::svg::{self, Path, ScaleBar};
+use super::{Circle, Dent, Drawing, Point, ReportError};
 
 const WIDTH: f64 = 920.0;
 /// Largest width and height of the model on the page, pixels.
@@ -35,7 +34,6 @@ const DENTED: &str = "class=\"dent\"";
 struct View {
     scale: f64,
     left: f64,
-    top: f64,
     low_x: f64,
     high_y: f64,
     height: f64,
@@ -43,16 +41,13 @@ struct View {
 
 impl View {
     fn of(drawing: &Drawing) -> Result<Self, ReportError> {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        let mut finite = true;
-        for point in extremes(drawing) {
-            for (k, v) in [point.x, point.y].into_iter().enumerate() {
-                finite &= v.is_finite();
-                low[k] = low[k].min(v);
-                high[k] = high[k].max(v);
-            }
-        }
-        let (width, height) = (high[0] - low[0], high[1] - low[1]);
+        let finite = extremes(drawing).all(|point| point.x.is_finite() && point.y.is_finite());
+        let range = |of: fn(Point) -> f64| {
+            let ends = [f64::INFINITY, f64::NEG_INFINITY];
+            extremes(drawing).map(of).fold(ends, |[low, high], v| [low.min(v), high.max(v)])
+        };
+        let ([left, right], [bottom, top]) = (range(|point| point.x), range(|point| point.y));
+        let (width, height) = (right - left, top - bottom);
         // Not "<= 0": an empty drawing has an extent of minus infinity, a wrong one NaN.
         if !(finite && width.max(height) > 0.0) {
             return Err(ReportError(format!(
@@ -64,15 +59,14 @@ impl View {
         Ok(Self {
             scale,
             left: MARGIN + 0.5 * (MODEL[0] - scale * width),
-            top: MARGIN,
-            low_x: low[0],
-            high_y: high[1],
+            low_x: left,
+            high_y: top,
             height: (2.0 * MARGIN + scale * height + 18.0).max(300.0),
         })
     }
 
     fn px(&self, point: Point) -> [f64; 2] {
-        [self.left + (point.x - self.low_x) * self.scale, self.top + (self.high_y - point.y) * self.scale]
+        [self.left + (point.x - self.low_x) * self.scale, MARGIN + (self.high_y - point.y) * self.scale]
     }
 }
 
@@ -102,9 +96,9 @@ pub(super) fn draw(drawing: &Drawing) -> Result<String, ReportError> {
     for edge in &drawing.mesh_edges {
         mesh.line(edge.iter().map(|p| view.px(*p)));
     }
-    svg::path(&mut out, MESH, &mesh.data(), "");
+    svg::path(&mut out, MESH, &mesh.data, "");
     for spring in &drawing.springs {
-        draw_spring(&mut out, view.px(spring.at), spring);
+        draw_spring(&mut out, view.px(spring.at), spring.towards_rad);
     }
     for race in &drawing.races {
         circle(&mut out, RACE, &view, race);
@@ -122,7 +116,7 @@ pub(super) fn draw(drawing: &Drawing) -> Result<String, ReportError> {
         draw_dent(&mut out, &view, dent);
     }
     for sensor in &drawing.sensors {
-        draw_sensor(&mut out, view.px(sensor.at), sensor);
+        draw_sensor(&mut out, view.px(sensor.at), sensor.direction_rad, &sensor.name);
     }
     scale_and_axes(&mut out, &view);
     key(&mut out, drawing);
@@ -135,8 +129,8 @@ fn circle(out: &mut String, look: &str, view: &View, circle: &Circle) {
 }
 
 /// A coil from the attachment to a hatched line, drawn at a fixed size.
-fn draw_spring(out: &mut String, [x, y]: [f64; 2], spring: &Spring) {
-    let (s, c) = spring.towards_rad.sin_cos();
+fn draw_spring(out: &mut String, [x, y]: [f64; 2], towards_rad: f64) {
+    let (s, c) = towards_rad.sin_cos();
     // Pixels count downwards.
     let place = |[along, across]: [f64; 2]| [x + c * along - s * across, y - s * along - c * across];
     let turn = |k: usize| {
@@ -147,13 +141,13 @@ fn draw_spring(out: &mut String, [x, y]: [f64; 2], spring: &Spring) {
     let end = [[0.8 * COIL, 0.0], [COIL, 0.0]];
     let mut coil = Path::default();
     coil.line(begin.chain((0..6).map(turn)).chain(end).map(place));
-    svg::path(out, "class=\"spring\"", &coil.data(), "");
+    svg::path(out, "class=\"spring\"", &coil.data, "");
     let mut ground = Path::default();
     ground.line([[COIL, -5.0], [COIL, 5.0]].map(place));
     for across in [-3.0, 1.0, 5.0] {
         ground.line([[COIL, across], [COIL + 4.0, across - 3.0]].map(place));
     }
-    svg::path(out, "class=\"ground\"", &ground.data(), "");
+    svg::path(out, "class=\"ground\"", &ground.data, "");
 }
 
 /// The dent's arc on its race, and its label towards the centre.
@@ -166,7 +160,7 @@ fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
         let angle = dent.angle_rad + half * (f64::from(k) / 6.0 - 1.0);
         view.px(race.centre.polar(race.radius, angle))
     }));
-    svg::path(out, DENTED, &arc.data(), "");
+    svg::path(out, DENTED, &arc.data, "");
     let inside = |part: f64| view.px(race.centre.polar(part * race.radius, dent.angle_rad));
     let ([x1, y1], [x2, y2]) = (inside(0.97), inside(0.22));
     svg::line(out, "class=\"leader\"", [x1, y1, x2, y2]);
@@ -178,10 +172,10 @@ fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
 
 /// An arrow from the sensor's place in the direction in which it measures, with the name at its tip; a dot in a circle,
 /// the name beside it, for one that measures across the drawing.
-fn draw_sensor(out: &mut String, [x, y]: [f64; 2], sensor: &Sensor) {
+fn draw_sensor(out: &mut String, [x, y]: [f64; 2], direction_rad: Option<f64>, name: &str) {
     out.push_str("<g class=\"sensor\">");
     svg::circle(out, "", [x, y], 3.5, "");
-    if let Some(angle) = sensor.direction_rad {
+    if let Some(angle) = direction_rad {
         let (s, c) = angle.sin_cos();
         let tip = [x + ARROW * c, y - ARROW * s];
         svg::line(out, "", [x, y, tip[0] - 6.0 * c, tip[1] + 6.0 * s]);
@@ -190,18 +184,18 @@ fn draw_sensor(out: &mut String, [x, y]: [f64; 2], sensor: &Sensor) {
             let (s, c) = (angle + turn).sin_cos();
             [tip[0] + length * c, tip[1] - length * s]
         }));
-        svg::path(out, "", &(head.data() + "Z"), "");
+        svg::path(out, "", &(head.data + "Z"), "");
         let look = match c {
             c if c > 0.5 => "",
             c if c < -0.5 => svg::END,
             _ => svg::MIDDLE,
         };
         let beside = [tip[0] + 10.0 * c, tip[1] - 10.0 * s + 4.0];
-        svg::text(out, look, beside, &sensor.name);
+        svg::text(out, look, beside, name);
     } else {
         let look = "style=\"fill:none;stroke:currentColor\"";
         svg::circle(out, look, [x, y], 7.5, "");
-        svg::text(out, "", [x + 13.0, y + 4.0], &sensor.name);
+        svg::text(out, "", [x + 13.0, y + 4.0], name);
     }
     out.push_str("</g>");
 }
@@ -220,7 +214,7 @@ fn scale_and_axes(out: &mut String, view: &View) {
     axes.line([[x - 3.5, high + 7.0], [x, high], [x + 3.5, high + 7.0]]);
     axes.line([[x, low], [far, low]]);
     axes.line([[far - 7.0, low - 3.5], [far, low], [far - 7.0, low + 3.5]]);
-    svg::path(out, "", &axes.data(), "");
+    svg::path(out, "", &axes.data, "");
     svg::text(out, "", [far + 4.0, low + 4.0], "x");
     svg::text(out, svg::MIDDLE, [x, high - 4.0], "y");
     out.push_str("</g>");
@@ -229,59 +223,44 @@ fn scale_and_axes(out: &mut String, view: &View) {
 /// What the signs mean, at the right; only for what the drawing has.
 fn key(out: &mut String, drawing: &Drawing) {
     let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-    let mut y = 60.0;
-    let mut entry = |sign: &dyn Fn(&mut String, [f64; 2]), text: String| {
-        sign(out, [KEY + 14.0, y]);
-        svg::text(out, "class=\"key\"", [KEY + 40.0, y + 4.0], &text);
-        y += 30.0;
-    };
     let stroke = |look: &'static str| {
         move |out: &mut String, [x, y]: [f64; 2]| {
-            let data = format!("M{} {y}H{}", x - 13.0, x + 13.0);
-            svg::path(out, look, &data, "");
+            svg::path(out, look, &format!("M{} {y}H{}", x - 13.0, x + 13.0), "");
         }
     };
-    let origin = Point { x: 0.0, y: 0.0 };
-    if !drawing.mesh_edges.is_empty() {
-        let sign = |out: &mut String, [x, y]: [f64; 2]| {
-            let data = format!("M{} {}h20v16h-20zm10 0v16m-10 -8h20", x - 10.0, y - 8.0);
-            svg::path(out, MESH, &data, "");
-        };
-        entry(&sign, "housing mesh".to_owned());
-    }
-    if let Some(ring) = &drawing.ring {
-        let sign = |out: &mut String, [x, y]: [f64; 2]| {
-            stroke(RING)(out, [x, y]);
-            svg::circle(out, NODE, [x - 8.0, y], NODE_RADIUS, "");
-            svg::circle(out, NODE, [x + 8.0, y], NODE_RADIUS, "");
-        };
-        let nodes = count(ring.nodes.len(), "node");
-        entry(&sign, format!("bearing ring, {nodes}"));
-    }
-    if !drawing.races.is_empty() {
-        entry(&stroke(RACE), "races".to_owned());
-    }
-    if !drawing.balls.is_empty() {
-        let sign = |out: &mut String, at| svg::circle(out, BALL, at, 8.0, "");
-        entry(&sign, count(drawing.balls.len(), "ball"));
-    }
-    if !drawing.springs.is_empty() {
-        let down = Spring { at: origin, towards_rad: -FRAC_PI_2 };
-        let sign = |out: &mut String, [x, y]: [f64; 2]| draw_spring(out, [x, y - 11.0], &down);
-        entry(&sign, count(drawing.springs.len(), "support spring"));
-    }
-    if !drawing.dents.is_empty() {
-        entry(&stroke(DENTED), count(drawing.dents.len(), "dent"));
-    }
-    if !drawing.sensors.is_empty() {
-        let right = Sensor { name: String::new(), at: origin, direction_rad: Some(0.0) };
-        let sign = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], &right);
-        entry(&sign, count(drawing.sensors.len(), "sensor"));
+    let mesh = |out: &mut String, [x, y]: [f64; 2]| {
+        svg::path(out, MESH, &format!("M{} {}h20v16h-20zm10 0v16m-10 -8h20", x - 10.0, y - 8.0), "");
+    };
+    let ring = |out: &mut String, [x, y]: [f64; 2]| {
+        stroke(RING)(out, [x, y]);
+        svg::circle(out, NODE, [x - 8.0, y], NODE_RADIUS, "");
+        svg::circle(out, NODE, [x + 8.0, y], NODE_RADIUS, "");
+    };
+    let ball = |out: &mut String, at| svg::circle(out, BALL, at, 8.0, "");
+    let spring = |out: &mut String, [x, y]: [f64; 2]| draw_spring(out, [x, y - 11.0], -FRAC_PI_2);
+    let sensor = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], Some(0.0), "");
+    let nodes = drawing.ring.as_ref().map_or(0, |ring| ring.nodes.len());
+    // each sign, how many there are, and what it is
+    let entries: [(&dyn Fn(&mut String, [f64; 2]), usize, String); 7] = [
+        (&mesh, drawing.mesh_edges.len(), "housing mesh".to_owned()),
+        (&ring, usize::from(drawing.ring.is_some()), format!("bearing ring, {}", count(nodes, "node"))),
+        (&stroke(RACE), drawing.races.len(), "races".to_owned()),
+        (&ball, drawing.balls.len(), count(drawing.balls.len(), "ball")),
+        (&spring, drawing.springs.len(), count(drawing.springs.len(), "support spring")),
+        (&stroke(DENTED), drawing.dents.len(), count(drawing.dents.len(), "dent")),
+        (&sensor, drawing.sensors.len(), count(drawing.sensors.len(), "sensor")),
+    ];
+    let mut y = 60.0;
+    for (sign, _, text) in entries.iter().filter(|entry| entry.1 > 0) {
+        sign(out, [KEY + 14.0, y]);
+        svg::text(out, "class=\"key\"", [KEY + 40.0, y + 4.0], text);
+        y += 30.0;
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Sensor, Spring};
     use super::*;
     use crate::report::drawing::Ring;
 

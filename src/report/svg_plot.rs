@@ -2,14 +2,11 @@
 
 use std::fmt::Write;
 
-use super::curve::{Curve, CurveStyle};
-use super::decimate;
-use super::layout::{Layout, MARKER_ROW, PlacedMarker, TICKS, WIDTH};
+use super::layout::{Layout, PlacedMarker, WIDTH};
 use super::palette::COLOURS;
-use super::plot::Plot;
 use super::svg::{self, Path, escape};
 use super::ticks::Tick;
-use super::{ReportError, raster};
+use super::{Curve, CurveStyle, Plot, ReportError, decimate, raster};
 
 /// Most points of a curve in the picture: two a pixel column.
 const MOST_POINTS: usize = 2 * WIDTH as usize;
@@ -51,9 +48,8 @@ pub(super) fn draw(plot: &Plot, layout: &Layout, id: &str) -> Result<String, Rep
     if let Some(raster) = &plot.raster {
         raster::bar(&mut out, raster, plot, layout, id)?;
     }
-    let below = [left + 0.5 * width, layout.height - 8.0];
-    svg::title_across(&mut out, below, &layout.x.title);
-    svg::title_upward(&mut out, [16.0, top + 0.5 * height], &layout.y.title);
+    svg::text(&mut out, svg::TITLE, [left + 0.5 * width, layout.height - 8.0], &layout.x.title);
+    svg::upward(&mut out, svg::TITLE, [16.0, top + 0.5 * height], &layout.y.title);
     Ok(out + "</svg>")
 }
 
@@ -65,27 +61,25 @@ fn grid(out: &mut String, plot: &Plot, layout: &Layout) {
         format!("class=\"{class}\"{faint}")
     };
     let (left, right, top, bottom) = (layout.left, layout.right, layout.top, layout.bottom);
-    for tick in layout.x.ticks(TICKS[0]) {
+    for tick in layout.x.ticks(layout.ticks[0]) {
         let x = layout.x_px(tick.at);
         svg::line(out, &look(&tick), [x, top, x, bottom]);
         if let Some(label) = tick.label {
-            let look = "class=\"tick\" text-anchor=\"middle\"";
-            svg::text(out, look, [x, bottom + 16.0], &label);
+            svg::text(out, "class=\"tick\" text-anchor=\"middle\"", [x, bottom + 16.0], &label);
         }
     }
-    for tick in layout.y.ticks(TICKS[1]) {
+    for tick in layout.y.ticks(layout.ticks[1]) {
         let y = layout.y_px(tick.at);
         svg::line(out, &look(&tick), [left, y, right, y]);
         if let Some(label) = tick.label {
-            let look = "class=\"tick\" text-anchor=\"end\"";
-            svg::text(out, look, [left - 7.0, y + 4.0], &label);
+            svg::text(out, "class=\"tick\" text-anchor=\"end\"", [left - 7.0, y + 4.0], &label);
         }
     }
 }
 
 /// Lines first, labels after: a label covers the lines behind it.
 fn markers(out: &mut String, layout: &Layout) {
-    let top = |placed: &PlacedMarker| layout.top - MARKER_ROW * placed.label.map_or(0, |(row, _)| row) as f64;
+    let top = |placed: &PlacedMarker| layout.top - layout.row * placed.label.map_or(0, |(row, _)| row) as f64;
     let begin = |out: &mut String, placed: &PlacedMarker| {
         let family = placed.marker.family % COLOURS;
         let _ = write!(out, "<g class=\"marker m{family}\">");
@@ -154,20 +148,19 @@ fn draw_curve(out: &mut String, curve: &Curve, layout: &Layout, number: usize) {
     }
     let dashed = if curve.style == CurveStyle::Dashed { " dashed" } else { "" };
     let look = format!("class=\"curve c{class}{dashed}\"");
-    svg::path(out, &look, &path.data(), "");
+    svg::path(out, &look, &path.data, "");
 }
 
 /// Points of a curve to draw, thinned to what a pixel column can show; `None` for a gap. Of curves with rising
 /// abscissas only what is in view, and one point more on each side.
 fn in_view(curve: &Curve, layout: &Layout) -> Vec<Option<usize>> {
-    let rising = (1..curve.y.len()).all(|k| curve.x_at(k - 1) <= curve.x_at(k));
-    let range = if rising {
-        let shown = |k: usize| curve.x_at(k) / layout.x.factor;
-        let first = partition(curve.y.len(), |k| shown(k) < layout.x.low);
-        let end = partition(curve.y.len(), |k| shown(k) <= layout.x.high);
-        first.saturating_sub(1)..(end + 1).min(curve.y.len())
+    let x: Vec<f64> = (0..curve.y.len()).map(|k| curve.x_at(k)).collect();
+    let range = if x.is_sorted() {
+        let first = x.partition_point(|x| x / layout.x.factor < layout.x.low);
+        let end = x.partition_point(|x| x / layout.x.factor <= layout.x.high);
+        first.saturating_sub(1)..(end + 1).min(x.len())
     } else {
-        0..curve.y.len()
+        0..x.len()
     };
     let start = range.start;
     let values = &curve.y[range];
@@ -187,20 +180,6 @@ fn in_view(curve: &Curve, layout: &Layout) -> Vec<Option<usize>> {
         last = Some(k);
     }
     points
-}
-
-/// First index for which `before` does not hold, as `slice::partition_point` finds it.
-fn partition(length: usize, before: impl Fn(usize) -> bool) -> usize {
-    let (mut low, mut high) = (0, length);
-    while low < high {
-        let middle = low + (high - low) / 2;
-        if before(middle) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }
 
 fn tenth(pixels: f64) -> f64 {

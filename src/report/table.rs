@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ReportError;
-use super::number::{significant, with_unit};
+use super::{ReportError, significant, with_unit};
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -83,7 +82,7 @@ pub enum CellLook {
 
 /// A table. Every row has one cell a column.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Table {
     /// What the table shows.
     pub caption: String,
@@ -128,10 +127,7 @@ impl Cell {
 
     /// A badge: "pass", "fail", or a dash where nothing was judged.
     pub fn badge(verdict: Verdict) -> Self {
-        let text = match verdict {
-            Verdict::None => "–",
-            judged => judged.word(),
-        };
+        let text = if verdict == Verdict::None { "–" } else { verdict.word() };
         Self { verdict, look: CellLook::Badge, ..Self::text(text) }
     }
 
@@ -159,13 +155,7 @@ impl Cell {
 impl Table {
     /// A table without rows.
     pub fn new(caption: impl Into<String>, columns: impl IntoIterator<Item = Column>) -> Self {
-        Self {
-            caption: caption.into(),
-            columns: columns.into_iter().collect(),
-            rows: Vec::new(),
-            footnotes: Vec::new(),
-            modes: Vec::new(),
-        }
+        Self { caption: caption.into(), columns: columns.into_iter().collect(), ..Self::default() }
     }
 
     /// The table with each row tied to the mode that it speaks of, in the order of the report's shapes.
@@ -201,10 +191,7 @@ impl Table {
         let texts = |row: &Vec<Cell>| row.iter().map(|cell| cell.text.clone()).collect();
         lines.extend(self.rows.iter().map(texts));
         let widths: Vec<usize> = (0..self.columns.len())
-            .map(|place| {
-                let width = |line: &Vec<String>| line.get(place).map_or(0, |text| text.chars().count());
-                lines.iter().map(width).max().unwrap_or(0)
-            })
+            .map(|place| lines.iter().filter_map(|line| Some(line.get(place)?.chars().count())).max().unwrap_or(0))
             .collect();
         let mut text = self.caption.clone();
         for line in &lines {

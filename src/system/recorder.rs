@@ -5,7 +5,7 @@ use super::coupled::CoupledSystem;
 use super::run_record::{Column, RunRecord};
 use crate::numerics::lanes::scalar_product;
 use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
-use crate::numerics::series::{Decimator, DecimatorState, SeriesError};
+use crate::numerics::series::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, SeriesError};
 
 /// Takes the record while a run goes on.
 ///
@@ -51,7 +51,7 @@ impl Recorder {
 
     /// Output intervals to go on past the last wanted instant, until its low-pass is complete.
     pub fn intervals_past_the_end(&self) -> u64 {
-        self.filters.first().map_or(0, |filter| filter.half_length_outputs() as u64)
+        if self.filters.is_empty() { 0 } else { HALF_LENGTH_OUTPUTS as u64 }
     }
 
     /// Declares everything observed so far good: rows that are complete may leave. To be called between intervals; what a run

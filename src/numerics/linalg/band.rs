@@ -1,17 +1,7 @@
 //! Eigenpairs in a band by shift-invert Lanczos (ARPACK) from its middle.
 
-use super::arpack::{Request, shift_invert};
-use super::factor::Factor;
-use super::lowest::Ritz;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError};
-
-/// Restarts after which the iteration gives up; modal problems need two to ten.
-const MAX_RESTARTS: usize = 300;
-
-/// Relative tolerance of the Ritz values. Eigenvalues converge with its square, and the residuals are verified
-/// afterwards; tolerance zero costs 2.7 times the solves for nothing.
-const TOLERANCE: f64 = 1e-10;
+use super::arpack::shift_invert;
+use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum};
 
 /// Searches in a row that may find nothing new in the band.
 const IDLE: usize = 2;
@@ -33,35 +23,27 @@ pub(super) fn between(
     (sigma, factor): &(f64, Factor),
     [low, high]: [f64; 2],
     count: usize,
-) -> Result<Ritz, LinalgError> {
+) -> Result<SymmetricSpectrum, LinalgError> {
     let order = stiffness.order();
     let inside = |pair: &(f64, Vec<f64>)| pair.0 > low && pair.0 < high;
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
     let (mut known, mut idle) = (0, 0);
     while known < count && idle < IDLE {
         let missing = count - known;
-        let request = Request {
-            order,
-            count: missing,
-            basis: largest_basis(missing).min(order),
-            shift: *sigma,
-            tolerance: TOLERANCE,
-            max_restarts: MAX_RESTARTS,
-        };
-        let pairs = shift_invert(
-            request,
+        let (values, vectors) = shift_invert(
+            [order, missing, largest_basis(missing).min(order)],
+            *sigma,
             |b, y| {
                 let mut column = DenseMatrix::from_fn(order, 1, |row, _| b[row]);
                 factor.solve(column.as_mut());
                 y.copy_from_slice(column.col_as_slice(0));
                 remove(&found, mass, y);
-                Ok(())
             },
             |x, y| product(mass, x, y),
         )?;
-        let vectors = pairs.vectors.chunks_exact(order).map(<[f64]>::to_vec);
+        let vectors = vectors.chunks_exact(order).map(<[f64]>::to_vec);
         // those outside are taken out as well: from a place beside the middle they are nearer than the far end
-        found.extend(pairs.values.into_iter().zip(vectors));
+        found.extend(values.into_iter().zip(vectors));
         let before = std::mem::replace(&mut known, found.iter().filter(|pair| inside(pair)).count());
         idle = if known > before { 0 } else { idle + 1 };
     }
@@ -71,7 +53,7 @@ pub(super) fn between(
     found.retain(inside);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let vectors = DenseMatrix::from_fn(order, count, |row, mode| found[mode].1[row]);
-    Ok(Ritz { values: found.into_iter().map(|pair| pair.0).collect(), vectors })
+    Ok(SymmetricSpectrum { values: found.into_iter().map(|pair| pair.0).collect(), vectors })
 }
 
 /// Takes from `y` what lies along the known vectors, in the product of the mass.

@@ -1,7 +1,6 @@
 //! A basis of vectors that are orthonormal in the product of the mass matrix.
 
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, symmetric_eigen};
+use super::{DenseMatrix, LinalgError, SymmetricMatrix, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, ColMut, MatMut, MatRef, Par};
@@ -25,18 +24,14 @@ const MOSTLY_INSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(super) struct Basis<'p> {
     mass: &'p SymmetricMatrix,
     vectors: DenseMatrix,
-    size: usize,
+    /// Number of vectors.
+    pub size: usize,
 }
 
 impl<'p> Basis<'p> {
     /// An empty basis with room for so many vectors.
     pub(super) fn new(mass: &'p SymmetricMatrix, room: usize) -> Self {
         Self { mass, vectors: DenseMatrix::zeros(mass.order(), room), size: 0 }
-    }
-
-    /// Number of vectors.
-    pub(super) fn size(&self) -> usize {
-        self.size
     }
 
     /// How many more vectors it can hold.

@@ -1,10 +1,7 @@
 //! How far computed eigenvalues may be from the true ones.
 
-use super::DenseMatrix;
 use super::basis::{norms, times};
-use super::factor::Factor;
-use super::lowest::Ritz;
-use super::symmetric::SymmetricMatrix;
+use super::{DenseMatrix, EigenPairs, Factor, SymmetricMatrix, SymmetricSpectrum};
 
 /// Relative gap below which eigenvalues belong to one cluster, whose vectors are judged together.
 const CLUSTER: f64 = 1e-3;
@@ -13,23 +10,10 @@ const CLUSTER: f64 = 1e-3;
 /// each a sum over its integration points. Two orders of assembly of the same solid differ by a twentieth of it.
 pub(super) const ROUNDING: f64 = 32.0;
 
-/// What is known of computed eigenpairs.
-#[derive(Debug, Clone)]
-pub(super) struct Quality {
-    /// Rayleigh quotients `x^T K x / x^T M x`, 1/s^2: the eigenvalues with no more round-off than K itself brings.
-    pub values: Vec<f64>,
-    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`, Euclidean norms.
-    pub residuals: Vec<f64>,
-    /// Distance to an eigenvalue, at most, 1/s^2.
-    pub bounds: Vec<f64>,
-    /// Part of the bound that is round-off of the strain energy, 1/s^2.
-    pub rounding: Vec<f64>,
-    /// Largest entry of `X^T M X - 1`.
-    pub orthogonality: f64,
-}
-
-impl Quality {
-    /// Judges the first `count` of the pairs; `factor` is that of `K - sigma M`.
+impl EigenPairs {
+    /// Judges the first `count` of the pairs; `factor` is that of `K - sigma M`. Count and times are left to the caller, the
+    /// vectors in the order of the factor. The values are Rayleigh quotients `x^T K x / x^T M x`: the eigenvalues with no more
+    /// round-off than K itself brings.
     ///
     /// With r the residual and F the factor, `s = |F^-1 r|_M` is the relative residual of the inverse problem: an
     /// eigenvalue lies within `|lambda - sigma| s` (Parlett, The Symmetric Eigenvalue Problem, theorem 4.5.1). With
@@ -37,12 +21,12 @@ impl Quality {
     /// parts `c_j v_j` of x, and `r^T F^-1 r = sum c_j^2 (lambda_j - lambda)^2 / (lambda_j - sigma)`: it is at most
     /// `r^T F^-1 r (lambda_j - sigma) / |lambda_j - lambda|` for the nearest other eigenvalue `lambda_j`; of a cluster all
     /// residuals count together. The error of F enters by its contraction c, as a factor `1 / (1 - c)`.
-    pub(super) fn of(
+    pub(super) fn judged(
         stiffness: &SymmetricMatrix,
         mass: &SymmetricMatrix,
         factor: &Factor,
         sigma: f64,
-        ritz: &Ritz,
+        ritz: &SymmetricSpectrum,
         count: usize,
     ) -> Self {
         let x = ritz.vectors.subcols(0, count);
@@ -80,7 +64,16 @@ impl Quality {
         let mut gram = times(x.transpose(), heavy.as_ref());
         gram -= DenseMatrix::identity(count, count);
         values.truncate(count);
-        Self { values, residuals, bounds, rounding, orthogonality: gram.norm_max() }
+        Self {
+            values,
+            vectors: x.to_owned(),
+            residuals,
+            bounds,
+            rounding,
+            orthogonality: gram.norm_max(),
+            shift: sigma,
+            ..Self::none(0, 0.0)
+        }
     }
 }
 

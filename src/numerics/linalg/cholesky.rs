@@ -1,11 +1,7 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
-use super::factor::{Factor, FactorMemory, LARGEST_CONTRACTION};
-use super::numeric::Kind;
-use super::ordering::Ordering;
-use super::symbolic::Symbolic;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SparseMatrix};
+use super::factor::LARGEST_CONTRACTION;
+use super::{DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, SymmetricMatrix, analysed};
 use std::sync::Arc;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
@@ -22,16 +18,14 @@ impl SparseCholesky {
     /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
     /// matrix of which round-off leaves not one digit to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
-        if a.cols() != a.rows() || !a.is_csc() {
-            return Err(LinalgError::Shape {
-                what: "matrix to factorise (square, compressed columns)",
-                expected: a.rows(),
-                found: a.cols(),
-            });
+        let (expected, found) = (a.rows(), a.cols());
+        if found != expected || !a.is_csc() {
+            let what = "matrix to factorise (square, compressed columns)";
+            return Err(LinalgError::Shape { what, expected, found });
         }
         let ordering = Ordering::of(a)?;
         let permuted = SymmetricMatrix::permuted(a, &ordering);
-        let symbolic = Arc::new(Symbolic::new(&permuted)?);
+        let symbolic = Arc::new(analysed(&permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();
         let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);
@@ -79,8 +73,7 @@ impl SparseCholesky {
     /// # Errors
     /// [`LinalgError::Shape`] if the length is not n.
     pub fn solve_vector(&self, right_hand_side: &mut [f64]) -> Result<(), LinalgError> {
-        self.check(right_hand_side.len())?;
-        let mut column = DenseMatrix::from_fn(self.order(), 1, |row, _| right_hand_side[row]);
+        let mut column = DenseMatrix::from_fn(right_hand_side.len(), 1, |row, _| right_hand_side[row]);
         self.solve_columns(&mut column)?;
         right_hand_side.copy_from_slice(column.col_as_slice(0));
         Ok(())
@@ -91,19 +84,14 @@ impl SparseCholesky {
     /// # Errors
     /// [`LinalgError::Shape`] if `B` has not n rows.
     pub fn solve_columns(&self, right_hand_sides: &mut DenseMatrix) -> Result<(), LinalgError> {
-        self.check(right_hand_sides.nrows())?;
+        let (expected, found) = (self.order(), right_hand_sides.nrows());
+        if found != expected {
+            return Err(LinalgError::Shape { what: "right-hand side", expected, found });
+        }
         let mut permuted = self.ordering.forward(right_hand_sides);
         self.factor.solve(permuted.as_mut());
         self.ordering.backward(&permuted, right_hand_sides);
         Ok(())
-    }
-
-    fn check(&self, rows: usize) -> Result<(), LinalgError> {
-        if rows == self.order() {
-            Ok(())
-        } else {
-            Err(LinalgError::Shape { what: "right-hand side", expected: self.order(), found: rows })
-        }
     }
 }
 #[cfg(test)]

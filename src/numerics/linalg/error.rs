@@ -3,22 +3,8 @@
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// What a factor exceeds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum FactorLimit {
-    /// Memory.
-    #[error("{} GB of memory are free", gigabytes(*.free))]
-    Memory {
-        /// Memory that the system can give, in bytes.
-        free: u64,
-    },
-    /// Places that 32 bits can count.
-    #[error("more than 2^31 entries cannot be counted")]
-    Places,
-}
-
 /// In 10^9 bytes, a digit behind the point.
-fn gigabytes(bytes: u64) -> String {
+pub(super) fn gigabytes(bytes: u64) -> String {
     format!("{:.1}", bytes as f64 / 1e9)
 }
 
@@ -33,14 +19,6 @@ pub enum LinalgError {
         /// Row of the matrix; in an eigenvalue computation, of its factor.
         pivot: usize,
     },
-    /// A matrix that should be positive definite has negative eigenvalues.
-    #[error("the {order} x {order} matrix is not positive definite: {negative} of its eigenvalues are negative")]
-    Indefinite {
-        /// Number of rows of the matrix.
-        order: usize,
-        /// How many.
-        negative: usize,
-    },
     /// A factorisation ran out of memory or met an internal limit.
     #[error("the sparse factorisation of a {order} x {order} matrix failed: {reason}")]
     Factorisation {
@@ -49,21 +27,9 @@ pub enum LinalgError {
         /// What the library said.
         reason: &'static str,
     },
-    /// A factor that is too large, found before it is computed.
-    #[error(
-        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
-        gigabytes(*.bytes)
-    )]
-    TooLarge {
-        /// Number of rows of the matrix.
-        order: usize,
-        /// Entries of the factor that are not zero.
-        entries: u64,
-        /// Memory that it takes at least, in bytes.
-        bytes: u64,
-        /// What it exceeds.
-        limit: FactorLimit,
-    },
+    /// A problem that is too large for the memory or not determined, found before it is solved; a sentence.
+    #[error("{0}")]
+    Refused(String),
     /// A factorisation went through, but its factor does not solve the system.
     #[error(
         "the {order} x {order} matrix is singular to working precision: iterative refinement with its factor reduces an error only by {contraction:.1e}"
@@ -98,14 +64,6 @@ pub enum LinalgError {
         /// Rows found.
         found: usize,
     },
-    /// A degree of freedom with neither stiffness nor mass.
-    #[error(
-        "row {row} of stiffness and mass is empty: this degree of freedom is held by nothing and carries nothing, so that its motion is not determined; leave it out or hold it"
-    )]
-    NothingThere {
-        /// Its row in the matrices given.
-        row: usize,
-    },
     /// More eigenvalues asked for than the problem has.
     #[error("{asked} modes asked for, but the model has only {available} degrees of freedom")]
     TooManyModes {
@@ -125,21 +83,6 @@ pub enum LinalgError {
         stiffness: f64,
         /// Largest entry of the mass's diagonal.
         mass: f64,
-    },
-    /// More modes than there is memory for.
-    #[error(
-        "{asked} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",
-        gigabytes(*.bytes), gigabytes(*.free)
-    )]
-    ModesTooLarge {
-        /// Number asked for.
-        asked: usize,
-        /// Order of the matrix.
-        order: usize,
-        /// Memory that they take at least, in bytes.
-        bytes: u64,
-        /// Memory that the system can give, in bytes.
-        free: u64,
     },
     /// An iteration for eigenvalues failed where another way may not, or its modes do not satisfy their equation.
     #[error("{0}")]

@@ -1,10 +1,9 @@
 //! A factor with a measure of how good it is, in single precision where that serves.
 
-use super::LinalgError;
 use super::dense::pseudo_random;
-use super::numeric::{Kind, NumericFactor};
-use super::symbolic::{SMALL, Symbolic};
-use super::symmetric::SymmetricMatrix;
+use super::numeric::NumericFactor;
+use super::symbolic::SMALL;
+use super::{Kind, LinalgError, Symbolic, SymmetricMatrix};
 use faer::MatMut;
 use std::sync::Arc;
 
@@ -25,23 +24,6 @@ const PROBES: (usize, usize) = (2, 2);
 pub(super) enum Numbers {
     Single(NumericFactor<f32>),
     Double(NumericFactor<f64>),
-}
-
-impl Numbers {
-    /// In the precision that the size calls for, or in double precision.
-    fn new(
-        symbolic: &Symbolic,
-        a: &SymmetricMatrix,
-        kind: Kind,
-        double: bool,
-        memory: FactorMemory,
-    ) -> Result<Self, LinalgError> {
-        Ok(if double || symbolic.entries() <= SMALL {
-            Self::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
-        } else {
-            Self::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
-        })
-    }
 }
 
 /// Factor F of a symmetric matrix A, in an order of its own.
@@ -84,7 +66,7 @@ impl Factor {
     ) -> Result<Self, LinalgError> {
         match Self::quick(symbolic, a, kind, memory) {
             Err(LinalgError::NearlySingular { .. } | LinalgError::NotPositiveDefinite { .. })
-                if symbolic.entries() > SMALL =>
+                if symbolic.len_val() > SMALL =>
             {
                 Self::double(symbolic, a, kind)
             }
@@ -102,7 +84,7 @@ impl Factor {
         kind: Kind,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        Self::judged(symbolic, a, Numbers::new(symbolic, a, kind, false, memory)?)
+        Self::unjudged(symbolic, a, kind, false, memory)?.judged()
     }
 
     /// Factorises `a` in double precision.
@@ -110,7 +92,7 @@ impl Factor {
     /// # Errors
     /// As [`Factor::new`].
     pub(super) fn double(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
-        Self::judged(symbolic, a, Numbers::new(symbolic, a, kind, true, FactorMemory::default())?)
+        Self::unjudged(symbolic, a, kind, true, FactorMemory::default())?.judged()
     }
 
     /// Factorises `a` in the precision that its size calls for, or in double precision, whatever the quality: for an
@@ -125,7 +107,12 @@ impl Factor {
         double: bool,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        Ok(Self::measured(symbolic, a, Numbers::new(symbolic, a, kind, double, memory)?))
+        let numbers = if double || symbolic.len_val() <= SMALL {
+            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
+        } else {
+            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
+        };
+        Ok(Self::measured(symbolic, a, numbers))
     }
 
     /// Whether its entries are in double precision.
@@ -137,21 +124,18 @@ impl Factor {
     /// small, or no longer sharp.
     pub(super) fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
         match &self.numbers {
-            Numbers::Double(numbers) if self.symbolic.entries() > SMALL => {
-                let rounded = Numbers::Single(numbers.rounded());
-                let light = Self::measured(&self.symbolic, a, rounded);
+            Numbers::Double(numbers) if self.symbolic.len_val() > SMALL => {
+                let light = Self::measured(&self.symbolic, a, Numbers::Single(numbers.rounded()));
                 light.is_sharp().then_some(light)
             }
             _ => None,
         }
     }
 
-    fn judged(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Result<Self, LinalgError> {
-        let factor = Self::measured(symbolic, a, numbers);
-        if factor.contraction <= LARGEST_CONTRACTION {
-            Ok(factor)
-        } else {
-            Err(LinalgError::NearlySingular { order: a.order(), contraction: factor.contraction })
+    fn judged(self) -> Result<Self, LinalgError> {
+        match self.contraction {
+            contraction if contraction <= LARGEST_CONTRACTION => Ok(self),
+            contraction => Err(LinalgError::NearlySingular { order: self.symbolic.nrows(), contraction }),
         }
     }
 
@@ -186,12 +170,10 @@ impl Factor {
 
     /// The memory of its entries, for another factor.
     pub(super) fn into_memory(self) -> FactorMemory {
-        let mut memory = FactorMemory::default();
         match self.numbers {
-            Numbers::Single(numbers) => memory.single = numbers.into_memory(),
-            Numbers::Double(numbers) => memory.double = numbers.into_memory(),
+            Numbers::Single(numbers) => FactorMemory { single: numbers.values, ..FactorMemory::default() },
+            Numbers::Double(numbers) => FactorMemory { double: numbers.values, ..FactorMemory::default() },
         }
-        memory
     }
 
     /// `F^-1 B` in place for `B` [n x k].
@@ -218,6 +200,7 @@ mod incompressible;
 #[cfg(test)]
 mod tests {
     use super::super::ordering::Ordering;
+    use super::super::symbolic::analysed;
     use super::super::{DenseMatrix, TripletBuilder};
     use super::*;
 
@@ -234,7 +217,7 @@ mod tests {
         let a = a.build();
         let ordering = Ordering::of(&a).expect("an order");
         let permuted = SymmetricMatrix::permuted(&a, &ordering);
-        (Arc::new(Symbolic::new(&permuted).expect("analysed")), permuted)
+        (Arc::new(analysed(&permuted).expect("analysed")), permuted)
     }
 
     fn value(j: usize, order: usize) -> f64 {

@@ -15,27 +15,15 @@ pub(crate) use dense::complex_solve;
 pub use error::HarmonicError;
 pub use matrices::HarmonicDamping;
 
-use super::factor::{Factor, FactorMemory};
-use super::numeric::Kind;
-use super::ordering::Ordering;
-use super::symbolic::Symbolic;
-use super::{ComplexMatrix, DenseMatrix, LinalgError, SparseMatrix};
+use super::{
+    ComplexMatrix, DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, Symbolic, analysed,
+};
 use faer::c64;
-use krylov::Limits;
 use matrices::HarmonicMatrices;
 use std::f64::consts::TAU;
 use std::mem::take;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
-
-/// Relative residual that is aimed at.
-const TOLERANCE: f64 = 1e-12;
-
-/// Directions kept before a restart.
-const DIRECTIONS: usize = 40;
-
-/// Restarts.
-const RESTARTS: usize = 6;
 
 /// Residual that is round-off, in units of eps times what is summed in `Z x`.
 const ROUNDING: f64 = 8.0;
@@ -95,8 +83,8 @@ impl HarmonicProblem {
     /// the caller may drop them.
     ///
     /// # Errors
-    /// [`HarmonicError::Coefficient`]; [`LinalgError::Shape`] for matrices that do not fit;
-    /// [`LinalgError::NothingThere`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
+    /// [`HarmonicError::Input`]; [`LinalgError::Shape`] for matrices that do not fit;
+    /// [`LinalgError::Refused`] for a row without stiffness and mass; [`LinalgError::Factorisation`].
     pub fn new(k: &SparseMatrix, m: &SparseMatrix, damping: &HarmonicDamping<'_>) -> Result<Self, HarmonicError> {
         let all: Vec<usize> = (0..k.rows()).collect();
         Self::restricted(k, m, damping, &all)
@@ -114,32 +102,32 @@ impl HarmonicProblem {
     ) -> Result<Self, HarmonicError> {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
-        let symbolic = Arc::new(Symbolic::new(&matrices.real(1.0))?);
+        let symbolic = Arc::new(analysed(&matrices.real(1.0))?);
         Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })
     }
 
     /// Number of degrees of freedom.
     pub fn order(&self) -> usize {
-        self.matrices.order()
+        self.matrices.stiffness.order()
     }
 
     /// Response to `loads` [n x p] (N, N m) at the angular frequency `omega` (rad/s, >= 0).
     ///
     /// # Errors
-    /// [`HarmonicError::Frequency`], [`HarmonicError::Load`], [`LinalgError::Shape`];
+    /// [`HarmonicError::Input`], [`LinalgError::Shape`];
     /// [`HarmonicError::Resonance`] and [`HarmonicError::FreeAtRest`] where there is no response;
     /// [`HarmonicError::NotSolved`] if the iteration fails.
     pub fn solve(&self, omega: f64, loads: &ComplexMatrix) -> Result<HarmonicSolution, HarmonicError> {
         if !(omega >= 0.0 && omega.is_finite()) {
-            return Err(HarmonicError::Frequency { hz: omega / TAU });
+            let hz = omega / TAU;
+            return Err(HarmonicError::Input(format!("a frequency must be zero or more and finite, found {hz} Hz")));
         }
         let f = self.split(loads)?;
         let started = Instant::now();
         let factor = self.factor(omega)?;
         let mut times = HarmonicTimes { factor: started.elapsed().as_secs_f64(), ..HarmonicTimes::default() };
         let started = Instant::now();
-        let limits = Limits { tolerance: TOLERANCE, directions: DIRECTIONS, restarts: RESTARTS };
-        let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()), limits);
+        let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
         times.iterate = started.elapsed().as_secs_f64();
         for (load, &residual) in found.residuals.iter().enumerate() {
             self.judge(omega, load, residual, &f, &found)?;
@@ -165,10 +153,10 @@ impl HarmonicProblem {
                 factor = self.factorised(squared, true)?;
             }
             let limit = if factor.is_double() { RESONANCE } else { LARGEST_CONTRACTION[0] };
-            return if factor.contraction <= limit {
-                Ok(factor)
-            } else {
-                Err(HarmonicError::singular(omega, factor.contraction))
+            return match factor.contraction {
+                contraction if contraction <= limit => Ok(factor),
+                uncertainty if omega > 0.0 => Err(HarmonicError::Resonance { hz: omega / TAU, uncertainty }),
+                _ => Err(HarmonicError::FreeAtRest),
             };
         }
         let is_good = |factor: &Factor| factor.contraction <= LARGEST_CONTRACTION[usize::from(factor.is_double())];
@@ -205,7 +193,7 @@ impl HarmonicProblem {
         f: &DenseMatrix,
         found: &krylov::Iterated,
     ) -> Result<(), HarmonicError> {
-        if residual <= TOLERANCE {
+        if residual <= krylov::TOLERANCE {
             return Ok(());
         }
         let columns = [2 * load, 2 * load + 1];
@@ -222,7 +210,7 @@ impl HarmonicProblem {
     /// `w x^H (w C + K_s) x / 2`. It equals the power of the loads, `w Im(x^H f) / 2` with the sign of `exp(+i w t)`.
     ///
     /// # Errors
-    /// [`LinalgError::Shape`], [`HarmonicError::Load`] for entries that are not finite.
+    /// [`LinalgError::Shape`], [`HarmonicError::Input`] for entries that are not finite.
     pub fn dissipated_power(&self, omega: f64, displacements: &ComplexMatrix) -> Result<Vec<f64>, HarmonicError> {
         let x = self.split(displacements)?;
         let energies = self.matrices.dissipation(omega, &x);
@@ -240,7 +228,7 @@ impl HarmonicProblem {
         });
         for column in 0..parts.ncols() {
             if !parts.col_as_slice(column).iter().all(|x| x.is_finite()) {
-                return Err(HarmonicError::Load { load: column / 2 });
+                return Err(HarmonicError::Input(format!("load {} has an entry that is not finite", column / 2)));
             }
         }
         Ok(self.ordering.forward(&parts))

@@ -7,9 +7,7 @@
 
 use super::basis::{Basis, norms, times};
 use super::dense::pseudo_random;
-use super::factor::Factor;
-use super::symmetric::SymmetricMatrix;
-use super::{DenseMatrix, LinalgError, SymmetricSpectrum, symmetric_eigen};
+use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, MatMut, Par};
@@ -57,15 +55,6 @@ pub(super) fn largest_ratio(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix)
 /// Round-off of `K x` for a unit x, in the norm of M, 1/s^2.
 pub(super) fn round_off(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> f64 {
     ROUNDING * f64::EPSILON * largest_ratio(stiffness, mass)
-}
-
-/// Ritz pairs: values ascending, vectors M-orthonormal.
-#[derive(Debug)]
-pub(super) struct Ritz {
-    /// Eigenvalues, 1/s^2.
-    pub values: Vec<f64>,
-    /// Vectors [n x k].
-    pub vectors: DenseMatrix,
 }
 
 /// A search for the lowest eigenpairs of `K x = lambda M x`.
@@ -139,15 +128,15 @@ impl<'p> Search<'p> {
     /// # Errors
     /// [`LinalgError::DenseEigen`].
     pub(super) fn explore(&mut self, factor: &Factor) -> Result<(), LinalgError> {
-        if self.basis.size() + 2 * BLOCK > self.krylov {
+        if self.basis.size + 2 * BLOCK > self.krylov {
             self.restart(self.pursued)?;
         }
-        let before = self.basis.size();
+        let before = self.basis.size;
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
         self.mass.times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
         let mut width = BLOCK;
-        while self.basis.size() < self.krylov {
+        while self.basis.size < self.krylov {
             let [block, product, _] = &mut self.blocks;
             let mut block = first(block, width);
             factor.solve(block.rb_mut());
@@ -173,7 +162,7 @@ impl<'p> Search<'p> {
     /// Completes `V^T K V` from a vector on: many at once, so that the basis is read once for all of them. Overwrites the
     /// last block.
     fn project(&mut self, from: usize) {
-        let size = self.basis.size();
+        let size = self.basis.size;
         for begin in (from..size).step_by(CORRECTED) {
             let width = CORRECTED.min(size - begin);
             let (vectors, mut stiff) = (self.basis.vectors(), first(&mut self.blocks[2], width));
@@ -196,7 +185,7 @@ impl<'p> Search<'p> {
 
     /// Eigenvalues and combinations of the space, ascending.
     fn ritz(&self) -> Result<SymmetricSpectrum, LinalgError> {
-        let size = self.basis.size();
+        let size = self.basis.size;
         symmetric_eigen(&self.projected.as_ref().submatrix(0, 0, size, size).to_owned())
     }
 
@@ -212,7 +201,7 @@ impl<'p> Search<'p> {
     /// Keeps the space of the lowest Ritz vectors.
     fn restart(&mut self, kept: usize) -> Result<(), LinalgError> {
         let spectrum = self.ritz()?;
-        let kept = kept.min(self.basis.size());
+        let kept = kept.min(self.basis.size);
         self.basis.rotate(spectrum.vectors.subcols(0, kept));
         self.projected.fill(0.0);
         for place in 0..kept {
@@ -232,11 +221,11 @@ impl<'p> Search<'p> {
         Ok(values)
     }
 
-    /// Corrects the Ritz pairs until they have converged.
+    /// Corrects the Ritz pairs until they have converged; their vectors [n x pursued] are M-orthonormal.
     ///
     /// # Errors
     /// [`LinalgError::Iteration`], [`LinalgError::DenseEigen`].
-    pub(super) fn converge(&mut self, factor: &Factor) -> Result<Ritz, LinalgError> {
+    pub(super) fn converge(&mut self, factor: &Factor) -> Result<SymmetricSpectrum, LinalgError> {
         for _ in 0..CORRECTIONS {
             if let Some(pairs) = self.correct(factor)? {
                 return Ok(pairs);
@@ -247,9 +236,9 @@ impl<'p> Search<'p> {
     }
 
     /// Adds a correction of every pair that has not converged, or returns all of them if there is none.
-    fn correct(&mut self, factor: &Factor) -> Result<Option<Ritz>, LinalgError> {
+    fn correct(&mut self, factor: &Factor) -> Result<Option<SymmetricSpectrum>, LinalgError> {
         let spectrum = self.ritz()?;
-        let pursued = self.pursued.min(self.basis.size());
+        let pursued = self.pursued.min(self.basis.size);
         let changed = (0..pursued).find(|&place| {
             let value = spectrum.values[place];
             // a rigid motion's value is all round-off, and changes with every step
@@ -264,17 +253,17 @@ impl<'p> Search<'p> {
         if chosen.is_empty() {
             let vectors = times(self.basis.vectors(), spectrum.vectors.subcols(0, pursued));
             let values = spectrum.values[..pursued].to_vec();
-            return Ok(Some(Ritz { values, vectors }));
+            return Ok(Some(SymmetricSpectrum { values, vectors }));
         }
         let steps = self.steps(&spectrum, &chosen, factor);
         let mut open = Vec::new();
         for (column, &place) in chosen.iter().enumerate() {
-            let length = steps.lengths[column];
+            let [length, residual, energy] = steps[column];
             let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
             let converged = if place < self.wanted {
                 length <= CONVERGED.max(floor)
-                    && steps.residuals[column] <= SMALL_RESIDUAL.max(floor)
-                    && steps.energies[column] <= SMALL_ENERGY.max(floor * floor)
+                    && residual <= SMALL_RESIDUAL.max(floor)
+                    && energy <= SMALL_ENERGY.max(floor * floor)
             } else {
                 length <= GUARD_CONVERGED
             };
@@ -286,10 +275,10 @@ impl<'p> Search<'p> {
         }
         self.keep(&open);
         if open.len() > self.basis.room() {
-            self.restart((3 * self.pursued / 2).min(self.basis.size()))?;
+            self.restart((3 * self.pursued / 2).min(self.basis.size))?;
         }
 
-        let before = self.basis.size();
+        let before = self.basis.size;
         self.extend(open.len())?;
         self.project(before);
 
@@ -297,8 +286,9 @@ impl<'p> Search<'p> {
     }
 
     /// Corrections `F^-1 (K x - lambda M x)` of the chosen Ritz pairs: into the first block, their products with M into
-    /// the second.
-    fn steps(&mut self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Steps {
+    /// the second. Gives how large they are: their lengths in the norm of M, `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`
+    /// and `r^T F^-1 r / (lambda - sigma)`.
+    fn steps(&mut self, spectrum: &SymmetricSpectrum, chosen: &[usize], factor: &Factor) -> Vec<[f64; 3]> {
         let combinations = columns(&spectrum.vectors, chosen);
         let [vectors, heavy, remainders] = &mut self.blocks;
         let width = chosen.len();
@@ -320,15 +310,13 @@ impl<'p> Search<'p> {
         vectors.copy_from(remainders.rb());
         factor.solve(vectors.rb_mut());
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
-        let energy = |(column, &place): (usize, &usize)| {
+        let lengths = norms(vectors.rb(), heavy.rb());
+        let sizes = chosen.iter().enumerate().map(|(column, &place)| {
             let energy: f64 = remainders.rb().col(column).transpose() * vectors.rb().col(column);
-            energy.abs() / (spectrum.values[place] - self.shift).abs()
-        };
-        Steps {
-            lengths: norms(vectors.rb(), heavy.rb()),
-            residuals,
-            energies: chosen.iter().enumerate().map(energy).collect(),
-        }
+            let energy = energy.abs() / (spectrum.values[place] - self.shift).abs();
+            [lengths[column], residuals[column], energy]
+        });
+        sizes.collect()
     }
 
     /// Keeps some columns of the first two blocks, ascending.
@@ -344,16 +332,6 @@ impl<'p> Search<'p> {
     }
 }
 
-/// How large the corrections of some pairs are.
-struct Steps {
-    /// Their lengths in the norm of M.
-    lengths: Vec<f64>,
-    /// `|K x - lambda M x| / (|K x| + |lambda - sigma| |M x|)`.
-    residuals: Vec<f64>,
-    /// `r^T F^-1 r / (lambda - sigma)`.
-    energies: Vec<f64>,
-}
-
 /// The first columns.
 fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
     a.as_mut().subcols_mut(0, count)
@@ -361,9 +339,5 @@ fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
 
 /// Some columns of a matrix.
 fn columns(a: &DenseMatrix, chosen: &[usize]) -> DenseMatrix {
-    let mut some = DenseMatrix::zeros(a.nrows(), chosen.len());
-    for (place, &column) in chosen.iter().enumerate() {
-        some.col_as_slice_mut(place).copy_from_slice(a.col_as_slice(column));
-    }
-    some
+    DenseMatrix::from_fn(a.nrows(), chosen.len(), |row, place| a[(row, chosen[place])])
 }

@@ -28,17 +28,10 @@ pub(super) struct Graph {
     pub weights: Vec<c_int>,
 }
 
-impl Graph {
-    /// Number of nodes.
-    pub(super) fn nodes(&self) -> usize {
-        self.weights.len()
-    }
-}
-
 /// Nested dissection order of a graph: `order[new] = old` (Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998)
 /// 359-392); `None` if METIS does not return one (out of memory).
 pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
-    let nodes = graph.nodes();
+    let nodes = graph.weights.len();
     if graph.neighbours.is_empty() {
         return Some((0..nodes).collect());
     }

@@ -37,15 +37,19 @@ pub use cholesky::SparseCholesky;
 pub(crate) use dense::symmetric_eigen;
 pub use dense::{DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum, symmetric_generalised_eigen};
 pub use eigen::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
-pub use error::{FactorLimit, LinalgError};
+pub use error::LinalgError;
+pub(in crate::numerics::linalg) use error::gigabytes;
+pub(in crate::numerics::linalg) use factor::{Factor, FactorMemory};
 pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes};
 pub(crate) use harmonic::{complex_columns, complex_solve};
-pub(crate) use idle::congruent;
-pub(crate) use idle::{acting_generalised_eigen, acting_motions};
+pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub(crate) use lu::SmallLu;
-pub(crate) use sparse::scattered_rows;
+pub(in crate::numerics::linalg) use numeric::Kind;
+pub(in crate::numerics::linalg) use ordering::Ordering;
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
-pub(crate) use sparse::{congruence, placed};
+pub(crate) use sparse::{congruence, placed, scattered_rows};
+pub(in crate::numerics::linalg) use symbolic::{Symbolic, analysed};
+pub(in crate::numerics::linalg) use symmetric::SymmetricMatrix;
 
 /// Dense column-major matrix of `f64`.
 pub type DenseMatrix = faer::Mat<f64>;

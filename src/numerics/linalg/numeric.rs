@@ -6,17 +6,16 @@
 //! A factorisation runs on one thread: faer's own threads make it slower (1.1 s instead of 0.6 s on two cores for a solid of
 //! 60 000 degrees of freedom).
 
-use super::LinalgError;
 use super::precision::Precision;
 use super::substitution::{Pivoting, Triangles, substitute};
-use super::symbolic::Symbolic;
-use super::symmetric::SymmetricMatrix;
+use super::{LinalgError, Symbolic, SymmetricMatrix};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::prelude::*;
 use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt, factorize_supernodal_numeric_intranode_lblt_scratch,
-    factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
+    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt as lblt,
+    factorize_supernodal_numeric_intranode_lblt_scratch as lblt_scratch, factorize_supernodal_numeric_llt as llt,
+    factorize_supernodal_numeric_llt_scratch as llt_scratch,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{MatMut, Par};
@@ -43,7 +42,8 @@ struct Pivots<T> {
 /// A numerical factor.
 #[derive(Debug)]
 pub(super) struct NumericFactor<T> {
-    values: Vec<T>,
+    /// Entries of L, and those of B on its diagonal.
+    pub values: Vec<T>,
     /// `1 / sqrt |a_ii|`.
     scale: Vec<f64>,
     /// `None` for `L L^T`.
@@ -73,55 +73,28 @@ impl<T: Precision> NumericFactor<T> {
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(order, order, &a.offsets, None, &a.rows);
         let lower = SparseColMatRef::new(pattern, &scaled);
-        let (supernodes, parallelism) = (&symbolic.supernodes, Par::Seq);
         let mut values = memory;
-        values.truncate(supernodes.len_val());
-        values.try_reserve_exact(supernodes.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
-        values.resize(supernodes.len_val(), T::rounded(0.0));
+        values.truncate(symbolic.len_val());
+        values.try_reserve_exact(symbolic.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
+        values.resize(symbolic.len_val(), T::rounded(0.0));
         let scratch = match kind {
-            Kind::Definite => {
-                factorize_supernodal_numeric_llt_scratch::<u32, T>(supernodes, parallelism, Default::default())
-            }
-            Kind::Indefinite => factorize_supernodal_numeric_intranode_lblt_scratch::<u32, T>(
-                supernodes,
-                parallelism,
-                Default::default(),
-            ),
+            Kind::Definite => llt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
+            Kind::Indefinite => lblt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
         };
         let mut buffer = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
         let stack = MemStack::new(&mut buffer);
         let pivots = match kind {
             Kind::Definite => {
-                factorize_supernodal_numeric_llt(
-                    &mut values,
-                    lower,
-                    Default::default(),
-                    supernodes,
-                    parallelism,
-                    stack,
-                    Default::default(),
-                )
-                .map_err(|LltError::NonPositivePivot { index }| LinalgError::NotPositiveDefinite {
-                    order,
-                    pivot: index,
-                })?;
+                let refused =
+                    |LltError::NonPositivePivot { index: pivot }| LinalgError::NotPositiveDefinite { order, pivot };
+                llt(&mut values, lower, Default::default(), symbolic, Par::Seq, stack, Default::default())
+                    .map_err(refused)?;
                 None
             }
             Kind::Indefinite => {
-                let mut pivots =
-                    Pivots { below_diagonal: vec![T::rounded(0.0); order], old: vec![0; order], new: vec![0; order] };
-                factorize_supernodal_numeric_intranode_lblt(
-                    &mut values,
-                    &mut pivots.below_diagonal,
-                    &mut pivots.old,
-                    &mut pivots.new,
-                    lower,
-                    supernodes,
-                    parallelism,
-                    stack,
-                    Default::default(),
-                );
-                Some(pivots)
+                let (mut below, mut old, mut new) = (vec![T::rounded(0.0); order], vec![0; order], vec![0; order]);
+                lblt(&mut values, &mut below, &mut old, &mut new, lower, symbolic, Par::Seq, stack, Default::default());
+                Some(Pivots { below_diagonal: below, old, new })
             }
         };
         Ok(Self { values, scale, pivots })
@@ -139,11 +112,6 @@ impl<T: Precision> NumericFactor<T> {
                 new: pivots.new.clone(),
             }),
         }
-    }
-
-    /// The memory of its entries, for another factor.
-    pub(super) fn into_memory(self) -> Vec<T> {
-        self.values
     }
 
     /// `A^-1 B` in place for `B` [n x k]. Threads share the columns.
@@ -186,7 +154,7 @@ impl<T: Precision> NumericFactor<T> {
         }
         let pivoting =
             self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, places: &pivots.new });
-        let triangles = Triangles { supernodes: &symbolic.supernodes, values: &self.values, pivoting };
+        let triangles = Triangles { supernodes: symbolic, values: &self.values, pivoting };
         substitute(&triangles, &mut x);
         for (block, x) in x.chunks_exact(order).enumerate() {
             let width = L.min(b.ncols() - L * block);
@@ -206,10 +174,9 @@ impl<T: Precision> NumericFactor<T> {
         let Some(pivots) = &self.pivots else {
             return 0;
         };
-        let supernodes = &symbolic.supernodes;
-        let factor = SupernodalLltRef::new(supernodes, &self.values);
+        let factor = SupernodalLltRef::new(symbolic, &self.values);
         let mut negative = 0;
-        for index in 0..supernodes.n_supernodes() {
+        for index in 0..symbolic.n_supernodes() {
             let supernode = factor.supernode(index);
             let (block, start) = (supernode.val(), supernode.start());
             let mut column = 0;

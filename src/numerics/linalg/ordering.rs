@@ -37,12 +37,14 @@ impl Ordering {
     /// Order of the rows and columns `kept` (ascending) of a stiffness K, none of which has neither stiffness nor mass.
     ///
     /// # Errors
-    /// [`LinalgError::NothingThere`] for an empty row of K and M; as [`Ordering::of_part`].
+    /// [`LinalgError::Refused`] for an empty row of K and M; as [`Ordering::of_part`].
     pub(super) fn of_problem(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
         // of semidefinite matrices a row is empty if its diagonal is
         let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
         match kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
-            Some(&row) => Err(LinalgError::NothingThere { row }),
+            Some(&row) => Err(LinalgError::Refused(format!(
+                "row {row} of stiffness and mass is empty: this degree of freedom is held by nothing and carries nothing, so that its motion is not determined; leave it out or hold it"
+            ))),
             None => Self::of_part(k, kept),
         }
     }
@@ -155,7 +157,7 @@ impl<'k> Runs<'k> {
 /// Parent of every place in the elimination tree (Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172, algorithm 4.2
 /// with compressed paths); roots have none.
 fn elimination_tree(graph: &Graph, node_at: &[usize], place_of: &[usize]) -> Vec<usize> {
-    let nodes = graph.nodes();
+    let nodes = graph.weights.len();
     let mut parents = vec![NONE; nodes];
     let mut ancestors = vec![NONE; nodes];
     for (place, &node) in node_at.iter().enumerate() {

@@ -1,18 +1,7 @@
 //! The two precisions in which a factor is computed and kept.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 /// A precision.
-pub(super) trait Precision:
-    faer::traits::RealField
-    + Copy
-    + Default
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-{
+pub(super) trait Precision: faer::traits::RealField + Copy + Default {
     /// Values in a register of 32 bytes.
     const REGISTER: usize;
     /// The nearest value.

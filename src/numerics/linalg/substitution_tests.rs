@@ -3,7 +3,7 @@
 use super::super::dense::pseudo_random;
 use super::super::numeric::{Kind, NumericFactor};
 use super::super::ordering::Ordering;
-use super::super::symbolic::Symbolic;
+use super::super::symbolic::{Symbolic, analysed};
 use super::super::symmetric::SymmetricMatrix;
 use super::super::{DenseMatrix, TripletBuilder};
 use super::*;
@@ -31,7 +31,7 @@ fn grid(definite: bool) -> (Symbolic, SymmetricMatrix) {
     let a = a.build();
     let ordering = Ordering::of(&a).expect("an order");
     let a = SymmetricMatrix::permuted(&a, &ordering);
-    (Symbolic::new(&a).expect("analysed"), a)
+    (analysed(&a).expect("analysed"), a)
 }
 
 /// Largest entry of `A F^-1 B - B`.

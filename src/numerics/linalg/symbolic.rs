@@ -1,8 +1,6 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
 
-use super::error::FactorLimit;
-use super::symmetric::SymmetricMatrix;
-use super::{LinalgError, memory};
+use super::{LinalgError, SymmetricMatrix, gigabytes, memory};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
@@ -20,59 +18,50 @@ const RELAXATION: &[(usize, f64)] = &[(8, 1.0), (24, 0.6), (64, 0.15), (usize::M
 /// Entries of a factor up to which double precision costs nothing that is noticed: 32 MB.
 pub(super) const SMALL: usize = 1 << 22;
 
-/// Where the factor's entries are, for one pattern.
-#[derive(Debug)]
-pub(super) struct Symbolic {
-    /// faer's analysis.
-    pub supernodes: SymbolicSupernodalCholesky<u32>,
-}
+/// Where the factor's entries are, for one pattern: faer's analysis, `len_val` entries.
+pub(super) type Symbolic = SymbolicSupernodalCholesky<u32>;
 
-impl Symbolic {
-    /// Analyses the pattern of a matrix in the order in which it is factorised.
-    ///
-    /// # Errors
-    /// [`LinalgError::TooLarge`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
-    /// if memory does not suffice for the analysis.
-    pub(super) fn new(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
-        let order = a.order();
-        let failed = |reason| LinalgError::Factorisation { order, reason };
-        let (offsets, rows) = upper_pattern(a);
-        let pattern = SymbolicSparseColMatRef::new_checked(order, order, &offsets, None, &rows);
-        let scratch = StackReq::or(
-            prefactorize_symbolic_cholesky_scratch::<u32>(order, rows.len()),
-            factorize_supernodal_symbolic_cholesky_scratch::<u32>(order),
-        );
-        let mut buffer = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
-        let stack = MemStack::new(&mut buffer);
-        let (mut tree, mut counts) = (vec![0; order], vec![0; order]);
-        let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
-        let entries = counts.iter().map(|&count| u64::from(count)).sum();
-        affordable(order, entries, memory::available())?;
-        let parameters = SymbolicSupernodalParams { relax: Some(RELAXATION) };
-        let supernodes = factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, parameters)
-            .map_err(|_| failed("its factor has more than 2^31 entries, or memory is short"))?;
-        Ok(Self { supernodes })
-    }
-
-    /// Entries of the factor.
-    pub(super) fn entries(&self) -> usize {
-        self.supernodes.len_val()
-    }
+/// Analyses the pattern of a matrix in the order in which it is factorised.
+///
+/// # Errors
+/// [`LinalgError::Refused`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
+/// if memory does not suffice for the analysis.
+pub(super) fn analysed(a: &SymmetricMatrix) -> Result<Symbolic, LinalgError> {
+    let order = a.order();
+    let failed = |reason| LinalgError::Factorisation { order, reason };
+    let (offsets, rows) = upper_pattern(a);
+    let pattern = SymbolicSparseColMatRef::new_checked(order, order, &offsets, None, &rows);
+    let scratch = StackReq::or(
+        prefactorize_symbolic_cholesky_scratch::<u32>(order, rows.len()),
+        factorize_supernodal_symbolic_cholesky_scratch::<u32>(order),
+    );
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
+    let stack = MemStack::new(&mut buffer);
+    let (mut tree, mut counts) = (vec![0; order], vec![0; order]);
+    let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
+    let entries = counts.iter().map(|&count| u64::from(count)).sum();
+    affordable(order, entries, memory::available())?;
+    let parameters = SymbolicSupernodalParams { relax: Some(RELAXATION) };
+    factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, parameters)
+        .map_err(|_| failed("its factor has more than 2^31 entries, or memory is short"))
 }
 
 /// Checks that a factor fits: in single precision where it is large, which is tried first.
 ///
 /// # Errors
-/// [`LinalgError::TooLarge`].
+/// [`LinalgError::Refused`].
 fn affordable(order: usize, entries: u64, free: Option<u64>) -> Result<(), LinalgError> {
     let large = entries > SMALL as u64;
     let bytes = entries * if large { 4 } else { 8 };
     let limit = match free {
-        _ if entries > i32::MAX as u64 => FactorLimit::Places,
-        Some(free) if bytes > free => FactorLimit::Memory { free },
+        _ if entries > i32::MAX as u64 => "more than 2^31 entries cannot be counted".to_owned(),
+        Some(free) if bytes > free => format!("{} GB of memory are free", gigabytes(free)),
         _ => return Ok(()),
     };
-    Err(LinalgError::TooLarge { order, entries, bytes, limit })
+    Err(LinalgError::Refused(format!(
+        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
+        gigabytes(bytes)
+    )))
 }
 
 /// Upper triangle in compressed columns: the transposed pattern.
@@ -98,18 +87,14 @@ fn upper_pattern(a: &SymmetricMatrix) -> (Vec<u32>, Vec<u32>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{FactorLimit, LinalgError, affordable};
+    use super::affordable;
 
     #[test]
     fn a_factor_that_does_not_fit_is_refused_with_its_size() {
         assert_eq!(affordable(10, 1 << 20, Some(1 << 23)), Ok(()));
         assert_eq!(affordable(10, 1 << 30, None), Ok(()));
-        let (order, entries, bytes) = (3_000_000, 2_000_000_000, 8_000_000_000);
-        let free = 4_000_000_000;
+        let (order, entries, free) = (3_000_000, 2_000_000_000, 4_000_000_000);
         let error = affordable(order, entries, Some(free)).unwrap_err();
-        let limit = FactorLimit::Memory { free };
-        let expected = LinalgError::TooLarge { order, entries, bytes, limit };
-        assert_eq!(error, expected);
         assert_eq!(
             error.to_string(),
             "the factor of a 3000000 x 3000000 matrix has 2000000000 entries, at least 8.0 GB: 4.0 GB of memory are free; expected a coarser mesh, or elements of lower order"

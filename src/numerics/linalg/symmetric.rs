@@ -141,7 +141,7 @@ impl SymmetricMatrix {
     }
 
     fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
-        let Scratch { lanes, product } = scratch;
+        let [lanes, product] = scratch;
         lanes.resize(self.order(), [0.0; LANES]);
         product.clear();
         product.resize(self.order(), [0.0; LANES]);
@@ -166,11 +166,7 @@ impl SymmetricMatrix {
 }
 
 /// Factors and products of one block, row by row.
-#[derive(Debug, Default)]
-struct Scratch {
-    lanes: Vec<[f64; LANES]>,
-    product: Vec<[f64; LANES]>,
-}
+type Scratch = [Vec<[f64; LANES]>; 2];
 
 thread_local! {
     /// Kept between products: to touch new memory costs a third of a product.

@@ -27,8 +27,7 @@
 mod flow;
 mod track;
 
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
+use super::{Divergence, Exchange, SecondOrderSystem, SnapshotError, Statistics, Stepper};
 use flow::Flow;
 use track::Track;
 
@@ -96,7 +95,7 @@ impl Adams {
 
 impl<S: SecondOrderSystem> Stepper<S> for Adams {
     fn step(&mut self, system: &mut S, t1: f64, y: &mut [f64], v: &mut [f64], g: &mut [f64]) -> Result<(), Divergence> {
-        self.track.begin(y, v, g);
+        track::begin(&mut self.track, [y, v, g]);
         if self.tolerance.is_some() && self.statistics.steps == 0 {
             // the force was evaluated there before
             self.track.find_springs(system);

@@ -7,12 +7,8 @@
 //! formula of a method is needed, and damping, modes and what a method remembers count as they do in a run.
 
 use super::adams::Adams;
-use super::error::TransientError;
-use super::linearised::Linearised;
-use super::method::Method;
-use super::schedule::Schedule;
 use super::steppers::stepper;
-use crate::numerics::ode::SecondOrderSystem;
+use super::{Linearised, Method, Schedule, SecondOrderSystem, TransientError};
 
 /// Growth a step, `ln rho`, above which a method is unstable: a motion then becomes e times as large in 2000 steps. What beats
 /// without growing was found below half of it over a thousand steps.
@@ -47,35 +43,6 @@ impl Growth {
     }
 }
 
-/// Largest size of a motion in each of equal parts of a run, and what follows of it.
-#[derive(Debug, Clone, Copy)]
-struct PartsOfRun {
-    largest: [f64; PARTS],
-    samples: u32,
-}
-
-impl PartsOfRun {
-    /// Of a run with so many samples, at least one a part.
-    fn of(samples: u32) -> Self {
-        Self { largest: [0.0; PARTS], samples: samples.max(PARTS as u32) }
-    }
-
-    /// Takes the size at a sample, from 0.
-    fn see(&mut self, sample: u32, size: f64) {
-        let part = u64::from(sample) * PARTS as u64 / u64::from(self.samples);
-        let part = &mut self.largest[(part as usize).min(PARTS - 1)];
-        *part = part.max(size);
-    }
-
-    /// Logarithm by which the size grows from a sample to the next: the lesser of the last two parts', so that a beat or a steady
-    /// drift counts little.
-    fn growth(&self) -> f64 {
-        let [.., before, last, end] = self.largest;
-        let part = f64::from(self.samples) / PARTS as f64;
-        (end / last).ln().min((last / before).ln()) / part
-    }
-}
-
 /// How the largest small motion of `system` grows in a step of length `h` (s), from so many `steps`; `fastest` (1/s) is the
 /// order of its fastest motion. `ExponentialAdams` with a tolerance takes steps of that length too: what is small is below it.
 #[must_use]
@@ -95,7 +62,8 @@ fn take(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u3
     let (mut g, mut before) = (vec![0.0; dof], v.clone());
     system.force_into(0.0, &y, &v, &mut g);
     let first = size(&v);
-    let mut parts = PartsOfRun::of(steps);
+    // the largest size in each of equal parts of the run, of a sample at least
+    let (mut largest, samples) = ([0.0; PARTS], steps.max(PARTS as u32));
     for step in 0..steps {
         before.copy_from_slice(&v);
         let went = stepper.step(system, f64::from(step + 1) * h, &mut y, &mut v, &mut g);
@@ -103,9 +71,14 @@ fn take(system: &mut Linearised, method: Method, h: f64, fastest: f64, steps: u3
         if went.is_err() || now.is_nan() || now > BEYOND_DOUBT * first {
             return Ok(Growth { per_step: BEYOND_DOUBT.ln() / f64::from(step + 1), motion: before });
         }
-        parts.see(step, now);
+        let part = (u64::from(step) * PARTS as u64 / u64::from(samples)) as usize;
+        let part = &mut largest[part.min(PARTS - 1)];
+        *part = f64::max(*part, now);
     }
-    Ok(Growth { per_step: parts.growth(), motion: v })
+    // the lesser of the last two parts' growths, so that a beat or a steady drift counts little
+    let [.., before, last, end] = largest;
+    let logarithm = f64::ln(end / last).min(f64::ln(last / before));
+    Ok(Growth { per_step: logarithm / (f64::from(samples) / PARTS as f64), motion: v })
 }
 
 /// All coordinates in motion, without pattern: velocities of the order 1, positions of the order `1 / fastest` (1/s).

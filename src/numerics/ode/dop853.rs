@@ -15,9 +15,8 @@ mod dense;
 mod stages;
 mod tableau;
 
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, SecondOrderSystem, SnapshotError};
-use control::{Controller, Scale};
+use super::{Divergence, Exchange, SecondOrderSystem, SnapshotError, Statistics, Stepper};
+use control::{Scale, after_failure, after_success};
 use crossings::{Crossings, Trial, resolution};
 use dense::Dense;
 use stages::{LAST, Span, Stages};
@@ -30,7 +29,8 @@ pub(super) struct Dop853 {
     stages: Stages,
     dense: Dense,
     scale: Scale,
-    controller: Controller,
+    /// Error of the last step, which controls the next one.
+    error_before: f64,
     crossings: Option<Crossings>,
     /// The last step.
     span: Span,
@@ -54,7 +54,7 @@ impl Dop853 {
             dense: Dense::new(stages.length()),
             scale: Scale::new(linear, stages.length()),
             stages,
-            controller: Controller::new(),
+            error_before: 1e-4,
             crossings: None,
             span: Span::new(t, t, f64::INFINITY),
             next: None,
@@ -96,7 +96,7 @@ impl Dop853 {
             self.stages.attempt(system, &span);
             let error = self.scale.error(&self.stages, span.length()) / self.tolerance;
             if error > 1.0 {
-                next = span.length() * self.controller.after_failure(error);
+                next = span.length() * after_failure(error);
                 if next <= resolution(from, next) {
                     return Err(if error.is_finite() {
                         Divergence::NoStep { step: next }
@@ -120,7 +120,7 @@ impl Dop853 {
                     continue;
                 }
             }
-            let allowed = span.length() * self.controller.after_success(error, failed);
+            let allowed = span.length() * after_success(&mut self.error_before, error, failed);
             self.next = Some(if cut { allowed.max(next) } else { allowed });
             self.scale.see(self.stages.states()[1], span.length());
             self.span = span;
@@ -182,7 +182,7 @@ impl<S: SecondOrderSystem> Stepper<S> for Dop853 {
         self.stages.exchange(words)?;
         self.dense.exchange(words)?;
         self.scale.exchange(words)?;
-        self.controller.exchange(words)?;
+        words.number(&mut self.error_before)?;
         let mut watches = self.crossings.is_some();
         words.flag(&mut watches)?;
         if watches {

@@ -1,8 +1,6 @@
 //! What can go wrong in a time integration.
 
-use super::method::{Method, Resonance, StepLimit};
-use super::stepper::Statistics;
-use crate::numerics::ode::{Divergence, SnapshotError};
+use super::{Divergence, Method, Resonance, SnapshotError, Statistics, StepLimit};
 use std::fmt;
 use thiserror::Error;
 
@@ -10,15 +8,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TransientError {
     /// The time span, the step or a parameter of the method does not make sense.
-    #[error("{what} must be {rule}, found {value:?}")]
-    Schedule {
-        /// Which quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it must be.
-        rule: &'static str,
-    },
+    #[error("{0}")]
+    Schedule(String),
     /// The solution blew up.
     #[error(transparent)]
     BlewUp(Box<BlowUp>),
@@ -40,8 +31,8 @@ pub enum TransientError {
 }
 
 /// Refuses a value that breaks its rule.
-pub(super) fn require(holds: bool, what: &'static str, value: f64, rule: &'static str) -> Result<(), TransientError> {
-    if holds { Ok(()) } else { Err(TransientError::Schedule { what, value, rule }) }
+pub(super) fn require(holds: bool, what: &str, value: f64, rule: &str) -> Result<(), TransientError> {
+    if holds { Ok(()) } else { Err(TransientError::Schedule(format!("{what} must be {rule}, found {value:?}"))) }
 }
 
 /// A solution that blew up: when, what was noticed, and what step the method could take there.
@@ -73,12 +64,6 @@ impl BlowUp {
     /// no limit there.
     pub(crate) fn beyond_the_limit(&self) -> Option<bool> {
         self.limit.map(|limit| self.step_s > limit.step_s)
-    }
-}
-
-impl From<BlowUp> for TransientError {
-    fn from(blow_up: BlowUp) -> Self {
-        Self::BlewUp(Box::new(blow_up))
     }
 }
 

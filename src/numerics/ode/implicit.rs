@@ -16,13 +16,12 @@
 //! The iteration starts from `a1 = a0`. Its last correction is applied to the force by the tangent, at a change that no longer
 //! counts ([`TOLERANCE`](super::newton::TOLERANCE)), so that the force belongs to the state without another evaluation.
 
-use super::newton::{NewtonMatrix, Progress, Verdict, Weights};
-use super::stepper::{Statistics, Stepper};
-use crate::numerics::ode::{Divergence, Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError, Tangent};
+use super::newton::{NewtonMatrix, Progress, Weights};
+use super::{Divergence, Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError, Statistics, Stepper, Tangent};
 
 /// Parameters of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Family {
+pub(super) struct Family {
     alpha_m: f64,
     alpha_f: f64,
     beta: f64,
@@ -30,10 +29,10 @@ struct Family {
 }
 
 impl Family {
-    const AVERAGE_ACCELERATION: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
+    pub(super) const AVERAGE_ACCELERATION: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
 
-    /// Of second order, with the least damping of low frequencies for its `spectral_radius` at high ones.
-    fn generalized_alpha(spectral_radius: f64) -> Self {
+    /// Of second order, with the least damping of low frequencies for its `spectral_radius` at high ones, 0 to 1.
+    pub(super) fn generalized_alpha(spectral_radius: f64) -> Self {
         let alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0);
         let alpha_f = spectral_radius / (spectral_radius + 1.0);
         let difference = 1.0 - alpha_m + alpha_f;
@@ -51,8 +50,10 @@ pub(super) struct Implicit {
     tangent: Tangent,
     /// At the last instant; none before the first step.
     acceleration: Option<Vec<f64>>,
-    /// What the acceleration at the end does not change.
-    known: Known,
+    /// What the acceleration at the end does not change: of position and velocity, and `alpha_m a0 - alpha_f f0`.
+    known_y: Vec<f64>,
+    known_v: Vec<f64>,
+    balance: Vec<f64>,
     /// Scratch: correction, and what it does to position and velocity.
     correction: Vec<f64>,
     dy: Vec<f64>,
@@ -60,26 +61,9 @@ pub(super) struct Implicit {
     statistics: Statistics,
 }
 
-/// Parts of a step that are known from its start.
-#[derive(Debug)]
-struct Known {
-    y: Vec<f64>,
-    v: Vec<f64>,
-    /// `alpha_m a0 - alpha_f f0`.
-    balance: Vec<f64>,
-}
-
 impl Implicit {
-    pub(super) fn average_acceleration(system: &impl SecondOrderSystem, h: f64) -> Self {
-        Self::new(system, h, Family::AVERAGE_ACCELERATION)
-    }
-
-    /// `spectral_radius` at infinite frequency, 0 to 1.
-    pub(super) fn generalized_alpha(system: &impl SecondOrderSystem, h: f64, spectral_radius: f64) -> Self {
-        Self::new(system, h, Family::generalized_alpha(spectral_radius))
-    }
-
-    fn new(system: &impl SecondOrderSystem, h: f64, family: Family) -> Self {
+    /// With equal steps of `h` (s).
+    pub(super) fn new(system: &impl SecondOrderSystem, h: f64, family: Family) -> Self {
         let linear = system.linear().to_vec();
         let weights =
             Weights { force: 1.0 - family.alpha_f, position: family.beta * h * h, velocity: family.gamma * h };
@@ -96,7 +80,9 @@ impl Implicit {
             matrix: NewtonMatrix::new(diagonal.collect(), weights),
             tangent: Tangent::new(linear.len()),
             acceleration: None,
-            known: Known { y: zeros(), v: zeros(), balance: zeros() },
+            known_y: zeros(),
+            known_v: zeros(),
+            balance: zeros(),
             correction: zeros(),
             dy: zeros(),
             dv: zeros(),
@@ -107,19 +93,19 @@ impl Implicit {
 
     /// Sets what is known from the start of the step, with `a` the acceleration there.
     fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64], a: &[f64]) {
-        let (h, family, known) = (self.h, self.family, &mut self.known);
+        let (h, family) = (self.h, self.family);
         for (i, linear) in self.linear.iter().enumerate() {
-            known.y[i] = y[i] + h * v[i] + (0.5 - family.beta) * h * h * a[i];
-            known.v[i] = v[i] + (1.0 - family.gamma) * h * a[i];
-            known.balance[i] = family.alpha_m * a[i] - family.alpha_f * pull(linear, y[i], v[i], g[i]);
+            self.known_y[i] = y[i] + h * v[i] + (0.5 - family.beta) * h * h * a[i];
+            self.known_v[i] = v[i] + (1.0 - family.gamma) * h * a[i];
+            self.balance[i] = family.alpha_m * a[i] - family.alpha_f * pull(linear, y[i], v[i], g[i]);
         }
     }
 
     /// The state that an acceleration at the end gives.
     fn place(&self, a: &[f64], y: &mut [f64], v: &mut [f64]) {
         for i in 0..a.len() {
-            y[i] = self.known.y[i] + self.weights.position * a[i];
-            v[i] = self.known.v[i] + self.weights.velocity * a[i];
+            y[i] = self.known_y[i] + self.weights.position * a[i];
+            v[i] = self.known_v[i] + self.weights.velocity * a[i];
         }
     }
 
@@ -127,7 +113,7 @@ impl Implicit {
     /// those that cancel within `g`: to first order what a term's position makes of it.
     fn residual(&mut self, a: &[f64], y: &[f64], v: &[f64], g: &[f64]) -> f64 {
         self.dy.fill(0.0);
-        for term in 0..self.tangent.terms() {
+        for term in 0..self.tangent.terms {
             let pairs = self.tangent.position(term).iter().zip(y);
             let force: f64 = pairs.map(|(row, y)| (row * y).abs()).sum();
             for (sum, left) in self.dy.iter_mut().zip(self.tangent.left(term)) {
@@ -138,7 +124,7 @@ impl Implicit {
         for (i, linear) in self.linear.iter().enumerate() {
             let f = pull(linear, y[i], v[i], g[i]);
             let inertia = (1.0 - self.family.alpha_m) * a[i];
-            self.correction[i] = self.weights.force * f - inertia - self.known.balance[i];
+            self.correction[i] = self.weights.force * f - inertia - self.balance[i];
             let spring = linear.squared_frequency * y[i];
             let size = a[i].abs() + g[i].abs() + spring.abs() + self.dy[i];
             square += size * size;
@@ -174,7 +160,7 @@ impl Implicit {
             let Some(change) = self.iterate(system, t1, a, [y, v], g) else {
                 return Err(progress.failed());
             };
-            if progress.judge(change)? == Verdict::Solved {
+            if progress.judge(change)? {
                 self.place(a, y, v);
                 self.tangent.apply(&self.dy, &self.dv, g);
                 return Ok(());
@@ -269,8 +255,8 @@ mod tests {
             let mut system = Impact::new(damping);
             for radius in [None, Some(0.8), Some(0.0)] {
                 let stepper = match radius {
-                    None => Implicit::average_acceleration(&system, 1.0),
-                    Some(radius) => Implicit::generalized_alpha(&system, 1.0, radius),
+                    None => Implicit::new(&system, 1.0, Family::AVERAGE_ACCELERATION),
+                    Some(radius) => Implicit::new(&system, 1.0, Family::generalized_alpha(radius)),
                 };
                 let changes = changes(&mut system, stepper, [0.5, 0.7]);
                 println!("damping {damping}, {radius:?}: {changes:?}");

@@ -1,12 +1,9 @@
 //! A system on its way through a schedule, one interval at a time.
 
-use super::error::{BlowUp, TransientError};
-use super::method::{Method, StepLimit};
-use super::schedule::Schedule;
-use super::stepper::{Statistics, Stepper};
 use super::steppers::stepper;
-use crate::numerics::ode::{
-    Divergence, Exchange, Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State,
+use super::{
+    BlowUp, Divergence, Exchange, Instant, Method, Observer, Schedule, SecondOrderSystem, Snapshot, SnapshotError,
+    SnapshotReader, State, Statistics, StepLimit, Stepper, TransientError,
 };
 
 /// Steps between two looks at whether the state still means something, besides those at the ends of intervals: a blow-up by a
@@ -49,12 +46,11 @@ pub fn integrate<S: SecondOrderSystem>(
     let mut ended = Ok(());
     while ended.is_ok() && !integration.is_complete() {
         ended = integration.advance(system, observer);
-        let done = integration.intervals();
-        if ended.is_ok() && after_interval(done, schedule.intervals) == Stepping::Stop {
+        if ended.is_ok() && after_interval(integration.intervals, schedule.intervals) == Stepping::Stop {
             break;
         }
     }
-    state.clone_from(integration.state());
+    state.clone_from(&integration.state);
     ended.map(|()| integration.statistics())
 }
 
@@ -63,7 +59,8 @@ pub struct Integration<S> {
     method: Method,
     schedule: Schedule,
     stepper: Box<dyn Stepper<S>>,
-    state: State,
+    /// Where it is, after a blow-up the last good state.
+    pub(crate) state: State,
     force: Vec<f64>,
     /// The last ones that were looked at and meant something; `newest` is the place of the last.
     good: [State; KEPT],
@@ -72,7 +69,8 @@ pub struct Integration<S> {
     earlier: [State; 3],
     looks: u64,
     start: f64,
-    intervals: u64,
+    /// Intervals done.
+    pub(crate) intervals: u64,
     samples: u64,
 }
 
@@ -107,17 +105,14 @@ impl<S: SecondOrderSystem> Integration<S> {
         schedule: Schedule,
         snapshot: &mut SnapshotReader,
     ) -> Result<Self, TransientError> {
-        let dof = system.linear().len();
-        let mut state = State { t: snapshot.number()?, y: vec![0.0; dof], v: vec![0.0; dof] };
-        let mut force = vec![0.0; dof];
-        for numbers in [&mut state.y, &mut state.v, &mut force] {
-            snapshot.numbers_into("coordinates", numbers)?;
-        }
-        let start = snapshot.number()?;
-        let (intervals, samples) = (snapshot.count()?, snapshot.count()?);
-        let mut stepper = stepper(system, method, &schedule, start)?;
-        stepper.exchange(&mut Exchange::Read(snapshot))?;
-        Ok(Self { start, intervals, samples, ..Self::at(state, force, method, schedule, stepper) })
+        let blank = vec![0.0; system.linear().len()];
+        let state = State { t: 0.0, y: blank.clone(), v: blank.clone() };
+        let stepper = stepper(system, method, &schedule, 0.0)?;
+        let mut resumed = Self::at(state, blank, method, schedule, stepper);
+        resumed.exchange(&mut Exchange::Read(snapshot))?;
+        resumed.good.fill(resumed.state.clone());
+        resumed.earlier.fill(resumed.state.clone());
+        Ok(resumed)
     }
 
     /// About to take its first step from a state and the force there.
@@ -143,29 +138,23 @@ impl<S: SecondOrderSystem> Integration<S> {
     /// # Errors
     /// None, for nothing is read.
     pub(crate) fn remember(&mut self, snapshot: &mut Snapshot) -> Result<(), SnapshotError> {
-        snapshot.number(self.state.t);
-        for numbers in [&self.state.y, &self.state.v, &self.force] {
-            snapshot.numbers(numbers);
+        self.exchange(&mut Exchange::Write(snapshot))
+    }
+
+    fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
+        words.number(&mut self.state.t)?;
+        for numbers in [&mut self.state.y, &mut self.state.v, &mut self.force] {
+            words.numbers("coordinates", numbers)?;
         }
-        snapshot.number(self.start);
-        snapshot.count(self.intervals);
-        snapshot.count(self.samples);
-        self.stepper.exchange(&mut Exchange::Write(snapshot))
+        words.number(&mut self.start)?;
+        words.count(&mut self.intervals)?;
+        words.count(&mut self.samples)?;
+        self.stepper.exchange(words)
     }
 
     /// Whether all intervals are done.
     pub(crate) fn is_complete(&self) -> bool {
         self.intervals >= self.schedule.intervals
-    }
-
-    /// Intervals done.
-    pub(crate) fn intervals(&self) -> u64 {
-        self.intervals
-    }
-
-    /// Where it is, after a blow-up the last good state.
-    pub(crate) fn state(&self) -> &State {
-        &self.state
     }
 
     /// What it took so far.
@@ -220,7 +209,7 @@ impl<S: SecondOrderSystem> Integration<S> {
         let limit = self.limit(system, step_s);
         let below = limit.is_none_or(|limit| step_s <= limit.step_s);
         let resonance = below.then(|| self.method.resonance(system, &self.earlier[2], step_s)).flatten();
-        let blow_up = BlowUp {
+        TransientError::BlewUp(Box::new(BlowUp {
             method: self.method,
             time,
             good_until: self.state.t,
@@ -230,8 +219,7 @@ impl<S: SecondOrderSystem> Integration<S> {
             limit,
             resonance,
             cause,
-        };
-        blow_up.into()
+        }))
     }
 
     /// The limit that the step was beyond first, or the least one.

@@ -4,11 +4,10 @@
 //! contacts can drive it (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., XIII.1 and XIII.8). Such a
 //! [`Resonance`] is told apart from the limit by what grows.
 
-use super::amplification::{Growth, STEPS, growth};
-use super::linearised::Linearised;
-use super::method::{Method, Resonance, StepLimit};
+use super::amplification::STEPS;
+use super::tangent::dot;
+use super::{Growth, Linearised, Method, Resonance, SecondOrderSystem, State, StepLimit, Tangent, growth};
 use crate::numerics::linalg::{DenseMatrix, general_spectrum};
-use crate::numerics::ode::{SecondOrderSystem, State, Tangent};
 use std::f64::consts::{PI, TAU};
 
 /// Steps that are tried, in units of the fastest motion's time: the first one, the ratio of two, and the last one.
@@ -34,7 +33,7 @@ impl Resonance {
         if !found.is_unstable() {
             return None;
         }
-        let energies = found.motion.iter().zip(system.masses());
+        let energies = found.motion.iter().zip(&system.masses);
         let energies = energies.map(|(v, mass)| mass * v * v).enumerate();
         let (coordinate, _) = energies.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let omega = system.linear()[coordinate].squared_frequency.sqrt();
@@ -114,7 +113,7 @@ impl Method {
         }
         let explicit = match self {
             Self::NewmarkExplicit => of_coordinates(system),
-            _ => of_terms(system.tangent(), Tangent::position),
+            _ => of_terms(&system.tangent, Tangent::position),
         };
         Some(StepLimit { step_s: stable, highest_hz: largest_real_part(&explicit)?.sqrt() / TAU })
     }
@@ -124,7 +123,7 @@ impl Method {
 /// larger. None where it makes none.
 #[must_use]
 pub(crate) fn fastest(system: &Linearised) -> Option<f64> {
-    let tangent = system.tangent();
+    let tangent = &system.tangent;
     let frequency = largest_real_part(&of_terms(tangent, Tangent::position))?.sqrt();
     let rate = largest_real_part(&of_terms(tangent, Tangent::velocity))?;
     let fastest = frequency.max(rate);
@@ -133,22 +132,19 @@ pub(crate) fn fastest(system: &Linearised) -> Option<f64> {
 
 /// `-row_k . left_l`, \[terms x terms\]: its eigenvalues that are not zero are those of the sum of the terms.
 fn of_terms(tangent: &Tangent, row: impl Fn(&Tangent, usize) -> &[f64]) -> DenseMatrix {
-    let terms = tangent.terms();
-    DenseMatrix::from_fn(terms, terms, |k, l| {
-        let pairs = row(tangent, k).iter().zip(tangent.left(l));
-        -pairs.map(|(row, left)| row * left).sum::<f64>()
-    })
+    let terms = tangent.terms;
+    DenseMatrix::from_fn(terms, terms, |k, l| -dot(row(tangent, k), tangent.left(l)))
 }
 
 /// Linear part and tangent, \[dof x dof\].
 fn of_coordinates(system: &Linearised) -> DenseMatrix {
-    let tangent = system.tangent();
-    let dof = tangent.dof();
+    let tangent = &system.tangent;
+    let dof = tangent.dof;
     let mut matrix = DenseMatrix::zeros(dof, dof);
     for (i, linear) in system.linear().iter().enumerate() {
         matrix[(i, i)] = linear.squared_frequency;
     }
-    for term in 0..tangent.terms() {
+    for term in 0..tangent.terms {
         for (j, position) in tangent.position(term).iter().enumerate() {
             for (i, left) in tangent.left(term).iter().enumerate() {
                 matrix[(i, j)] -= left * position;

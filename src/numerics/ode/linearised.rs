@@ -6,6 +6,7 @@
 //!
 //! A method steps this as it steps the system itself, so that what it does to small motions needs no formula of its own.
 
+use super::tangent::dot;
 use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem, State, Tangent};
 use std::ops::Range;
 
@@ -13,10 +14,13 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Linearised {
     linear: Vec<LinearCoordinate>,
-    tangent: Tangent,
+    /// What the force is by the tangent.
+    pub(super) tangent: Tangent,
     /// Where the rows of each term are not zero: left, position, velocity.
     filled: Vec<[Range<usize>; 3]>,
-    masses: Vec<f64>,
+    /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
+    /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
+    pub(super) masses: Vec<f64>,
     /// What each coordinate meets of the force as a spring of its own.
     springs: Vec<f64>,
 }
@@ -26,7 +30,7 @@ impl Linearised {
     pub fn new<S: SecondOrderSystem>(system: &mut S, state: &State) -> Self {
         let mut tangent = Tangent::new(state.y.len());
         system.tangent_into(state.t, &state.y, &state.v, &mut tangent);
-        let filled = (0..tangent.terms()).map(|term| {
+        let filled = (0..tangent.terms).map(|term| {
             let rows = [tangent.left(term), tangent.position(term), tangent.velocity(term)];
             rows.map(filled)
         });
@@ -34,17 +38,6 @@ impl Linearised {
         let [mut springs, mut sizes] = [0, 1].map(|_| vec![0.0; linear.len()]);
         system.own_springs_into(&mut springs, &mut sizes);
         Self { springs, filled: filled.collect(), masses: masses(&linear, &tangent), linear, tangent }
-    }
-
-    /// What each coordinate weighs beside a mode of unit mass, as far as the terms tell: a force that acts on both along what it
-    /// depends on has `position_i / left_i` in proportion to the masses. 1 where none does.
-    pub(crate) fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    /// What the force is by the tangent.
-    pub(crate) fn tangent(&self) -> &Tangent {
-        &self.tangent
     }
 }
 
@@ -56,8 +49,9 @@ impl SecondOrderSystem for Linearised {
     fn force_into(&mut self, _t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         g.fill(0.0);
         for (term, [left, position, velocity]) in self.filled.iter().enumerate() {
-            let factor =
-                product(self.tangent.position(term), y, position) + product(self.tangent.velocity(term), v, velocity);
+            let at =
+                |row: &[f64], values: &[f64], filled: &Range<usize>| dot(&row[filled.clone()], &values[filled.clone()]);
+            let factor = at(self.tangent.position(term), y, position) + at(self.tangent.velocity(term), v, velocity);
             let pairs = g[left.clone()].iter_mut();
             for (g, left) in pairs.zip(&self.tangent.left(term)[left.clone()]) {
                 *g += factor * left;
@@ -77,7 +71,7 @@ impl SecondOrderSystem for Linearised {
 
 fn masses(linear: &[LinearCoordinate], tangent: &Tangent) -> Vec<f64> {
     let mut masses = vec![1.0; linear.len()];
-    for term in 0..tangent.terms() {
+    for term in 0..tangent.terms {
         let (left, position) = (tangent.left(term), tangent.position(term));
         let modes = (0..linear.len()).filter(|&i| linear[i].squared_frequency > 0.0);
         // the mode that the force moves most
@@ -101,9 +95,4 @@ fn filled(row: &[f64]) -> Range<usize> {
     let first = row.iter().position(is_filled).unwrap_or(0);
     let end = row.iter().rposition(is_filled).map_or(0, |last| last + 1);
     first..end
-}
-
-fn product(row: &[f64], values: &[f64], at: &Range<usize>) -> f64 {
-    let pairs = row[at.clone()].iter().zip(&values[at.clone()]);
-    pairs.map(|(a, b)| a * b).sum()
 }

@@ -51,6 +51,7 @@ pub use schedule::{MOST_STEPS_PER_INTERVAL, Schedule};
 pub(crate) use snapshot::Exchange;
 pub use snapshot::{Snapshot, SnapshotError, SnapshotReader};
 pub use stepper::Statistics;
+pub(in crate::numerics::ode) use stepper::Stepper;
 pub(crate) use system::all_finite;
 pub use system::{Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State};
 pub use tangent::{Tangent, TangentTerm};

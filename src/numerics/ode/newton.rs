@@ -9,8 +9,9 @@
 //! so that by the identity of Woodbury (Golub and Van Loan, Matrix Computations, 4th ed., section 2.1.4) a correction costs a
 //! system of order r, the number of terms: `J^-1 b = z + D^-1 L (1 - R^T D^-1 L)^-1 R^T z`, `z = D^-1 b`.
 
+use super::tangent::{Tangent, dot};
 use crate::numerics::linalg::SmallLu;
-use crate::numerics::ode::{Divergence, Tangent};
+use crate::numerics::ode::Divergence;
 
 /// Change of the force at which the iteration ends, in units of its size. One step of 0.1 rad errs by 1e-4 of the force, one of
 /// 1e-2 rad by 1e-7.
@@ -61,14 +62,14 @@ impl NewtonMatrix {
     /// Takes a tangent in, the cheaper way. Gives whether the matrix is regular.
     #[must_use]
     pub(super) fn factorise(&mut self, tangent: &Tangent) -> bool {
-        let way = if tangent.terms() <= tangent.dof() { Way::Terms } else { Way::Coordinates };
+        let way = if tangent.terms <= tangent.dof { Way::Terms } else { Way::Coordinates };
         self.factorise_by(way, tangent)
     }
 
     fn factorise_by(&mut self, way: Way, tangent: &Tangent) -> bool {
         self.way = way;
         self.set_rows(tangent);
-        let (n, terms) = (tangent.dof(), tangent.terms());
+        let (n, terms) = (tangent.dof, tangent.terms);
         let rows = || self.rows.chunks_exact(n.max(1));
         match way {
             Way::Terms => {
@@ -101,7 +102,7 @@ impl NewtonMatrix {
     fn set_rows(&mut self, tangent: &Tangent) {
         let Weights { force, position, velocity } = self.weights;
         self.rows.clear();
-        for term in 0..tangent.terms() {
+        for term in 0..tangent.terms {
             let parts = tangent.position(term).iter().zip(tangent.velocity(term));
             let row = parts.map(|(y, v)| force * (position * y + velocity * v));
             match self.way {
@@ -131,15 +132,6 @@ impl NewtonMatrix {
     }
 }
 
-/// Whether to correct again.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
-    /// The correction was not the last.
-    GoOn,
-    /// What it leaves is below [`TOLERANCE`].
-    Solved,
-}
-
 /// The corrections of one step so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Progress {
@@ -148,13 +140,13 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Judges a correction of size `change` in units of the force. With `rate` the ratio to the last change, what is left
+    /// Judges a correction of size `change` in units of the force: whether what it leaves is below [`TOLERANCE`]. With `rate` the ratio to the last change, what is left
     /// after this one is `change rate / (1 - rate)` at most (Hairer and Wanner, Solving Ordinary Differential Equations II,
     /// 2nd ed., section IV.8), less where the rate falls from one to the next as it does here.
     ///
     /// # Errors
     /// [`Divergence::NotFinite`], [`Divergence::NotSolved`].
-    pub(super) fn judge(&mut self, change: f64) -> Result<Verdict, Divergence> {
+    pub(super) fn judge(&mut self, change: f64) -> Result<bool, Divergence> {
         self.iterations += 1;
         if !change.is_finite() {
             return Err(Divergence::NotFinite);
@@ -163,23 +155,17 @@ impl Progress {
             Some(last) if change < last => change * change / (last - change),
             _ => change,
         };
-        if left.min(change) <= TOLERANCE {
-            Ok(Verdict::Solved)
-        } else if self.iterations >= MAX_ITERATIONS {
-            Err(Divergence::NotSolved { iterations: self.iterations, change })
-        } else {
-            Ok(Verdict::GoOn)
+        let is_solved = left.min(change) <= TOLERANCE;
+        if !is_solved && self.iterations >= MAX_ITERATIONS {
+            return Err(Divergence::NotSolved { iterations: self.iterations, change });
         }
+        Ok(is_solved)
     }
 
     /// What to say when a correction has no solution.
     pub(super) fn failed(&self) -> Divergence {
         Divergence::NotSolved { iterations: self.iterations, change: self.last.unwrap_or(1.0) }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn add_scaled(sum: &mut [f64], factor: f64, row: &[f64]) {
@@ -257,13 +243,13 @@ mod tests {
     fn the_iteration_ends_by_what_a_correction_leaves() {
         // quadratic: after 1e-2, 1e-4 and 1e-8 nothing is left that counts; by the second, 1e-6 may be
         let mut progress = Progress::default();
-        assert_eq!(progress.judge(1e-2), Ok(Verdict::GoOn));
-        assert_eq!(progress.judge(1e-4), Ok(Verdict::GoOn));
-        assert_eq!(progress.judge(1e-8), Ok(Verdict::Solved));
+        assert_eq!(progress.judge(1e-2), Ok(false));
+        assert_eq!(progress.judge(1e-4), Ok(false));
+        assert_eq!(progress.judge(1e-8), Ok(true));
         // growing changes end with an error, and so does what is not a number
         let mut progress = Progress::default();
         for _ in 1..MAX_ITERATIONS {
-            assert_eq!(progress.judge(1.0), Ok(Verdict::GoOn));
+            assert_eq!(progress.judge(1.0), Ok(false));
         }
         let failed = Divergence::NotSolved { iterations: MAX_ITERATIONS, change: 1.0 };
         assert_eq!(progress.judge(1.0), Err(failed));

@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Words in the order in which they were written.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Snapshot {
-    words: Vec<u64>,
+    pub(crate) words: Vec<u64>,
 }
 
 /// Reads a [`Snapshot`] in the order in which it was written.
@@ -39,18 +39,6 @@ pub enum SnapshotError {
 }
 
 impl Snapshot {
-    /// A snapshot of words that [`words`](Self::words) gave.
-    #[must_use]
-    pub(crate) fn from_words(words: Vec<u64>) -> Self {
-        Self { words }
-    }
-
-    /// The words.
-    #[must_use]
-    pub(crate) fn words(&self) -> &[u64] {
-        &self.words
-    }
-
     /// Reads from the start.
     #[must_use]
     pub(crate) fn reader(&self) -> SnapshotReader<'_> {
@@ -236,7 +224,7 @@ mod tests {
         written.option(None);
         written.option(Some(-0.0));
         written.number(1.0 / 3.0);
-        let read = Snapshot::from_words(written.words().to_vec());
+        let read = Snapshot { words: written.words.clone() };
         let mut reader = read.reader();
         assert_eq!(reader.count(), Ok(u64::MAX));
         assert_eq!(reader.flag(), Ok(true));
@@ -257,7 +245,7 @@ mod tests {
         assert_eq!(error.unwrap_err().to_string(), "the snapshot is of another system: states expected 3, found 2");
         let long = snapshot.reader().end().unwrap_err().to_string();
         assert_eq!(long, "the snapshot has 3 words more than expected");
-        let mut cut = Snapshot::from_words(vec![u64::MAX, 0]);
+        let mut cut = Snapshot { words: vec![u64::MAX, 0] };
         assert_eq!(cut.reader().numbers(), Err(SnapshotError::Short));
         cut.count(7);
         assert!(cut.reader().flag().is_err());

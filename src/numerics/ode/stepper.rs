@@ -1,7 +1,6 @@
 //! What every method does: it goes from sample to sample, counts what that takes, and can be written to a snapshot.
 
-use super::snapshot::{Exchange, SnapshotError};
-use super::system::Divergence;
+use super::{Divergence, Exchange, SnapshotError};
 
 /// Counts of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

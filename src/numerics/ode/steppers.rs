@@ -2,13 +2,10 @@
 
 use super::adams::Adams;
 use super::dop853::Dop853;
-use super::error::{TransientError, require};
-use super::implicit::Implicit;
-use super::method::{LEAST_TOLERANCE, Method};
-use super::one_evaluation::{Counted, Exponential, NewmarkExplicit, Splitting};
-use super::schedule::Schedule;
-use super::stepper::Stepper;
-use crate::numerics::ode::SecondOrderSystem;
+use super::error::require;
+use super::implicit::{Family, Implicit};
+use super::one_evaluation::OneEvaluation;
+use super::{LEAST_TOLERANCE, Method, Schedule, SecondOrderSystem, Stepper, TransientError};
 use std::f64::consts::TAU;
 
 /// The method ready to go from `start` (s) with the schedule's steps.
@@ -20,16 +17,15 @@ pub(super) fn stepper<S: SecondOrderSystem>(
 ) -> Result<Box<dyn Stepper<S>>, TransientError> {
     let h = schedule.step();
     Ok(match method {
-        Method::Exponential => Box::new(Counted::new(Exponential::new(system, h))),
         Method::ExponentialAdams { tolerance } => {
             tolerance.map_or(Ok(()), check_tolerance)?;
             Box::new(Adams::new(system, h, tolerance))
         }
-        Method::Splitting => Box::new(Counted::new(Splitting::new(system, h))),
-        Method::Newmark => Box::new(Implicit::average_acceleration(system, h)),
+        Method::Exponential | Method::Splitting => Box::new(OneEvaluation::new(system, method, h)),
+        Method::Newmark => Box::new(Implicit::new(system, h, Family::AVERAGE_ACCELERATION)),
         Method::GeneralizedAlpha { spectral_radius } => {
             require((0.0..=1.0).contains(&spectral_radius), "spectral radius", spectral_radius, "from 0 to 1")?;
-            Box::new(Implicit::generalized_alpha(system, h, spectral_radius))
+            Box::new(Implicit::new(system, h, Family::generalized_alpha(spectral_radius)))
         }
         Method::Dop853 { tolerance, events } => {
             check_tolerance(tolerance)?;
@@ -37,7 +33,7 @@ pub(super) fn stepper<S: SecondOrderSystem>(
         }
         Method::NewmarkExplicit => {
             check_stability(system, h)?;
-            Box::new(Counted::new(NewmarkExplicit::new(system, h)))
+            Box::new(OneEvaluation::new(system, method, h))
         }
     })
 }
@@ -49,8 +45,7 @@ fn check_tolerance(tolerance: f64) -> Result<(), TransientError> {
 fn check_stability(system: &impl SecondOrderSystem, h: f64) -> Result<(), TransientError> {
     let highest = system.linear().iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max).sqrt();
     if h * highest < 2.0 {
-        Ok(())
-    } else {
-        Err(TransientError::Unstable { step_s: h, limit_s: 2.0 / highest, highest_hz: highest / TAU })
+        return Ok(());
     }
+    Err(TransientError::Unstable { step_s: h, limit_s: 2.0 / highest, highest_hz: highest / TAU })
 }

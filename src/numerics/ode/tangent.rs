@@ -7,8 +7,10 @@
 /// A sum of products of rank one; all rows have one entry a coordinate.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tangent {
-    dof: usize,
-    terms: usize,
+    /// Number of coordinates.
+    pub(crate) dof: usize,
+    /// Number of terms.
+    pub(crate) terms: usize,
     /// [terms x 3 x dof]: left, position, velocity.
     values: Vec<f64>,
 }
@@ -34,18 +36,6 @@ impl Tangent {
     /// Takes all terms out; the memory stays.
     pub(crate) fn clear(&mut self) {
         self.terms = 0;
-    }
-
-    /// Number of terms.
-    #[must_use]
-    pub(crate) fn terms(&self) -> usize {
-        self.terms
-    }
-
-    /// Number of coordinates.
-    #[must_use]
-    pub(crate) fn dof(&self) -> usize {
-        self.dof
     }
 
     /// Adds a term of zeros, to be filled.
@@ -85,7 +75,6 @@ impl Tangent {
 
     /// Adds the change of force for a change of the state to `dg`, all \[dof\].
     pub(crate) fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         for term in 0..self.terms {
             let factor = dot(self.position(term), dy) + dot(self.velocity(term), dv);
             for (dg, left) in dg.iter_mut().zip(self.left(term)) {
@@ -93,6 +82,11 @@ impl Tangent {
             }
         }
     }
+}
+
+/// Sum of products, from the first on.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
@@ -111,7 +105,7 @@ mod tests {
             tangent.apply(&[7.0, 0.5], &[9.0, 9.0], &mut dg);
             assert!((dg[0] - 1.0 - factor).abs() < 1e-15 && (dg[1] - 1.0).abs() < 1e-15);
             tangent.add().velocity[0] = 4.0;
-            assert_eq!(tangent.terms(), 2);
+            assert_eq!(tangent.terms, 2);
         }
         tangent.clear();
         tangent.add();

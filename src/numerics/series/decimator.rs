@@ -40,7 +40,7 @@ const STENCIL: usize = SECOND_DIFFERENCE.len() - 1;
 /// Before the start the signal is zero ([`new`](Self::new)), or the displacement has its first value
 /// (`second_derivative`). Output k is complete, and handed out, when input
 /// (k + 14) M - 1 has been pushed: to get the output at the last instant of a run, go on for
-/// `half_length_outputs` output intervals.
+/// [`HALF_LENGTH_OUTPUTS`] output intervals.
 ///
 /// Cost: 28 multiply-adds an input, no allocation. Clones share the taps: clone a fresh one for each channel.
 ///
@@ -56,20 +56,15 @@ const STENCIL: usize = SECOND_DIFFERENCE.len() - 1;
 pub struct Decimator {
     /// Taps by phase: row p (p = n mod M) holds h_(p + 13 M), h_(p + 12 M), ..., h_(p - 14 M).
     taps: Arc<[[f64; ACCUMULATORS]]>,
-    before_start: BeforeStart,
+    /// Whether the first value, known from the first push on, is subtracted, which changes no derivative: the signal was that
+    /// before its start, else zero.
+    from_first: bool,
+    first_value: Option<f64>,
     phase: usize,
     /// Partial sums of the outputs floor(n / M) - 13 ..= floor(n / M) + 14.
     accumulators: [f64; ACCUMULATORS],
     /// Whole output intervals pushed.
     intervals: u64,
-}
-
-/// What the signal was before its first sample.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum BeforeStart {
-    Zero,
-    /// Its first value, known from the first push on; it is subtracted, which changes no derivative.
-    FirstValue(Option<f64>),
 }
 
 /// All that a decimator remembers, for a checkpoint: restoring it goes on bit by bit as if nothing had happened.
@@ -92,7 +87,7 @@ impl Decimator {
     /// [`SeriesError`] for a ratio of zero.
     pub fn new(ratio: usize) -> Result<Self, SeriesError> {
         let filter = low_pass(ratio, 0)?;
-        Ok(Self::from_taps(ratio, BeforeStart::Zero, |m| filter.tap(m)))
+        Ok(Self::from_taps(ratio, false, |m| filter.tap(m)))
     }
 
     /// Decimator that is given a displacement every `dt` seconds and gives its second derivative, band-limited like
@@ -107,8 +102,7 @@ impl Decimator {
     pub(crate) fn second_derivative(ratio: usize, dt: f64) -> Result<Self, SeriesError> {
         check_step(dt)?;
         let filter = low_pass(ratio, STENCIL)?;
-        let start = BeforeStart::FirstValue(None);
-        Ok(Self::from_taps(ratio, start, |m| {
+        Ok(Self::from_taps(ratio, true, |m| {
             let both_sides: f64 = (1..=STENCIL)
                 .rev()
                 .map(|s| {
@@ -120,27 +114,18 @@ impl Decimator {
         }))
     }
 
-    fn from_taps(ratio: usize, before_start: BeforeStart, tap: impl Fn(isize) -> f64) -> Self {
+    fn from_taps(ratio: usize, from_first: bool, tap: impl Fn(isize) -> f64) -> Self {
         let ratio = ratio as isize;
         let first = HALF_LENGTH_OUTPUTS as isize - 1;
         let taps = (0..ratio).map(|phase| std::array::from_fn(|i| tap(phase + (first - i as isize) * ratio))).collect();
-        Self { taps, before_start, phase: 0, accumulators: [0.0; ACCUMULATORS], intervals: 0 }
-    }
-
-    /// Output intervals past the last wanted output that must be pushed before it is complete: with outputs wanted
-    /// up to K, push inputs 0 .. (K + this) M - 1.
-    pub(crate) fn half_length_outputs(&self) -> usize {
-        HALF_LENGTH_OUTPUTS
+        Self { taps, from_first, first_value: None, phase: 0, accumulators: [0.0; ACCUMULATORS], intervals: 0 }
     }
 
     /// Takes the next input (at n dt, n counted from 0). Returns output k = 0, 1, 2, ... (at k M dt) on the push that
     /// completes it, input (k + 14) M - 1.
     #[inline]
     pub fn push(&mut self, value: f64) -> Option<f64> {
-        let value = match &mut self.before_start {
-            BeforeStart::Zero => value,
-            BeforeStart::FirstValue(first) => value - *first.get_or_insert(value),
-        };
+        let value = if self.from_first { value - *self.first_value.get_or_insert(value) } else { value };
         for (sum, tap) in self.accumulators.iter_mut().zip(&self.taps[self.phase]) {
             *sum += tap * value;
         }
@@ -162,10 +147,7 @@ impl Decimator {
             phase: self.phase,
             intervals: self.intervals,
             accumulators: self.accumulators.to_vec(),
-            first_value: match self.before_start {
-                BeforeStart::Zero => None,
-                BeforeStart::FirstValue(first) => first,
-            },
+            first_value: self.first_value,
         }
     }
 
@@ -189,9 +171,7 @@ impl Decimator {
         })?;
         self.phase = state.phase;
         self.intervals = state.intervals;
-        if let BeforeStart::FirstValue(first) = &mut self.before_start {
-            *first = state.first_value;
-        }
+        self.first_value = state.first_value.filter(|_| self.from_first);
         Ok(self)
     }
 }
@@ -318,7 +298,7 @@ mod tests {
     fn outputs_come_when_promised() {
         let (ratio, wanted) = (7, 9);
         let mut decimator = Decimator::new(ratio).expect("ratio");
-        let needed = (wanted + decimator.half_length_outputs()) * ratio;
+        let needed = (wanted + HALF_LENGTH_OUTPUTS) * ratio;
         let got = (0..needed - 1).filter_map(|_| decimator.push(1.0)).count();
         assert_eq!(got, wanted);
         assert!(decimator.push(1.0).is_some());

@@ -95,22 +95,15 @@ impl DepthBuffer {
                 self.shows(std::array::from_fn(|i| 0.5 * (a[i] + b[i])), slack)
             })
             .collect();
-        let mut parts: Vec<[Spot; 2]> = Vec::new();
-        let mut begun = None;
-        for k in 0..=steps {
-            let on = shown.get(k).copied().unwrap_or(false);
-            match (on, begun) {
-                (true, None) => begun = Some(k),
-                (false, Some(first)) => {
-                    // The end of a hidden edge shows at a corner in front: too short to be an edge.
-                    let stub = k - first < 3 && 2 * (k - first) < steps;
-                    if !stub {
-                        parts.push([at(first), at(k)]);
-                    }
-                    begun = None;
-                }
-                _ => {}
+        let (mut parts, mut first) = (Vec::new(), 0);
+        for run in shown.chunk_by(|a, b| a == b) {
+            let end = first + run.len();
+            // The end of a hidden edge shows at a corner in front: too short to be an edge.
+            let stub = run.len() < 3 && 2 * run.len() < steps;
+            if run[0] && !stub {
+                parts.push([at(first), at(end)]);
             }
+            first = end;
         }
         parts
     }

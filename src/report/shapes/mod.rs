@@ -17,7 +17,7 @@ mod view;
 
 pub use camera::UpAxis;
 pub(super) use pack::{Packed, compressed, pack};
-pub(super) use stills::{Still, bar as colour_bar, mesh_picture, stills};
+pub(super) use stills::{bar as colour_bar, mesh_picture, stills};
 pub(super) use surface::Surface;
-pub(super) use view::{LegendEntry, legend};
+pub(super) use view::legend;
 pub use view::{ModeShapeView, ShapeFigures, ShapeGroup, ShapeLine, ShapeMode, ShapeTriangle};

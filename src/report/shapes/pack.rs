@@ -13,12 +13,11 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
+use super::super::embed::for_script;
+use super::super::{ReportError, fixed, palette};
 use super::camera::{Camera, NAMES, bounds, diagonal};
 use super::surface::{Surface, SurfaceLine};
 use super::view::{LegendEntry, ModeShapeView, legend};
-use crate::report::embed::for_script;
-use crate::report::number::fixed;
-use crate::report::{ReportError, palette};
 
 /// Largest coordinate: 16 bits.
 const GRID: f64 = 65_535.0;

@@ -60,7 +60,7 @@ pub(in crate::report) fn stills(view: &ModeShapeView, surface: &Surface) -> Vec<
             let unit = thin.displacement(&mode.displacement);
             let metres = view.amplitude * frame.diagonal;
             let shown: Vec<Vector> = unit.iter().map(|d| d.map(|v| v * metres)).collect();
-            let title = mode.title();
+            let title = format!("Mode {} · {}", mode.label, mode.frequency());
             let mut out = svg::opening(SHAPE, STILL_SIZE, &title);
             let coloured = Colouring::Displacement(&unit);
             picture::draw(&mut out, &frame, &thin, &shown, &coloured, false);

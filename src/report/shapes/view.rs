@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::super::{ReportError, palette, significant};
 use super::camera::{UpAxis, diagonal};
-use crate::report::number::significant;
-use crate::report::{ReportError, palette};
 
 /// Which figures a view makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -78,7 +77,7 @@ pub struct ShapeMode {
 /// };
 /// assert!(view.check().is_ok());
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ModeShapeView {
     /// What is shown; the caption starts with it.
     pub title: String,
@@ -113,30 +112,12 @@ impl ShapeMode {
     pub(in crate::report) fn frequency(&self) -> String {
         format!("{} Hz", significant(self.frequency_hz, 4))
     }
-
-    /// Label and frequency as they are printed.
-    pub(super) fn title(&self) -> String {
-        format!("Mode {} · {}", self.label, self.frequency())
-    }
 }
 
 impl ModeShapeView {
     /// A view with nothing in it yet, z up, displacements of 6 % of the size.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            caption: None,
-            points: Vec::new(),
-            groups: Vec::new(),
-            triangles: Vec::new(),
-            edges: Vec::new(),
-            outline: Vec::new(),
-            lines: Vec::new(),
-            modes: Vec::new(),
-            amplitude: 0.06,
-            up: UpAxis::default(),
-            figures: ShapeFigures::default(),
-        }
+        Self { title: title.into(), amplitude: 0.06, ..Self::default() }
     }
 
     /// Checks that there is a surface, that every index points at something, and that all numbers are finite.
@@ -238,26 +219,16 @@ pub(in crate::report) struct LegendEntry {
 
 /// Names and colours of groups and lines, as all pictures show them.
 pub(in crate::report) fn legend(view: &ModeShapeView) -> Vec<LegendEntry> {
-    let groups = view.groups.iter().map(|group| LegendEntry {
-        name: group.name.clone(),
-        colour: palette::hex(palette::group(group.colour)),
-        line: false,
-    });
-    let lines = view.lines.iter().map(|line| LegendEntry {
-        name: line.name.clone(),
-        colour: palette::hex(palette::LINE),
-        line: true,
-    });
+    let entry = |name: &String, colour, line| LegendEntry { name: name.clone(), colour: palette::hex(colour), line };
+    let groups = view.groups.iter().map(|group| entry(&group.name, palette::group(group.colour), false));
+    let lines = view.lines.iter().map(|line| entry(&line.name, palette::LINE, true));
     groups.chain(lines).collect()
 }
 
 /// Keeps the entries of used points; those past the last point stay.
 fn keep<T>(entries: &mut Vec<T>, used: &[bool]) {
-    let mut index = 0;
-    entries.retain(|_| {
-        index += 1;
-        used.get(index - 1).copied().unwrap_or(true)
-    });
+    let mut used = used.iter();
+    entries.retain(|_| used.next().copied().unwrap_or(true));
 }
 
 #[cfg(test)]

@@ -195,7 +195,7 @@ fn errors(asked: Asked) -> (Vec<f64>, usize) {
     }
     let blocks = if dof > n + 2 { 3 } else { 2 };
     let relative = (0..blocks).map(|block| errors[block] / largest[block]);
-    (relative.collect(), tangent.terms())
+    (relative.collect(), tangent.terms)
 }
 
 fn check(what: &str, asked: Asked, bound: f64) -> usize {

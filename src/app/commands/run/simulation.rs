@@ -168,7 +168,7 @@ impl<R: Recording> Simulation<R> {
             RunEnd::Complete => stepping.energy.as_ref(),
             RunEnd::BlewUp(_) => None,
         };
-        let energy = energy.and_then(|meter| meter.balance(&mut system, integration.state()));
+        let energy = energy.and_then(|meter| meter.balance(&mut system, &integration.state));
         Ok(Self {
             method: model.method,
             schedule,
@@ -176,7 +176,7 @@ impl<R: Recording> Simulation<R> {
             residual: system.has_residual(),
             statistics: integration.statistics(),
             start_s,
-            simulated_s: integration.state().t - start_s,
+            simulated_s: integration.state.t - start_s,
             stepping_s: stepping.wall_s(),
             record: stepping.record,
             energy,
@@ -266,7 +266,7 @@ impl<R: Recording> Stepping<R> {
     ) -> Result<RunEnd, ComputeError> {
         let tell_every = (schedule.intervals / PROGRESS_PARTS).max(1);
         let tell = |done: u64| fraction(done as f64 / schedule.intervals as f64);
-        tell(integration.intervals());
+        tell(integration.intervals);
         self.save(integration, checkpoints)?;
         while !integration.is_complete() {
             if let Err(error) = integration.advance(system, &mut self.observers()) {
@@ -280,7 +280,7 @@ impl<R: Recording> Stepping<R> {
             if self.recorder.confirmed() >= BLOCK {
                 self.append_confirmed()?;
             }
-            let done = integration.intervals();
+            let done = integration.intervals;
             if done.is_multiple_of(tell_every) {
                 tell(done);
             }
@@ -290,7 +290,7 @@ impl<R: Recording> Stepping<R> {
                 RunRequest::Stop if integration.is_complete() => {}
                 RunRequest::Stop => {
                     self.save(integration, checkpoints)?;
-                    return Err(ComputeError::Interrupted { at_s: integration.state().t, end_s: self.end_s });
+                    return Err(ComputeError::Interrupted { at_s: integration.state.t, end_s: self.end_s });
                 }
             }
         }
@@ -321,7 +321,7 @@ impl<R: Recording> Stepping<R> {
             energy.remember(&mut snapshot);
         }
         integration.remember(&mut snapshot).map_err(TransientError::from)?;
-        checkpoints.save(&self.record, integration.state().t, &snapshot)
+        checkpoints.save(&self.record, integration.state.t, &snapshot)
     }
 
     /// Takes up what [`save`](Self::save) wrote; `None` where that is of another model.

@@ -50,8 +50,8 @@ impl Checkpoints for Stops {
 
     fn save(&mut self, record: &RunRecord, _: f64, snapshot: &Snapshot) -> Result<(), ComputeError> {
         // through words, as a file has them
-        let words = snapshot.words().to_vec();
-        self.kept = Some((record.clone(), Snapshot::from_words(words)));
+        let words = snapshot.words.clone();
+        self.kept = Some((record.clone(), Snapshot { words }));
         Ok(())
     }
 }

@@ -1,11 +1,8 @@
 //! Values below which eigenvalues are counted, by Sylvester's law of inertia.
 
-use super::super::LinalgError;
-use super::super::factor::{Factor, FactorMemory};
 use super::super::lowest::{largest_ratio, round_off};
-use super::super::numeric::Kind;
+use super::super::{CountCheck, EigenProblem, Factor, FactorMemory, Kind, LinalgError};
 use super::factors::FIRM;
-use super::{CountCheck, EigenProblem};
 
 /// Distance, relative to the value, within which an eigenvalue lies on it: ten times the usual error of a computed one.
 const ON_AN_END: f64 = 1e-8;
@@ -19,12 +16,9 @@ const PLACES: [f64; 5] = [0.5, 0.41, 0.59, 0.32, 0.68];
 /// A value, 1/s^2, and how many eigenvalues lie below it.
 pub(super) type Cut = (f64, usize);
 
-/// To which side of an eigenvalue a value is moved that lies on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    Below,
-    Above,
-}
+/// Signs of the sides of an eigenvalue, to one of which a value is moved that lies on it.
+pub(super) const BELOW: f64 = -1.0;
+pub(super) const ABOVE: f64 = 1.0;
 
 /// The check of pairs of which all between two cuts were found.
 pub(super) fn check_of(low: Cut, high: Cut) -> CountCheck {
@@ -35,11 +29,7 @@ pub(super) fn check_of(low: Cut, high: Cut) -> CountCheck {
 impl EigenProblem {
     /// Eigenvalues below a value, which is moved to one side: a little, so that those that lie on it are on the other, and
     /// further if it cannot be told from an eigenvalue or from zero.
-    pub(super) fn count_near(&self, value: f64, side: Side) -> Result<Cut, LinalgError> {
-        let sign = match side {
-            Side::Below => -1.0,
-            Side::Above => 1.0,
-        };
+    pub(super) fn count_near(&self, value: f64, sign: f64) -> Result<Cut, LinalgError> {
         let value = value.min(self.above_all());
         let value = value + sign * ON_AN_END * value.abs();
         let from_zero = sign * (sign * value).max(0.0);
@@ -90,7 +80,7 @@ impl EigenProblem {
     /// The end of a band, lowered towards the eigenvalues if it is far above all.
     pub(super) fn nearer_end(&self, mut end: Cut) -> Result<f64, LinalgError> {
         while end.0 > largest_ratio(&self.stiffness, &self.mass) {
-            let lower = self.count_near(0.25 * end.0, Side::Above)?;
+            let lower = self.count_near(0.25 * end.0, ABOVE)?;
             if lower.1 < end.1 {
                 break;
             }

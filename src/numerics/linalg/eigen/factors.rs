@@ -1,10 +1,6 @@
 //! Which matrix is factorised: K itself, K with a shift below zero, or one from the middle of a band.
 
-use super::super::LinalgError;
-use super::super::factor::{Factor, FactorMemory};
-use super::super::numeric::Kind;
-use super::super::symmetric::SymmetricMatrix;
-use super::EigenProblem;
+use super::super::{EigenProblem, Factor, FactorMemory, Kind, LinalgError, SymmetricMatrix};
 use std::sync::Arc;
 
 /// Shift for a structure that can move freely, in units of the smallest `K_ii / M_ii`: far below the first elastic
@@ -64,12 +60,15 @@ impl EigenProblem {
     /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
     pub(super) fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
         let factorise = if thorough { Factor::new } else { Factor::quick };
-        let large = self.symbolic.entries() > LARGE;
+        let large = self.symbolic.len_val() > LARGE;
         let kind = if large { Kind::Indefinite } else { Kind::Definite };
         let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
         match factor.negative() {
             0 => Ok(factor),
-            negative => Err(LinalgError::Indefinite { order: a.order(), negative }),
+            negative => Err(LinalgError::Refused(format!(
+                "the {0} x {0} matrix is not positive definite: {negative} of its eigenvalues are negative",
+                a.order()
+            ))),
         }
     }
 

@@ -1,12 +1,8 @@
 //! The lowest pairs, and beside the iteration the count that proves them.
 
-use super::super::LinalgError;
-use super::super::bound::Quality;
-use super::super::factor::{Factor, FactorMemory};
-use super::super::lowest::{Ritz, Search};
-use super::super::memory;
+use super::super::lowest::Search;
+use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, memory};
 use super::factors::FIRM;
-use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -31,9 +27,9 @@ const SINGLE: u64 = 4;
 
 /// Pairs, and a count of eigenvalues below a value behind those wanted; `None` if they end in a crowd.
 struct Iterated {
-    ritz: Ritz,
-    quality: Quality,
-    shift: f64,
+    /// Ritz values of all pairs pursued.
+    values: Vec<f64>,
+    pairs: EigenPairs,
     counted: Option<(f64, usize)>,
 }
 
@@ -45,26 +41,26 @@ impl EigenProblem {
         let mut beyond = BEYOND.min(order - count);
         let mut check = None;
         for round in 1..=ROUNDS {
-            let iterated = self.iterate(count, beyond, round, &mut times)?;
-            let Iterated { ritz, quality, shift, counted } = iterated;
+            let Iterated { values, pairs, counted } = self.iterate(count, beyond, round, &mut times)?;
+            let before = || self.count_before(&values, count, pairs.shift);
             let Some((value, counted)) = counted else {
                 if round >= CROWDED
-                    && let Some(found) = self.count_before(&ritz, count, shift)
+                    && let Some(found) = before()
                 {
-                    return self.finished(ritz, quality, count, found, shift, times);
+                    return self.finished(pairs, found, times);
                 }
                 beyond = (2 * beyond + BEYOND).min(order - count);
                 continue;
             };
-            let below = ritz.values.iter().filter(|&&found| found < value).count();
+            let below = values.iter().filter(|&&found| found < value).count();
             let found = CountCheck::from_lowest(value, counted, below);
             if counted == below {
-                return self.finished(ritz, quality, count, found, shift, times);
+                return self.finished(pairs, found, times);
             }
             if counted > below + MISSING
-                && let Some(found) = self.count_before(&ritz, count, shift)
+                && let Some(found) = before()
             {
-                return self.finished(ritz, quality, count, found, shift, times);
+                return self.finished(pairs, found, times);
             }
             check = Some(found);
             beyond = (beyond + counted.saturating_sub(below) + BEYOND).min(order - count);
@@ -105,8 +101,8 @@ impl EigenProblem {
         let iteration = || {
             let ritz = search.converge(&factor)?;
             drop(search);
-            let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
-            Ok((ritz, quality, started.elapsed().as_secs_f64()))
+            let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+            Ok((ritz.values, pairs, started.elapsed().as_secs_f64()))
         };
         let (iterated, mut counted) = match early {
             Some(gap) if rayon::current_num_threads() > 1 && self.has_room() => {
@@ -116,31 +112,31 @@ impl EigenProblem {
             }
             _ => (iteration()?, None),
         };
-        let (ritz, quality, elapsed) = iterated;
+        let (values, pairs, elapsed) = iterated;
         times.iterate += elapsed;
         let mut memory = Arc::into_inner(factor).map_or_else(FactorMemory::default, Factor::into_memory);
         if let (Some(gap), None) = (early, &counted) {
             counted = Some(self.count_in(gap, std::mem::take(&mut memory))?);
         }
         // a value among those wanted says nothing of the last of them
-        let behind = |value: f64| ritz.values[count - 1] < value;
+        let behind = |value: f64| values[count - 1] < value;
         if !counted.is_some_and(|(value, ..)| behind(value)) {
             times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
-            counted = match widest_gap(&ritz.values, count, shift) {
+            counted = match widest_gap(&values, count, shift) {
                 Some(gap) => Some(self.count_in(gap, memory)?),
                 None => None,
             };
         }
         times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
-        Ok(Iterated { ritz, quality, shift, counted: counted.map(|(value, counted, _)| (value, counted)) })
+        Ok(Iterated { values, pairs, counted: counted.map(|(value, counted, _)| (value, counted)) })
     }
 
     /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest
     /// are known, whichever vectors of the crowd were found. `None` if one is missing, or if it cannot be counted there.
-    fn count_before(&self, ritz: &Ritz, count: usize, shift: f64) -> Option<CountCheck> {
+    fn count_before(&self, values: &[f64], count: usize, shift: f64) -> Option<CountCheck> {
         let gap = |place: usize| {
-            let low = place.checked_sub(1).map_or(shift, |last| ritz.values[last]);
-            [low, ritz.values[place]]
+            let low = place.checked_sub(1).map_or(shift, |last| values[last]);
+            [low, values[place]]
         };
         let wide = |place: &usize| {
             let [low, high] = gap(*place);
@@ -149,7 +145,7 @@ impl EigenProblem {
         let found = (0..count).rev().find(wide)?;
         let [low, high] = gap(found);
         let near = SMALLEST_GAP * (high - shift);
-        if ritz.values[count - 1] - high > near {
+        if values[count - 1] - high > near {
             // not one crowd: what is missing may be lower than the last of them
             return None;
         }
@@ -161,7 +157,7 @@ impl EigenProblem {
 
     /// Whether a second factor can stand beside the first without filling the memory.
     fn has_room(&self) -> bool {
-        let bytes = SINGLE * self.symbolic.entries() as u64;
+        let bytes = SINGLE * self.symbolic.len_val() as u64;
         memory::available().is_none_or(|free| free / 2 > bytes)
     }
 

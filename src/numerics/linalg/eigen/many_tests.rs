@@ -78,7 +78,8 @@ fn modes_that_fill_the_memory_are_refused() {
     assert!(problem.find_room(27).is_ok());
     // 2^40 blocks of 27 rows: 10^15 bytes
     let refused = problem.find_room(1 << 40);
-    assert!(matches!(refused, Err(LinalgError::ModesTooLarge { order: 27, .. })), "{refused:?}");
+    let wanted = "modes of 27 degrees of freedom take at least";
+    assert!(matches!(&refused, Err(LinalgError::Refused(what)) if what.contains(wanted)), "{refused:?}");
 }
 
 /// A hundred equal chains: the wanted pair is one of a hundred, and none lies below them.

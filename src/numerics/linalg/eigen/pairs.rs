@@ -67,7 +67,8 @@ pub struct EigenPairs {
 }
 
 impl EigenPairs {
-    pub(super) fn none(order: usize, below: f64) -> Self {
+    /// No pairs, and none counted below a value (1/s^2).
+    pub(in crate::numerics::linalg) fn none(order: usize, below: f64) -> Self {
         Self {
             values: Vec::new(),
             vectors: DenseMatrix::zeros(order, 0),

@@ -1,13 +1,10 @@
 //! The problem `K x = lambda M x`, ordered and analysed, and what a solution of it must satisfy.
 
-use super::super::bound::{Quality, ROUNDING};
-use super::super::factor::Factor;
-use super::super::lowest::Ritz;
-use super::super::ordering::Ordering;
-use super::super::symbolic::Symbolic;
-use super::super::symmetric::SymmetricMatrix;
-use super::super::{DenseMatrix, LinalgError, SparseCholesky, SparseMatrix, memory};
-use super::{CountCheck, EigenPairs, EigenTimes};
+use super::super::bound::ROUNDING;
+use super::super::{
+    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, LinalgError, Ordering, SparseCholesky, SparseMatrix,
+    Symbolic, SymmetricMatrix, analysed, gigabytes, memory,
+};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -35,7 +32,7 @@ impl EigenProblem {
     /// is kept: the caller may drop them.
     ///
     /// # Errors
-    /// [`LinalgError::NothingThere`] for a row without stiffness and mass, [`LinalgError::Factorisation`] of order and
+    /// [`LinalgError::Refused`] for a row without stiffness and mass, [`LinalgError::Factorisation`] of order and
     /// analysis.
     pub fn new(k: &SparseMatrix, m: &SparseMatrix) -> Result<Self, LinalgError> {
         let all: Vec<usize> = (0..k.rows()).collect();
@@ -51,7 +48,7 @@ impl EigenProblem {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
-        let symbolic = Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?);
+        let symbolic = Arc::new(analysed(&stiffness.shifted(1.0, &mass))?);
         Ok(Self {
             ordering: Arc::new(ordering),
             stiffness,
@@ -71,12 +68,9 @@ impl EigenProblem {
         m: &SparseMatrix,
         factor: &SparseCholesky,
     ) -> Result<Self, LinalgError> {
-        if factor.order() != k.rows() {
-            return Err(LinalgError::Shape {
-                what: "factor of the stiffness",
-                expected: k.rows(),
-                found: factor.order(),
-            });
+        let (expected, found) = (k.rows(), factor.order());
+        if found != expected {
+            return Err(LinalgError::Shape { what: "factor of the stiffness", expected, found });
         }
         let started = Instant::now();
         let (ordering, factor) = factor.shared();
@@ -85,7 +79,7 @@ impl EigenProblem {
         let symbolic = if stiffness.covers(&mass) {
             Arc::clone(&factor.symbolic)
         } else {
-            Arc::new(Symbolic::new(&stiffness.shifted(1.0, &mass))?)
+            Arc::new(analysed(&stiffness.shifted(1.0, &mass))?)
         };
         Ok(Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s: started.elapsed().as_secs_f64() })
     }
@@ -125,49 +119,38 @@ impl EigenProblem {
 
     /// An error if there is no memory for so many pairs.
     pub(super) fn find_room(&self, count: usize) -> Result<(), LinalgError> {
-        let bytes = 8 * COPIES * self.order() as u64 * count as u64;
+        let order = self.order();
+        let bytes = 8 * COPIES * order as u64 * count as u64;
         match memory::available() {
-            Some(free) if bytes > free => {
-                Err(LinalgError::ModesTooLarge { asked: count, order: self.order(), bytes, free })
-            }
+            Some(free) if bytes > free => Err(LinalgError::Refused(format!(
+                "{count} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",
+                gigabytes(bytes),
+                gigabytes(free)
+            ))),
             _ => Ok(()),
         }
     }
 
-    /// The pairs of the problem as it was given; `ritz` is in the order of the factor.
+    /// The pairs of the problem as it was given; `judged` are in the order of the factor.
     ///
     /// # Errors
     /// [`LinalgError::Iteration`] for a pair that does not satisfy its equation.
     pub(super) fn finished(
         &self,
-        ritz: Ritz,
-        quality: Quality,
-        count: usize,
+        judged: EigenPairs,
         count_check: CountCheck,
-        shift: f64,
         times: EigenTimes,
     ) -> Result<EigenPairs, LinalgError> {
         let too_large = |residual: &f64| residual.is_nan() || *residual > LARGEST_RESIDUAL;
-        if let Some(mode) = quality.residuals.iter().position(too_large) {
-            let residual = quality.residuals[mode];
+        if let Some(mode) = judged.residuals.iter().position(too_large) {
+            let residual = judged.residuals[mode];
             return Err(LinalgError::Iteration(format!(
                 "mode {mode} leaves a relative residual of {residual:.3e} in its eigenvalue equation, more than \
                  {LARGEST_RESIDUAL:.0e}: the matrices are too ill-conditioned"
             )));
         }
-        let mut vectors = DenseMatrix::zeros(self.order(), count);
-        let found = ritz.vectors.subcols(0, count).to_owned();
-        self.ordering.backward(&found, &mut vectors);
-        Ok(EigenPairs {
-            values: quality.values,
-            vectors,
-            residuals: quality.residuals,
-            bounds: quality.bounds,
-            rounding: quality.rounding,
-            orthogonality: quality.orthogonality,
-            count_check,
-            shift,
-            times,
-        })
+        let mut vectors = DenseMatrix::zeros(self.order(), judged.values.len());
+        self.ordering.backward(&judged.vectors, &mut vectors);
+        Ok(EigenPairs { vectors, count_check, times, ..judged })
     }
 }

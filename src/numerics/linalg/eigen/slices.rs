@@ -5,10 +5,8 @@
 //! hides the lowest ones: of 1029 degrees of freedom it found 100 pairs at once, and 150 never.
 
 use super::super::basis::times;
-use super::super::bound::Quality;
-use super::super::{DenseMatrix, LinalgError, band};
-use super::cuts::{Cut, Side, check_of};
-use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
+use super::super::{CountCheck, DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, band};
+use super::cuts::{ABOVE, Cut, check_of};
 use std::time::Instant;
 
 /// Pairs that a slice should have.
@@ -165,10 +163,9 @@ impl EigenProblem {
         };
         let started = Instant::now();
         let (sigma, factor) = middle;
-        let quality = Quality::of(&self.stiffness, &self.mass, &factor, sigma, &ritz, count);
+        let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, sigma, &ritz, count);
         times.iterate += started.elapsed().as_secs_f64();
-        let check = check_of(low, high);
-        self.finished(ritz, quality, count, check, sigma, times)
+        self.finished(pairs, check_of(low, high), times)
     }
 
     /// Where the next slice ends.
@@ -189,7 +186,7 @@ impl EigenProblem {
             if end.is_some_and(|end| value >= end) {
                 return Ok((end.unwrap_or(value), wanted));
             }
-            let cut = self.count_near(value, Side::Above)?;
+            let cut = self.count_near(value, ABOVE)?;
             let found = cut.1.saturating_sub(low.1);
             if found > MOST && step > SHORTEST * low.0.abs() {
                 many = Some(cut.0);

@@ -1,15 +1,13 @@
 //! The pairs that are asked for, by the way that suits their number: dense, by one search, in slices.
 
-use super::super::bound::Quality;
-use super::super::factor::Factor;
-use super::super::lowest::{Ritz, largest_basis};
-use super::super::numeric::Kind;
-use super::super::symmetric::SymmetricMatrix;
-use super::super::{DenseMatrix, LinalgError, symmetric_generalised_eigen};
-use super::cuts::{Side, check_of};
+use super::super::lowest::largest_basis;
+use super::super::{
+    CountCheck, DenseMatrix, EigenPairs, EigenProblem, EigenTimes, Factor, Kind, LinalgError, SymmetricMatrix,
+    SymmetricSpectrum, symmetric_generalised_eigen,
+};
+use super::cuts::{ABOVE, BELOW, check_of};
 use super::iteration::BEYOND;
 use super::slices::FIRST;
-use super::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 use std::time::Instant;
 
 /// Largest order that is solved densely whatever is asked: below it the dense solver is faster and needs no shift.
@@ -37,7 +35,7 @@ impl EigenProblem {
     /// The `count` lowest eigenpairs.
     ///
     /// # Errors
-    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::ModesTooLarge`] if there is no memory for
+    /// [`LinalgError::TooManyModes`] if the problem has fewer; [`LinalgError::Refused`] if there is no memory for
     /// them; [`LinalgError::Iteration`] if pairs that exist were not found, or for a pair that
     /// does not satisfy its equation; what factorisation and iteration report.
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
@@ -74,7 +72,7 @@ impl EigenProblem {
     /// As [`EigenProblem::lowest`].
     pub(crate) fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
-        let (below, count) = self.count_near(limit, Side::Above)?;
+        let (below, count) = self.count_near(limit, ABOVE)?;
         let elapsed = started.elapsed().as_secs_f64();
         if count == 0 {
             let mut none = EigenPairs::none(self.order(), below);
@@ -94,8 +92,8 @@ impl EigenProblem {
     /// As [`EigenProblem::lowest`].
     pub(crate) fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
-        let low = self.count_near(low, Side::Below)?;
-        let high = self.count_near(high, Side::Above)?;
+        let low = self.count_near(low, BELOW)?;
+        let high = self.count_near(high, ABOVE)?;
         let elapsed = started.elapsed().as_secs_f64();
         let check = check_of(low, high);
         let mut pairs = if check.counted == 0 {
@@ -158,12 +156,12 @@ impl EigenProblem {
         };
         let check = CountCheck::from_lowest(below, counted, counted);
         let vectors = spectrum.vectors.subcols(0, available).to_owned();
-        let ritz = Ritz { values, vectors };
+        let ritz = SymmetricSpectrum { values, vectors };
         let shifted = self.stiffness.shifted(shift, &self.mass);
         let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
-        let quality = Quality::of(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+        let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
         times.iterate = started.elapsed().as_secs_f64();
-        self.finished(ritz, quality, count, check, shift, times)
+        self.finished(pairs, check, times)
     }
 }
 

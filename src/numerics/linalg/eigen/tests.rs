@@ -225,8 +225,8 @@ fn chain_and_nothing(order: usize, spring: f64) -> (SparseMatrix, SparseMatrix) 
 fn neither_stiffness_nor_mass_is_an_error() {
     for order in [20, 300] {
         let (k, m) = chain_and_nothing(order, 0.0);
-        let error = EigenProblem::new(&k, &m).err();
-        assert_eq!(error, Some(LinalgError::NothingThere { row: order }));
+        let error = EigenProblem::new(&k, &m).expect_err("refused").to_string();
+        assert!(error.starts_with(&format!("row {order} of stiffness and mass is empty")), "{error}");
         // left out, the rest is solved
         let kept: Vec<usize> = (0..order).collect();
         let problem = EigenProblem::restricted(&k, &m, &kept).expect("an order");

@@ -1,32 +1,14 @@
 //! What can go wrong in a harmonic response.
 
 use crate::numerics::linalg::LinalgError;
-use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// A response that does not exist, or that could not be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum HarmonicError {
-    /// A frequency below zero, infinite or not a number.
-    #[error("a frequency must be zero or more and finite, found {hz} Hz")]
-    Frequency {
-        /// The frequency, Hz.
-        hz: f64,
-    },
-    /// A damping coefficient that drives, or is no number.
-    #[error("the damping coefficient {name} must be zero or more and finite, found {value}")]
-    Coefficient {
-        /// Which.
-        name: &'static str,
-        /// The value found.
-        value: f64,
-    },
-    /// A load that is infinite or not a number.
-    #[error("load {load} has an entry that is not finite")]
-    Load {
-        /// Its column, from 0.
-        load: usize,
-    },
+    /// A frequency or a damping coefficient below zero, or a value that is not finite; a sentence.
+    #[error("{0}")]
+    Input(String),
     /// No damping, and a resonance at this frequency.
     #[error(
         "at {hz} Hz the undamped structure is in resonance: its response is without bound (round-off times amplification is {uncertainty:.1e}); give it damping, or leave this frequency out"
@@ -61,16 +43,4 @@ pub enum HarmonicError {
     /// Order, analysis, factorisation, or matrices that do not fit.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
-}
-
-impl HarmonicError {
-    /// The error of a real matrix that cannot be factorised well at a frequency, rad/s.
-    pub(super) fn singular(omega: f64, uncertainty: f64) -> Self {
-        if omega > 0.0 {
-            let hz = omega / TAU;
-            Self::Resonance { hz, uncertainty }
-        } else {
-            Self::FreeAtRest
-        }
-    }
 }

@@ -149,16 +149,14 @@ impl Arnoldi {
     }
 }
 
-/// What the iteration is told.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Limits {
-    /// `|f - Z x| / |f|` that is aimed at.
-    pub tolerance: f64,
-    /// Directions before a restart.
-    pub directions: usize,
-    /// Restarts.
-    pub restarts: usize,
-}
+/// Relative residual `|f - Z x| / |f|` that is aimed at.
+pub(super) const TOLERANCE: f64 = 1e-12;
+
+/// Directions kept before a restart.
+const DIRECTIONS: usize = 40;
+
+/// Restarts.
+const RESTARTS: usize = 6;
 
 /// A solution.
 #[derive(Debug)]
@@ -177,7 +175,6 @@ pub(super) fn solve(
     f: &DenseMatrix,
     multiply: impl Fn(&DenseMatrix) -> DenseMatrix,
     precondition: impl Fn(&mut DenseMatrix),
-    limits: Limits,
 ) -> Iterated {
     let count = f.ncols() / 2;
     let norms: Vec<f64> = (0..count).map(|index| Pair::of(f, index).norm()).collect();
@@ -186,14 +183,14 @@ pub(super) fn solve(
     let mut iterations = vec![0; count];
     let mut remainders = f.clone();
     let mut active: Vec<usize> = (0..count).filter(|&index| norms[index] > 0.0).collect();
-    for _ in 0..=limits.restarts {
+    for _ in 0..=RESTARTS {
         if active.is_empty() {
             break;
         }
         let mut processes: Vec<Arnoldi> =
             active.iter().map(|&index| Arnoldi::new(Pair::of(&remainders, index))).collect();
-        let goals: Vec<f64> = active.iter().map(|&index| 0.5 * limits.tolerance * norms[index]).collect();
-        for _ in 0..limits.directions {
+        let goals: Vec<f64> = active.iter().map(|&index| 0.5 * TOLERANCE * norms[index]).collect();
+        for _ in 0..DIRECTIONS {
             let mut running: Vec<(usize, &mut Arnoldi)> = processes
                 .iter_mut()
                 .enumerate()
@@ -224,7 +221,7 @@ pub(super) fn solve(
             let before = residuals[index];
             residuals[index] = Pair::of(&remainders, index).norm() / norms[index];
             // a correction that does not halve the residual has met round-off
-            residuals[index] > limits.tolerance && residuals[index] < 0.5 * before
+            residuals[index] > TOLERANCE && residuals[index] < 0.5 * before
         });
     }
     Iterated { x, residuals, iterations }

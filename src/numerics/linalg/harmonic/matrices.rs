@@ -1,9 +1,6 @@
 //! The matrices of a harmonic problem and the product with `Z`.
 
-use super::HarmonicError;
-use crate::numerics::linalg::ordering::Ordering;
-use crate::numerics::linalg::symmetric::SymmetricMatrix;
-use crate::numerics::linalg::{DenseMatrix, LinalgError, SparseMatrix};
+use super::super::{DenseMatrix, HarmonicError, LinalgError, Ordering, SparseMatrix, SymmetricMatrix};
 
 /// Damping of a harmonic problem: `w C + K_s` with `C = alpha M + beta K + C_v`. All parts add up; the default is none.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,7 +36,8 @@ impl HarmonicMatrices {
     ) -> Result<Self, HarmonicError> {
         for (name, value) in [("alpha", damping.alpha), ("beta", damping.beta)] {
             if !(value >= 0.0 && value.is_finite()) {
-                return Err(HarmonicError::Coefficient { name, value });
+                let what = format!("the damping coefficient {name} must be zero or more and finite, found {value}");
+                return Err(HarmonicError::Input(what));
             }
         }
         let fits = |what, matrix: &SparseMatrix| match matrix.rows().min(matrix.cols()) {
@@ -63,10 +61,6 @@ impl HarmonicMatrices {
             viscous: permuted("viscous damping", damping.viscous)?,
             structural: permuted("structural damping", damping.structural)?,
         })
-    }
-
-    pub(super) fn order(&self) -> usize {
-        self.stiffness.order()
     }
 
     /// Whether anything dissipates at this frequency, rad/s.

@@ -217,14 +217,7 @@ fn both_precisions_lead_to_the_same_response() {
     let f = problem.split(&unit_load(400, 100)).expect("fits");
     let omega = 0.5;
     let a = problem.matrices.real(omega * omega);
-    let solve = |factor: &Factor| {
-        krylov::solve(
-            &f,
-            |x| problem.matrices.times(omega, x),
-            |x| factor.solve(x.as_mut()),
-            krylov::Limits { tolerance: 1e-12, directions: 30, restarts: 2 },
-        )
-    };
+    let solve = |factor: &Factor| krylov::solve(&f, |x| problem.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
     let double = Factor::unjudged(&problem.symbolic, &a, Kind::Indefinite, true, FactorMemory::default());
     let numbers = NumericFactor::new(&problem.symbolic, &a, Kind::Indefinite, Vec::new()).expect("regular");
     let single = Factor::measured(&problem.symbolic, &a, Numbers::Single(numbers));

@@ -139,11 +139,6 @@ impl Track {
         }
     }
 
-    /// Begins where the state is.
-    pub(super) fn begin(&mut self, y: &[f64], v: &[f64], g: &[f64]) {
-        begin(self, [y, v, g]);
-    }
-
     /// Goes over a step from there under the line of the force, or the parabola.
     pub(super) fn predict(&mut self, flow: &Flow) {
         let now = Stencil { step: flow.step, past: self.past, quadratic: self.quadratic };
@@ -228,8 +223,9 @@ fn each_group(
     }
 }
 
+/// Begins where the state is.
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
-fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
+pub(super) fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
     let shape = [track.free, track.position.len()];
     each_group(&mut track.groups, shape, |_, group, place| {
         group.y = from(&y[place.clone()]);

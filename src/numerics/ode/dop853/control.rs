@@ -123,13 +123,6 @@ impl Scale {
     }
 }
 
-/// Proportional and integral control of the step by the error in units of the tolerance (IV.2 of the second volume; factors as in the
-/// authors' code).
-#[derive(Debug)]
-pub(super) struct Controller {
-    before: f64,
-}
-
 /// Share of the step that the tolerance would allow.
 const SAFETY: f64 = 0.9;
 
@@ -149,26 +142,19 @@ const LEAST_RETRY: f64 = 0.1;
 /// Least errors that are told apart: the factor is at its limit long before.
 const LEAST_ERROR: f64 = 1e-10;
 
-impl Controller {
-    pub(super) fn new() -> Self {
-        Self { before: 1e-4 }
-    }
+/// Factor for the step after one with this error, at most 1; not above 1 after a rejected trial. `before` is the error of the
+/// step before, and becomes this one.
+///
+/// Proportional and integral control of the step by the error in units of the tolerance (IV.2 of the second volume; factors as in the
+/// authors' code).
+pub(super) fn after_success(before: &mut f64, error: f64, rejected: bool) -> f64 {
+    let factor = SAFETY * error.max(LEAST_ERROR).powf(-EXPONENT) * before.powf(DAMPING);
+    *before = error.max(1e-4);
+    let most = if rejected { 1.0 } else { FACTORS[1] };
+    factor.clamp(FACTORS[0], most)
+}
 
-    /// Factor for the step after one with this error, at most 1; not above 1 after a rejected trial.
-    pub(super) fn after_success(&mut self, error: f64, rejected: bool) -> f64 {
-        let factor = SAFETY * error.max(LEAST_ERROR).powf(-EXPONENT) * self.before.powf(DAMPING);
-        self.before = error.max(1e-4);
-        let most = if rejected { 1.0 } else { FACTORS[1] };
-        factor.clamp(FACTORS[0], most)
-    }
-
-    /// Writes the last error, or reads it.
-    pub(super) fn exchange(&mut self, words: &mut Exchange<'_, '_>) -> Result<(), SnapshotError> {
-        words.number(&mut self.before)
-    }
-
-    /// Factor for another trial after one with this error, above 1.
-    pub(super) fn after_failure(&self, error: f64) -> f64 {
-        (SAFETY * error.powf(-EXPONENT)).max(LEAST_RETRY)
-    }
+/// Factor for another trial after one with this error, above 1.
+pub(super) fn after_failure(error: f64) -> f64 {
+    (SAFETY * error.powf(-EXPONENT)).max(LEAST_RETRY)
 }

@@ -61,13 +61,13 @@ pub(crate) fn write(
         time_s,
         rows: columns.rows(),
         columns_sha256: columns.digest(),
-        words: snapshot.words().len(),
+        words: snapshot.words.len(),
     };
     let mut bytes = MAGIC.to_vec();
     let written = serde_json::to_writer(&mut bytes, &head).map_err(std::io::Error::from);
     written.map_err(FileError::write(path))?;
     bytes.push(b'\n');
-    bytes.extend(snapshot.words().iter().flat_map(|word| word.to_le_bytes()));
+    bytes.extend(snapshot.words.iter().flat_map(|word| word.to_le_bytes()));
     let digest = Sha256::digest(&bytes);
     bytes.extend_from_slice(&digest);
     Ok(write_atomic(path, |file| file.write_all(&bytes))?)
@@ -113,7 +113,7 @@ impl Checkpoint {
             identity: head.identity,
             rows: head.rows,
             columns_sha256: head.columns_sha256,
-            snapshot: Snapshot::from_words(words),
+            snapshot: Snapshot { words },
         })
     }
 }

@@ -117,7 +117,7 @@ fn run(
         for (run, system) in runs.iter_mut().zip(&mut systems) {
             run.advance(system, &mut NoRecord)?;
         }
-        let [own, other] = [&runs[0], &runs[1]].map(|run| &run.state().v);
+        let [own, other] = [&runs[0], &runs[1]].map(|run| &run.state.v);
         let speed = own.iter().map(|v| v * v).sum::<f64>().sqrt();
         let pairs = own.iter().zip(other);
         let apart = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
@@ -126,5 +126,5 @@ fn run(
         }
     }
     let taken = runs[0].statistics().steps.max(1) as f64;
-    Ok(runs[0].intervals() as f64 * schedule.interval / taken)
+    Ok(runs[0].intervals as f64 * schedule.interval / taken)
 }

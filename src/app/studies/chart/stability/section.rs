@@ -2,7 +2,7 @@
 
 use super::{ConditionStability, MethodStability, Stability, resonance_plot, stability_map};
 use crate::app::case::Case;
-use crate::report::{Cell, Column, Report, Section, Table, significant};
+use crate::report::{Block, Cell, Column, Report, Section, Table, significant};
 
 /// A report of the map alone; `command` is the line that made it.
 pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str) -> Report {
@@ -18,7 +18,7 @@ pub(crate) fn stability_section(stability: &Stability) -> Section {
         .paragraph(format!(
             "Which steps a method can take, on the program's own model ({kept} of {all} modes) and, in the last rows, on all of them. The predicted limit is that of small motions about the equilibrium: the method itself steps the linearised system, and the limit is the step from which a motion grows by more than 0.05 % a step. The measured one is that of two short runs of the whole model side by side: beyond it they end with an error, run ten times as fast as finer ones, or are a hundred times as far apart as these. Where balls strike, the contacts are stiffer than in equilibrium and the measured limit is the lower one; impacts also part nearby runs by chance, and a single dark cell below the limit may be that. A growth too slow for short runs is not seen, and a limit says nothing of accuracy, which is lost much earlier."
         ))
-        .step_map(stability_map(stability))
+        .block(Block::StepMap(stability_map(stability)))
         .table(limits(stability))
         .table(chosen(stability))
         .plot(resonance_plot())
