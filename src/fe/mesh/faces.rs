@@ -40,65 +40,53 @@ macro_rules! faces {
     };
 }
 
-static LINE: &[Face] = faces![Point[0], Point[1]];
-static TRI3: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]];
-static TRI6: &[Face] = faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]];
-static QUAD4: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]];
-static QUAD8: &[Face] = faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]];
-static TET4: &[Face] = faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]];
-static TET10: &[Face] = faces![
-    Tri6 [0, 2, 1, 6, 5, 4],
-    Tri6 [0, 1, 3, 4, 9, 7],
-    Tri6 [0, 3, 2, 7, 8, 6],
-    Tri6 [1, 2, 3, 5, 8, 9],
-];
-static HEX8: &[Face] = faces![
-    Quad4 [0, 3, 2, 1],
-    Quad4 [0, 1, 5, 4],
-    Quad4 [0, 4, 7, 3],
-    Quad4 [1, 2, 6, 5],
-    Quad4 [2, 3, 7, 6],
-    Quad4 [4, 5, 6, 7],
-];
-static HEX20: &[Face] = faces![
-    Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
-    Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
-    Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
-    Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
-    Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
-    Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
-];
-static WEDGE6: &[Face] = faces![
-    Tri3 [0, 2, 1],
-    Tri3 [3, 4, 5],
-    Quad4 [0, 1, 4, 3],
-    Quad4 [0, 3, 5, 2],
-    Quad4 [1, 2, 5, 4],
-];
-static WEDGE15: &[Face] = faces![
-    Tri6 [0, 2, 1, 7, 9, 6],
-    Tri6 [3, 4, 5, 12, 14, 13],
-    Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
-    Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
-    Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
-];
-
 impl ElementKind {
     /// Faces of a solid, edges of a plane element, ends of a line, none of a point.
     pub fn faces(self) -> &'static [Face] {
         match self {
             Self::Point => &[],
-            Self::Line2 | Self::Line3 => LINE,
-            Self::Tri3 => TRI3,
-            Self::Tri6 => TRI6,
-            Self::Quad4 => QUAD4,
-            Self::Quad8 => QUAD8,
-            Self::Tet4 => TET4,
-            Self::Tet10 => TET10,
-            Self::Hex8 => HEX8,
-            Self::Hex20 => HEX20,
-            Self::Wedge6 => WEDGE6,
-            Self::Wedge15 => WEDGE15,
+            Self::Line2 | Self::Line3 => faces![Point[0], Point[1]],
+            Self::Tri3 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]],
+            Self::Tri6 => faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]],
+            Self::Quad4 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]],
+            Self::Quad8 => faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]],
+            Self::Tet4 => faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]],
+            Self::Tet10 => faces![
+                Tri6 [0, 2, 1, 6, 5, 4],
+                Tri6 [0, 1, 3, 4, 9, 7],
+                Tri6 [0, 3, 2, 7, 8, 6],
+                Tri6 [1, 2, 3, 5, 8, 9],
+            ],
+            Self::Hex8 => faces![
+                Quad4 [0, 3, 2, 1],
+                Quad4 [0, 1, 5, 4],
+                Quad4 [0, 4, 7, 3],
+                Quad4 [1, 2, 6, 5],
+                Quad4 [2, 3, 7, 6],
+                Quad4 [4, 5, 6, 7],
+            ],
+            Self::Hex20 => faces![
+                Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
+                Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
+                Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
+                Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
+                Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
+                Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
+            ],
+            Self::Wedge6 => faces![
+                Tri3 [0, 2, 1],
+                Tri3 [3, 4, 5],
+                Quad4 [0, 1, 4, 3],
+                Quad4 [0, 3, 5, 2],
+                Quad4 [1, 2, 5, 4],
+            ],
+            Self::Wedge15 => faces![
+                Tri6 [0, 2, 1, 7, 9, 6],
+                Tri6 [3, 4, 5, 12, 14, 13],
+                Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
+                Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
+                Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
+            ],
         }
     }
 
@@ -127,18 +115,6 @@ impl ElementKind {
     pub(crate) fn edges(self) -> impl Iterator<Item = Edge> {
         let middle = move |place: usize| (self.order() == 2).then_some(self.corners() + place);
         self.corner_edges().iter().enumerate().map(move |(place, &ends)| (ends, middle(place)))
-    }
-
-    /// Number of corner nodes; they come first.
-    pub const fn corners(self) -> usize {
-        match self {
-            Self::Point => 1,
-            Self::Line2 | Self::Line3 => 2,
-            Self::Tri3 | Self::Tri6 => 3,
-            Self::Quad4 | Self::Quad8 | Self::Tet4 | Self::Tet10 => 4,
-            Self::Wedge6 | Self::Wedge15 => 6,
-            Self::Hex8 | Self::Hex20 => 8,
-        }
     }
 }
 

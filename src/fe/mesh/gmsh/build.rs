@@ -1,22 +1,9 @@
 //! From what has been read to a [`Mesh`]: which elements belong to which physical group, and how much memory lists of them
 //! may take.
 
-use std::path::Path;
-
 use super::MshError;
 use super::entities::Physical;
-use super::nodes::NodeTable;
-use crate::fe::mesh::{ElementBlock, ElementId, Mesh, MshFormat, PhysicalGroup};
-
-/// What a file holds, checked.
-pub(super) struct Content {
-    pub(super) format: MshFormat,
-    pub(super) nodes: NodeTable,
-    pub(super) blocks: Vec<ElementBlock>,
-    pub(super) memberships: Vec<Membership>,
-    pub(super) names: Vec<Name>,
-    pub(super) allowance: Allowance,
-}
+use crate::fe::mesh::{ElementBlock, ElementId, PhysicalGroup};
 
 /// Name of a physical group.
 pub(super) struct Name {
@@ -32,14 +19,17 @@ impl Name {
     }
 }
 
-/// The mesh with its groups by dimension and tag: those that elements belong to and those that only
-/// have a name.
-pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
-    let Content { format, nodes, blocks, mut memberships, mut names, mut allowance } = content;
-    drop(nodes.index);
+/// The groups by dimension and tag: those that elements belong to and those that only have a name.
+pub(super) fn groups(
+    node_count: usize,
+    blocks: &[ElementBlock],
+    mut memberships: Vec<Membership>,
+    mut names: Vec<Name>,
+    allowance: &mut Allowance,
+) -> Result<Vec<PhysicalGroup>, MshError> {
     memberships.sort_unstable_by_key(|own| (own.key(), own.block));
     names.sort_unstable_by_key(|name| (name.dimension, name.tag));
-    let mut marks = Marks::new(nodes.tags.len());
+    let mut marks = Marks { round: vec![0; node_count], now: 0 };
     let together = |a: &Membership, b: &Membership| a.key() == b.key();
     // those with and without elements, counted twice where they have a name too
     let count = names.len() + memberships.chunk_by(together).count();
@@ -55,18 +45,17 @@ pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
         };
         let name = names.next_if(|name| name.key() == (dimension, tag));
         let own = unnamed.next_if(|own| own[0].key() == (dimension, tag));
-        let own = own.unwrap_or_default();
-        let elements = elements(own, &blocks, &mut allowance)?;
+        let elements = elements(own.unwrap_or_default(), blocks, allowance)?;
         groups.push(PhysicalGroup {
             name: name.map_or_else(|| tag.to_string(), |name| name.name),
             dimension,
             tag,
-            nodes: marks.nodes(&elements, &blocks, &mut allowance)?,
+            nodes: marks.nodes(&elements, blocks, allowance)?,
             elements,
         });
     }
     groups.shrink_to_fit();
-    Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format, source: path.to_path_buf() })
+    Ok(groups)
 }
 
 fn elements(
@@ -77,9 +66,7 @@ fn elements(
     let count = own.iter().map(|own| own.len(blocks)).sum();
     allowance.take(count)?;
     let mut elements = Vec::with_capacity(count);
-    for own in own {
-        elements.extend(own.elements(blocks));
-    }
+    own.iter().for_each(|own| elements.extend(own.elements(blocks)));
     Ok(elements)
 }
 
@@ -90,10 +77,6 @@ struct Marks {
 }
 
 impl Marks {
-    fn new(nodes: usize) -> Self {
-        Self { round: vec![0; nodes], now: 0 }
-    }
-
     /// The nodes of these elements, sorted, each once.
     fn nodes(
         &mut self,

@@ -8,14 +8,15 @@
 
 use super::MshError;
 use super::build::{Allowance, Members, Membership};
-use super::elements_v22::{Label, Listed, Piece, Run};
+use super::elements_v22::{Label, Listed, Piece};
 use crate::fe::mesh::{ElementBlock, Entity};
 
 pub(super) fn blocks(
     mut listed: Listed,
     allowance: &mut Allowance,
 ) -> Result<(Vec<ElementBlock>, Vec<Membership>), MshError> {
-    let mut pieces = pieces(std::mem::take(&mut listed.runs));
+    let mut pieces = std::mem::take(&mut listed.pieces);
+    pieces.shrink_to_fit();
     pieces.sort_unstable_by_key(Piece::order);
     let together = |a: &Piece, b: &Piece| (a.label.kind, a.label.entity) == (b.label.kind, b.label.entity);
     let (mut count, mut membership_count) = (0, 0);
@@ -52,18 +53,6 @@ fn groups(pieces: &[Piece]) -> Vec<i32> {
     physical.sort_unstable();
     physical.dedup();
     physical
-}
-
-fn pieces(runs: Vec<Run>) -> Vec<Piece> {
-    let (mut first, mut first_node) = (0, 0);
-    let place = |Run { label, count }| {
-        let count = count as usize;
-        let piece = Piece { label, first, first_node, count };
-        first += count;
-        first_node += count * label.kind.nodes();
-        piece
-    };
-    runs.into_iter().map(place).collect()
 }
 
 /// The pieces as one block: all elements, or those kept, given by their position in the pieces.

@@ -50,8 +50,7 @@ impl Mesh {
     /// Counts and extent of this mesh, and what is often wrong with one.
     pub fn inventory(&self) -> Inventory {
         let bounding_box = BoundingBox::of(self.nodes.iter().copied());
-        let dimension = self.blocks.iter().map(|block| block.kind.dimension());
-        let dimension = dimension.max().unwrap_or(0);
+        let dimension = self.dimension();
         let unused = nodes::unused(self);
         Inventory {
             format: self.format,
@@ -146,31 +145,15 @@ fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
 
 /// How many elements two sorted lists share.
 fn common(a: &[ElementId], b: &[ElementId]) -> usize {
-    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-    let mut count = 0;
-    while let (Some(first), Some(second)) = (a.peek(), b.peek()) {
-        match first.cmp(second) {
-            std::cmp::Ordering::Less => drop(a.next()),
-            std::cmp::Ordering::Greater => drop(b.next()),
-            std::cmp::Ordering::Equal => {
-                count += 1;
-                a.next();
-                b.next();
-            }
-        }
-    }
-    count
+    let [few, many] = if a.len() < b.len() { [a, b] } else { [b, a] };
+    few.iter().filter(|id| many.binary_search(id).is_ok()).count()
 }
 
 /// Elements of a dimension that no group holds.
 fn ungrouped(mesh: &Mesh, dimension: usize) -> usize {
-    let blocks = mesh.blocks.iter();
-    let mut grouped: Vec<Vec<bool>> = blocks.map(|block| vec![false; block.len()]).collect();
+    let mut grouped = mesh.for_each_element(false);
     for id in mesh.groups.iter().flat_map(|group| &group.elements) {
         grouped[id.block][id.index] = true;
     }
-    let own = mesh.blocks.iter().zip(&grouped);
-    own.filter(|(block, _)| block.kind.dimension() == dimension)
-        .map(|(_, grouped)| grouped.iter().filter(|grouped| !**grouped).count())
-        .sum()
+    mesh.element_ids(dimension).filter(|id| !grouped[id.block][id.index]).count()
 }
