@@ -118,7 +118,7 @@ impl ElementKind {
     }
 }
 
-/// A face of one element and of no other.
+/// A face of one element and of no other, or a whole element.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct BoundaryFace {
     /// The element that it belongs to.
@@ -130,6 +130,12 @@ pub struct BoundaryFace {
 }
 
 impl Mesh {
+    /// An element as a face of its own.
+    pub(crate) fn whole_element(&self, element: ElementId) -> BoundaryFace {
+        let block = &self.blocks[element.block];
+        BoundaryFace { element, kind: block.kind, nodes: block.nodes_of(element.index).to_vec() }
+    }
+
     /// The faces that exactly one of these elements has, in the order of the elements: the surface of solids
     /// with outward normals, the rim of plane elements.
     ///

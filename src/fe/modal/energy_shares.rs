@@ -205,15 +205,16 @@ impl RingSums {
     fn new(ring: &Ring, shapes: &DenseMatrix) -> Result<Self, ModalError> {
         check_count("rows of the ring's modes", ring.dof(), shapes.nrows())?;
         let heavy = ring.mass() * shapes;
+        let has_springs = !ring.springs.is_empty();
         let energies = |mode: usize| {
             let own = ring.strain_products(&shapes.subcols(mode, 1).to_owned());
             RingEnergies {
                 strain: own.beams[(0, 0)],
                 kinetic: shapes.col(mode).transpose() * heavy.col(mode),
-                springs: ring.has_springs().then(|| own.springs[(0, 0)]),
+                springs: has_springs.then(|| own.springs[(0, 0)]),
             }
         };
-        Ok(Self { has_springs: ring.has_springs(), modes: (0..shapes.ncols()).map(energies).collect() })
+        Ok(Self { has_springs, modes: (0..shapes.ncols()).map(energies).collect() })
     }
 }
 

@@ -17,7 +17,7 @@ pub struct HousingElement {
 /// The elements of a housing, in the order of the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HousingElements {
-    pub(super) list: Vec<HousingElement>,
+    pub(crate) list: Vec<HousingElement>,
     pub(super) connectivity: Vec<usize>,
 }
 
@@ -35,11 +35,6 @@ impl HousingElements {
     /// The elements one by one.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &HousingElement> {
         self.list.iter()
-    }
-
-    /// All elements.
-    pub(crate) fn as_slice(&self) -> &[HousingElement] {
-        &self.list
     }
 
     /// Node indices of an element, gmsh's order.

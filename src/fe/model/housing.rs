@@ -2,7 +2,7 @@
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
 use super::elements::HousingElements;
-use super::nodal::{NodalMatrix, NodalSource, TiedNodes};
+use super::nodal::{NodalMatrix, NodalSource, TiedNodes, unique};
 use super::parts::highest_dimension;
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, PointMass};
@@ -66,7 +66,7 @@ pub struct HousingModel {
     pub(crate) properties: Vec<ContinuumProperties>,
     /// Structural loss factors of the parts, in the same order.
     pub(crate) loss_factors: Vec<f64>,
-    /// Groups of the parts, in the same order.
+    /// Groups of the parts, in the same order: an element's part is an index into them.
     pub(crate) part_groups: Vec<String>,
     pub(crate) formulation: Formulation,
     /// Springs: d rows a node.
@@ -82,10 +82,14 @@ pub struct HousingModel {
     pub(crate) supports: Vec<HousingSupport>,
     pub(crate) links: Vec<Link>,
     pub(crate) point_masses: Vec<PointMass>,
-    overlaps: Vec<Overlap>,
-    touching: Vec<Touching>,
-    ties_apart: Vec<Apart>,
-    crossings: Vec<Crossing>,
+    /// Parts that lie in one another; none unless the description allows it.
+    pub overlaps: Vec<Overlap>,
+    /// Parts whose faces lie on each other without common nodes and without a link.
+    pub touching: Vec<Touching>,
+    /// Ties whose sides do not lie on each other.
+    pub apart: Vec<Apart>,
+    /// Parts that reach into one another, of which the others say nothing.
+    pub crossings: Vec<Crossing>,
     /// Nodes that the groups of each link have in common.
     pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
@@ -110,11 +114,7 @@ impl HousingModel {
         let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
         let properties = parts.iter().map(|part| properties(part, plane, &path)).collect::<Result<Vec<_>, _>>()?;
         let mut used = vec![false; mesh.nodes.len()];
-        for element in elements.iter() {
-            for &node in elements.nodes(element) {
-                used[node] = true;
-            }
-        }
+        elements.connectivity.iter().for_each(|&node| used[node] = true);
         let mut model = Self {
             dimension,
             frame,
@@ -134,7 +134,7 @@ impl HousingModel {
             point_masses: masses,
             overlaps,
             touching: Vec::new(),
-            ties_apart: Vec::new(),
+            apart: Vec::new(),
             crossings: Vec::new(),
             common_nodes: Vec::new(),
             path,
@@ -149,7 +149,7 @@ impl HousingModel {
         for index in 0..model.links.len() {
             model.attach_link(mesh, index)?;
         }
-        model.ties_apart = model.ties_apart(overlap)?;
+        model.apart = model.ties_apart(overlap)?;
         model.find_unconnected();
         Ok(model)
     }
@@ -158,7 +158,7 @@ impl HousingModel {
     fn find_unconnected(&mut self) {
         let mut linked = vec![false; self.coordinates.len()];
         let tied = self.tied.iter();
-        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
+        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.foot.nodes));
         let springs = self.springs.iter();
         let springs = springs.filter(|spring| matches!(spring.source, NodalSource::Link(_)));
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
@@ -170,26 +170,6 @@ impl HousingModel {
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
         Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
-    }
-
-    /// Parts that lie in one another; none unless the description allows it.
-    pub fn overlaps(&self) -> &[Overlap] {
-        &self.overlaps
-    }
-
-    /// Parts whose faces lie on each other without common nodes and without a link.
-    pub fn touching(&self) -> &[Touching] {
-        &self.touching
-    }
-
-    /// Parts that reach into one another, of which the others say nothing.
-    pub fn crossings(&self) -> &[Crossing] {
-        &self.crossings
-    }
-
-    /// Ties whose sides do not lie on each other.
-    pub fn apart(&self) -> &[Apart] {
-        &self.ties_apart
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -223,22 +203,9 @@ impl HousingModel {
         &self.elements
     }
 
-    /// Groups of the parts, in the order asked for: an element's part is an index into them.
-    pub fn part_names(&self) -> &[String] {
-        &self.part_groups
-    }
-
-    /// Whether an element uses a node.
-    pub fn is_used(&self, node: usize) -> bool {
-        self.used[node]
-    }
-
     /// Nodes with a spring, each once.
     pub fn spring_nodes(&self) -> Vec<usize> {
-        let mut nodes: Vec<usize> = self.springs.iter().flat_map(|s| s.nodes.clone()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
+        unique(self.springs.iter().flat_map(|spring| spring.nodes.iter().copied()))
     }
 
     /// Degrees of freedom that are neither fixed nor tied nor without an element.

@@ -2,7 +2,7 @@
 
 use super::housing::HousingModel;
 use super::joint::Side;
-use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes};
+use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes, unique};
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
@@ -30,8 +30,8 @@ impl HousingModel {
                 self.attach_link_springs(mesh, &sides, stiffness, share, source)
             }
             Connection::Tie => {
-                for side in &sides {
-                    self.check_surface(side)?;
+                for Side { name, dimension, .. } in &sides {
+                    check_dimension(&self.path, name, *dimension, self.dimension - 1, "a tie between parts")?;
                 }
                 let [finer, coarser] = finer_first(mesh, &sides)?;
                 let tied = self.feet(mesh, index, finer, coarser).or_else(|gap| {
@@ -68,10 +68,6 @@ impl HousingModel {
         )))
     }
 
-    fn check_surface(&self, side: &Side) -> Result<(), ModelError> {
-        check_dimension(&self.path, &side.name, side.dimension, self.dimension - 1, "a tie between parts")
-    }
-
     fn attach_link_springs(
         &mut self,
         mesh: &Mesh,
@@ -84,9 +80,9 @@ impl HousingModel {
             SupportShare::PerGroup => side.spread(mesh)?.0,
             SupportShare::PerNode => side.nodes.iter().map(|&node| Share::of_node(node)).collect(),
         };
-        let nearest = other.search(mesh);
         for share in shares {
-            let feet: Vec<Foot> = share.nodes.iter().filter_map(|&node| nearest(mesh.nodes[node])).collect();
+            let feet = share.nodes.iter().filter_map(|&node| other.nearest(mesh, mesh.nodes[node]));
+            let feet: Vec<Foot> = feet.collect();
             self.springs.push(self.relative_springs(&share, &feet, stiffness, source));
         }
         Ok(())
@@ -101,10 +97,8 @@ impl HousingModel {
         source: NodalSource,
     ) -> NodalMatrix {
         let d = self.dimension;
-        let mut nodes = share.nodes.clone();
-        nodes.extend(feet.iter().flat_map(|foot| foot.nodes.iter().copied()));
-        nodes.sort_unstable();
-        nodes.dedup();
+        let of_feet = feet.iter().flat_map(|foot| &foot.nodes);
+        let nodes = unique(share.nodes.iter().chain(of_feet).copied());
         let place = |node: usize| nodes.binary_search(&node).unwrap_or_default();
         let mut relative: DMatrix<f64> = DMatrix::zeros(d * share.nodes.len(), d * nodes.len());
         for ((row, &node), foot) in share.nodes.iter().enumerate().zip(feet) {
@@ -127,15 +121,14 @@ impl HousingModel {
     /// # Errors
     /// [`ModelError::Refused`] if some of them are not near it.
     fn feet(&self, mesh: &Mesh, link: usize, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
-        let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
         let (mut far, mut worst) = (0, (0.0, 0));
         for &node in &side.nodes {
             if to.nodes.binary_search(&node).is_ok() {
                 continue; // shared by both: the meshes are one here
             }
-            let foot = nearest(mesh.nodes[node]).filter(|foot| !foot.nodes.contains(&node));
-            let Some(foot) = foot else {
+            let foot = to.nearest(mesh, mesh.nodes[node]);
+            let Some(foot) = foot.filter(|foot| !foot.nodes.contains(&node)) else {
                 continue;
             };
             if foot.distance > LARGEST_GAP * foot.size {
@@ -144,8 +137,7 @@ impl HousingModel {
                     worst = (foot.distance, node);
                 }
             }
-            let of_node = TiedNode { nodes: foot.nodes, follow: foot.follow, foot: foot.place, size: foot.size, link };
-            tied.insert(node, of_node);
+            tied.insert(node, TiedNode { foot, link });
         }
         if far == 0 {
             return Ok(tied);
@@ -195,7 +187,7 @@ impl HousingModel {
     /// A node that is tied can neither carry another one nor be fixed.
     fn check_chains(&self, sides: &[Side; 2]) -> Result<(), ModelError> {
         for (&node, tied) in &self.tied {
-            if let Some(&carrier) = tied.nodes.iter().find(|node| self.tied.contains_key(node)) {
+            if let Some(&carrier) = tied.foot.nodes.iter().find(|node| self.tied.contains_key(node)) {
                 return Err(self.chain(carrier, sides));
             }
             self.check_not_fixed(node, &sides[0].name)?;
@@ -244,7 +236,7 @@ impl HousingModel {
             return (0..d).map(|i| (d * node + i, d * node + i, 1.0)).collect();
         };
         let mut entries = Vec::new();
-        for (&other, follow) in tied.nodes.iter().zip(&tied.follow) {
+        for (&other, follow) in tied.foot.nodes.iter().zip(&tied.foot.follow) {
             for i in 0..d {
                 for j in 0..d {
                     entries.push((d * node + i, d * other + j, follow[(i, j)]));

@@ -29,7 +29,7 @@ impl HousingModel {
     /// # Errors
     /// [`ModelError::Refused`] if they do not.
     pub(crate) fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
-        for spring in ring.springs() {
+        for spring in &ring.springs {
             let (node, in_plane) = ring.node_of(spring.dofs[0]);
             let stations = solid.sections.len();
             if !(node * stations).is_multiple_of(ring.nodes()) {

@@ -1,7 +1,7 @@
 //! The surface of one side of a link, and the point of it that is nearest to a given one.
 
 use crate::fe::element::continuum::shape;
-use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
 /// Steps of the search for a foot; on a plane face one is enough, on a curved one each gains a factor of
@@ -18,26 +18,15 @@ pub(super) struct SideFace {
     pub nodes: Vec<usize>,
     /// gmsh's tag of the element, or of the one behind it.
     pub tag: u64,
-}
-
-/// Curves (plane housings) or faces (solid ones), or as many single points.
-#[derive(Debug)]
-pub(super) struct Surface<'m> {
-    mesh: &'m Mesh,
-    faces: Vec<Face>,
-}
-
-#[derive(Debug)]
-struct Face {
-    kind: ElementKind,
-    nodes: Vec<usize>,
-    low: Vector3<f64>,
-    high: Vector3<f64>,
+    /// Holds the face, curved or not.
+    bounds: BoundingBox,
 }
 
 /// The nearest point of a surface, and how a point fixed to the surface there moves.
 #[derive(Debug, Clone)]
-pub(super) struct Foot {
+pub(crate) struct Foot {
+    /// Kind of the face.
+    pub kind: ElementKind,
     /// Nodes of the face.
     pub nodes: Vec<usize>,
     /// The point's displacement is `sum_i follow_i u_i`: the face's at the foot and its rotation times the
@@ -51,29 +40,22 @@ pub(super) struct Foot {
     pub size: f64,
 }
 
-impl<'m> Surface<'m> {
-    /// The surface that these faces make.
-    pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
-        let face = |face: &SideFace| Face::new(mesh, face.kind, &face.nodes);
-        Self { mesh, faces: faces.iter().map(face).collect() }
-    }
-
-    /// The point nearest to `point` (m); `None` if the surface is empty.
-    pub(super) fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
-        let point = Vector3::from(point);
-        let mut best: Option<(f64, &Face, [f64; 2])> = None;
-        for face in &self.faces {
-            let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
-            if face.box_distance(&point) >= limit {
-                continue;
-            }
-            let (natural, distance) = face.project(self.mesh, &point);
-            if distance < limit {
-                best = Some((distance, face, natural));
-            }
+/// The point of some faces that is nearest to `point` (m): curves (plane housings), faces (solid ones), or as many single
+/// points; `None` if there are none.
+pub(super) fn nearest(mesh: &Mesh, faces: &[SideFace], point: [f64; 3]) -> Option<Foot> {
+    let point = Vector3::from(point);
+    let mut best: Option<(f64, &SideFace, [f64; 2])> = None;
+    for face in faces {
+        let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
+        if face.box_distance(&point) >= limit {
+            continue;
         }
-        best.map(|(distance, face, natural)| face.foot(self.mesh, &point, natural, distance))
+        let (natural, distance) = face.project(mesh, &point);
+        if distance < limit {
+            best = Some((distance, face, natural));
+        }
     }
+    best.map(|(distance, face, natural)| face.foot(mesh, &point, natural, distance))
 }
 
 /// Place and tangents of a face at natural coordinates.
@@ -82,28 +64,19 @@ struct Local {
     tangents: [Vector3<f64>; 2],
 }
 
-impl Face {
-    fn new(mesh: &Mesh, kind: ElementKind, nodes: &[usize]) -> Self {
-        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(-f64::INFINITY));
-        for &node in nodes {
-            let at = Vector3::from(mesh.nodes[node]);
-            (low, high) = (low.inf(&at), high.sup(&at));
-        }
-        let bulge = Vector3::repeat(BULGE * (high - low).max());
-        Self { kind, nodes: nodes.to_vec(), low: low - bulge, high: high + bulge }
+impl SideFace {
+    pub(super) fn new(mesh: &Mesh, kind: ElementKind, nodes: Vec<usize>, tag: u64) -> Self {
+        let bounds = BoundingBox::of(nodes.iter().map(|&node| mesh.nodes[node]));
+        Self { kind, nodes, tag, bounds: bounds.grown(BULGE * bounds.longest_side()) }
     }
 
     fn box_distance(&self, point: &Vector3<f64>) -> f64 {
-        let outside = (self.low - point).sup(&(point - self.high)).sup(&Vector3::zeros());
-        outside.norm()
+        let [low, high] = [self.bounds.min, self.bounds.max].map(Vector3::from);
+        (low - point).sup(&(point - high)).sup(&Vector3::zeros()).norm()
     }
 
     fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
         let mut local = Local { place: Vector3::zeros(), tangents: [Vector3::zeros(); 2] };
-        if self.kind == ElementKind::Point {
-            local.place = Vector3::from(mesh.nodes[self.nodes[0]]);
-            return local;
-        }
         let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
         for ((&node, value), derivative) in self.nodes.iter().zip(values).zip(derivatives) {
             let at = Vector3::from(mesh.nodes[node]);
@@ -146,14 +119,16 @@ impl Face {
                 }
             };
             natural = [natural[0] + step[0], natural[1] + step[1]];
-            if !domain.near(natural) {
+            // so far out that a search from there could not end inside
+            if !domain.within(natural, 1.0) {
                 return None;
             }
             if step[0].abs().max(step[1].abs()) < 1e-14 {
                 break;
             }
         }
-        domain.contains(natural).then_some(natural)
+        // inside or on the boundary, but for round-off
+        domain.within(natural, 1e-12).then_some(natural)
     }
 
     /// The same along a side between two corners, kept between them.
@@ -184,23 +159,16 @@ impl Face {
         let local = self.at(mesh, natural);
         let gap = (point - local.place).cross_matrix();
         let turns = |[xi, eta, _]: [f64; 3]| -> Matrix3<f64> { rotation_rows(&local.tangents, [xi, eta]) };
-        let follow = match self.kind {
-            ElementKind::Point => vec![Matrix3::identity()],
-            kind => {
-                let (values, derivatives) = shape(kind, [natural[0], natural[1], 0.0]);
-                let nodes = self.nodes.len();
-                let pairs = values.into_iter().zip(derivatives).take(nodes);
-                pairs
-                    .map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative))
-                    .collect()
-            }
-        };
+        let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
+        let pairs = values.into_iter().zip(derivatives).take(self.nodes.len());
+        let follow = pairs.map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative));
         Foot {
+            kind: self.kind,
             nodes: self.nodes.clone(),
-            follow,
+            follow: follow.collect(),
             place: local.place.into(),
             distance,
-            size: (self.high - self.low).max() / (1.0 + 2.0 * BULGE),
+            size: self.bounds.longest_side() / (1.0 + 2.0 * BULGE),
         }
     }
 }
@@ -260,16 +228,6 @@ impl Domain {
             xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin
         }
     }
-
-    /// Inside or on the boundary, but for round-off.
-    fn contains(&self, natural: [f64; 2]) -> bool {
-        self.within(natural, 1e-12)
-    }
-
-    /// Not so far out that a search from there could still end inside.
-    fn near(&self, natural: [f64; 2]) -> bool {
-        self.within(natural, 1.0)
-    }
 }
 
 #[cfg(test)]
@@ -289,8 +247,8 @@ mod tests {
         }
     }
 
-    fn face(kind: ElementKind) -> SideFace {
-        SideFace { kind, nodes: (0..kind.nodes()).collect(), tag: 1 }
+    fn face(mesh: &Mesh, kind: ElementKind) -> [SideFace; 1] {
+        [SideFace::new(mesh, kind, (0..kind.nodes()).collect(), 1)]
     }
 
     /// A warped quadrilateral, a curved triangle, an edge in the plane.
@@ -307,11 +265,11 @@ mod tests {
     fn a_point_beside_a_face_follows_every_rigid_motion() {
         for (kind, nodes) in FACES {
             let mesh = mesh(nodes);
-            let surface = Surface::new(&mesh, &[face(kind)]);
+            let faces = face(&mesh, kind);
             let plane = kind.dimension() == 1;
             for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4]] {
                 let point = if plane { [point[0], point[1], 0.0] } else { point };
-                let foot = surface.nearest(point).expect("one face");
+                let foot = nearest(&mesh, &faces, point).expect("one face");
                 for motion in 0..6 {
                     let unit = |k: usize| f64::from(u8::from(motion == k));
                     let along = Vector3::new(unit(0), unit(1), unit(2));
@@ -337,11 +295,10 @@ mod tests {
     fn the_foot_is_the_nearest_of_many_points() {
         for (kind, nodes) in FACES {
             let mesh = mesh(nodes);
-            let faces = [face(kind)];
-            let surface = Surface::new(&mesh, &faces);
+            let faces = face(&mesh, kind);
             for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4], [-1.0, 0.5, 0.0]] {
                 let at = Vector3::from(point);
-                let found = surface.nearest(point).expect("one face").distance;
+                let found = nearest(&mesh, &faces, point).expect("one face").distance;
                 let mut sampled = f64::INFINITY;
                 for i in 0..=200 {
                     for j in 0..=200 {
@@ -350,7 +307,7 @@ mod tests {
                             ElementKind::Tri6 => [a, b * (1.0 - a)],
                             _ => [2.0 * a - 1.0, 2.0 * b - 1.0],
                         };
-                        let place = surface.faces[0].at(&mesh, natural).place;
+                        let place = faces[0].at(&mesh, natural).place;
                         sampled = sampled.min((place - at).norm());
                     }
                 }

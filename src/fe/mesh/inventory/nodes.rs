@@ -34,6 +34,16 @@ impl BoundingBox {
         }
     }
 
+    /// Grown by `reach` (m) to all sides.
+    pub(crate) fn grown(self, reach: f64) -> Self {
+        Self { min: self.min.map(|x| x - reach), max: self.max.map(|x| x + reach) }
+    }
+
+    /// Length of the longest side, m, >= 0.
+    pub(crate) fn longest_side(&self) -> f64 {
+        self.extent().into_iter().fold(0.0, f64::max)
+    }
+
     /// Lengths of the sides, m, >= 0.
     pub fn extent(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.max[axis] - self.min[axis])

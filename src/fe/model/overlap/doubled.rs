@@ -1,7 +1,7 @@
 //! Elements that stand on the corners of another one, and elements of first order beside those of second order on the same
 //! edges, which come apart between the corners.
 
-use super::bodies::{Bodies, Solid, at, both};
+use super::bodies::{Bodies, Solid, at, both, counted};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -27,24 +27,19 @@ impl Doubled {
         let [first, second] = self.tags;
         format!(
             "{} on the corners of another element, the first are elements {first} and {second} of {} at {}",
-            match self.elements {
-                1 => "1 element stands".to_owned(),
-                count => format!("{count} elements stand"),
-            },
+            counted(self.elements, "element stands", "elements stand"),
             both(&self.parts),
             at(self.place)
         )
     }
 }
 
-/// Corners of an element, sorted; `NO_CORNER` fills up.
-pub(super) type Corners = [u32; 8];
+/// No corner of an element, no middle node of an edge.
+const NO_NODE: u32 = u32::MAX;
 
-const NO_CORNER: u32 = u32::MAX;
-
-/// A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-pub(super) fn sorted_corners(solid: &Solid) -> Corners {
-    let mut corners = [NO_CORNER; 8];
+/// Corners of an element, sorted; `NO_NODE` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+pub(super) fn sorted_corners(solid: &Solid) -> [u32; 8] {
+    let mut corners = [NO_NODE; 8];
     for (slot, &node) in corners.iter_mut().zip(solid.corners()) {
         *slot = node as u32;
     }
@@ -57,7 +52,7 @@ impl Bodies<'_> {
     /// Hex20 on the same corners fill the same space.
     pub(crate) fn doubled(&self) -> Option<Doubled> {
         let solids = self.solids.par_iter().enumerate();
-        let mut keys: Vec<(Corners, u32)> =
+        let mut keys: Vec<([u32; 8], u32)> =
             solids.map(|(index, solid)| (sorted_corners(solid), index as u32)).collect();
         keys.par_sort_unstable();
         let mut elements = 0;
@@ -106,18 +101,12 @@ impl MixedOrders {
         let [first, second] = self.tags;
         format!(
             "{} without a middle node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
-            match self.edges {
-                1 => "1 edge is".to_owned(),
-                count => format!("{count} edges are"),
-            },
+            counted(self.edges, "edge is", "edges are"),
             both(&self.parts),
             at(self.place)
         )
     }
 }
-
-/// The middle node of an edge of first order. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-const NO_NODE: u32 = u32::MAX;
 
 /// Edges of an element: the corners in order, and the middle node.
 fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
@@ -165,7 +154,7 @@ impl Bodies<'_> {
         let mut of_group: BTreeMap<[u32; 2], (u32, u64)> = BTreeMap::new();
         for id in &group.elements {
             let block = &mesh.blocks[id.block];
-            for [a, b, middle] in edges(block.kind, block.element(id.index).unwrap_or_default()) {
+            for [a, b, middle] in edges(block.kind, block.nodes_of(id.index)) {
                 let entry = of_group.entry([a, b]).or_insert((middle, block.tags[id.index]));
                 if middle == NO_NODE {
                     *entry = (middle, block.tags[id.index]);

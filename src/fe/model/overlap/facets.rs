@@ -1,7 +1,7 @@
 //! The faces that bound the bodies, as flat facets.
 
 use super::bodies::Bodies;
-use super::outline::{centre, normal};
+use super::outline::{centre, corners_of, normal};
 use crate::fe::mesh::{FaceCorners, Sets};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -33,8 +33,7 @@ impl Bodies<'_> {
     /// The facets of all bodies, in the order of the elements.
     pub(super) fn facets(&self) -> Vec<Facet> {
         let (outer, body) = self.outer_faces();
-        let facets = outer.into_iter();
-        let facets = facets.filter_map(|(solid, number)| self.facet(solid, number, body[solid]));
+        let facets = outer.into_iter().filter_map(|(solid, number)| self.facet(solid, number, body[solid]));
         let mut facets: Vec<Facet> = facets.collect();
         reach_to_neighbours(&mut facets);
         facets
@@ -62,19 +61,16 @@ impl Bodies<'_> {
         }
         once.sort_unstable();
         let roots = (0..self.solids.len()).map(|solid| bodies.root(solid));
-        let roots = roots.collect();
-        (once, roots)
+        (once, roots.collect())
     }
 
     /// `None` for a face without size.
     fn facet(&self, solid: usize, number: u8, body: usize) -> Option<Facet> {
         let own = &self.solids[solid];
         let face = own.kind.faces().get(usize::from(number))?;
-        let local = &face.nodes[..face.kind.corners()];
-        let corners: Vec<usize> = local.iter().map(|&local| own.nodes[local]).collect();
-        let places: Vec<_> = corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
+        let corners = corners_of(own, face);
         let middle = Vector3::from(self.mean(&corners));
-        let normal = normal(&places);
+        let normal = normal(&self.places(&corners));
         let length = normal.norm();
         // a chord may lie deeper in a curved element than the element's centre
         let on_curve = self.middle(own, face);
@@ -94,8 +90,7 @@ impl Bodies<'_> {
     pub(super) fn height(&self, facet: &Facet, point: &Vector3<f64>) -> Option<f64> {
         let along = facet.normal.dot(&(point - facet.centre));
         let foot = point - facet.normal * along;
-        let places: Vec<_> = facet.corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
-        let on_it = match places.as_slice() {
+        let on_it = match self.places(&facet.corners).as_slice() {
             [a, b] => {
                 [(b - a, a), (a - b, b)].iter().all(|(to, from)| to.dot(&(foot - *from)) >= -self.tolerance * to.norm())
             }

@@ -27,7 +27,8 @@ pub struct Ring {
     pub(super) out_of_plane: Option<OutOfPlaneArc>,
     pub(super) stiffness: DenseMatrix,
     mass: DenseMatrix,
-    pub(super) springs: Vec<RingSpring>,
+    /// Each along one direction.
+    pub(crate) springs: Vec<RingSpring>,
 }
 
 /// A ring that cannot be built: too few nodes, or a support that no node stands on.

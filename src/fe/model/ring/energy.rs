@@ -1,6 +1,6 @@
 //! Strain energy of a ring's shapes, element by element and spring by spring.
 
-use super::{Ring, RingSpring};
+use super::Ring;
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::{Matrix6, Vector6};
 
@@ -14,16 +14,6 @@ pub struct RingStrain {
 }
 
 impl Ring {
-    /// Whether springs hold the ring.
-    pub(crate) fn has_springs(&self) -> bool {
-        !self.springs.is_empty()
-    }
-
-    /// The springs, each along one direction.
-    pub(crate) fn springs(&self) -> &[RingSpring] {
-        &self.springs
-    }
-
     /// `D^T K D` for displacements D [dof x count].
     ///
     /// Of every element the motion of its first node is taken out, as a rigid motion, before its stiffness is
