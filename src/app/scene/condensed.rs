@@ -240,9 +240,9 @@ fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
     let node = dof / model.dimension();
     let mut elements = model.elements().iter();
     let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
-    let part = of_node.and_then(|element| model.part_groups.get(element.part));
+    let part = of_node.and_then(|element| model.description.parts.get(element.part));
     match (part, model.node_tags.get(node)) {
-        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.clone(), tag, source: error },
+        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.group.clone(), tag, source: error },
         _ => error.into(),
     }
 }

@@ -107,7 +107,7 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
             apart.sentence()
         )
     });
-    let links = model.links.iter().zip(&model.common_nodes);
+    let links = model.description.links.iter().zip(&model.common_nodes);
     let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
         let [a, b] = &link.between;
         format!(

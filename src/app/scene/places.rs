@@ -209,7 +209,7 @@ fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f6
     let mut holder = None;
     for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
         match model.fixed[dof / d][dof % d] {
-            Some(support) => holder = Some(&model.supports[support].group),
+            Some(support) => holder = Some(&model.description.supports[support].group),
             None => return Ok(()),
         }
     }

@@ -3,6 +3,7 @@
 //! Source of the node order: gmsh reference manual, section "Node ordering".
 
 use super::{ElementId, ElementKind, Mesh};
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// A face of an element kind: an element of one dimension less.
@@ -17,22 +18,15 @@ pub struct Face {
 }
 
 /// A face by its sorted corners; `u32::MAX` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-pub(crate) type FaceCorners = [u32; 4];
+type FaceCorners = [u32; 4];
 
-impl Face {
-    /// Its corners on an element with these nodes.
-    pub(crate) fn sorted_corners(&self, nodes: &[usize]) -> FaceCorners {
-        let mut corners = [u32::MAX; 4];
-        for (corner, &local) in corners.iter_mut().zip(&self.nodes[..self.kind.corners()]) {
-            *corner = nodes[local] as u32;
-        }
-        corners.sort_unstable();
-        corners
-    }
+/// Corners in ascending order; `u32::MAX` fills up.
+pub(crate) fn sorted_corners<const N: usize>(corners: impl Iterator<Item = usize>) -> [u32; N] {
+    let mut sorted = [u32::MAX; N];
+    sorted.iter_mut().zip(corners).for_each(|(slot, corner)| *slot = corner as u32);
+    sorted.sort_unstable();
+    sorted
 }
-
-/// An edge in local nodes: two corners, and the node between them in second order.
-pub(crate) type Edge = ([usize; 2], Option<usize>);
 
 macro_rules! faces {
     ($($kind:ident $nodes:expr),* $(,)?) => {
@@ -92,7 +86,7 @@ impl ElementKind {
 
     /// Edges by their two corners, each once, in gmsh's order: of an element of second order edge i carries node
     /// `corners() + i`.
-    const fn corner_edges(self) -> &'static [[usize; 2]] {
+    pub(crate) const fn corner_edges(self) -> &'static [[usize; 2]] {
         match self {
             Self::Point => &[],
             Self::Line2 | Self::Line3 => &[[0, 1]],
@@ -110,12 +104,22 @@ impl ElementKind {
     pub const fn middle_edges(self) -> &'static [[usize; 2]] {
         if self.order() == 2 { self.corner_edges() } else { &[] }
     }
+}
 
-    /// Edges, each once.
-    pub(crate) fn edges(self) -> impl Iterator<Item = Edge> {
-        let middle = move |place: usize| (self.order() == 2).then_some(self.corners() + place);
-        self.corner_edges().iter().enumerate().map(move |(place, &ends)| (ends, middle(place)))
-    }
+/// The faces of some elements, given by kind and nodes, sorted: corners, place of the element, number of the face in it.
+/// A mesh has fewer than 2^32 - 1 elements, which the reader sees to.
+pub(crate) fn sorted_faces<'a>(
+    elements: impl IndexedParallelIterator<Item = (ElementKind, &'a [usize])>,
+) -> Vec<(FaceCorners, u32, u8)> {
+    let faces = elements.enumerate().flat_map_iter(|(place, (kind, nodes))| {
+        (0..).zip(kind.faces()).map(move |(number, face)| {
+            let corners = face.nodes[..face.kind.corners()].iter().map(|&local| nodes[local]);
+            (sorted_corners(corners), place as u32, number)
+        })
+    });
+    let mut faces: Vec<_> = faces.collect();
+    faces.par_sort_unstable();
+    faces
 }
 
 /// A face of one element and of no other, or a whole element.
@@ -143,20 +147,15 @@ impl Mesh {
     /// of a part. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
     pub fn boundary_faces(&self, elements: impl Iterator<Item = ElementId>) -> Vec<BoundaryFace> {
         let elements: Vec<ElementId> = elements.collect();
-        let mut faces: Vec<(FaceCorners, usize, u8)> = Vec::new();
-        for (position, &id) in elements.iter().enumerate() {
+        let faces = sorted_faces(elements.par_iter().map(|id| {
             let block = &self.blocks[id.block];
-            let nodes = block.nodes_of(id.index);
-            for (number, face) in (0..).zip(block.kind.faces()) {
-                faces.push((face.sorted_corners(nodes), position, number));
-            }
-        }
-        faces.sort_unstable();
+            (block.kind, block.nodes_of(id.index))
+        }));
         let once = faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
-        let mut once: Vec<(usize, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
+        let mut once: Vec<(u32, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
         once.sort_unstable();
-        let describe = |(position, number): (usize, u8)| {
-            let element = elements[position];
+        let describe = |(position, number): (u32, u8)| {
+            let element = elements[position as usize];
             let block = &self.blocks[element.block];
             let face = block.kind.faces()[usize::from(number)];
             let nodes = block.nodes_of(element.index);
@@ -214,9 +213,7 @@ mod tests {
                 ends.sort_unstable();
                 ends
             };
-            let mut found: Vec<_> = kind.edges().collect();
-            found.sort_unstable_by_key(|edge| edge.1);
-            let found: Vec<_> = found.into_iter().map(|edge| sorted(edge.0)).collect();
+            let found: Vec<_> = kind.corner_edges().iter().map(|&ends| sorted(ends)).collect();
             let expected: Vec<_> = edges(kind).iter().map(|&ends| sorted(ends)).collect();
             assert_eq!(found, expected, "{kind:?}");
         }

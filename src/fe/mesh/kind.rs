@@ -77,11 +77,6 @@ impl ElementKind {
         &TABLE[self as usize]
     }
 
-    /// Kinds of plane elements and solids, in the order of the enum.
-    pub fn continua() -> impl Iterator<Item = Self> {
-        Self::all().filter(|kind| kind.dimension() >= 2)
-    }
-
     /// Every kind, in the order of the enum.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLE.iter().map(|row| row.kind)

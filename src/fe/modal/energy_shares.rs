@@ -178,7 +178,7 @@ impl HousingSums {
         let membership = Membership::new(mesh, model)?;
         let sums = element_sums(model, &membership, shapes)?;
         Ok(Self {
-            parts: model.part_groups.clone(),
+            parts: model.part_groups(),
             groups: membership.names,
             energies: (0..shapes.ncols()).map(|mode| sums.of_mode(mode)).collect(),
             springs: Attached::springs(model, shapes),
@@ -228,9 +228,9 @@ struct Attached {
 impl Attached {
     fn springs(model: &HousingModel, shapes: &DenseMatrix) -> Self {
         let name = |source| match source {
-            NodalSource::Support(index) => model.supports.get(index).map(|s| s.group.clone()),
+            NodalSource::Support(index) => model.description.supports.get(index).map(|s| s.group.clone()),
             NodalSource::Link(index) => {
-                let link = model.links.get(index);
+                let link = model.description.links.get(index);
                 link.map(|link| format!("{} - {}", link.between[0], link.between[1]))
             }
             NodalSource::Mass(_) => None,
@@ -241,7 +241,7 @@ impl Attached {
     /// A mass has one row a node, the same for every component.
     fn masses(model: &HousingModel, shapes: &DenseMatrix) -> Self {
         let name = |source| match source {
-            NodalSource::Mass(index) => model.point_masses.get(index).map(|m| m.group.clone()),
+            NodalSource::Mass(index) => model.description.masses.get(index).map(|m| m.group.clone()),
             _ => None,
         };
         Self::new(&model.masses, shapes, model.dimension, name)

@@ -1,6 +1,16 @@
 //! The elements of a housing.
 
+use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::ElementKind;
+
+/// A group of elements and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingPart {
+    /// The group.
+    pub group: String,
+    /// Its material.
+    pub material: ElasticMaterial,
+}
 
 /// One element of a housing; its nodes are in [`HousingElements`].
 #[derive(Debug, Clone, Copy, PartialEq)]

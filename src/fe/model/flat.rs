@@ -62,11 +62,11 @@ impl HousingModel {
     /// The flat layers of incompatible elements on held faces, from there to the next face without a neighbour or to the
     /// next held one; `None` if there are none.
     pub(crate) fn flat_layers(&self) -> Option<FlatLayer> {
-        if self.formulation.linear != LinearFormulation::Incompatible {
+        if self.description.formulation.linear != LinearFormulation::Incompatible {
             return None;
         }
         let holds = self.holds();
-        let mut found: Option<FlatLayer> = None;
+        let (mut faces, mut found): (_, Option<FlatLayer>) = (0, None);
         let mut behind: Option<Behind> = None;
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
@@ -79,16 +79,13 @@ impl HousingModel {
                 let Some(flatness) = self.layer_flatness(index, &face, behind, &holds) else {
                     continue;
                 };
-                let faces = found.as_ref().map_or(1, |found| found.faces + 1);
-                match &mut found {
-                    Some(found) if found.flatness >= flatness => found.faces = faces,
-                    _ => {
-                        found = Some(FlatLayer { faces, tag: element.tag, flatness, place: self.mean(&face).into() });
-                    }
+                faces += 1;
+                if found.as_ref().is_none_or(|found| found.flatness < flatness) {
+                    found = Some(FlatLayer { faces, tag: element.tag, flatness, place: self.mean(&face).into() });
                 }
             }
         }
-        found
+        found.map(|found| FlatLayer { faces, ..found })
     }
 
     fn modulus(&self, element: &HousingElement) -> f64 {

@@ -1,26 +1,16 @@
 //! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::elements::HousingElements;
+use super::elements::{HousingElements, HousingPart};
 use super::nodal::{NodalMatrix, NodalSource, TiedNodes, unique};
 use super::parts::highest_dimension;
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, PointMass};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
-use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A group of elements and what it is made of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HousingPart {
-    /// The group.
-    pub group: String,
-    /// Its material.
-    pub material: ElasticMaterial,
-}
 
 /// What a plane mesh assumes across its plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,11 +54,6 @@ pub struct HousingModel {
     pub(crate) elements: HousingElements,
     /// Properties of the parts, in the order asked for.
     pub(crate) properties: Vec<ContinuumProperties>,
-    /// Structural loss factors of the parts, in the same order.
-    pub(crate) loss_factors: Vec<f64>,
-    /// Groups of the parts, in the same order: an element's part is an index into them.
-    pub(crate) part_groups: Vec<String>,
-    pub(crate) formulation: Formulation,
     /// Springs: d rows a node.
     pub(crate) springs: Vec<NodalMatrix>,
     /// Point masses: one row a node.
@@ -79,9 +64,8 @@ pub struct HousingModel {
     pub(crate) tied: TiedNodes,
     /// Nodes that an element uses; the others have no degrees of freedom.
     pub(crate) used: Vec<bool>,
-    pub(crate) supports: Vec<HousingSupport>,
-    pub(crate) links: Vec<Link>,
-    pub(crate) point_masses: Vec<PointMass>,
+    /// What was asked for; an element's part is an index into its parts.
+    pub(crate) description: HousingDescription,
     /// Parts that lie in one another; none unless the description allows it.
     pub overlaps: Vec<Overlap>,
     /// Parts whose faces lie on each other without common nodes and without a link.
@@ -106,32 +90,25 @@ impl HousingModel {
     pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
         let path = mesh.source.display().to_string();
         let dimension = highest_dimension(mesh);
-        let HousingDescription { parts, plane, formulation, supports, masses, links, overlap, frame } = description;
-        check_plane(mesh, dimension, plane, &frame, &path)?;
-        let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
-        let elements = HousingElements::of_parts(mesh, &groups, &path)?;
-        let part_groups: Vec<String> = parts.iter().map(|part| part.group.clone()).collect();
-        let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
-        let properties = parts.iter().map(|part| properties(part, plane, &path)).collect::<Result<Vec<_>, _>>()?;
+        let HousingDescription { parts, plane, frame, overlap, .. } = &description;
+        check_plane(mesh, dimension, *plane, frame, &path)?;
+        let elements = HousingElements::of_parts(mesh, parts, &path)?;
+        let overlaps = accepted_overlaps(mesh, &elements, parts, *overlap, &path)?;
+        let properties = parts.iter().map(|part| properties(part, *plane, &path)).collect::<Result<Vec<_>, _>>()?;
         let mut used = vec![false; mesh.nodes.len()];
         elements.connectivity.iter().for_each(|&node| used[node] = true);
         let mut model = Self {
             dimension,
-            frame,
+            frame: *frame,
             coordinates: mesh.nodes.clone(),
             elements,
             properties,
-            loss_factors: parts.iter().map(|part| part.material.loss_factor()).collect(),
-            part_groups,
-            formulation,
             springs: Vec::new(),
             masses: Vec::new(),
             fixed: vec![[None; 3]; mesh.nodes.len()],
             tied: TiedNodes::new(),
             used,
-            supports,
-            links,
-            point_masses: masses,
+            description,
             overlaps,
             touching: Vec::new(),
             apart: Vec::new(),
@@ -140,16 +117,16 @@ impl HousingModel {
             path,
             node_tags: mesh.node_tags.clone(),
         };
-        for index in 0..model.supports.len() {
+        for index in 0..model.description.supports.len() {
             model.attach_support(mesh, index)?;
         }
-        for index in 0..model.point_masses.len() {
+        for index in 0..model.description.masses.len() {
             model.attach_mass(mesh, index)?;
         }
-        for index in 0..model.links.len() {
+        for index in 0..model.description.links.len() {
             model.attach_link(mesh, index)?;
         }
-        model.apart = model.ties_apart(overlap)?;
+        model.apart = model.ties_apart()?;
         model.find_unconnected();
         Ok(model)
     }
@@ -169,7 +146,12 @@ impl HousingModel {
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
-        Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
+        Bodies::of_housing(&self.coordinates, &self.elements, &self.description.parts)
+    }
+
+    /// Groups of the parts, in the order asked for.
+    pub(crate) fn part_groups(&self) -> Vec<String> {
+        self.description.parts.iter().map(|part| part.group.clone()).collect()
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -254,7 +236,7 @@ impl HousingModel {
 fn accepted_overlaps(
     mesh: &Mesh,
     elements: &HousingElements,
-    parts: &[String],
+    parts: &[HousingPart],
     rule: OverlapRule,
     path: &str,
 ) -> Result<Vec<Overlap>, ModelError> {

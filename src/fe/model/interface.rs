@@ -41,7 +41,7 @@ impl NodeInterface {
     pub(crate) fn holders(&self, model: &HousingModel) -> String {
         let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
         let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
-        let groups = supports.iter().map(|&place| &model.supports[place].group);
+        let groups = supports.iter().map(|&place| &model.description.supports[place].group);
         let mut words: Vec<String> = groups.map(|group| format!("the support \"{group}\"")).collect();
         if self.held.iter().any(|held| model.tied.contains_key(&held.0)) {
             words.push("a link".to_owned());

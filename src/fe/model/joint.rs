@@ -17,8 +17,6 @@ const BESIDE: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct Side {
     pub name: String,
-    /// 0 points, 1 curves, 2 surfaces.
-    pub dimension: usize,
     /// Nodes of the faces, sorted, each once.
     pub nodes: Vec<usize>,
     pub faces: Vec<SideFace>,
@@ -67,7 +65,6 @@ impl Side {
     fn of_faces(name: &str, faces: Vec<SideFace>) -> Self {
         Self {
             name: name.to_owned(),
-            dimension: faces.first().map_or(0, |face| face.kind.dimension()),
             nodes: unique(faces.iter().flat_map(|face| face.nodes.iter().copied())),
             faces,
             boundary: Vec::new(),

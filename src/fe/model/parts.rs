@@ -1,7 +1,7 @@
 //! Which elements a housing is made of, and which part each belongs to.
 
-use super::ModelError;
 use super::elements::{HousingElement, HousingElements};
+use super::{HousingPart, ModelError};
 use crate::fe::mesh::Mesh;
 
 impl HousingElements {
@@ -9,9 +9,9 @@ impl HousingElements {
     ///
     /// # Errors
     /// [`ModelError`] for a group of another dimension, an element in two parts or in none.
-    pub(super) fn of_parts(mesh: &Mesh, groups: &[&str], path: &str) -> Result<Self, ModelError> {
+    pub(super) fn of_parts(mesh: &Mesh, parts: &[HousingPart], path: &str) -> Result<Self, ModelError> {
         let dimension = highest_dimension(mesh);
-        let owner = owners(mesh, groups, dimension, path)?;
+        let owner = owners(mesh, parts, dimension, path)?;
         let mut found = Self::default();
         let mut unassigned = Vec::new();
         for id in mesh.element_ids(dimension) {
@@ -43,9 +43,14 @@ pub(super) fn highest_dimension(mesh: &Mesh) -> usize {
 }
 
 /// The part of each element of each block.
-fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
+fn owners(
+    mesh: &Mesh,
+    parts: &[HousingPart],
+    dimension: usize,
+    path: &str,
+) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
     let mut owner = mesh.for_each_element(None);
-    for (part, &name) in groups.iter().enumerate() {
+    for (part, HousingPart { group: name, .. }) in parts.iter().enumerate() {
         let group = mesh.group(name)?;
         check_dimension(path, name, group.dimension, dimension, "a part of this housing")?;
         for element in &group.elements {
@@ -53,7 +58,7 @@ fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<
             if let Some(first) = slot.filter(|&first: &usize| first != part) {
                 return Err(ModelError::Refused(format!(
                     "{path}: element {} belongs to the parts \"{}\" and \"{name}\": a part of the housing has one material",
-                    mesh.blocks[element.block].tags[element.index], groups[first]
+                    mesh.blocks[element.block].tags[element.index], parts[first].group
                 )));
             }
             *slot = Some(part);

@@ -58,12 +58,6 @@ pub(super) fn nearest(mesh: &Mesh, faces: &[SideFace], point: [f64; 3]) -> Optio
     best.map(|(distance, face, natural)| face.foot(mesh, &point, natural, distance))
 }
 
-/// Place and tangents of a face at natural coordinates.
-struct Local {
-    place: Vector3<f64>,
-    tangents: [Vector3<f64>; 2],
-}
-
 impl SideFace {
     pub(super) fn new(mesh: &Mesh, kind: ElementKind, nodes: Vec<usize>, tag: u64) -> Self {
         let bounds = BoundingBox::of(nodes.iter().map(|&node| mesh.nodes[node]));
@@ -75,41 +69,45 @@ impl SideFace {
         (low - point).sup(&(point - high)).sup(&Vector3::zeros()).norm()
     }
 
-    fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
-        let mut local = Local { place: Vector3::zeros(), tangents: [Vector3::zeros(); 2] };
+    /// Place and tangents at natural coordinates.
+    fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+        let (mut place, mut tangents) = (Vector3::zeros(), [Vector3::zeros(); 2]);
         let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
         for ((&node, value), derivative) in self.nodes.iter().zip(values).zip(derivatives) {
             let at = Vector3::from(mesh.nodes[node]);
-            local.place += at * value;
-            for (tangent, factor) in local.tangents.iter_mut().zip(derivative) {
+            place += at * value;
+            for (tangent, factor) in tangents.iter_mut().zip(derivative) {
                 *tangent += at * factor;
             }
         }
-        local
+        (place, tangents)
     }
 
     /// Natural coordinates and distance of the nearest point: inside, or else on a side.
     fn project(&self, mesh: &Mesh, point: &Vector3<f64>) -> ([f64; 2], f64) {
-        let distance = |natural| (self.at(mesh, natural).place - point).norm();
+        let distance = |natural| (self.at(mesh, natural).0 - point).norm();
         if self.kind == ElementKind::Point {
             return ([0.0; 2], distance([0.0; 2]));
         }
-        let domain = Domain::of(self.kind);
-        if let Some(inside) = self.descend(mesh, point, domain.centre, &domain) {
+        let centre = if self.kind.corners() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
+        if let Some(inside) = self.descend(mesh, point, centre) {
             return (inside, distance(inside));
         }
-        let on_sides = domain.sides.iter().map(|side| self.descend_side(mesh, point, *side));
+        // the edges of a face, the ends of a curve
+        let sides = self.kind.faces().iter();
+        let ends = sides.map(|side| [side.nodes[0], side.nodes[side.kind.corners() - 1]]);
+        let natural = |local: usize| [0, 1].map(|axis| self.kind.natural_nodes()[local][axis]);
+        let on_sides = ends.map(|ends| self.descend_side(mesh, point, ends.map(natural)));
         let nearest = on_sides.map(|natural| (natural, distance(natural)));
-        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((domain.centre, f64::INFINITY))
+        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((centre, f64::INFINITY))
     }
 
     /// Gauss-Newton on the squared distance; `None` if it leads out of the face.
-    fn descend(&self, mesh: &Mesh, point: &Vector3<f64>, from: [f64; 2], domain: &Domain) -> Option<[f64; 2]> {
-        let mut natural = from;
+    fn descend(&self, mesh: &Mesh, point: &Vector3<f64>, mut natural: [f64; 2]) -> Option<[f64; 2]> {
         for _ in 0..STEPS {
-            let Local { place, tangents: [s, t] } = self.at(mesh, natural);
+            let (place, [s, t]) = self.at(mesh, natural);
             let gap = point - place;
-            let step = match domain.dimension {
+            let step = match self.kind.dimension() {
                 1 => [s.dot(&gap) / s.norm_squared(), 0.0],
                 _ => {
                     let (ss, st, tt) = (s.norm_squared(), s.dot(&t), t.norm_squared());
@@ -120,7 +118,7 @@ impl SideFace {
             };
             natural = [natural[0] + step[0], natural[1] + step[1]];
             // so far out that a search from there could not end inside
-            if !domain.within(natural, 1.0) {
+            if !self.holds(natural, 1.0) {
                 return None;
             }
             if step[0].abs().max(step[1].abs()) < 1e-14 {
@@ -128,7 +126,15 @@ impl SideFace {
             }
         }
         // inside or on the boundary, but for round-off
-        domain.within(natural, 1e-12).then_some(natural)
+        self.holds(natural, 1e-12).then_some(natural)
+    }
+
+    /// Whether natural coordinates are on the face, or beyond it by no more than a margin.
+    fn holds(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {
+        match self.kind.corners() {
+            3 => xi >= -margin && eta >= -margin && xi + eta <= 1.0 + margin,
+            _ => xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin,
+        }
     }
 
     /// The same along a side between two corners, kept between them.
@@ -137,7 +143,7 @@ impl SideFace {
         let natural = |s: f64| [a[0] + s * along[0], a[1] + s * along[1]];
         let mut s: f64 = 0.5;
         for _ in 0..STEPS {
-            let Local { place, tangents } = self.at(mesh, natural(s));
+            let (place, tangents) = self.at(mesh, natural(s));
             let tangent = tangents[0] * along[0] + tangents[1] * along[1];
             let squared = tangent.norm_squared();
             if squared <= 0.0 {
@@ -156,9 +162,9 @@ impl SideFace {
     /// How a point at a gap from the face follows it: `u + omega x gap`, the rotation `omega` from the
     /// derivatives of the face's displacements along it.
     fn foot(&self, mesh: &Mesh, point: &Vector3<f64>, natural: [f64; 2], distance: f64) -> Foot {
-        let local = self.at(mesh, natural);
-        let gap = (point - local.place).cross_matrix();
-        let turns = |[xi, eta, _]: [f64; 3]| -> Matrix3<f64> { rotation_rows(&local.tangents, [xi, eta]) };
+        let (place, tangents) = self.at(mesh, natural);
+        let gap = (point - place).cross_matrix();
+        let turns = |[xi, eta, _]: [f64; 3]| rotation_rows(&tangents, [xi, eta]);
         let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
         let pairs = values.into_iter().zip(derivatives).take(self.nodes.len());
         let follow = pairs.map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative));
@@ -166,7 +172,7 @@ impl SideFace {
             kind: self.kind,
             nodes: self.nodes.clone(),
             follow: follow.collect(),
-            place: local.place.into(),
+            place: place.into(),
             distance,
             size: self.bounds.longest_side() / (1.0 + 2.0 * BULGE),
         }
@@ -191,43 +197,6 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
         rows += (normal * across.transpose() * 0.5 - across * normal.transpose()) * factor;
     }
     rows
-}
-
-/// The natural coordinates that a face has.
-struct Domain {
-    dimension: usize,
-    centre: [f64; 2],
-    triangle: bool,
-    sides: &'static [[[f64; 2]; 2]],
-}
-
-impl Domain {
-    fn of(kind: ElementKind) -> Self {
-        const ENDS: [[[f64; 2]; 2]; 2] = [[[-1.0, 0.0]; 2], [[1.0, 0.0]; 2]];
-        const TRIANGLE: [[[f64; 2]; 2]; 3] =
-            [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [0.0, 0.0]]];
-        const SQUARE: [[[f64; 2]; 2]; 4] = [
-            [[-1.0, -1.0], [1.0, -1.0]],
-            [[1.0, -1.0], [1.0, 1.0]],
-            [[1.0, 1.0], [-1.0, 1.0]],
-            [[-1.0, 1.0], [-1.0, -1.0]],
-        ];
-        let (dimension, triangle, sides): (_, _, &'static [_]) = match kind {
-            ElementKind::Line2 | ElementKind::Line3 => (1, false, &ENDS),
-            ElementKind::Tri3 | ElementKind::Tri6 => (2, true, &TRIANGLE),
-            _ => (2, false, &SQUARE),
-        };
-        let centre = if triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
-        Self { dimension, centre, triangle, sides }
-    }
-
-    fn within(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {
-        if self.triangle {
-            xi >= -margin && eta >= -margin && xi + eta <= 1.0 + margin
-        } else {
-            xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin
-        }
-    }
 }
 
 #[cfg(test)]
@@ -307,7 +276,7 @@ mod tests {
                             ElementKind::Tri6 => [a, b * (1.0 - a)],
                             _ => [2.0 * a - 1.0, 2.0 * b - 1.0],
                         };
-                        let place = faces[0].at(&mesh, natural).place;
+                        let place = faces[0].at(&mesh, natural).0;
                         sampled = sampled.min((place - at).norm());
                     }
                 }

@@ -77,10 +77,7 @@ impl RingTie {
         }
         check_free(housing, group, &nodes)?;
         let d = housing.dimension;
-        let components = match fit {
-            Fit::Bonded => d,
-            Fit::Sliding => 1,
-        };
+        let components = if fit == Fit::Bonded { d } else { 1 };
         let mut driven = Vec::with_capacity(components * nodes.len());
         let mut tie = TripletBuilder::new(components * nodes.len(), ring.dof());
         for &node in &nodes {
@@ -204,9 +201,7 @@ fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<()
 fn polar_rotation(housing: &HousingModel, nodes: &[usize]) -> SparseMatrix {
     let d = housing.dimension;
     let mut polar = vec![false; housing.coordinates.len()];
-    for &node in nodes {
-        polar[node] = true;
-    }
+    nodes.iter().for_each(|&node| polar[node] = true);
     let mut rotation = TripletBuilder::new(housing.dof(), housing.dof());
     for (node, &point) in housing.coordinates.iter().enumerate() {
         if !polar[node] {

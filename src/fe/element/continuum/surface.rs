@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::QuadratureRule;
-use super::geometry::{not_finite, wrong_node_count};
-use super::shape::{ShapeDerivatives, shape};
+use super::geometry::{cross, not_finite, wrong_node_count};
+use super::shape::{ShapeDerivatives, ShapeValues, shape};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
 
@@ -44,9 +44,7 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
     }
     let origin = coords[0];
     let mut weights = vec![0.0; kind.nodes()];
-    for point in kind.surface_rule().points() {
-        let (values, derivatives) = shape(kind, point.natural);
-        let size = point.weight * stretch(kind, tangents(coords, &derivatives));
+    for (size, values) in sizes(kind, coords) {
         for (weight, value) in weights.iter_mut().zip(values) {
             *weight += size * value;
         }
@@ -66,6 +64,14 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
         let name = kind.name();
         Err(ElementError(format!("the {name} {what} at ({x:.6e}, {y:.6e}, {z:.6e}) m has no {size}")))
     }
+}
+
+/// Length or area that each point of the rule stands for, and the shape functions there.
+fn sizes(kind: ElementKind, coords: &[[f64; 3]]) -> impl Iterator<Item = (f64, ShapeValues)> {
+    kind.surface_rule().points().iter().map(move |point| {
+        let (values, derivatives) = shape(kind, point.natural);
+        (point.weight * stretch(kind, tangents(coords, &derivatives)), values)
+    })
 }
 
 /// Derivatives of the place along the natural coordinates, m.
@@ -90,9 +96,7 @@ fn tangents(coords: &[[f64; 3]], derivatives: &ShapeDerivatives) -> [[f64; 3]; 2
 pub(crate) fn surface_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     surface_weights(kind, coords)?;
     let mut matrix = DMatrix::zeros(kind.nodes(), kind.nodes());
-    for point in kind.surface_rule().points() {
-        let (values, derivatives) = shape(kind, point.natural);
-        let size = point.weight * stretch(kind, tangents(coords, &derivatives));
+    for (size, values) in sizes(kind, coords) {
         for b in 0..kind.nodes() {
             for a in 0..kind.nodes() {
                 matrix[(a, b)] += size * values[a] * values[b];
@@ -105,9 +109,5 @@ pub(crate) fn surface_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<D
 /// Length of the tangent of an edge, or area of the parallelogram of both tangents of a face.
 fn stretch(kind: ElementKind, [t, s]: [[f64; 3]; 2]) -> f64 {
     let length = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
-    if kind.dimension() == 1 {
-        length(t)
-    } else {
-        length([t[1] * s[2] - t[2] * s[1], t[2] * s[0] - t[0] * s[2], t[0] * s[1] - t[1] * s[0]])
-    }
+    if kind.dimension() == 1 { length(t) } else { length(cross(t, s)) }
 }

@@ -86,10 +86,11 @@ impl Marks {
     ) -> Result<Vec<usize>, MshError> {
         self.now += 2;
         let mut count = 0;
-        visit(elements, blocks, |node| {
+        let listed = || elements.iter().flat_map(|id| blocks[id.block].nodes_of(id.index));
+        for &node in listed() {
             count += usize::from(self.round[node] != self.now);
             self.round[node] = self.now;
-        });
+        }
         // a node takes half of what an element takes
         allowance.take(count / 2)?;
         let mut found = Vec::with_capacity(count);
@@ -97,24 +98,15 @@ impl Marks {
             let marked = self.round.iter().enumerate();
             found.extend(marked.filter(|(_, round)| **round == self.now).map(|(node, _)| node));
         } else {
-            visit(elements, blocks, |node| {
+            for &node in listed() {
                 if self.round[node] == self.now {
                     self.round[node] -= 1;
                     found.push(node);
                 }
-            });
+            }
             found.sort_unstable();
         }
         Ok(found)
-    }
-}
-
-fn visit(elements: &[ElementId], blocks: &[ElementBlock], mut each: impl FnMut(usize)) {
-    for of_block in elements.chunk_by(|a, b| a.block == b.block) {
-        let block = &blocks[of_block[0].block];
-        for id in of_block {
-            block.nodes_of(id.index).iter().for_each(|&node| each(node));
-        }
     }
 }
 

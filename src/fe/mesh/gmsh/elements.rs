@@ -50,10 +50,7 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
     if listed != announced {
         return Err(not_as_announced(cursor, "elements", announced, listed));
     }
-    match listed {
-        0 => Err(no_elements()),
-        _ => Ok(blocks),
-    }
+    (listed > 0).then_some(blocks).ok_or_else(no_elements)
 }
 
 /// A tag greater than 0 that has not occurred.

@@ -75,10 +75,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed,
         true => reader.binary(count)?,
         false => reader.ascii(count)?,
     }
-    match count {
-        0 => Err(no_elements()),
-        _ => Ok(reader.listed),
-    }
+    (count > 0).then_some(reader.listed).ok_or_else(no_elements)
 }
 
 impl Reader<'_, '_> {

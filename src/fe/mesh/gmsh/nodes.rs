@@ -75,7 +75,12 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
     for _ in 0..blocks {
         dimension(cursor)?;
         cursor.int("the tag of an entity")?;
-        not_parametric(cursor)?;
+        let flag = "the flag for parametric coordinates, 0 or 1";
+        match cursor.int(flag)? {
+            0 => {}
+            1 => return Err(parametric(cursor)),
+            found => return Err(cursor.malformed(flag, found.to_string().as_bytes())),
+        }
         let count = cursor.count("the number of nodes of a block", Item::new(1, 0, 3))?;
         if count > announced - nodes.tags.len() {
             return Err(not_as_announced(cursor, "nodes", announced, nodes.tags.len() + count));
@@ -115,15 +120,6 @@ pub(super) fn check_range(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(
         Err(_) => format!("{what}, at most {}", i64::MAX),
     };
     Err(cursor.malformed(expected, tag.to_string().as_bytes()))
-}
-
-fn not_parametric(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
-    let what = "the flag for parametric coordinates, 0 or 1";
-    match cursor.int(what)? {
-        0 => Ok(()),
-        1 => Err(parametric(cursor)),
-        found => Err(cursor.malformed(what, found.to_string().as_bytes())),
-    }
 }
 
 /// Nodes with their parameters on curves and surfaces: of no use here.

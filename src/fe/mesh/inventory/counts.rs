@@ -2,7 +2,7 @@
 
 use super::nodes::{self, BoundingBox, DuplicateNodes, UnusedNodes};
 use super::parts::{self, Part};
-use crate::fe::mesh::{ElementId, ElementKind, Mesh, MshFormat};
+use crate::fe::mesh::{ElementId, ElementKind, Mesh, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -61,7 +61,7 @@ impl Mesh {
             bounding_box,
             dimension,
             elements: counted(self.blocks.iter().map(|block| (block.kind, block.len()))),
-            groups: summaries(self),
+            groups: self.groups.iter().map(|group| GroupSummary::new(self, group)).collect(),
             overlaps: overlaps(self),
             ungrouped_elements: ungrouped(self, dimension),
             parts: parts::parts(self, dimension),
@@ -110,18 +110,17 @@ pub struct GroupOverlap {
     pub elements: usize,
 }
 
-fn summaries(mesh: &Mesh) -> Vec<GroupSummary> {
-    let groups = mesh.groups.iter();
-    groups
-        .map(|group| GroupSummary {
+impl GroupSummary {
+    fn new(mesh: &Mesh, group: &PhysicalGroup) -> Self {
+        Self {
             name: group.name.clone(),
             dimension: group.dimension,
             tag: group.tag,
             nodes: group.nodes.len(),
             elements: group.elements.len(),
             kinds: counted(group.elements.iter().map(|id| (mesh.blocks[id.block].kind, 1))),
-        })
-        .collect()
+        }
+    }
 }
 
 fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {

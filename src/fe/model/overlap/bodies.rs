@@ -1,8 +1,8 @@
 //! The elements that are searched, with the names of their parts.
 
 use crate::fe::element::continuum::measure;
-use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
-use crate::fe::model::elements::HousingElements;
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh, sorted_corners};
+use crate::fe::model::{HousingElements, HousingPart};
 use nalgebra::Vector3;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
@@ -22,6 +22,10 @@ pub(super) struct Solid<'m> {
 impl Solid<'_> {
     pub(super) fn corners(&self) -> &[usize] {
         &self.nodes[..self.kind.corners()]
+    }
+
+    pub(super) fn sorted_corners(&self) -> [u32; 8] {
+        sorted_corners(self.corners().iter().copied())
     }
 }
 
@@ -61,7 +65,7 @@ impl<'m> Bodies<'m> {
     pub(in crate::fe::model) fn of_housing(
         points: &'m [[f64; 3]],
         elements: &'m HousingElements,
-        parts: &[String],
+        parts: &[HousingPart],
     ) -> Self {
         let solids = elements.iter().map(|element| Solid {
             tag: element.tag,
@@ -69,7 +73,7 @@ impl<'m> Bodies<'m> {
             nodes: elements.nodes(element),
             part: element.part,
         });
-        Self::new(points, solids.collect(), parts.to_vec())
+        Self::new(points, solids.collect(), parts.iter().map(|part| part.group.clone()).collect())
     }
 
     fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {

@@ -34,18 +34,8 @@ impl Doubled {
     }
 }
 
-/// No corner of an element, no middle node of an edge.
+/// No middle node of an edge. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
 const NO_NODE: u32 = u32::MAX;
-
-/// Corners of an element, sorted; `NO_NODE` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-pub(super) fn sorted_corners(solid: &Solid) -> [u32; 8] {
-    let mut corners = [NO_NODE; 8];
-    for (slot, &node) in corners.iter_mut().zip(solid.corners()) {
-        *slot = node as u32;
-    }
-    corners.sort_unstable();
-    corners
-}
 
 impl Bodies<'_> {
     /// The elements on the corners of one before them; `None` if there are none. Order and kind do not matter: Hex8 and
@@ -53,7 +43,7 @@ impl Bodies<'_> {
     pub(crate) fn doubled(&self) -> Option<Doubled> {
         let solids = self.solids.par_iter().enumerate();
         let mut keys: Vec<([u32; 8], u32)> =
-            solids.map(|(index, solid)| (sorted_corners(solid), index as u32)).collect();
+            solids.map(|(index, solid)| (solid.sorted_corners(), index as u32)).collect();
         keys.par_sort_unstable();
         let mut elements = 0;
         let mut first: Option<[u32; 2]> = None;
@@ -110,10 +100,9 @@ impl MixedOrders {
 
 /// Edges of an element: the corners in order, and the middle node.
 fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
-    kind.edges().map(|(ends, middle)| {
+    (kind.corners()..).zip(kind.corner_edges()).map(|(middle, ends)| {
         let [a, b] = ends.map(|local| nodes[local] as u32);
-        let middle = middle.map_or(NO_NODE, |local| nodes[local] as u32);
-        [a.min(b), a.max(b), middle]
+        [a.min(b), a.max(b), nodes.get(middle).map_or(NO_NODE, |&node| node as u32)]
     })
 }
 

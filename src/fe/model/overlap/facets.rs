@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::outline::{centre, corners_of, normal};
-use crate::fe::mesh::{FaceCorners, Sets};
+use crate::fe::mesh::{Sets, sorted_faces};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -42,15 +42,7 @@ impl Bodies<'_> {
     /// The faces of one element and of no other, as its index and the face's number, in the order of the elements; and the body
     /// of each element: those that hang together through whole faces have one.
     pub(super) fn outer_faces(&self) -> (Vec<(usize, u8)>, Vec<usize>) {
-        let faces = self.solids.par_iter().enumerate();
-        let mut faces: Vec<(FaceCorners, u32, u8)> = faces
-            .flat_map_iter(|(index, solid)| {
-                (0..)
-                    .zip(solid.kind.faces())
-                    .map(move |(number, face)| (face.sorted_corners(solid.nodes), index as u32, number))
-            })
-            .collect();
-        faces.par_sort_unstable();
+        let faces = sorted_faces(self.solids.par_iter().map(|solid| (solid.kind, solid.nodes)));
         let mut bodies = Sets::new(self.solids.len());
         let mut once = Vec::new();
         for same in faces.chunk_by(|a, b| a.0 == b.0) {

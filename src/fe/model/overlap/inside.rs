@@ -2,7 +2,6 @@
 
 use super::bodies::{Bodies, at, both, common_size};
 use super::boxes::BoxTree;
-use super::doubled::sorted_corners;
 use super::outline::{centre, holds};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -113,6 +112,6 @@ impl Bodies<'_> {
         });
         let other = &self.solids[found?];
         let valid = self.size(solid).is_some() && self.size(other).is_some();
-        found.filter(|_| valid && sorted_corners(solid) != sorted_corners(other))
+        found.filter(|_| valid && solid.sorted_corners() != other.sorted_corners())
     }
 }

@@ -36,11 +36,8 @@ impl Ring {
         let plane = self.rows_in_element(index, phi);
         let (dofs, turn) = self.space_frame(index);
         let n = arc.interpolation(phi) * turn;
-        let pick = |plane: &dyn Fn(usize) -> f64, out: &dyn Fn(usize) -> f64| {
-            std::array::from_fn(|k| if k < 6 { plane(k) } else { out(k - 6) })
-        };
-        let in_plane = |row: &[f64; 6]| pick(&|k| row[k], &|_| 0.0);
-        let out_of_plane = |component: usize| pick(&|_| 0.0, &|k| n[(component, k)]);
+        let in_plane = |row: &[f64; 6]| std::array::from_fn(|k| if k < 6 { row[k] } else { 0.0 });
+        let out_of_plane = |component: usize| std::array::from_fn(|k| if k < 6 { 0.0 } else { n[(component, k - 6)] });
         Some(RingSpaceRows {
             dofs: std::array::from_fn(|k| if k < 6 { plane.dofs[k] } else { dofs[k - 6] }),
             radial: in_plane(&plane.radial),
