@@ -57,11 +57,9 @@ impl OrthotropicMaterial {
         towards_y: [f64; 3],
     ) -> Result<Self, MaterialError> {
         let positive = "positive and finite";
-        let names = [["E_x (Pa)", "E_y (Pa)", "E_z (Pa)"], ["G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"]];
-        for (values, names) in [young, shear].iter().zip(names) {
-            for (&value, name) in values.iter().zip(names) {
-                check(value > 0.0, name, positive, value)?;
-            }
+        let names = ["E_x (Pa)", "E_y (Pa)", "E_z (Pa)", "G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"];
+        for (&value, name) in young.iter().chain(&shear).zip(names) {
+            check(value > 0.0, name, positive, value)?;
         }
         check_ratios(young, poisson)?;
         check(density > 0.0, "density (kg/m^3)", positive, density)?;

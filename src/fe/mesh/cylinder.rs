@@ -66,7 +66,8 @@ pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
     let scaled: Vec<Vector3<f64>> = points.iter().map(|p| (p - mean) / size).collect();
     let frame = across(axis);
     let best = refine(&scaled, circle(&scaled, &frame)?, !curves)?;
-    let axis = positive(best.axis);
+    // with its largest component positive
+    let axis = if best.axis[best.axis.iamax()] < 0.0 { -best.axis } else { best.axis };
     let along = |point: &Vector3<f64>| axis.dot(&(point - best.centre));
     let low = scaled.iter().map(along).fold(f64::INFINITY, f64::min);
     let high = scaled.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
@@ -190,11 +191,6 @@ fn refine(points: &[Vector3<f64>], mut best: Best, tilts: bool) -> Option<Best> 
         }
     }
     (best.radius.is_finite() && best.radius > 0.0).then_some(best)
-}
-
-/// With its largest component positive.
-fn positive(axis: Vector3<f64>) -> Vector3<f64> {
-    if axis[axis.iamax()] < 0.0 { -axis } else { axis }
 }
 
 fn distance(point: &Vector3<f64>, centre: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {

@@ -1,6 +1,6 @@
 //! Plane meshes that are seen from behind.
 
-use super::{ElementId, ElementKind, Mesh};
+use super::{ElementId, Mesh};
 
 /// Farthest that a node of a plane mesh may lie from its plane z = const, relative to its size: gmsh writes 16 digits, and
 /// what is off by more is meant.
@@ -27,13 +27,12 @@ impl Mesh {
         let alone = self.element_ids(2).filter(|id| !grouped[id.block][id.index]);
         turn(&alone.collect::<Vec<_>>());
         for (block, turned) in self.blocks.iter_mut().zip(turned) {
-            let order = backwards(block.kind);
             let elements = block.connectivity.chunks_exact_mut(block.kind.nodes());
             for (nodes, _) in elements.zip(turned).filter(|(_, turned)| *turned) {
-                let before = nodes.to_vec();
-                for (node, &from) in nodes.iter_mut().zip(order) {
-                    *node = before[from];
-                }
+                // from the first corner on the other way round
+                let (corners, middles) = nodes.split_at_mut(block.kind.corners());
+                corners[1..].reverse();
+                middles.reverse();
             }
         }
     }
@@ -61,16 +60,5 @@ impl Mesh {
             })
             .sum();
         0.5 * twice
-    }
-}
-
-/// The nodes of a plane element from its first one on the other way round.
-fn backwards(kind: ElementKind) -> &'static [usize] {
-    match kind {
-        ElementKind::Tri3 => &[0, 2, 1],
-        ElementKind::Tri6 => &[0, 2, 1, 5, 4, 3],
-        ElementKind::Quad4 => &[0, 3, 2, 1],
-        ElementKind::Quad8 => &[0, 3, 2, 1, 7, 6, 5, 4],
-        _ => &[],
     }
 }

@@ -3,7 +3,6 @@
 
 use super::elements::{HousingElements, HousingPart};
 use super::nodal::{NodalMatrix, NodalSource, TiedNodes, unique};
-use super::parts::highest_dimension;
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, PointMass};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
@@ -89,7 +88,8 @@ impl HousingModel {
     /// plane housing that is not plane, and supports, masses or links that would hang on nothing.
     pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
         let path = mesh.source.display().to_string();
-        let dimension = highest_dimension(mesh);
+        // without surfaces and volumes the message about missing parts speaks of surfaces
+        let dimension = mesh.dimension().max(2);
         let HousingDescription { parts, plane, frame, overlap, .. } = &description;
         check_plane(mesh, dimension, *plane, frame, &path)?;
         let elements = HousingElements::of_parts(mesh, parts, &path)?;

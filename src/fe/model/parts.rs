@@ -10,7 +10,7 @@ impl HousingElements {
     /// # Errors
     /// [`ModelError`] for a group of another dimension, an element in two parts or in none.
     pub(super) fn of_parts(mesh: &Mesh, parts: &[HousingPart], path: &str) -> Result<Self, ModelError> {
-        let dimension = highest_dimension(mesh);
+        let dimension = mesh.dimension().max(2);
         let owner = owners(mesh, parts, dimension, path)?;
         let mut found = Self::default();
         let mut unassigned = Vec::new();
@@ -34,12 +34,6 @@ impl HousingElements {
         }
         Ok(found)
     }
-}
-
-/// Highest dimension of the mesh's elements; 2 if there are neither surfaces nor volumes, so that the
-/// message about missing parts speaks of surfaces.
-pub(super) fn highest_dimension(mesh: &Mesh) -> usize {
-    mesh.dimension().max(2)
 }
 
 /// The part of each element of each block.

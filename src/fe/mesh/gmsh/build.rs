@@ -45,7 +45,11 @@ pub(super) fn groups(
         };
         let name = names.next_if(|name| name.key() == (dimension, tag));
         let own = unnamed.next_if(|own| own[0].key() == (dimension, tag));
-        let elements = elements(own.unwrap_or_default(), blocks, allowance)?;
+        let own = own.unwrap_or_default();
+        let count = own.iter().map(|own| own.len(blocks)).sum();
+        allowance.take(count)?;
+        let mut elements = Vec::with_capacity(count);
+        own.iter().for_each(|own| elements.extend(own.elements(blocks)));
         groups.push(PhysicalGroup {
             name: name.map_or_else(|| tag.to_string(), |name| name.name),
             dimension,
@@ -56,18 +60,6 @@ pub(super) fn groups(
     }
     groups.shrink_to_fit();
     Ok(groups)
-}
-
-fn elements(
-    own: &[Membership],
-    blocks: &[ElementBlock],
-    allowance: &mut Allowance,
-) -> Result<Vec<ElementId>, MshError> {
-    let count = own.iter().map(|own| own.len(blocks)).sum();
-    allowance.take(count)?;
-    let mut elements = Vec::with_capacity(count);
-    own.iter().for_each(|own| elements.extend(own.elements(blocks)));
-    Ok(elements)
 }
 
 /// Which node was seen last in which round.
@@ -149,8 +141,8 @@ impl Membership {
 
 /// The memory that groups may take: entities in many groups multiply what a file holds, without limit.
 pub(super) struct Allowance {
-    file_bytes: usize,
-    listed: u64,
+    pub(super) file_bytes: usize,
+    pub(super) listed: u64,
 }
 
 impl Allowance {
@@ -163,10 +155,6 @@ impl Allowance {
     const GROUP: usize = 10;
     /// What a membership takes, in items of a list.
     const MEMBERSHIP: usize = 8;
-
-    pub(super) fn new(file_bytes: usize) -> Self {
-        Self { file_bytes, listed: 0 }
-    }
 
     /// Asks for room for so many more memberships.
     pub(super) fn take_memberships(&mut self, count: usize) -> Result<(), MshError> {

@@ -10,6 +10,7 @@ use super::MshError;
 use super::build::{Allowance, Members, Membership};
 use super::elements_v22::{Label, Listed, Piece};
 use crate::fe::mesh::{ElementBlock, Entity};
+use std::collections::BTreeSet;
 
 pub(super) fn blocks(
     mut listed: Listed,
@@ -49,10 +50,8 @@ pub(super) fn blocks(
 
 /// Groups of some pieces, sorted, each once.
 fn groups(pieces: &[Piece]) -> Vec<i32> {
-    let mut physical: Vec<i32> = pieces.iter().map(|piece| piece.label.physical).collect();
-    physical.sort_unstable();
-    physical.dedup();
-    physical
+    let physical: BTreeSet<i32> = pieces.iter().map(|piece| piece.label.physical).collect();
+    physical.into_iter().collect()
 }
 
 /// The pieces as one block: all elements, or those kept, given by their position in the pieces.

@@ -112,7 +112,7 @@ impl Found {
         let hint = "; is the file complete?";
         let nodes = self.nodes.ok_or_else(|| missing("Nodes", hint))?;
         drop(nodes.index);
-        let mut allowance = Allowance::new(self.file_bytes);
+        let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
         let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
             Elements::V41(blocks) => {
                 let entities = self.entities.unwrap_or_default();
