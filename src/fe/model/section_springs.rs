@@ -23,7 +23,9 @@ impl HousingModel {
     /// [`ModelError::Refused`] if they do not.
     pub(crate) fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
         for spring in &ring.springs {
-            let (node, in_plane) = ring.node_of(spring.dofs[0]);
+            // the displacements out of the plane follow, node by node, those in the plane
+            let place = spring.dofs[0] / spring.dofs.len();
+            let (node, in_plane) = (place % ring.nodes(), place < ring.nodes());
             let stations = solid.sections.len();
             if !(node * stations).is_multiple_of(ring.nodes()) {
                 return Err(ModelError::Refused(format!(

@@ -1,7 +1,7 @@
 //! Material, thickness and plane assumption of a part, reduced to what an element integrates with.
 
 use crate::fe::element::ElementError;
-use crate::fe::material::{ElasticMaterial, Material};
+use crate::fe::material::ElasticMaterial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
@@ -79,7 +79,14 @@ impl ContinuumProperties {
             return Err(ElementError(format!("thickness must be positive and finite, found {thickness} m")));
         }
         let elasticity = match material {
-            ElasticMaterial::Isotropic(material) => isotropic_plane(material, assumption),
+            ElasticMaterial::Isotropic(material) => {
+                let nu = material.poisson;
+                let lambda = match assumption {
+                    PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
+                    PlaneAssumption::Strain => material.lame_lambda(),
+                };
+                Elasticity::Isotropic { lambda, mu: material.shear_modulus() }
+            }
             ElasticMaterial::Orthotropic(orthotropic) => {
                 let [x, y, z] = orthotropic.axes[2];
                 if x.abs() > LEAN || y.abs() > LEAN {
@@ -101,15 +108,6 @@ impl ContinuumProperties {
             Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
         }
     }
-}
-
-fn isotropic_plane(material: &Material, assumption: PlaneAssumption) -> Elasticity {
-    let nu = material.poisson;
-    let lambda = match assumption {
-        PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
-        PlaneAssumption::Strain => material.lame_lambda(),
-    };
-    Elasticity::Isotropic { lambda, mu: material.shear_modulus() }
 }
 
 /// The 6 x 6 stiffness with the strain zz condensed (stress) or as it is (strain); only the rows xx, yy, xy

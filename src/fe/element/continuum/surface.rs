@@ -11,17 +11,6 @@ use crate::fe::mesh::ElementKind;
 /// Smallest area accepted, as a part of the squared size; see the Jacobian of the elements.
 const SMALLEST_AREA: f64 = 1e-12;
 
-impl ElementKind {
-    /// The rule of [`surface_weights`]: exact for straight edges and for flat faces with straight edges; curved and
-    /// warped ones have square roots to integrate, for which no rule is exact.
-    fn surface_rule(self) -> QuadratureRule {
-        match self {
-            Self::Quad4 => QuadratureRule::Square4,
-            _ => self.mass_rule(),
-        }
-    }
-}
-
 /// Tributary lengths or areas `w_i = int N_i ds` (m) or `int N_i dA` (m^2), one a node: a stiffness or load per
 /// metre or square metre times `w_i` is what node i receives. Their sum is the length or area; corners of
 /// quadratic faces have zero (Tri6) or negative (Quad8) shares, and that is right.
@@ -66,9 +55,13 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
     }
 }
 
-/// Length or area that each point of the rule stands for, and the shape functions there.
+/// Length or area that each point of a rule stands for, and the shape functions there.
+///
+/// The rule is exact for straight edges and for flat faces with straight edges; curved and warped ones have square roots to
+/// integrate, for which no rule is exact.
 fn sizes(kind: ElementKind, coords: &[[f64; 3]]) -> impl Iterator<Item = (f64, ShapeValues)> {
-    kind.surface_rule().points().iter().map(move |point| {
+    let rule = if kind == ElementKind::Quad4 { QuadratureRule::Square4 } else { kind.mass_rule() };
+    rule.points().iter().map(move |point| {
         let (values, derivatives) = shape(kind, point.natural);
         (point.weight * stretch(kind, tangents(coords, &derivatives)), values)
     })

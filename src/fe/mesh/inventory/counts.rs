@@ -2,7 +2,7 @@
 
 use super::nodes::{self, BoundingBox, DuplicateNodes, UnusedNodes};
 use super::parts::{self, Part};
-use crate::fe::mesh::{ElementId, ElementKind, Mesh, MshFormat, PhysicalGroup};
+use crate::fe::mesh::{ElementKind, Mesh, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -128,7 +128,10 @@ fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
     for (position, group) in mesh.groups.iter().enumerate() {
         let others = mesh.groups[position + 1..].iter();
         for other in others.take_while(|other| other.dimension == group.dimension) {
-            let elements = common(&group.elements, &other.elements);
+            let mut lists = [&group.elements, &other.elements];
+            lists.sort_by_key(|list| list.len());
+            // both are in the order of the mesh
+            let elements = lists[0].iter().filter(|id| lists[1].binary_search(id).is_ok()).count();
             if elements > 0 {
                 found.push(GroupOverlap {
                     dimension: group.dimension,
@@ -140,12 +143,6 @@ fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
         }
     }
     found
-}
-
-/// How many elements two sorted lists share.
-fn common(a: &[ElementId], b: &[ElementId]) -> usize {
-    let [few, many] = if a.len() < b.len() { [a, b] } else { [b, a] };
-    few.iter().filter(|id| many.binary_search(id).is_ok()).count()
 }
 
 /// Elements of a dimension that no group holds.

@@ -37,41 +37,6 @@ impl Doubled {
 /// No middle node of an edge. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
 const NO_NODE: u32 = u32::MAX;
 
-impl Bodies<'_> {
-    /// The elements on the corners of one before them; `None` if there are none. Order and kind do not matter: Hex8 and
-    /// Hex20 on the same corners fill the same space.
-    pub(crate) fn doubled(&self) -> Option<Doubled> {
-        let solids = self.solids.par_iter().enumerate();
-        let mut keys: Vec<([u32; 8], u32)> =
-            solids.map(|(index, solid)| (solid.sorted_corners(), index as u32)).collect();
-        keys.par_sort_unstable();
-        let mut elements = 0;
-        let mut first: Option<[u32; 2]> = None;
-        for pair in keys.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            elements += 1;
-            let pair = [pair[0].1, pair[1].1];
-            if first.is_none_or(|first| pair[1] < first[1]) {
-                first = Some(pair);
-            }
-        }
-        let pair = first?.map(|index| &self.solids[index as usize]);
-        Some(Doubled {
-            elements,
-            tags: pair.map(|solid| solid.tag),
-            parts: self.names(pair.map(|solid| solid.part)),
-            place: self.mean(pair[0].corners()),
-        })
-    }
-
-    /// Mean of some nodes, m.
-    pub(super) fn mean(&self, nodes: &[usize]) -> [f64; 3] {
-        [0, 1, 2].map(|axis| {
-            let sum: f64 = nodes.iter().map(|&node| self.points[node][axis]).sum();
-            sum / nodes.len() as f64
-        })
-    }
-}
-
 /// Edges on which elements do not have the same middle node.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MixedOrders {
@@ -107,6 +72,39 @@ fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
 }
 
 impl Bodies<'_> {
+    /// The elements on the corners of one before them; `None` if there are none. Order and kind do not matter: Hex8 and
+    /// Hex20 on the same corners fill the same space.
+    pub(crate) fn doubled(&self) -> Option<Doubled> {
+        let solids = self.solids.par_iter().enumerate();
+        let mut keys: Vec<([u32; 8], u32)> =
+            solids.map(|(index, solid)| (solid.sorted_corners(), index as u32)).collect();
+        keys.par_sort_unstable();
+        let mut elements = 0;
+        let mut first: Option<[u32; 2]> = None;
+        for pair in keys.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            elements += 1;
+            let pair = [pair[0].1, pair[1].1];
+            if first.is_none_or(|first| pair[1] < first[1]) {
+                first = Some(pair);
+            }
+        }
+        let pair = first?.map(|index| &self.solids[index as usize]);
+        Some(Doubled {
+            elements,
+            tags: pair.map(|solid| solid.tag),
+            parts: self.names(pair.map(|solid| solid.part)),
+            place: self.mean(pair[0].corners()),
+        })
+    }
+
+    /// Mean of some nodes, m.
+    pub(super) fn mean(&self, nodes: &[usize]) -> [f64; 3] {
+        [0, 1, 2].map(|axis| {
+            let sum: f64 = nodes.iter().map(|&node| self.points[node][axis]).sum();
+            sum / nodes.len() as f64
+        })
+    }
+
     fn has_middle_nodes(&self) -> bool {
         self.solids.iter().any(|solid| solid.kind.order() == 2)
     }
