@@ -69,6 +69,10 @@ struct Behind {
     sunk: bool,
 }
 
+/// What touches between two parts, with the sizes of the faces of the first and of the second, and the pairs of corners in
+/// one place.
+type Between = (Touching, [f64; 2], BTreeSet<[usize; 2]>);
+
 impl Bodies<'_> {
     /// Faces on each other, by pairs of parts; those left out whose corners, or those of the face that they lie on, are
     /// all `linked`.
@@ -91,8 +95,7 @@ impl Bodies<'_> {
             })
             .collect();
         on.sort_unstable_by_key(|pair| pair.0);
-        // with the sizes of the faces of the first part and of the second, and the pairs of corners in one place
-        let mut found: BTreeMap<[usize; 2], (Touching, [f64; 2], BTreeSet<[usize; 2]>)> = BTreeMap::new();
+        let mut found: BTreeMap<[usize; 2], Between> = BTreeMap::new();
         let is_linked = |facet: &Facet| facet.corners.iter().all(|&node| linked(node));
         let pairs = on.into_iter();
         let pairs = pairs.map(|(index, behind)| (&facets[index], &facets[behind.facet], behind));
