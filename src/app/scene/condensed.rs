@@ -65,7 +65,7 @@ impl CondensedHousing {
             (Interface::Ring, None) => return Ok(None),
             (Interface::Group(group), _) => {
                 let group = housing.model.group_on_housing(&housing.mesh, group, "the interface")?;
-                let used = |node: &usize| housing.model.is_used(*node);
+                let used = |node: &usize| housing.model.used[*node];
                 let nodes: Vec<usize> = group.nodes.iter().copied().filter(used).collect();
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
@@ -194,7 +194,7 @@ fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, Comp
     let model = &housing.model;
     let place: HashMap<u64, usize> = model.node_tags.iter().enumerate().map(|(index, &tag)| (tag, index)).collect();
     let found = |(index, tag): (usize, &u64)| match place.get(tag) {
-        Some(&node) if model.is_used(node) => Ok(node),
+        Some(&node) if model.used[node] => Ok(node),
         other => Err(ComputeError::InterfaceNode { index, tag: *tag, in_mesh: other.is_some() }),
     };
     tags.iter().enumerate().map(found).collect()
@@ -240,9 +240,9 @@ fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
     let node = dof / model.dimension();
     let mut elements = model.elements().iter();
     let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
-    let part = of_node.and_then(|element| model.part_names().get(element.part));
+    let part = of_node.and_then(|element| model.description.parts.get(element.part));
     match (part, model.node_tags.get(node)) {
-        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.clone(), tag, source: error },
+        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.group.clone(), tag, source: error },
         _ => error.into(),
     }
 }

@@ -82,10 +82,10 @@ pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
 }
 
 fn housing_doubts(model: &HousingModel) -> Vec<String> {
-    let overlaps = model.overlaps().iter().map(|overlap| {
+    let overlaps = model.overlaps.iter().map(|overlap| {
         format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence())
     });
-    let touching = model.touching().iter().map(|touching| {
+    let touching = model.touching.iter().map(|touching| {
         let [a, b] = &touching.parts;
         let help = match a == b {
             true => "where they are one body, merge their nodes in gmsh (Coherence Mesh)".to_owned(),
@@ -95,19 +95,19 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         };
         format!("{}; {help}", touching.sentence())
     });
-    let crossings = model.crossings().iter().map(|crossing| {
+    let crossings = model.crossings.iter().map(|crossing| {
         format!(
             "{}; mass and stiffness count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments), or move it",
             crossing.sentence()
         )
     });
-    let apart = model.apart().iter().map(|apart| {
+    let apart = model.apart.iter().map(|apart| {
         format!(
             "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
             apart.sentence()
         )
     });
-    let links = model.links.iter().zip(&model.common_nodes);
+    let links = model.description.links.iter().zip(&model.common_nodes);
     let shared = links.filter(|(_, common)| **common > 0).map(|(link, common)| {
         let [a, b] = &link.between;
         format!(

@@ -209,7 +209,7 @@ fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f6
     let mut holder = None;
     for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
         match model.fixed[dof / d][dof % d] {
-            Some(support) => holder = Some(&model.supports[support].group),
+            Some(support) => holder = Some(&model.description.supports[support].group),
             None => return Ok(()),
         }
     }
@@ -225,7 +225,7 @@ fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f6
 /// [`ComputeError`] for a place that is not there.
 pub(crate) fn nodes_at(housing: &AssembledHousing, spot: Spot<'_>) -> Result<Vec<usize>, ComputeError> {
     let model = &housing.model;
-    let used = |node: &usize| model.is_used(*node);
+    let used = |node: &usize| model.used[*node];
     match spot.at {
         SensorSpot::Group(group) => {
             let group = model.group_on_housing(&housing.mesh, group, "the sensor")?;
@@ -250,7 +250,7 @@ fn nearest_node(housing: &AssembledHousing, spot: Spot<'_>, point: &[f64; 3]) ->
     let bounds = BoundingBox::of(housing.mesh.nodes.iter().copied()).extent();
     let nodes = housing.mesh.nodes.iter().enumerate();
     let mut found: Option<(usize, f64)> = None;
-    for (index, node) in nodes.filter(|(index, _)| housing.model.is_used(*index)) {
+    for (index, node) in nodes.filter(|(index, _)| housing.model.used[*index]) {
         let nearer = |away: f64| found.is_none_or(|(_, least)| away < least);
         // what is too far along x alone need not be measured
         if nearer((node[0] - point[0]).abs()) {

@@ -138,7 +138,7 @@ impl Seat {
     /// [`ComputeError::Model`] if the mesh lacks it.
     pub(crate) fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
         let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
-        let nodes = group.nodes.iter().filter(|&&node| model.is_used(node));
+        let nodes = group.nodes.iter().filter(|&&node| model.used[node]);
         let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();
         let along: Vec<f64> = places.iter().map(|place| place[2]).collect();
         let mut angles: Vec<f64> = places.iter().map(|[x, y, _]| y.atan2(*x)).collect();

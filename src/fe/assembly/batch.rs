@@ -22,7 +22,7 @@ pub(super) fn in_batches(
     mut consume: impl FnMut(&[Local<'_>]),
 ) -> Result<(), ModelError> {
     let mut buffer = Vec::new();
-    let mut rest = model.elements.as_slice();
+    let mut rest = model.elements.list.as_slice();
     while !rest.is_empty() {
         let mut total = 0;
         let fits = |element: &&HousingElement| {

@@ -63,9 +63,7 @@ impl CoupledMatrices {
             motions: CoupledMotions { recovery, housing_dof, ring_dof: ring.dof() },
         }
     }
-}
 
-impl CoupledMatrices {
     /// A housing alone; its matrices are used up.
     pub(crate) fn of_housing(matrices: SystemMatrices, model: &HousingModel) -> Self {
         Self {

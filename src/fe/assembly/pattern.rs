@@ -4,6 +4,9 @@ use crate::numerics::linalg::SparseMatrix;
 use rayon::prelude::*;
 use std::ops::Range;
 
+/// Nodes whose neighbours one thread finds in a row.
+const CHUNK: usize = 4096;
+
 /// Which nodes are coupled: for every node its sorted neighbours, itself included.
 pub(super) struct NodeGraph {
     starts: Vec<usize>,
@@ -32,9 +35,10 @@ impl NodeGraph {
                 fill[node] += 1;
             }
         }
-        let lists: Vec<(Vec<u32>, Vec<u32>)> = chunks(nodes)
+        let lists: Vec<(Vec<u32>, Vec<u32>)> = (0..nodes.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
+                let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(nodes);
                 let (mut lengths, mut found) = (Vec::with_capacity(chunk.len()), Vec::new());
                 let mut list: Vec<u32> = Vec::new();
                 for node in chunk {
@@ -86,6 +90,8 @@ pub(super) struct BlockMatrix<'g> {
     graph: &'g NodeGraph,
     dimension: usize,
     coupling: Coupling,
+    /// Entries a pair of nodes.
+    entries: usize,
     values: Vec<f64>,
 }
 
@@ -99,15 +105,17 @@ pub(super) struct Local<'a> {
 
 impl<'g> BlockMatrix<'g> {
     pub(super) fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
-        let entries = dimension * rows_a_neighbour(dimension, coupling) * graph.neighbours.len();
-        Self { graph, dimension, coupling, values: vec![0.0; entries] }
+        let entries = match coupling {
+            Coupling::Full => dimension * dimension,
+            Coupling::Same => dimension,
+        };
+        Self { graph, dimension, coupling, entries, values: vec![0.0; entries * graph.neighbours.len()] }
     }
 
     /// Adds matrices in their order. The columns are shared out among threads, every entry is summed by one of
     /// them in the order of `locals`: the result does not depend on how many there are.
     pub(super) fn add(&mut self, locals: &[Local<'_>]) {
-        let per_node = self.dimension * rows_a_neighbour(self.dimension, self.coupling);
-        let (graph, dimension, coupling) = (self.graph, self.dimension, self.coupling);
+        let Self { graph, dimension, coupling, entries: per_node, .. } = *self;
         let mut rest = self.values.as_mut_slice();
         let mut shares = Vec::new();
         for columns in balanced(graph, rayon::current_num_threads()) {
@@ -156,13 +164,6 @@ impl<'g> BlockMatrix<'g> {
     }
 }
 
-fn rows_a_neighbour(dimension: usize, coupling: Coupling) -> usize {
-    match coupling {
-        Coupling::Full => dimension,
-        Coupling::Same => 1,
-    }
-}
-
 /// Adds the columns of the local node `b`; `values` are those of its D columns.
 fn add_full<const D: usize>(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize) {
     let (rows, height) = (D * local.nodes.len(), D * list.len());
@@ -191,12 +192,6 @@ fn add_same(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize, dimens
             values[component * list.len() + place] += value;
         }
     }
-}
-
-/// Ranges of a few thousand nodes.
-fn chunks(nodes: usize) -> Vec<Range<usize>> {
-    const LENGTH: usize = 4096;
-    (0..nodes.div_ceil(LENGTH)).map(|chunk| chunk * LENGTH..((chunk + 1) * LENGTH).min(nodes)).collect()
 }
 
 /// Ranges of nodes with about as many neighbours each.

@@ -30,18 +30,18 @@ impl SystemMatrices {
         let graph = node_graph(model);
         let mut k = stiffness(model, &graph, None)?;
         k.add(&locals(&model.springs));
-        let mut matrices = Self {
-            stiffness: k.into_matrix(),
-            mass: mass(model, &graph)?,
-            weight: DenseMatrix::zeros(0, 2),
-            total_mass: 0.0,
-        };
+        let (mut stiffness, mut mass) = (k.into_matrix(), mass(model, &graph)?);
         if let Some(tie) = model.tie_matrix() {
-            matrices.stiffness = congruence(&matrices.stiffness, &tie);
-            matrices.mass = congruence(&matrices.mass, &tie);
+            stiffness = congruence(&stiffness, &tie);
+            mass = congruence(&mass, &tie);
         }
-        matrices.weigh(model);
-        Ok(matrices)
+        let d = model.dimension;
+        let falls = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|v| model.frame().vector_to_mesh(v));
+        let fall = DenseMatrix::from_fn(model.dof(), 2, |dof, column| falls[column][dof % d]);
+        let weight = sparse_times_dense(&mass, &fall);
+        // `a^T M a` of a unit acceleration a; tied nodes have empty rows and columns, so their mass counts once, where it was taken
+        let total_mass = (0..model.dof()).map(|dof| fall[(dof, 0)] * weight[(dof, 0)]).sum();
+        Ok(Self { stiffness, mass, weight, total_mass })
     }
 
     /// Mass of the housing with its point masses, kg.
@@ -61,16 +61,6 @@ impl SystemMatrices {
             },
         }
     }
-
-    /// Weight along the bearing's x and y, and the mass: `a^T M a` of a unit acceleration a.
-    fn weigh(&mut self, model: &HousingModel) {
-        let d = model.dimension;
-        let falls = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|v| model.frame().vector_to_mesh(v));
-        let fall = DenseMatrix::from_fn(model.dof(), 2, |dof, column| falls[column][dof % d]);
-        self.weight = sparse_times_dense(&self.mass, &fall);
-        // tied nodes have empty rows and columns, so their mass counts once, where it was taken
-        self.total_mass = (0..model.dof()).map(|dof| fall[(dof, 0)] * self.weight[(dof, 0)]).sum();
-    }
 }
 
 /// `K_s = sum_e eta_e K_e` over the elements e: with it the stiffness under harmonic motion is `K + i K_s`. Springs lose
@@ -87,11 +77,13 @@ impl StructuralStiffness {
     /// # Errors
     /// [`ModelError::Refused`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Option<Self>, ModelError> {
-        if model.loss_factors.iter().all(|&factor| factor == 0.0) {
+        let parts = model.description.parts.iter();
+        let loss_factors: Vec<f64> = parts.map(|part| part.material.loss_factor()).collect();
+        if loss_factors.iter().all(|&factor| factor == 0.0) {
             return Ok(None);
         }
         let graph = node_graph(model);
-        let matrix = stiffness(model, &graph, Some(&model.loss_factors))?.into_matrix();
+        let matrix = stiffness(model, &graph, Some(&loss_factors))?.into_matrix();
         let matrix = match model.tie_matrix() {
             Some(tie) => congruence(&matrix, &tie),
             None => matrix,
@@ -137,7 +129,13 @@ fn stiffness<'g>(
                 out.fill(0.0);
                 return Ok(());
             }
-            stiffness_into(element.kind, coordinates, &model.properties[element.part], model.formulation, out)?;
+            stiffness_into(
+                element.kind,
+                coordinates,
+                &model.properties[element.part],
+                model.description.formulation,
+                out,
+            )?;
             if let Some(factor) = factor {
                 out.iter_mut().for_each(|entry| *entry *= factor);
             }

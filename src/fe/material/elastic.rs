@@ -1,4 +1,4 @@
-//! What the solid and plane elements ask of a material: its density and its 6 x 6 stiffness.
+//! What the solid and plane elements are made of.
 
 use super::{Material, OrthotropicMaterial};
 
@@ -38,48 +38,5 @@ impl ElasticMaterial {
             Self::Isotropic(material) => material.loss_factor,
             Self::Orthotropic(material) => material.loss_factor,
         }
-    }
-
-    /// Stiffness C (6 x 6, Pa) in mesh axes: `sigma = C eps` with both in the order xx, yy, zz, xy, yz,
-    /// xz and engineering shear strains (`gamma_xy = du_x/dy + du_y/dx`). Symmetric and positive definite.
-    ///
-    /// Isotropic: `lambda + 2 mu` on the first three diagonal entries, `lambda` beside them, `mu` on the
-    /// last three, with `lambda = E nu / ((1 + nu)(1 - 2 nu))`, `mu = E / (2 (1 + nu))` (Bathe, Finite
-    /// Element Procedures (1996), table 4.3). Orthotropic: the inverse of the compliance, turned into
-    /// mesh axes.
-    pub(crate) fn stiffness_matrix(&self) -> [[f64; 6]; 6] {
-        match self {
-            Self::Isotropic(material) => {
-                let (lambda, mu) = (material.lame_lambda(), material.shear_modulus());
-                let mut c = [[0.0; 6]; 6];
-                for i in 0..3 {
-                    c[i][..3].fill(lambda);
-                    c[i][i] += 2.0 * mu;
-                    c[i + 3][i + 3] = mu;
-                }
-                c
-            }
-            Self::Orthotropic(material) => material.stiffness_matrix(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fe::material::MaterialError;
-
-    /// Reference: uniaxial stress, `eps_x = sigma / E`, `eps_y = eps_z = -nu sigma / E`, and `tau = G gamma`.
-    #[test]
-    fn isotropic_stiffness_gives_uniaxial_stress_and_shear() -> Result<(), MaterialError> {
-        let steel = ElasticMaterial::from(Material::new(208e9, 0.3, 7800.0)?);
-        assert!((steel.density() - 7800.0).abs() < 1e-12);
-        let c = steel.stiffness_matrix();
-        let strain = [1.0 / 208e9, -0.3 / 208e9, -0.3 / 208e9, 0.0, 1.0 / 80e9, 0.0];
-        for (i, expected) in [1.0, 0.0, 0.0, 0.0, 1.0, 0.0].into_iter().enumerate() {
-            let stress: f64 = (0..6).map(|j| c[i][j] * strain[j]).sum();
-            assert!((stress - expected).abs() < 1e-15, "{i}: {stress}");
-        }
-        Ok(())
     }
 }

@@ -60,7 +60,7 @@ impl Material {
     /// # Errors
     /// [`MaterialError::Refused`].
     pub fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
-        check_loss_factor(loss_factor)?;
+        check((0.0..2.0).contains(&loss_factor), "loss factor", "from 0 to below 2", loss_factor)?;
         Ok(Self { loss_factor, ..self })
     }
 
@@ -74,11 +74,6 @@ impl Material {
         let nu = self.poisson;
         self.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
-}
-
-fn check_loss_factor(value: f64) -> Result<(), MaterialError> {
-    let (quantity, rule) = ("loss factor", "from 0 to below 2");
-    check((0.0..2.0).contains(&value), quantity, rule, value)
 }
 
 fn check(in_range: bool, quantity: &'static str, rule: &'static str, value: f64) -> Result<(), MaterialError> {

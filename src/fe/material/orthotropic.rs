@@ -1,6 +1,8 @@
 //! Orthotropic materials: nine constants and the axes they hold in.
 
-use super::{MaterialError, check, check_loss_factor};
+use super::{MaterialError, check};
+use nalgebra::Vector3;
+use std::array::from_fn;
 
 /// A linear elastic material with three perpendicular planes of symmetry.
 ///
@@ -55,11 +57,9 @@ impl OrthotropicMaterial {
         towards_y: [f64; 3],
     ) -> Result<Self, MaterialError> {
         let positive = "positive and finite";
-        let names = [["E_x (Pa)", "E_y (Pa)", "E_z (Pa)"], ["G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"]];
-        for (values, names) in [young, shear].iter().zip(names) {
-            for (&value, name) in values.iter().zip(names) {
-                check(value > 0.0, name, positive, value)?;
-            }
+        let names = ["E_x (Pa)", "E_y (Pa)", "E_z (Pa)", "G_xy (Pa)", "G_yz (Pa)", "G_xz (Pa)"];
+        for (&value, name) in young.iter().chain(&shear).zip(names) {
+            check(value > 0.0, name, positive, value)?;
         }
         check_ratios(young, poisson)?;
         check(density > 0.0, "density (kg/m^3)", positive, density)?;
@@ -71,23 +71,21 @@ impl OrthotropicMaterial {
     /// # Errors
     /// [`MaterialError::Refused`].
     pub(crate) fn with_loss_factor(self, loss_factor: f64) -> Result<Self, MaterialError> {
-        check_loss_factor(loss_factor)?;
+        check((0.0..2.0).contains(&loss_factor), "loss factor", "from 0 to below 2", loss_factor)?;
         Ok(Self { loss_factor, ..self })
     }
 
-    /// See [`super::ElasticMaterial::stiffness_matrix`]: the inverse of the compliance
+    /// Stiffness C (6 x 6, Pa) in mesh axes: `sigma = C eps` with both in the order xx, yy, zz, xy, yz,
+    /// xz and engineering shear strains (`gamma_xy = du_x/dy + du_y/dx`). Symmetric and positive definite.
+    ///
+    /// The inverse of the compliance
     /// `S_ii = 1 / E_i`, `S_ij = -nu_ij / E_i`, shear `1 / G_ij`, as `C = T^T S^-1 T`, where T (6 x 6) takes
     /// strains from mesh to material axes.
-    pub(super) fn stiffness_matrix(&self) -> [[f64; 6]; 6] {
+    pub(crate) fn stiffness_matrix(&self) -> [[f64; 6]; 6] {
         let own = self.stiffness_in_own_axes();
         let t = strain_rotation(self.axes);
-        let mut half = [[0.0; 6]; 6];
+        let half: [[f64; 6]; 6] = from_fn(|i| from_fn(|j| (0..6).map(|k| own[i][k] * t[k][j]).sum()));
         let mut c = [[0.0; 6]; 6];
-        for i in 0..6 {
-            for j in 0..6 {
-                half[i][j] = (0..6).map(|k| own[i][k] * t[k][j]).sum();
-            }
-        }
         for i in 0..6 {
             for j in i..6 {
                 c[i][j] = (0..6).map(|k| t[k][i] * half[k][j]).sum();
@@ -152,53 +150,36 @@ fn check_ratios(young: [f64; 3], poisson: [f64; 3]) -> Result<(), MaterialError>
 
 /// Right-handed orthonormal axes, x first (Gram-Schmidt).
 fn orthonormal(axis_x: [f64; 3], towards_y: [f64; 3]) -> Result<[[f64; 3]; 3], MaterialError> {
-    let x = unit(axis_x, "x")?;
-    let y = unit(towards_y, "y")?;
-    let across = cross(x, y);
-    let sine = length(across);
+    let (x, y) = (unit(axis_x, "x")?, unit(towards_y, "y")?);
+    let across = x.cross(&y);
+    let sine = across.norm();
     if sine < SMALLEST_SINE {
         let ([a, b, c], [d, e, f]) = (axis_x, towards_y);
         return Err(MaterialError::ParallelAxes(format!(
             "the material axes x ({a}, {b}, {c}) and y ({d}, {e}, {f}) are parallel: two different directions are needed"
         )));
     }
-    let z = across.map(|value| value / sine);
-    Ok([x, cross(z, x), z])
+    let z = across / sine;
+    Ok([x, z.cross(&x), z].map(Into::into))
 }
 
-fn unit(vector: [f64; 3], axis: &'static str) -> Result<[f64; 3], MaterialError> {
-    let largest = vector.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let scaled = vector.map(|value| value / largest);
-    let size = length(scaled);
+fn unit([x, y, z]: [f64; 3], axis: &'static str) -> Result<Vector3<f64>, MaterialError> {
+    let largest = [x, y, z].into_iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let scaled = Vector3::new(x, y, z) / largest;
+    let size = scaled.norm();
     if size > 0.0 && size.is_finite() && largest.is_finite() {
-        Ok(scaled.map(|value| value / size))
-    } else {
-        let [x, y, z] = vector;
-        Err(MaterialError::Refused(format!("the material axis {axis} needs a direction, found ({x}, {y}, {z})")))
+        return Ok(scaled / size);
     }
-}
-
-fn length([x, y, z]: [f64; 3]) -> f64 {
-    (x * x + y * y + z * z).sqrt()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    Err(MaterialError::Refused(format!("the material axis {axis} needs a direction, found ({x}, {y}, {z})")))
 }
 
 /// T (6 x 6): strains in the axes from strains in the mesh, engineering shear on both sides. Source: Auld,
 /// Acoustic Fields and Waves in Solids I (1973), the Bond strain matrix.
 fn strain_rotation(axes: [[f64; 3]; 3]) -> [[f64; 6]; 6] {
-    let mut t = [[0.0; 6]; 6];
-    for (row, [m, n]) in VOIGT.into_iter().enumerate() {
+    VOIGT.map(|[m, n]| {
         let engineering = if m == n { 1.0 } else { 2.0 };
-        for (column, [i, j]) in VOIGT.into_iter().enumerate() {
-            let straight = axes[m][i] * axes[n][j];
-            let swapped = axes[m][j] * axes[n][i];
-            t[row][column] = engineering * 0.5 * (straight + swapped);
-        }
-    }
-    t
+        VOIGT.map(|[i, j]| engineering * 0.5 * (axes[m][i] * axes[n][j] + axes[m][j] * axes[n][i]))
+    })
 }
 
 #[cfg(test)]

@@ -76,7 +76,7 @@ impl ElementBlock {
     }
 
     /// Node indices of an element that is known to exist.
-    pub(super) fn nodes_of(&self, index: usize) -> &[usize] {
+    pub(crate) fn nodes_of(&self, index: usize) -> &[usize] {
         let nodes = self.kind.nodes();
         &self.connectivity[index * nodes..][..nodes]
     }
@@ -135,6 +135,16 @@ impl fmt::Display for MshFormat {
 }
 
 impl Mesh {
+    /// Highest dimension of an element, 0 to 3; 0 without elements.
+    pub(crate) fn dimension(&self) -> usize {
+        self.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0)
+    }
+
+    /// A value for each element of each block.
+    pub(crate) fn for_each_element<T: Clone>(&self, value: T) -> Vec<Vec<T>> {
+        self.blocks.iter().map(|block| vec![value.clone(); block.len()]).collect()
+    }
+
     /// The elements of one dimension (0 points to 3 volumes), in the order of the mesh.
     pub(crate) fn element_ids(&self, dimension: usize) -> impl Iterator<Item = ElementId> + '_ {
         let blocks = self.blocks.iter().enumerate();
@@ -146,36 +156,41 @@ impl Mesh {
     /// The physical group of this name; case matters.
     ///
     /// # Errors
-    /// [`MeshError::UnknownGroup`] with the nearest name and all names, [`MeshError::AmbiguousGroup`] if
-    /// several groups share the name, [`MeshError::EmptyGroup`] if it has no elements.
+    /// [`MeshError::Group`] with the nearest name and all names if there is none, and if it has no elements;
+    /// [`MeshError::AmbiguousGroup`] if several groups share the name.
     pub fn group(&self, name: &str) -> Result<&PhysicalGroup, MeshError> {
-        let found: Vec<&PhysicalGroup> = self.groups.iter().filter(|g| g.name == name).collect();
-        let (path, name) = (self.source.clone(), name.to_owned());
-        match found.as_slice() {
-            [] => Err(MeshError::UnknownGroup {
-                nearest: self.nearest_group_name(&name),
-                known: self.groups.iter().map(|group| group.name.clone()).collect(),
-                path,
-                name,
-            }),
-            [group] if group.elements.is_empty() => Err(MeshError::EmptyGroup { path, name }),
+        let named: Vec<&PhysicalGroup> = self.groups.iter().filter(|group| group.name == name).collect();
+        let path = self.source.display();
+        match named.as_slice() {
+            [] => {
+                Err(MeshError::Group(format!("{path} has no physical group \"{name}\"; {}", self.known_groups(name))))
+            }
+            [group] if group.elements.is_empty() => Err(MeshError::Group(format!(
+                "{path}: the physical group \"{name}\" has no elements: expected at least one"
+            ))),
             [group] => Ok(group),
-            several => Err(MeshError::AmbiguousGroup {
-                path,
-                name,
-                groups: several.iter().map(|group| [group.dimension as i32, group.tag]).collect(),
-            }),
+            several => {
+                let tags: Vec<String> =
+                    several.iter().map(|group| format!("({}, {})", group.dimension, group.tag)).collect();
+                Err(MeshError::AmbiguousGroup(format!(
+                    "{path} has {} physical groups \"{name}\" (dimension, tag: {}): rename all but one in gmsh",
+                    several.len(),
+                    tags.join(", ")
+                )))
+            }
         }
     }
 
-    /// The name with the fewest edits (Damerau-Levenshtein, case ignored) from the one given.
-    fn nearest_group_name(&self, name: &str) -> Option<String> {
+    /// The names of all groups in words, that with the fewest edits (Damerau-Levenshtein, case ignored) from the one given
+    /// first.
+    fn known_groups(&self, name: &str) -> String {
         let wanted = name.to_lowercase();
-        self.groups
-            .iter()
-            .map(|group| &group.name)
-            .min_by_key(|known| strsim::damerau_levenshtein(&known.to_lowercase(), &wanted))
-            .cloned()
+        let edits = |known: &&PhysicalGroup| strsim::damerau_levenshtein(&known.name.to_lowercase(), &wanted);
+        let Some(nearest) = self.groups.iter().min_by_key(edits) else {
+            return "it has none at all (define Physical groups in gmsh)".to_owned();
+        };
+        let names: Vec<String> = self.groups.iter().map(|group| format!("\"{}\"", group.name)).collect();
+        format!("nearest is \"{}\", it has {}", nearest.name, names.join(", "))
     }
 }
 

@@ -52,10 +52,8 @@ const STEPS: usize = 30;
 pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
     let curves = facets.iter().all(|facet| facet.corners.len() == 2);
     let axis = if curves { Vector3::z() } else { axis_across(facets)? };
-    let mut points: Vec<Vector3<f64>> = Vec::new();
-    for facet in facets {
-        points.extend(facet.corners.iter().map(|&corner| Vector3::from(corner)));
-    }
+    let corners = facets.iter().flat_map(|facet| &facet.corners);
+    let points: Vec<Vector3<f64>> = corners.map(|&corner| Vector3::from(corner)).collect();
     if points.len() < 6 {
         return None;
     }
@@ -67,9 +65,9 @@ pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
     // of size 1 about the origin, so that every number below has its full digits
     let scaled: Vec<Vector3<f64>> = points.iter().map(|p| (p - mean) / size).collect();
     let frame = across(axis);
-    let (centre, radius) = circle(&scaled, &frame)?;
-    let best = refine(&scaled, frame[2], centre, radius, !curves)?;
-    let axis = positive(best.axis);
+    let best = refine(&scaled, circle(&scaled, &frame)?, !curves)?;
+    // with its largest component positive
+    let axis = if best.axis[best.axis.iamax()] < 0.0 { -best.axis } else { best.axis };
     let along = |point: &Vector3<f64>| axis.dot(&(point - best.centre));
     let low = scaled.iter().map(along).fold(f64::INFINITY, f64::min);
     let high = scaled.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
@@ -133,8 +131,14 @@ fn across(axis: Vector3<f64>) -> [Vector3<f64>; 3] {
     [first, axis.cross(&first), axis]
 }
 
+struct Best {
+    axis: Vector3<f64>,
+    centre: Vector3<f64>,
+    radius: f64,
+}
+
 /// Kasa's circle through the points seen along the axis: linear in its unknowns, near enough to start from.
-fn circle(points: &[Vector3<f64>], frame: &[Vector3<f64>; 3]) -> Option<(Vector3<f64>, f64)> {
+fn circle(points: &[Vector3<f64>], frame: &[Vector3<f64>; 3]) -> Option<Best> {
     let rows = points.len();
     let seen: Vec<[f64; 2]> = points.iter().map(|point| [frame[0].dot(point), frame[1].dot(point)]).collect();
     let matrix = DMatrix::from_fn(rows, 3, |row, column| match column {
@@ -145,17 +149,10 @@ fn circle(points: &[Vector3<f64>], frame: &[Vector3<f64>; 3]) -> Option<(Vector3
     let found = matrix.svd(true, true).solve(&right, 1e-12).ok()?;
     let square = found[2] + found[0].powi(2) + found[1].powi(2);
     let centre = frame[0] * found[0] + frame[1] * found[1];
-    (square.is_finite() && square > 0.0).then(|| (centre, square.sqrt()))
+    (square.is_finite() && square > 0.0).then(|| Best { axis: frame[2], centre, radius: square.sqrt() })
 }
 
-struct Best {
-    axis: Vector3<f64>,
-    centre: Vector3<f64>,
-    radius: f64,
-}
-
-fn refine(points: &[Vector3<f64>], axis: Vector3<f64>, centre: Vector3<f64>, radius: f64, tilts: bool) -> Option<Best> {
-    let mut best = Best { axis, centre, radius };
+fn refine(points: &[Vector3<f64>], mut best: Best, tilts: bool) -> Option<Best> {
     let unknowns = if tilts { 5 } else { 3 };
     for _ in 0..STEPS {
         let frame = across(best.axis);
@@ -194,11 +191,6 @@ fn refine(points: &[Vector3<f64>], axis: Vector3<f64>, centre: Vector3<f64>, rad
         }
     }
     (best.radius.is_finite() && best.radius > 0.0).then_some(best)
-}
-
-/// With its largest component positive.
-fn positive(axis: Vector3<f64>) -> Vector3<f64> {
-    if axis[axis.iamax()] < 0.0 { -axis } else { axis }
 }
 
 fn distance(point: &Vector3<f64>, centre: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
@@ -244,19 +236,13 @@ fn covered(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Opti
 
 /// Whether the elements lie farther from the axis than the faces that they have there.
 fn hole(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Option<bool> {
-    let mut outwards = 0.0;
-    let mut any = false;
-    for facet in facets {
-        let Some(inside) = facet.inside else {
-            continue;
-        };
-        let count = facet.corners.len() as f64;
+    let outwards = facets.iter().filter_map(|facet| {
+        let inside = Vector3::from(facet.inside?);
         let corners = facet.corners.iter().map(|&corner| Vector3::from(corner));
-        let middle = corners.sum::<Vector3<f64>>() / count;
-        outwards += distance(&Vector3::from(inside), centre, axis) - distance(&middle, centre, axis);
-        any = true;
-    }
-    any.then_some(outwards > 0.0)
+        let middle = corners.sum::<Vector3<f64>>() / facet.corners.len() as f64;
+        Some(distance(&inside, centre, axis) - distance(&middle, centre, axis))
+    });
+    outwards.reduce(|sum, next| sum + next).map(|sum| sum > 0.0)
 }
 
 #[cfg(test)]

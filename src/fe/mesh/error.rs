@@ -29,52 +29,11 @@ pub enum MeshError {
         /// What is wrong, in which section and line.
         fault: MshError,
     },
-    /// No physical group of this name.
-    #[error("{} has no physical group \"{name}\"{}", path.display(), known_names(nearest.as_deref(), known))]
-    UnknownGroup {
-        /// The file.
-        path: PathBuf,
-        /// The name asked for.
-        name: String,
-        /// The most similar name, if there are any.
-        nearest: Option<String>,
-        /// All names, in the order of the mesh's groups.
-        known: Vec<String>,
-    },
-    /// Several physical groups of this name.
-    #[error(
-        "{} has {} physical groups \"{name}\" (dimension, tag: {}): rename all but one in gmsh",
-        path.display(), groups.len(), pairs(groups)
-    )]
-    AmbiguousGroup {
-        /// The file.
-        path: PathBuf,
-        /// The name asked for.
-        name: String,
-        /// Dimension and tag of each of them.
-        groups: Vec<[i32; 2]>,
-    },
-    /// A physical group without elements: whatever refers to it would have no effect.
-    #[error("{}: the physical group \"{name}\" has no elements: expected at least one", path.display())]
-    EmptyGroup {
-        /// The file.
-        path: PathBuf,
-        /// Its name.
-        name: String,
-    },
-}
-
-fn known_names(nearest: Option<&str>, known: &[String]) -> String {
-    match nearest {
-        None => "; it has none at all (define Physical groups in gmsh)".to_owned(),
-        Some(nearest) => {
-            let names: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-            format!("; nearest is \"{nearest}\", it has {}", names.join(", "))
-        }
-    }
-}
-
-fn pairs(groups: &[[i32; 2]]) -> String {
-    let pairs: Vec<String> = groups.iter().map(|[d, t]| format!("({d}, {t})")).collect();
-    pairs.join(", ")
+    /// No physical group of this name: the nearest name, and all; or one without elements, so that whatever refers to it
+    /// would have no effect.
+    #[error("{0}")]
+    Group(String),
+    /// Several physical groups of this name: dimension and tag of each.
+    #[error("{0}")]
+    AmbiguousGroup(String),
 }

@@ -3,6 +3,7 @@
 //! Source of the node order: gmsh reference manual, section "Node ordering".
 
 use super::{ElementId, ElementKind, Mesh};
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// A face of an element kind: an element of one dimension less.
@@ -17,22 +18,15 @@ pub struct Face {
 }
 
 /// A face by its sorted corners; `u32::MAX` fills up. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-pub(crate) type FaceCorners = [u32; 4];
+type FaceCorners = [u32; 4];
 
-impl Face {
-    /// Its corners on an element with these nodes.
-    pub(crate) fn sorted_corners(&self, nodes: &[usize]) -> FaceCorners {
-        let mut corners = [u32::MAX; 4];
-        for (corner, &local) in corners.iter_mut().zip(&self.nodes[..self.kind.corners()]) {
-            *corner = nodes[local] as u32;
-        }
-        corners.sort_unstable();
-        corners
-    }
+/// Corners in ascending order; `u32::MAX` fills up.
+pub(crate) fn sorted_corners<const N: usize>(corners: impl Iterator<Item = usize>) -> [u32; N] {
+    let mut sorted = [u32::MAX; N];
+    sorted.iter_mut().zip(corners).for_each(|(slot, corner)| *slot = corner as u32);
+    sorted.sort_unstable();
+    sorted
 }
-
-/// An edge in local nodes: two corners, and the node between them in second order.
-pub(crate) type Edge = ([usize; 2], Option<usize>);
 
 macro_rules! faces {
     ($($kind:ident $nodes:expr),* $(,)?) => {
@@ -40,71 +34,59 @@ macro_rules! faces {
     };
 }
 
-static LINE: &[Face] = faces![Point[0], Point[1]];
-static TRI3: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]];
-static TRI6: &[Face] = faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]];
-static QUAD4: &[Face] = faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]];
-static QUAD8: &[Face] = faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]];
-static TET4: &[Face] = faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]];
-static TET10: &[Face] = faces![
-    Tri6 [0, 2, 1, 6, 5, 4],
-    Tri6 [0, 1, 3, 4, 9, 7],
-    Tri6 [0, 3, 2, 7, 8, 6],
-    Tri6 [1, 2, 3, 5, 8, 9],
-];
-static HEX8: &[Face] = faces![
-    Quad4 [0, 3, 2, 1],
-    Quad4 [0, 1, 5, 4],
-    Quad4 [0, 4, 7, 3],
-    Quad4 [1, 2, 6, 5],
-    Quad4 [2, 3, 7, 6],
-    Quad4 [4, 5, 6, 7],
-];
-static HEX20: &[Face] = faces![
-    Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
-    Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
-    Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
-    Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
-    Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
-    Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
-];
-static WEDGE6: &[Face] = faces![
-    Tri3 [0, 2, 1],
-    Tri3 [3, 4, 5],
-    Quad4 [0, 1, 4, 3],
-    Quad4 [0, 3, 5, 2],
-    Quad4 [1, 2, 5, 4],
-];
-static WEDGE15: &[Face] = faces![
-    Tri6 [0, 2, 1, 7, 9, 6],
-    Tri6 [3, 4, 5, 12, 14, 13],
-    Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
-    Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
-    Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
-];
-
 impl ElementKind {
     /// Faces of a solid, edges of a plane element, ends of a line, none of a point.
     pub fn faces(self) -> &'static [Face] {
         match self {
             Self::Point => &[],
-            Self::Line2 | Self::Line3 => LINE,
-            Self::Tri3 => TRI3,
-            Self::Tri6 => TRI6,
-            Self::Quad4 => QUAD4,
-            Self::Quad8 => QUAD8,
-            Self::Tet4 => TET4,
-            Self::Tet10 => TET10,
-            Self::Hex8 => HEX8,
-            Self::Hex20 => HEX20,
-            Self::Wedge6 => WEDGE6,
-            Self::Wedge15 => WEDGE15,
+            Self::Line2 | Self::Line3 => faces![Point[0], Point[1]],
+            Self::Tri3 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]],
+            Self::Tri6 => faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]],
+            Self::Quad4 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]],
+            Self::Quad8 => faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]],
+            Self::Tet4 => faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]],
+            Self::Tet10 => faces![
+                Tri6 [0, 2, 1, 6, 5, 4],
+                Tri6 [0, 1, 3, 4, 9, 7],
+                Tri6 [0, 3, 2, 7, 8, 6],
+                Tri6 [1, 2, 3, 5, 8, 9],
+            ],
+            Self::Hex8 => faces![
+                Quad4 [0, 3, 2, 1],
+                Quad4 [0, 1, 5, 4],
+                Quad4 [0, 4, 7, 3],
+                Quad4 [1, 2, 6, 5],
+                Quad4 [2, 3, 7, 6],
+                Quad4 [4, 5, 6, 7],
+            ],
+            Self::Hex20 => faces![
+                Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
+                Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
+                Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
+                Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
+                Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
+                Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
+            ],
+            Self::Wedge6 => faces![
+                Tri3 [0, 2, 1],
+                Tri3 [3, 4, 5],
+                Quad4 [0, 1, 4, 3],
+                Quad4 [0, 3, 5, 2],
+                Quad4 [1, 2, 5, 4],
+            ],
+            Self::Wedge15 => faces![
+                Tri6 [0, 2, 1, 7, 9, 6],
+                Tri6 [3, 4, 5, 12, 14, 13],
+                Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
+                Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
+                Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
+            ],
         }
     }
 
     /// Edges by their two corners, each once, in gmsh's order: of an element of second order edge i carries node
     /// `corners() + i`.
-    const fn corner_edges(self) -> &'static [[usize; 2]] {
+    pub(crate) const fn corner_edges(self) -> &'static [[usize; 2]] {
         match self {
             Self::Point => &[],
             Self::Line2 | Self::Line3 => &[[0, 1]],
@@ -122,27 +104,25 @@ impl ElementKind {
     pub const fn middle_edges(self) -> &'static [[usize; 2]] {
         if self.order() == 2 { self.corner_edges() } else { &[] }
     }
-
-    /// Edges, each once.
-    pub(crate) fn edges(self) -> impl Iterator<Item = Edge> {
-        let middle = move |place: usize| (self.order() == 2).then_some(self.corners() + place);
-        self.corner_edges().iter().enumerate().map(move |(place, &ends)| (ends, middle(place)))
-    }
-
-    /// Number of corner nodes; they come first.
-    pub const fn corners(self) -> usize {
-        match self {
-            Self::Point => 1,
-            Self::Line2 | Self::Line3 => 2,
-            Self::Tri3 | Self::Tri6 => 3,
-            Self::Quad4 | Self::Quad8 | Self::Tet4 | Self::Tet10 => 4,
-            Self::Wedge6 | Self::Wedge15 => 6,
-            Self::Hex8 | Self::Hex20 => 8,
-        }
-    }
 }
 
-/// A face of one element and of no other.
+/// The faces of some elements, given by kind and nodes, sorted: corners, place of the element, number of the face in it.
+/// A mesh has fewer than 2^32 - 1 elements, which the reader sees to.
+pub(crate) fn sorted_faces<'a>(
+    elements: impl IndexedParallelIterator<Item = (ElementKind, &'a [usize])>,
+) -> Vec<(FaceCorners, u32, u8)> {
+    let faces = elements.enumerate().flat_map_iter(|(place, (kind, nodes))| {
+        (0..).zip(kind.faces()).map(move |(number, face)| {
+            let corners = face.nodes[..face.kind.corners()].iter().map(|&local| nodes[local]);
+            (sorted_corners(corners), place as u32, number)
+        })
+    });
+    let mut faces: Vec<_> = faces.collect();
+    faces.par_sort_unstable();
+    faces
+}
+
+/// A face of one element and of no other, or a whole element.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct BoundaryFace {
     /// The element that it belongs to.
@@ -154,6 +134,12 @@ pub struct BoundaryFace {
 }
 
 impl Mesh {
+    /// An element as a face of its own.
+    pub(crate) fn whole_element(&self, element: ElementId) -> BoundaryFace {
+        let block = &self.blocks[element.block];
+        BoundaryFace { element, kind: block.kind, nodes: block.nodes_of(element.index).to_vec() }
+    }
+
     /// The faces that exactly one of these elements has, in the order of the elements: the surface of solids
     /// with outward normals, the rim of plane elements.
     ///
@@ -161,20 +147,15 @@ impl Mesh {
     /// of a part. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
     pub fn boundary_faces(&self, elements: impl Iterator<Item = ElementId>) -> Vec<BoundaryFace> {
         let elements: Vec<ElementId> = elements.collect();
-        let mut faces: Vec<(FaceCorners, usize, u8)> = Vec::new();
-        for (position, &id) in elements.iter().enumerate() {
+        let faces = sorted_faces(elements.par_iter().map(|id| {
             let block = &self.blocks[id.block];
-            let nodes = block.nodes_of(id.index);
-            for (number, face) in (0..).zip(block.kind.faces()) {
-                faces.push((face.sorted_corners(nodes), position, number));
-            }
-        }
-        faces.sort_unstable();
+            (block.kind, block.nodes_of(id.index))
+        }));
         let once = faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
-        let mut once: Vec<(usize, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
+        let mut once: Vec<(u32, u8)> = once.map(|same| (same[0].1, same[0].2)).collect();
         once.sort_unstable();
-        let describe = |(position, number): (usize, u8)| {
-            let element = elements[position];
+        let describe = |(position, number): (u32, u8)| {
+            let element = elements[position as usize];
             let block = &self.blocks[element.block];
             let face = block.kind.faces()[usize::from(number)];
             let nodes = block.nodes_of(element.index);
@@ -232,9 +213,7 @@ mod tests {
                 ends.sort_unstable();
                 ends
             };
-            let mut found: Vec<_> = kind.edges().collect();
-            found.sort_unstable_by_key(|edge| edge.1);
-            let found: Vec<_> = found.into_iter().map(|edge| sorted(edge.0)).collect();
+            let found: Vec<_> = kind.corner_edges().iter().map(|&ends| sorted(ends)).collect();
             let expected: Vec<_> = edges(kind).iter().map(|&ends| sorted(ends)).collect();
             assert_eq!(found, expected, "{kind:?}");
         }

@@ -36,7 +36,7 @@ pub enum ElementKind {
     Wedge15,
 }
 
-/// One row of the table: gmsh's element type number, name, dimension, order, nodes.
+/// One row of the table: gmsh's element type number, name, dimension, order, nodes, corners.
 struct Row {
     kind: ElementKind,
     gmsh_type: i32,
@@ -44,27 +44,29 @@ struct Row {
     dimension: usize,
     order: usize,
     nodes: usize,
+    corners: usize,
 }
 
-const fn row(kind: ElementKind, gmsh_type: i32, name: &'static str, [dimension, order, nodes]: [usize; 3]) -> Row {
-    Row { kind, gmsh_type, name, dimension, order, nodes }
+const fn row(kind: ElementKind, gmsh_type: i32, name: &'static str, numbers: [usize; 4]) -> Row {
+    let [dimension, order, nodes, corners] = numbers;
+    Row { kind, gmsh_type, name, dimension, order, nodes, corners }
 }
 
 /// Source: gmsh reference manual, section "MSH file format", element types. In the order of the enum.
 static TABLE: [Row; ElementKind::COUNT] = [
-    row(ElementKind::Point, 15, "Point", [0, 1, 1]),
-    row(ElementKind::Line2, 1, "Line2", [1, 1, 2]),
-    row(ElementKind::Line3, 8, "Line3", [1, 2, 3]),
-    row(ElementKind::Tri3, 2, "Tri3", [2, 1, 3]),
-    row(ElementKind::Tri6, 9, "Tri6", [2, 2, 6]),
-    row(ElementKind::Quad4, 3, "Quad4", [2, 1, 4]),
-    row(ElementKind::Quad8, 16, "Quad8", [2, 2, 8]),
-    row(ElementKind::Tet4, 4, "Tet4", [3, 1, 4]),
-    row(ElementKind::Tet10, 11, "Tet10", [3, 2, 10]),
-    row(ElementKind::Hex8, 5, "Hex8", [3, 1, 8]),
-    row(ElementKind::Hex20, 17, "Hex20", [3, 2, 20]),
-    row(ElementKind::Wedge6, 6, "Wedge6", [3, 1, 6]),
-    row(ElementKind::Wedge15, 18, "Wedge15", [3, 2, 15]),
+    row(ElementKind::Point, 15, "Point", [0, 1, 1, 1]),
+    row(ElementKind::Line2, 1, "Line2", [1, 1, 2, 2]),
+    row(ElementKind::Line3, 8, "Line3", [1, 2, 3, 2]),
+    row(ElementKind::Tri3, 2, "Tri3", [2, 1, 3, 3]),
+    row(ElementKind::Tri6, 9, "Tri6", [2, 2, 6, 3]),
+    row(ElementKind::Quad4, 3, "Quad4", [2, 1, 4, 4]),
+    row(ElementKind::Quad8, 16, "Quad8", [2, 2, 8, 4]),
+    row(ElementKind::Tet4, 4, "Tet4", [3, 1, 4, 4]),
+    row(ElementKind::Tet10, 11, "Tet10", [3, 2, 10, 4]),
+    row(ElementKind::Hex8, 5, "Hex8", [3, 1, 8, 8]),
+    row(ElementKind::Hex20, 17, "Hex20", [3, 2, 20, 8]),
+    row(ElementKind::Wedge6, 6, "Wedge6", [3, 1, 6, 6]),
+    row(ElementKind::Wedge15, 18, "Wedge15", [3, 2, 15, 6]),
 ];
 
 impl ElementKind {
@@ -73,11 +75,6 @@ impl ElementKind {
 
     const fn row(self) -> &'static Row {
         &TABLE[self as usize]
-    }
-
-    /// Kinds of plane elements and solids, in the order of the enum.
-    pub fn continua() -> impl Iterator<Item = Self> {
-        Self::all().filter(|kind| kind.dimension() >= 2)
     }
 
     /// Every kind, in the order of the enum.
@@ -113,6 +110,11 @@ impl ElementKind {
     /// Number of nodes.
     pub const fn nodes(self) -> usize {
         self.row().nodes
+    }
+
+    /// Number of corner nodes; they come first.
+    pub const fn corners(self) -> usize {
+        self.row().corners
     }
 }
 

@@ -20,8 +20,8 @@ mod turn;
 
 pub use contents::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 pub use error::{MeshError, MshError};
-pub(crate) use faces::FaceCorners;
 pub use faces::{BoundaryFace, Face};
+pub(crate) use faces::{sorted_corners, sorted_faces};
 pub(crate) use inventory::Sets;
 pub use inventory::{BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part, UnusedNodes};
 pub use kind::ElementKind;

@@ -1,6 +1,6 @@
 //! Plane meshes that are seen from behind.
 
-use super::{ElementId, ElementKind, Mesh};
+use super::{ElementId, Mesh};
 
 /// Farthest that a node of a plane mesh may lie from its plane z = const, relative to its size: gmsh writes 16 digits, and
 /// what is off by more is meant.
@@ -11,35 +11,28 @@ impl Mesh {
     /// if these all do: gmsh makes such surfaces where their curves were drawn clockwise or extruded backwards. A group
     /// of both kinds stays as it is.
     pub(super) fn turn_clockwise(&mut self) {
-        let dimension = self.blocks.iter().map(|block| block.kind.dimension());
-        if dimension.max() != Some(2) || self.node_off_plane().is_some() {
+        if self.dimension() != 2 || self.node_off_plane().is_some() {
             return;
         }
-        let area = |mesh: &Self, id: &ElementId| mesh.signed_area(*id);
-        let marks = self.blocks.iter().map(|block| vec![false; block.len()]);
-        let (mut grouped, mut turned): (Vec<_>, Vec<_>) = marks.map(|none| (none.clone(), none)).unzip();
-        let mark = |marks: &mut Vec<Vec<bool>>, ids: &[ElementId]| {
-            ids.iter().for_each(|id| marks[id.block][id.index] = true);
+        let (mut grouped, mut turned) = (self.for_each_element(false), self.for_each_element(false));
+        let mut turn = |ids: &[ElementId]| {
+            if ids.iter().all(|&id| self.signed_area(id) < 0.0) {
+                ids.iter().for_each(|id| turned[id.block][id.index] = true);
+            }
         };
         for group in self.groups.iter().filter(|group| group.dimension == 2) {
-            mark(&mut grouped, &group.elements);
-            if group.elements.iter().all(|id| area(self, id) < 0.0) {
-                mark(&mut turned, &group.elements);
-            }
+            group.elements.iter().for_each(|id| grouped[id.block][id.index] = true);
+            turn(&group.elements);
         }
         let alone = self.element_ids(2).filter(|id| !grouped[id.block][id.index]);
-        let alone: Vec<ElementId> = alone.collect();
-        if alone.iter().all(|id| area(self, id) < 0.0) {
-            mark(&mut turned, &alone);
-        }
+        turn(&alone.collect::<Vec<_>>());
         for (block, turned) in self.blocks.iter_mut().zip(turned) {
-            let order = backwards(block.kind);
             let elements = block.connectivity.chunks_exact_mut(block.kind.nodes());
             for (nodes, _) in elements.zip(turned).filter(|(_, turned)| *turned) {
-                let before = nodes.to_vec();
-                for (node, &from) in nodes.iter_mut().zip(order) {
-                    *node = before[from];
-                }
+                // from the first corner on the other way round
+                let (corners, middles) = nodes.split_at_mut(block.kind.corners());
+                corners[1..].reverse();
+                middles.reverse();
             }
         }
     }
@@ -67,16 +60,5 @@ impl Mesh {
             })
             .sum();
         0.5 * twice
-    }
-}
-
-/// The nodes of a plane element from its first one on the other way round.
-fn backwards(kind: ElementKind) -> &'static [usize] {
-    match kind {
-        ElementKind::Tri3 => &[0, 2, 1],
-        ElementKind::Tri6 => &[0, 2, 1, 5, 4, 3],
-        ElementKind::Quad4 => &[0, 3, 2, 1],
-        ElementKind::Quad8 => &[0, 3, 2, 1, 7, 6, 5, 4],
-        _ => &[],
     }
 }

@@ -54,7 +54,7 @@ impl ElementWork {
         let (at, properties) = (&coordinates[..nodes.len()], &model.properties[element.part]);
         let stiffness = &mut self.stiffness[..self.dof * self.dof];
         let mass = &mut self.mass[..self.nodes * self.nodes];
-        stiffness_into(element.kind, at, properties, model.formulation, stiffness)
+        stiffness_into(element.kind, at, properties, model.description.formulation, stiffness)
             .and_then(|()| nodal_mass_into(element.kind, at, properties, mass))
             .map_err(|source| ModelError::element(&model.path, element.tag, &source))?;
         self.turn_from(at);

@@ -178,7 +178,7 @@ impl HousingSums {
         let membership = Membership::new(mesh, model)?;
         let sums = element_sums(model, &membership, shapes)?;
         Ok(Self {
-            parts: model.part_groups.clone(),
+            parts: model.part_groups(),
             groups: membership.names,
             energies: (0..shapes.ncols()).map(|mode| sums.of_mode(mode)).collect(),
             springs: Attached::springs(model, shapes),
@@ -205,15 +205,16 @@ impl RingSums {
     fn new(ring: &Ring, shapes: &DenseMatrix) -> Result<Self, ModalError> {
         check_count("rows of the ring's modes", ring.dof(), shapes.nrows())?;
         let heavy = ring.mass() * shapes;
+        let has_springs = !ring.springs.is_empty();
         let energies = |mode: usize| {
             let own = ring.strain_products(&shapes.subcols(mode, 1).to_owned());
             RingEnergies {
                 strain: own.beams[(0, 0)],
                 kinetic: shapes.col(mode).transpose() * heavy.col(mode),
-                springs: ring.has_springs().then(|| own.springs[(0, 0)]),
+                springs: has_springs.then(|| own.springs[(0, 0)]),
             }
         };
-        Ok(Self { has_springs: ring.has_springs(), modes: (0..shapes.ncols()).map(energies).collect() })
+        Ok(Self { has_springs, modes: (0..shapes.ncols()).map(energies).collect() })
     }
 }
 
@@ -227,9 +228,9 @@ struct Attached {
 impl Attached {
     fn springs(model: &HousingModel, shapes: &DenseMatrix) -> Self {
         let name = |source| match source {
-            NodalSource::Support(index) => model.supports.get(index).map(|s| s.group.clone()),
+            NodalSource::Support(index) => model.description.supports.get(index).map(|s| s.group.clone()),
             NodalSource::Link(index) => {
-                let link = model.links.get(index);
+                let link = model.description.links.get(index);
                 link.map(|link| format!("{} - {}", link.between[0], link.between[1]))
             }
             NodalSource::Mass(_) => None,
@@ -240,7 +241,7 @@ impl Attached {
     /// A mass has one row a node, the same for every component.
     fn masses(model: &HousingModel, shapes: &DenseMatrix) -> Self {
         let name = |source| match source {
-            NodalSource::Mass(index) => model.point_masses.get(index).map(|m| m.group.clone()),
+            NodalSource::Mass(index) => model.description.masses.get(index).map(|m| m.group.clone()),
             _ => None,
         };
         Self::new(&model.masses, shapes, model.dimension, name)

@@ -56,7 +56,7 @@ pub(super) fn element_sums(
     let zeros = || Sums::zeros(parts, groups, shapes.ncols());
     let chunks: Vec<Result<Sums, ModelError>> = model
         .elements
-        .as_slice()
+        .list
         .par_chunks(CHUNK)
         .enumerate()
         .map(|(chunk, elements)| {

@@ -24,7 +24,7 @@ pub fn strain_products(model: &HousingModel, shapes: &DenseMatrix) -> Result<Den
     let count = shapes.ncols();
     let chunks: Vec<Result<DenseMatrix, ModelError>> = model
         .elements
-        .as_slice()
+        .list
         .par_chunks(CHUNK)
         .map(|elements| {
             let mut sum = DenseMatrix::zeros(count, count);

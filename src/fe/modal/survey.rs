@@ -59,7 +59,7 @@ impl ModalSurvey {
         let shapes = modes.motions().housing(model, &all);
         let groups = mesh.groups.iter();
         let groups = groups.filter(|group| group.dimension == model.dimension());
-        let several = model.part_names().len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
+        let several = model.description.parts.len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
         let shares = several.then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes)).transpose()?;
         let mechanisms = unless_too_many_bodies(Mechanisms::find(mesh, model))?;
         Ok(Self {
@@ -150,8 +150,9 @@ impl ModalSurvey {
             Ok(strain.beams + strain.springs)
         };
         let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
-        let shares =
-            ring.has_springs().then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes)).transpose()?;
+        let shares = (!ring.springs.is_empty())
+            .then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes))
+            .transpose()?;
         Ok(Self {
             dof: ring.dof(),
             free_dof: modes.free_dof(),

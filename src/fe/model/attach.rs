@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 
 impl HousingModel {
     pub(super) fn attach_mass(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
-        let mass = self.point_masses[index].clone();
+        let mass = self.description.masses[index].clone();
         let group = self.group_on_housing(mesh, &mass.group, "the mass")?;
         for Share { nodes, matrix } in shares(mesh, group, &self.used, "the mass")? {
             let matrix = matrix * mass.mass;
@@ -22,7 +22,7 @@ impl HousingModel {
     /// Point masses on nodes that supports hold in every direction.
     pub(crate) fn held_masses(&self) -> impl Iterator<Item = &PointMass> {
         let is_held = |node: &usize| self.fixed[*node][..self.dimension].iter().all(Option::is_some);
-        let numbered = self.point_masses.iter().enumerate();
+        let numbered = self.description.masses.iter().enumerate();
         let held = numbered.filter(move |(index, _)| {
             let of_mass = |matrix: &&NodalMatrix| matches!(matrix.source, NodalSource::Mass(own) if own == *index);
             let mut nodes = self.masses.iter().filter(of_mass).flat_map(|matrix| &matrix.nodes);
@@ -32,7 +32,7 @@ impl HousingModel {
     }
 
     pub(super) fn attach_support(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
-        let support = self.supports[index].clone();
+        let support = self.description.supports[index].clone();
         let group = self.group_on_housing(mesh, &support.group, "the support")?;
         let on_housing = group.nodes.iter().copied().filter(|&node| self.used[node]);
         let stiffness = match support.constraint {

@@ -1,6 +1,16 @@
 //! The elements of a housing.
 
+use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::ElementKind;
+
+/// A group of elements and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingPart {
+    /// The group.
+    pub group: String,
+    /// Its material.
+    pub material: ElasticMaterial,
+}
 
 /// One element of a housing; its nodes are in [`HousingElements`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +27,7 @@ pub struct HousingElement {
 /// The elements of a housing, in the order of the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HousingElements {
-    pub(super) list: Vec<HousingElement>,
+    pub(crate) list: Vec<HousingElement>,
     pub(super) connectivity: Vec<usize>,
 }
 
@@ -35,11 +45,6 @@ impl HousingElements {
     /// The elements one by one.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &HousingElement> {
         self.list.iter()
-    }
-
-    /// All elements.
-    pub(crate) fn as_slice(&self) -> &[HousingElement] {
-        &self.list
     }
 
     /// Node indices of an element, gmsh's order.

@@ -6,8 +6,8 @@
 //! `c' / H`. So the layer is too soft from some `L / H` on, and from a larger one on springs. An element alone cannot tell
 //! the two: without these bubbles a flat one locks in bending, by `1 / (1 + (L / H)^2 / 2)`.
 
-use super::nodal::NodalSource;
-use super::{HousingElement, HousingModel};
+use super::nodal::{NodalSource, sorted};
+use super::{HousingElement, HousingModel, overlap};
 use crate::fe::element::continuum::LinearFormulation;
 use crate::fe::mesh::ElementKind;
 use nalgebra::Vector3;
@@ -44,8 +44,8 @@ pub struct FlatLayer {
     pub place: [f64; 3],
 }
 
-/// A face by its sorted nodes.
-type Corners = Vec<usize>;
+/// Indices of the one or two elements with a face, by its sorted nodes.
+type Behind = BTreeMap<Vec<usize>, [Option<usize>; 2]>;
 
 /// What may hold a node of a layer.
 #[derive(Debug, Clone, Default)]
@@ -62,12 +62,12 @@ impl HousingModel {
     /// The flat layers of incompatible elements on held faces, from there to the next face without a neighbour or to the
     /// next held one; `None` if there are none.
     pub(crate) fn flat_layers(&self) -> Option<FlatLayer> {
-        if self.formulation.linear != LinearFormulation::Incompatible {
+        if self.description.formulation.linear != LinearFormulation::Incompatible {
             return None;
         }
         let holds = self.holds();
-        let mut found: Option<FlatLayer> = None;
-        let mut behind: Option<BTreeMap<Corners, [Option<usize>; 2]>> = None;
+        let (mut faces, mut found): (_, Option<FlatLayer>) = (0, None);
+        let mut behind: Option<Behind> = None;
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
                 let [edge, height] = self.shape(element, &face);
@@ -79,16 +79,13 @@ impl HousingModel {
                 let Some(flatness) = self.layer_flatness(index, &face, behind, &holds) else {
                     continue;
                 };
-                let faces = found.as_ref().map_or(1, |found| found.faces + 1);
-                match &mut found {
-                    Some(found) if found.flatness >= flatness => found.faces = faces,
-                    _ => {
-                        found = Some(FlatLayer { faces, tag: element.tag, flatness, place: self.mean(&face).into() });
-                    }
+                faces += 1;
+                if found.as_ref().is_none_or(|found| found.flatness < flatness) {
+                    found = Some(FlatLayer { faces, tag: element.tag, flatness, place: self.mean(&face).into() });
                 }
             }
         }
-        found
+        found.map(|found| FlatLayer { faces, ..found })
     }
 
     fn modulus(&self, element: &HousingElement) -> f64 {
@@ -104,7 +101,7 @@ impl HousingModel {
         }
         let own: Vec<f64> = holds.iter().map(|hold| hold.modulus).collect();
         for (&node, tied) in &self.tied {
-            for &other in &tied.nodes {
+            for &other in &tied.foot.nodes {
                 holds[node].modulus = holds[node].modulus.max(own[other]);
                 holds[other].modulus = holds[other].modulus.max(own[node]);
             }
@@ -144,8 +141,8 @@ impl HousingModel {
         faces.map(|face| face.nodes.iter().map(|&local| nodes[local]).collect()).collect()
     }
 
-    fn elements_behind_faces(&self) -> BTreeMap<Corners, [Option<usize>; 2]> {
-        let mut behind: BTreeMap<Corners, [Option<usize>; 2]> = BTreeMap::new();
+    fn elements_behind_faces(&self) -> Behind {
+        let mut behind = Behind::new();
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
                 let slots = behind.entry(sorted(&face)).or_default();
@@ -179,19 +176,13 @@ impl HousingModel {
     }
 
     /// Longest edge of a face over the height of the layer that begins there; `None` if that is not flat.
-    fn layer_flatness(
-        &self,
-        index: usize,
-        face: &[usize],
-        behind: &BTreeMap<Corners, [Option<usize>; 2]>,
-        holds: &[Hold],
-    ) -> Option<f64> {
-        let (mut index, mut face) = (index, face.to_vec());
-        let modulus = self.modulus(&self.elements.as_slice()[index]);
+    fn layer_flatness(&self, mut index: usize, face: &[usize], behind: &Behind, holds: &[Hold]) -> Option<f64> {
+        let mut face = face.to_vec();
+        let modulus = self.modulus(&self.elements.list[index]);
         let held = self.held(&face, modulus, holds);
         let (mut sum, mut whole) = (0.0, 0.0); // of heights over the longest edge, and of heights
         for layers in 1..=self.elements.len() {
-            let element = &self.elements.as_slice()[index];
+            let element = &self.elements.list[index];
             let [edge, height] = self.shape(element, &face);
             (sum, whole) = (sum + height / edge, whole + height);
             if sum * FLAT_BETWEEN >= 1.0 || sum.is_nan() {
@@ -208,7 +199,7 @@ impl HousingModel {
             }
             let next = behind.get(&sorted(&opposite))?.iter().flatten();
             let next = next.copied().find(|&next| next != index);
-            let goes_on = |&next: &usize| STIFFER * self.modulus(&self.elements.as_slice()[next]) > modulus;
+            let goes_on = |&next: &usize| STIFFER * self.modulus(&self.elements.list[next]) > modulus;
             match next.filter(goes_on) {
                 Some(next) => (index, face) = (next, opposite),
                 None => return told(FLAT),
@@ -236,11 +227,8 @@ impl HousingModel {
 
     /// Twice the area of a face along its normal, m^2; of an edge in the plane its length, m.
     fn across(&self, face: &[usize]) -> Vector3<f64> {
-        match *face {
-            [a, b, c, d] => (self.at(c) - self.at(a)).cross(&(self.at(d) - self.at(b))),
-            [a, b] => (self.at(b) - self.at(a)).cross(&Vector3::z()),
-            _ => Vector3::zeros(),
-        }
+        let corners: Vec<_> = face.iter().map(|&node| self.at(node)).collect();
+        overlap::normal(&corners)
     }
 
     /// Area of a face, m^2.
@@ -260,10 +248,4 @@ impl HousingModel {
         let sum: Vector3<f64> = face.iter().map(|&node| self.at(node)).sum();
         sum / face.len() as f64
     }
-}
-
-fn sorted(face: &[usize]) -> Corners {
-    let mut corners = face.to_vec();
-    corners.sort_unstable();
-    corners
 }

@@ -1,26 +1,15 @@
 //! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::elements::HousingElements;
-use super::nodal::{NodalMatrix, NodalSource, TiedNodes};
-use super::parts::highest_dimension;
+use super::elements::{HousingElements, HousingPart};
+use super::nodal::{NodalMatrix, NodalSource, TiedNodes, unique};
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, PointMass};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
-use crate::fe::material::ElasticMaterial;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A group of elements and what it is made of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HousingPart {
-    /// The group.
-    pub group: String,
-    /// Its material.
-    pub material: ElasticMaterial,
-}
 
 /// What a plane mesh assumes across its plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,11 +53,6 @@ pub struct HousingModel {
     pub(crate) elements: HousingElements,
     /// Properties of the parts, in the order asked for.
     pub(crate) properties: Vec<ContinuumProperties>,
-    /// Structural loss factors of the parts, in the same order.
-    pub(crate) loss_factors: Vec<f64>,
-    /// Groups of the parts, in the same order.
-    pub(crate) part_groups: Vec<String>,
-    pub(crate) formulation: Formulation,
     /// Springs: d rows a node.
     pub(crate) springs: Vec<NodalMatrix>,
     /// Point masses: one row a node.
@@ -79,13 +63,16 @@ pub struct HousingModel {
     pub(crate) tied: TiedNodes,
     /// Nodes that an element uses; the others have no degrees of freedom.
     pub(crate) used: Vec<bool>,
-    pub(crate) supports: Vec<HousingSupport>,
-    pub(crate) links: Vec<Link>,
-    pub(crate) point_masses: Vec<PointMass>,
-    overlaps: Vec<Overlap>,
-    touching: Vec<Touching>,
-    ties_apart: Vec<Apart>,
-    crossings: Vec<Crossing>,
+    /// What was asked for; an element's part is an index into its parts.
+    pub(crate) description: HousingDescription,
+    /// Parts that lie in one another; none unless the description allows it.
+    pub overlaps: Vec<Overlap>,
+    /// Parts whose faces lie on each other without common nodes and without a link.
+    pub touching: Vec<Touching>,
+    /// Ties whose sides do not lie on each other.
+    pub apart: Vec<Apart>,
+    /// Parts that reach into one another, of which the others say nothing.
+    pub crossings: Vec<Crossing>,
     /// Nodes that the groups of each link have in common.
     pub(crate) common_nodes: Vec<usize>,
     /// The mesh file, for messages.
@@ -101,55 +88,45 @@ impl HousingModel {
     /// plane housing that is not plane, and supports, masses or links that would hang on nothing.
     pub fn new(mesh: &Mesh, description: HousingDescription) -> Result<Self, ModelError> {
         let path = mesh.source.display().to_string();
-        let dimension = highest_dimension(mesh);
-        let HousingDescription { parts, plane, formulation, supports, masses, links, overlap, frame } = description;
-        check_plane(mesh, dimension, plane, &frame, &path)?;
-        let groups: Vec<&str> = parts.iter().map(|part| part.group.as_str()).collect();
-        let elements = HousingElements::of_parts(mesh, &groups, &path)?;
-        let part_groups: Vec<String> = parts.iter().map(|part| part.group.clone()).collect();
-        let overlaps = accepted_overlaps(mesh, &elements, &part_groups, overlap, &path)?;
-        let properties = parts.iter().map(|part| properties(part, plane, &path)).collect::<Result<Vec<_>, _>>()?;
+        // without surfaces and volumes the message about missing parts speaks of surfaces
+        let dimension = mesh.dimension().max(2);
+        let HousingDescription { parts, plane, frame, overlap, .. } = &description;
+        check_plane(mesh, dimension, *plane, frame, &path)?;
+        let elements = HousingElements::of_parts(mesh, parts, &path)?;
+        let overlaps = accepted_overlaps(mesh, &elements, parts, *overlap, &path)?;
+        let properties = parts.iter().map(|part| properties(part, *plane, &path)).collect::<Result<Vec<_>, _>>()?;
         let mut used = vec![false; mesh.nodes.len()];
-        for element in elements.iter() {
-            for &node in elements.nodes(element) {
-                used[node] = true;
-            }
-        }
+        elements.connectivity.iter().for_each(|&node| used[node] = true);
         let mut model = Self {
             dimension,
-            frame,
+            frame: *frame,
             coordinates: mesh.nodes.clone(),
             elements,
             properties,
-            loss_factors: parts.iter().map(|part| part.material.loss_factor()).collect(),
-            part_groups,
-            formulation,
             springs: Vec::new(),
             masses: Vec::new(),
             fixed: vec![[None; 3]; mesh.nodes.len()],
             tied: TiedNodes::new(),
             used,
-            supports,
-            links,
-            point_masses: masses,
+            description,
             overlaps,
             touching: Vec::new(),
-            ties_apart: Vec::new(),
+            apart: Vec::new(),
             crossings: Vec::new(),
             common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
         };
-        for index in 0..model.supports.len() {
+        for index in 0..model.description.supports.len() {
             model.attach_support(mesh, index)?;
         }
-        for index in 0..model.point_masses.len() {
+        for index in 0..model.description.masses.len() {
             model.attach_mass(mesh, index)?;
         }
-        for index in 0..model.links.len() {
+        for index in 0..model.description.links.len() {
             model.attach_link(mesh, index)?;
         }
-        model.ties_apart = model.ties_apart(overlap)?;
+        model.apart = model.ties_apart()?;
         model.find_unconnected();
         Ok(model)
     }
@@ -158,7 +135,7 @@ impl HousingModel {
     fn find_unconnected(&mut self) {
         let mut linked = vec![false; self.coordinates.len()];
         let tied = self.tied.iter();
-        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.nodes));
+        let tied = tied.flat_map(|(node, tied)| std::iter::once(node).chain(&tied.foot.nodes));
         let springs = self.springs.iter();
         let springs = springs.filter(|spring| matches!(spring.source, NodalSource::Link(_)));
         for &node in tied.chain(springs.flat_map(|spring| &spring.nodes)) {
@@ -169,27 +146,12 @@ impl HousingModel {
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
-        Bodies::of_housing(&self.coordinates, &self.elements, &self.part_groups)
+        Bodies::of_housing(&self.coordinates, &self.elements, &self.description.parts)
     }
 
-    /// Parts that lie in one another; none unless the description allows it.
-    pub fn overlaps(&self) -> &[Overlap] {
-        &self.overlaps
-    }
-
-    /// Parts whose faces lie on each other without common nodes and without a link.
-    pub fn touching(&self) -> &[Touching] {
-        &self.touching
-    }
-
-    /// Parts that reach into one another, of which the others say nothing.
-    pub fn crossings(&self) -> &[Crossing] {
-        &self.crossings
-    }
-
-    /// Ties whose sides do not lie on each other.
-    pub fn apart(&self) -> &[Apart] {
-        &self.ties_apart
+    /// Groups of the parts, in the order asked for.
+    pub(crate) fn part_groups(&self) -> Vec<String> {
+        self.description.parts.iter().map(|part| part.group.clone()).collect()
     }
 
     /// Displacement components a node: 2 in the plane, 3 in space.
@@ -223,22 +185,9 @@ impl HousingModel {
         &self.elements
     }
 
-    /// Groups of the parts, in the order asked for: an element's part is an index into them.
-    pub fn part_names(&self) -> &[String] {
-        &self.part_groups
-    }
-
-    /// Whether an element uses a node.
-    pub fn is_used(&self, node: usize) -> bool {
-        self.used[node]
-    }
-
     /// Nodes with a spring, each once.
     pub fn spring_nodes(&self) -> Vec<usize> {
-        let mut nodes: Vec<usize> = self.springs.iter().flat_map(|s| s.nodes.clone()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
+        unique(self.springs.iter().flat_map(|spring| spring.nodes.iter().copied()))
     }
 
     /// Degrees of freedom that are neither fixed nor tied nor without an element.
@@ -287,7 +236,7 @@ impl HousingModel {
 fn accepted_overlaps(
     mesh: &Mesh,
     elements: &HousingElements,
-    parts: &[String],
+    parts: &[HousingPart],
     rule: OverlapRule,
     path: &str,
 ) -> Result<Vec<Overlap>, ModelError> {

@@ -1,7 +1,7 @@
 //! How the degrees of freedom of a housing split at its interface, and nodes of the mesh as one.
 
 use super::HousingModel;
-use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
+use crate::numerics::linalg::SparseMatrix;
 use std::collections::BTreeSet;
 
 /// Degrees of freedom of a housing seen from its interface.
@@ -13,6 +13,16 @@ pub struct HousingPartition {
     pub interior: Vec<usize>,
     /// T: displacements of `driven` from the interface coordinates [driven x interface].
     pub tie: SparseMatrix,
+}
+
+impl HousingPartition {
+    /// The partition of a housing by the degrees of freedom that a tie drives.
+    pub(super) fn new(model: &HousingModel, driven: Vec<usize>, tie: SparseMatrix) -> Self {
+        let mut is_driven = vec![false; model.dof()];
+        driven.iter().for_each(|&dof| is_driven[dof] = true);
+        let free = model.free_dofs().into_iter();
+        Self { interior: free.filter(|&dof| !is_driven[dof]).collect(), driven, tie }
+    }
 }
 
 /// Nodes as an interface, and what could not be part of it.
@@ -31,7 +41,7 @@ impl NodeInterface {
     pub(crate) fn holders(&self, model: &HousingModel) -> String {
         let support = |&(node, component): &(usize, usize)| model.fixed[node][component];
         let supports: BTreeSet<usize> = self.held.iter().filter_map(support).collect();
-        let groups = supports.iter().map(|&place| &model.supports[place].group);
+        let groups = supports.iter().map(|&place| &model.description.supports[place].group);
         let mut words: Vec<String> = groups.map(|group| format!("the support \"{group}\"")).collect();
         if self.held.iter().any(|held| model.tied.contains_key(&held.0)) {
             words.push("a link".to_owned());
@@ -47,20 +57,7 @@ impl NodeInterface {
         let (coordinates, held): (Vec<_>, Vec<_>) =
             wanted.partition(|&(node, component)| free.binary_search(&(d * node + component)).is_ok());
         let driven: Vec<usize> = coordinates.iter().map(|&(node, component)| d * node + component).collect();
-        let mut on_interface = vec![false; model.dof()];
-        let mut identity = TripletBuilder::new(driven.len(), driven.len());
-        for (row, &dof) in driven.iter().enumerate() {
-            on_interface[dof] = true;
-            identity.add(row, row, 1.0);
-        }
-        Self {
-            partition: HousingPartition {
-                interior: free.into_iter().filter(|&dof| !on_interface[dof]).collect(),
-                driven,
-                tie: identity.build(),
-            },
-            coordinates,
-            held,
-        }
+        let identity = SparseMatrix::eye_csc(driven.len());
+        Self { partition: HousingPartition::new(model, driven, identity), coordinates, held }
     }
 }

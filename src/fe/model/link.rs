@@ -2,7 +2,7 @@
 
 use super::housing::HousingModel;
 use super::joint::Side;
-use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes};
+use super::nodal::{NodalMatrix, NodalSource, TiedNode, TiedNodes, unique};
 use super::spread::{Share, spread};
 use super::support::{Connection, SpringStiffness, SupportShare};
 use super::surface::Foot;
@@ -18,7 +18,7 @@ const LARGEST_GAP: f64 = 0.5;
 impl HousingModel {
     /// Adds what a link asks for.
     pub(super) fn attach_link(&mut self, mesh: &Mesh, index: usize) -> Result<(), ModelError> {
-        let link = self.links[index].clone();
+        let link = self.description.links[index].clone();
         let [first, second] = &link.between;
         let first = self.group_on_housing(mesh, first, "the link")?;
         let second = self.group_on_housing(mesh, second, "the link")?;
@@ -26,12 +26,23 @@ impl HousingModel {
         self.common_nodes.push(self.common(&sides)?);
         match link.connection {
             Connection::Spring(stiffness, share) => {
-                let source = NodalSource::Link(index);
-                self.attach_link_springs(mesh, &sides, stiffness, share, source)
+                let [side, other] = &sides;
+                let shares = match share {
+                    SupportShare::PerGroup => side.spread(mesh)?.0,
+                    SupportShare::PerNode => side.nodes.iter().map(|&node| Share::of_node(node)).collect(),
+                };
+                for share in shares {
+                    let feet = share.nodes.iter().filter_map(|&node| other.nearest(mesh, mesh.nodes[node]));
+                    let feet: Vec<Foot> = feet.collect();
+                    let (nodes, matrix) = self.relative_springs(&share, &feet, stiffness);
+                    self.springs.push(NodalMatrix { nodes, matrix, source: NodalSource::Link(index) });
+                }
+                Ok(())
             }
             Connection::Tie => {
-                for side in &sides {
-                    self.check_surface(side)?;
+                for Side { name, faces, .. } in &sides {
+                    let dimension = faces.first().map_or(0, |face| face.kind.dimension());
+                    check_dimension(&self.path, name, dimension, self.dimension - 1, "a tie between parts")?;
                 }
                 let [finer, coarser] = finer_first(mesh, &sides)?;
                 let tied = self.feet(mesh, index, finer, coarser).or_else(|gap| {
@@ -68,43 +79,11 @@ impl HousingModel {
         )))
     }
 
-    fn check_surface(&self, side: &Side) -> Result<(), ModelError> {
-        check_dimension(&self.path, &side.name, side.dimension, self.dimension - 1, "a tie between parts")
-    }
-
-    fn attach_link_springs(
-        &mut self,
-        mesh: &Mesh,
-        [side, other]: &[Side; 2],
-        stiffness: SpringStiffness,
-        share: SupportShare,
-        source: NodalSource,
-    ) -> Result<(), ModelError> {
-        let shares = match share {
-            SupportShare::PerGroup => side.spread(mesh)?.0,
-            SupportShare::PerNode => side.nodes.iter().map(|&node| Share::of_node(node)).collect(),
-        };
-        let nearest = other.search(mesh);
-        for share in shares {
-            let feet: Vec<Foot> = share.nodes.iter().filter_map(|&node| nearest(mesh.nodes[node])).collect();
-            self.springs.push(self.relative_springs(&share, &feet, stiffness, source));
-        }
-        Ok(())
-    }
-
     /// `1/2 sum_ab w_ab (u_a - v_a) . S (u_b - v_b)`, v the displacement of the other group at each foot.
-    fn relative_springs(
-        &self,
-        share: &Share,
-        feet: &[Foot],
-        stiffness: SpringStiffness,
-        source: NodalSource,
-    ) -> NodalMatrix {
+    fn relative_springs(&self, share: &Share, feet: &[Foot], stiffness: SpringStiffness) -> (Vec<usize>, DMatrix<f64>) {
         let d = self.dimension;
-        let mut nodes = share.nodes.clone();
-        nodes.extend(feet.iter().flat_map(|foot| foot.nodes.iter().copied()));
-        nodes.sort_unstable();
-        nodes.dedup();
+        let of_feet = feet.iter().flat_map(|foot| &foot.nodes);
+        let nodes = unique(share.nodes.iter().chain(of_feet).copied());
         let place = |node: usize| nodes.binary_search(&node).unwrap_or_default();
         let mut relative: DMatrix<f64> = DMatrix::zeros(d * share.nodes.len(), d * nodes.len());
         for ((row, &node), foot) in share.nodes.iter().enumerate().zip(feet) {
@@ -119,7 +98,7 @@ impl HousingModel {
         }
         let spring = self.spring_matrix(share, stiffness);
         let matrix = relative.transpose() * spring * &relative;
-        NodalMatrix { nodes, matrix, source }
+        (nodes, matrix)
     }
 
     /// The nodes of a side with the faces of the other that they follow.
@@ -127,15 +106,14 @@ impl HousingModel {
     /// # Errors
     /// [`ModelError::Refused`] if some of them are not near it.
     fn feet(&self, mesh: &Mesh, link: usize, side: &Side, to: &Side) -> Result<TiedNodes, ModelError> {
-        let nearest = to.search(mesh);
         let mut tied = TiedNodes::new();
         let (mut far, mut worst) = (0, (0.0, 0));
         for &node in &side.nodes {
             if to.nodes.binary_search(&node).is_ok() {
                 continue; // shared by both: the meshes are one here
             }
-            let foot = nearest(mesh.nodes[node]).filter(|foot| !foot.nodes.contains(&node));
-            let Some(foot) = foot else {
+            let foot = to.nearest(mesh, mesh.nodes[node]);
+            let Some(foot) = foot.filter(|foot| !foot.nodes.contains(&node)) else {
                 continue;
             };
             if foot.distance > LARGEST_GAP * foot.size {
@@ -144,8 +122,7 @@ impl HousingModel {
                     worst = (foot.distance, node);
                 }
             }
-            let of_node = TiedNode { nodes: foot.nodes, follow: foot.follow, foot: foot.place, size: foot.size, link };
-            tied.insert(node, of_node);
+            tied.insert(node, TiedNode { foot, link });
         }
         if far == 0 {
             return Ok(tied);
@@ -165,8 +142,8 @@ impl HousingModel {
     ///
     /// # Errors
     /// [`ModelError::Refused`] for one that ends within the other body, unless bodies may lie in one another.
-    pub(super) fn ties_apart(&self, rule: OverlapRule) -> Result<Vec<Apart>, ModelError> {
-        let ties = self.links.iter().enumerate();
+    pub(super) fn ties_apart(&self) -> Result<Vec<Apart>, ModelError> {
+        let ties = self.description.links.iter().enumerate();
         let ties = ties.filter(|(_, link)| link.connection == Connection::Tie);
         let density: Vec<f64> = self.properties.iter().map(|part| part.density * part.thickness).collect();
         let found = ties.filter_map(|(index, link)| {
@@ -176,7 +153,7 @@ impl HousingModel {
         });
         let found: Vec<Apart> = found.collect();
         match found.iter().find(|apart| apart.inside > 0) {
-            Some(apart) if rule == OverlapRule::Refuse => Err(ModelError::Refused(format!(
+            Some(apart) if self.description.overlap == OverlapRule::Refuse => Err(ModelError::Refused(format!(
                 "{}: {}: a tie joins faces that lie on each other; move or cut one of the bodies in gmsh, or check the groups of the link; housing.overlap = \"allow\" takes them as they are",
                 self.path,
                 apart.sentence()
@@ -195,7 +172,7 @@ impl HousingModel {
     /// A node that is tied can neither carry another one nor be fixed.
     fn check_chains(&self, sides: &[Side; 2]) -> Result<(), ModelError> {
         for (&node, tied) in &self.tied {
-            if let Some(&carrier) = tied.nodes.iter().find(|node| self.tied.contains_key(node)) {
+            if let Some(&carrier) = tied.foot.nodes.iter().find(|node| self.tied.contains_key(node)) {
                 return Err(self.chain(carrier, sides));
             }
             self.check_not_fixed(node, &sides[0].name)?;
@@ -209,7 +186,7 @@ impl HousingModel {
             None => Ok(()),
             Some(&support) => Err(ModelError::Refused(format!(
                 "{}: node {} is tied by group \"{tied}\" and fixed by group \"{}\": a node can be one or the other; take it out of one of the groups in gmsh, or support the housing elsewhere",
-                self.path, self.node_tags[node], self.supports[support].group
+                self.path, self.node_tags[node], self.description.supports[support].group
             ))),
         }
     }
@@ -221,10 +198,8 @@ impl HousingModel {
             return None;
         }
         let mut matrix = TripletBuilder::new(self.dof(), self.dof());
-        for node in 0..self.coordinates.len() {
-            for (row, column, factor) in self.tied_entries(node) {
-                matrix.add(row, column, factor);
-            }
+        for (row, column, factor) in (0..self.coordinates.len()).flat_map(|node| self.tied_entries(node)) {
+            matrix.add(row, column, factor);
         }
         Some(matrix.build())
     }
@@ -244,7 +219,7 @@ impl HousingModel {
             return (0..d).map(|i| (d * node + i, d * node + i, 1.0)).collect();
         };
         let mut entries = Vec::new();
-        for (&other, follow) in tied.nodes.iter().zip(&tied.follow) {
+        for (&other, follow) in tied.foot.nodes.iter().zip(&tied.foot.follow) {
             for i in 0..d {
                 for j in 0..d {
                     entries.push((d * node + i, d * other + j, follow[(i, j)]));

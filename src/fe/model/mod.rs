@@ -21,11 +21,11 @@ mod support;
 mod surface;
 mod tie;
 
-pub use elements::{HousingElement, HousingElements};
+pub use elements::{HousingElement, HousingElements, HousingPart};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;
-pub use housing::{HousingDescription, HousingModel, HousingPart, PlaneModel};
+pub use housing::{HousingDescription, HousingModel, PlaneModel};
 pub use interface::{HousingPartition, NodeInterface};
 pub(crate) use nodal::{NodalMatrix, NodalSource};
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};

@@ -1,6 +1,7 @@
 //! What acts on the nodes of a housing beside its elements: matrices on some of them, and faces that others follow.
 
-use nalgebra::{DMatrix, Matrix3};
+use super::surface::Foot;
+use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
 /// A symmetric matrix on some nodes: springs, or the share of a point mass.
@@ -26,11 +27,22 @@ pub(crate) type TiedNodes = BTreeMap<usize, TiedNode>;
 /// A node that moves with a face: `u = sum_i follow_i u_i`.
 #[derive(Debug, Clone)]
 pub(crate) struct TiedNode {
-    pub nodes: Vec<usize>,
-    pub follow: Vec<Matrix3<f64>>,
-    /// The nearest point of the face, m, and the face's size, m.
-    pub foot: [f64; 3],
-    pub size: f64,
+    pub foot: Foot,
     /// Index of the link.
     pub link: usize,
+}
+
+/// Nodes in ascending order: the corners of a face, wherever it begins.
+pub(super) fn sorted(nodes: &[usize]) -> Vec<usize> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes
+}
+
+/// Nodes in ascending order, each once.
+pub(super) fn unique(nodes: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut nodes: Vec<usize> = nodes.collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
 }

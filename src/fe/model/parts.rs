@@ -1,7 +1,7 @@
 //! Which elements a housing is made of, and which part each belongs to.
 
-use super::ModelError;
 use super::elements::{HousingElement, HousingElements};
+use super::{HousingPart, ModelError};
 use crate::fe::mesh::Mesh;
 
 impl HousingElements {
@@ -9,59 +9,50 @@ impl HousingElements {
     ///
     /// # Errors
     /// [`ModelError`] for a group of another dimension, an element in two parts or in none.
-    pub(super) fn of_parts(mesh: &Mesh, groups: &[&str], path: &str) -> Result<Self, ModelError> {
-        let dimension = highest_dimension(mesh);
-        let owner = owners(mesh, groups, dimension, path)?;
+    pub(super) fn of_parts(mesh: &Mesh, parts: &[HousingPart], path: &str) -> Result<Self, ModelError> {
+        let dimension = mesh.dimension().max(2);
+        let owner = owners(mesh, parts, dimension, path)?;
         let mut found = Self::default();
-        let (mut unassigned, mut first_tag) = (0, 0);
-        for (block, owners) in mesh.blocks.iter().zip(&owner) {
-            let kind = block.kind;
-            if kind.dimension() != dimension {
-                continue;
-            }
-            for ((nodes, &tag), owner) in block.elements().zip(&block.tags).zip(owners) {
-                match owner {
-                    Some(part) => {
-                        let (part, first) = (*part, found.connectivity.len());
-                        found.connectivity.extend_from_slice(nodes);
-                        found.list.push(HousingElement { tag, kind, part, first });
-                    }
-                    None => {
-                        first_tag = if unassigned == 0 { tag } else { first_tag };
-                        unassigned += 1;
-                    }
+        let mut unassigned = Vec::new();
+        for id in mesh.element_ids(dimension) {
+            let block = &mesh.blocks[id.block];
+            let (tag, first) = (block.tags[id.index], found.connectivity.len());
+            match owner[id.block][id.index] {
+                Some(part) => {
+                    found.connectivity.extend_from_slice(block.nodes_of(id.index));
+                    found.list.push(HousingElement { tag, kind: block.kind, part, first });
                 }
+                None => unassigned.push(tag),
             }
         }
-        if unassigned > 0 {
+        if let Some(first_tag) = unassigned.first() {
             return Err(ModelError::Refused(format!(
-                "{path}: {unassigned} of {} elements belong to no part (the first is element {first_tag}); add their group to [housing] parts",
-                unassigned + found.len()
+                "{path}: {} of {} elements belong to no part (the first is element {first_tag}); add their group to [housing] parts",
+                unassigned.len(),
+                unassigned.len() + found.len()
             )));
         }
         Ok(found)
     }
 }
 
-/// Highest dimension of the mesh's elements; 2 if there are neither surfaces nor volumes, so that the
-/// message about missing parts speaks of surfaces.
-pub(super) fn highest_dimension(mesh: &Mesh) -> usize {
-    let dimensions = mesh.blocks.iter().map(|block| block.kind.dimension());
-    dimensions.max().unwrap_or(0).max(2)
-}
-
 /// The part of each element of each block.
-fn owners(mesh: &Mesh, groups: &[&str], dimension: usize, path: &str) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
-    let mut owner: Vec<Vec<Option<usize>>> = mesh.blocks.iter().map(|block| vec![None; block.len()]).collect();
-    for (part, &name) in groups.iter().enumerate() {
+fn owners(
+    mesh: &Mesh,
+    parts: &[HousingPart],
+    dimension: usize,
+    path: &str,
+) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
+    let mut owner = mesh.for_each_element(None);
+    for (part, HousingPart { group: name, .. }) in parts.iter().enumerate() {
         let group = mesh.group(name)?;
         check_dimension(path, name, group.dimension, dimension, "a part of this housing")?;
         for element in &group.elements {
             let slot = &mut owner[element.block][element.index];
-            if let Some(first) = slot.filter(|&first| first != part) {
+            if let Some(first) = slot.filter(|&first: &usize| first != part) {
                 return Err(ModelError::Refused(format!(
                     "{path}: element {} belongs to the parts \"{}\" and \"{name}\": a part of the housing has one material",
-                    mesh.blocks[element.block].tags[element.index], groups[first]
+                    mesh.blocks[element.block].tags[element.index], parts[first].group
                 )));
             }
             *slot = Some(part);

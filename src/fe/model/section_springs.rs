@@ -15,13 +15,6 @@ use super::nodal::{NodalMatrix, NodalSource};
 use super::{MeshedRing, ModelError, Ring};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Matrix6x3, Vector3};
 
-/// The motion (u_x, u_y, u_z, omega_x, omega_y, omega_z) of a section in the ring's frame from the displacements of its
-/// nodes in the mesh's axes [6 x d nodes].
-struct SectionMotion {
-    nodes: Vec<usize>,
-    rows: DMatrix<f64>,
-}
-
 impl HousingModel {
     /// Attaches the springs of `ring` to `solid`, part of this model, whose sections must include those at the ring's
     /// nodes.
@@ -29,8 +22,10 @@ impl HousingModel {
     /// # Errors
     /// [`ModelError::Refused`] if they do not.
     pub(crate) fn attach_ring_springs(&mut self, solid: &MeshedRing, ring: &Ring) -> Result<(), ModelError> {
-        for spring in ring.springs() {
-            let (node, in_plane) = ring.node_of(spring.dofs[0]);
+        for spring in &ring.springs {
+            // the displacements out of the plane follow, node by node, those in the plane
+            let place = spring.dofs[0] / spring.dofs.len();
+            let (node, in_plane) = (place % ring.nodes(), place < ring.nodes());
             let stations = solid.sections.len();
             if !(node * stations).is_multiple_of(ring.nodes()) {
                 return Err(ModelError::Refused(format!(
@@ -41,21 +36,23 @@ impl HousingModel {
             let section = &solid.sections[node * stations / ring.nodes()];
             let motion = self.section_motion(section, ring.node_angle(node), solid.radius);
             let components = if in_plane { [0, 1, 5] } else { [2, 3, 4] };
-            let mut stretch = DVector::zeros(motion.rows.ncols());
+            let mut stretch = DVector::zeros(motion.ncols());
             for (component, factor) in components.into_iter().zip(spring.row) {
-                stretch += motion.rows.row(component).transpose() * factor;
+                stretch += motion.row(component).transpose() * factor;
             }
             self.springs.push(NodalMatrix {
-                nodes: motion.nodes,
+                nodes: section.iter().map(|&(node, _)| node).collect(),
                 matrix: &stretch * stretch.transpose() * spring.stiffness,
                 // what holds the ring came with its joint
-                source: NodalSource::Link(self.links.len().saturating_sub(1)),
+                source: NodalSource::Link(self.description.links.len().saturating_sub(1)),
             });
         }
         Ok(())
     }
 
-    fn section_motion(&self, section: &[(usize, f64)], angle: f64, radius: f64) -> SectionMotion {
+    /// The motion (u_x, u_y, u_z, omega_x, omega_y, omega_z) of a section in the ring's frame from the displacements of its
+    /// nodes in the mesh's axes [6 x d nodes].
+    fn section_motion(&self, section: &[(usize, f64)], angle: f64, radius: f64) -> DMatrix<f64> {
         let d = self.dimension;
         let (sin, cos) = angle.sin_cos();
         let polar = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]];
@@ -72,7 +69,7 @@ impl HousingModel {
         let places: Vec<(f64, f64, f64)> = section
             .iter()
             .map(|&(node, weight)| {
-                let [x, y, z] = self.frame.point(self.coordinates[node]);
+                let [x, y, z] = self.ring_coordinates(node);
                 let height = if d == 3 { z } else { 0.0 };
                 (weight, x.hypot(y) - radius, height)
             })
@@ -97,7 +94,7 @@ impl HousingModel {
             let own = to_frame * from * axes;
             rows.view_mut((0, d * place), (6, d)).copy_from(&own.columns(0, d));
         }
-        SectionMotion { nodes: section.iter().map(|&(node, _)| node).collect(), rows }
+        rows
     }
 }
 

@@ -1,6 +1,7 @@
 //! A ring of rectangular section as a body of elements, in a mesh of its own or added to another.
 
 use super::RingFrame;
+use super::nodal::unique;
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -61,12 +62,31 @@ impl SolidRing {
         let first_tag = mesh.node_tags.iter().max().map_or(1, |tag| tag + 1);
         mesh.node_tags.extend((first_tag..).take(grid.points.len()));
         mesh.nodes.extend_from_slice(&grid.points);
-        let [solid, face] = match dimension {
-            3 => [ElementKind::Hex20, ElementKind::Quad8],
-            _ => [ElementKind::Quad8, ElementKind::Line3],
+        let mirrored = frame.axis()[2] < 0.0;
+        // corners of a cell, and of the face on its outside
+        let (solid, corners, face, outside): (_, Vec<[usize; 3]>, _, &[_]) = match dimension {
+            // outward normal: e_t x e_z
+            3 => (
+                ElementKind::Hex20,
+                CORNERS.to_vec(),
+                ElementKind::Quad8,
+                &[[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]],
+            ),
+            _ => {
+                // counter-clockwise in the mesh's x and y, where angles may run clockwise
+                let turned = |&[across, along, up]: &[usize; 3]| match mirrored {
+                    true => [along, across, up],
+                    false => [across, along, up],
+                };
+                let corners = CORNERS[..4].iter().map(turned);
+                (ElementKind::Quad8, corners.collect(), ElementKind::Line3, &[[0, 0, 0], [0, 2, 0]])
+            }
         };
-        let body = add_group(&mut mesh, "solid ring", solid, grid.cells(self, dimension));
-        let faces = grid.outer_faces(self, dimension);
+        let layers = self.layers(dimension).unwrap_or(1);
+        let cells = grid.elements(solid, origins([self.across, self.around, layers]), &corners);
+        let body = add_group(&mut mesh, "solid ring", solid, cells);
+        let on_outside = origins([1, self.around, layers]).map(|[_, i, k]| [2 * self.across, i, k]);
+        let faces = grid.elements(face, on_outside, outside);
         let outer_face = add_group(&mut mesh, "solid ring, outside", face, faces);
         MeshedRing {
             radius: self.radius,
@@ -83,18 +103,11 @@ struct Grid {
     nodes: HashMap<[usize; 3], usize>,
     points: Vec<[f64; 3]>,
     round: usize,
-    /// Whether angles run clockwise in the mesh's x and y.
-    mirrored: bool,
 }
 
 impl Grid {
     fn new(ring: &SolidRing, mesh: &Mesh, frame: &RingFrame, dimension: usize) -> Self {
-        let mut grid = Self {
-            nodes: HashMap::new(),
-            points: Vec::new(),
-            round: 2 * ring.around,
-            mirrored: dimension != 3 && frame.axis()[2] < 0.0,
-        };
+        let mut grid = Self { nodes: HashMap::new(), points: Vec::new(), round: 2 * ring.around };
         let layers = ring.layers(dimension);
         for i in 0..grid.round {
             for j in 0..=2 * ring.across {
@@ -122,11 +135,21 @@ impl Grid {
         self.nodes.get(&[j, i % self.round, k]).copied()
     }
 
-    /// Nodes at corners given in halves from `origin`, then in the middles of `edges`.
-    fn element(&self, origin: [usize; 3], corners: &[[usize; 3]], edges: &[[usize; 2]]) -> impl Iterator<Item = usize> {
-        let middles = edges.iter().map(|&[a, b]| [0, 1, 2].map(|axis| (corners[a][axis] + corners[b][axis]) / 2));
-        let places = corners.iter().copied().chain(middles);
-        places.filter_map(move |place| self.node([0, 1, 2].map(|axis| origin[axis] + place[axis])))
+    /// Nodes of elements at some origins: at the corners, given in halves from there, then in the middles of the edges.
+    fn elements(
+        &self,
+        kind: ElementKind,
+        origins: impl Iterator<Item = [usize; 3]>,
+        corners: &[[usize; 3]],
+    ) -> Vec<usize> {
+        let edges = kind.middle_edges().iter();
+        let middles = edges.map(|&[a, b]| [0, 1, 2].map(|axis| (corners[a][axis] + corners[b][axis]) / 2));
+        let places: Vec<[usize; 3]> = corners.iter().copied().chain(middles).collect();
+        let nodes = |origin: [usize; 3]| {
+            let at = |place: &[usize; 3]| self.node([0, 1, 2].map(|axis| origin[axis] + place[axis]));
+            places.iter().filter_map(at).collect::<Vec<_>>()
+        };
+        origins.flat_map(nodes).collect()
     }
 
     /// Corner nodes of a section, weighted by the trapezoidal rule.
@@ -135,55 +158,16 @@ impl Grid {
             true => 0.5 / cells as f64,
             false => 1.0 / cells as f64,
         };
+        let layers = ring.layers(dimension);
         let mut section = Vec::new();
         for j in 0..=ring.across {
-            for k in 0..=ring.layers(dimension).unwrap_or(0) {
-                let along = ring.layers(dimension).map_or(1.0, |cells| share(k, cells));
+            for k in 0..=layers.unwrap_or(0) {
+                let along = layers.map_or(1.0, |cells| share(k, cells));
                 let node = self.node([2 * j, 2 * station, 2 * k]);
                 section.extend(node.map(|node| (node, share(j, ring.across) * along)));
             }
         }
         section
-    }
-
-    fn cells(&self, ring: &SolidRing, dimension: usize) -> Vec<usize> {
-        let mut connectivity = Vec::new();
-        for origin in origins([ring.across, ring.around, ring.layers(dimension).unwrap_or(1)]) {
-            match dimension {
-                3 => connectivity.extend(self.element(origin, &CORNERS, ElementKind::Hex20.middle_edges())),
-                _ => {
-                    // counter-clockwise in the mesh's x and y
-                    let corners = [0, 1, 2, 3].map(|corner| {
-                        let [across, along, up] = CORNERS[corner];
-                        match self.mirrored {
-                            true => [along, across, up],
-                            false => [across, along, up],
-                        }
-                    });
-                    connectivity.extend(self.element(origin, &corners, ElementKind::Quad8.middle_edges()));
-                }
-            }
-        }
-        connectivity
-    }
-
-    fn outer_faces(&self, ring: &SolidRing, dimension: usize) -> Vec<usize> {
-        let mut connectivity = Vec::new();
-        for [_, i, k] in origins([1, ring.around, ring.layers(dimension).unwrap_or(1)]) {
-            let origin = [2 * ring.across, i, k];
-            match dimension {
-                3 => {
-                    // outward normal: e_t x e_z
-                    let corners = [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]];
-                    connectivity.extend(self.element(origin, &corners, ElementKind::Quad8.middle_edges()));
-                }
-                _ => {
-                    let ends = [[0, 0, 0], [0, 2, 0]];
-                    connectivity.extend(self.element(origin, &ends, &[[0, 1]]));
-                }
-            }
-        }
-        connectivity
     }
 }
 
@@ -210,9 +194,7 @@ fn add_group(mesh: &mut Mesh, name: &str, kind: ElementKind, connectivity: Vec<u
     let name = std::iter::once(name.to_owned()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
     let count = connectivity.len() / kind.nodes();
     let block = mesh.blocks.len();
-    let mut nodes = connectivity.clone();
-    nodes.sort_unstable();
-    nodes.dedup();
+    let nodes = unique(connectivity.iter().copied());
     mesh.blocks.push(ElementBlock {
         kind,
         tags: (first_tag..).take(count).collect(),

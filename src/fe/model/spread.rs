@@ -4,6 +4,7 @@
 //! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
+use super::nodal::sorted;
 use crate::fe::element::continuum::{measure_matrix, surface_matrix};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;
@@ -28,13 +29,12 @@ pub(super) fn shares(
     used: &[bool],
     purpose: &'static str,
 ) -> Result<Vec<Share>, ModelError> {
-    let elements = group.elements.iter().filter_map(|id| {
-        let block = mesh.blocks.get(id.block)?;
-        let nodes = block.element(id.index)?;
-        let on_housing = nodes.iter().all(|&node| used[node]);
-        on_housing.then_some((block.kind, nodes, block.tags[id.index]))
+    let elements = group.elements.iter().map(|id| {
+        let block = &mesh.blocks[id.block];
+        (block.kind, block.nodes_of(id.index), block.tags[id.index])
     });
-    let (shares, _) = spread(mesh, elements)?;
+    let on_housing = elements.filter(|(_, nodes, _)| nodes.iter().all(|&node| used[node]));
+    let (shares, _) = spread(mesh, on_housing)?;
     match shares.is_empty() {
         false => Ok(shares),
         true => Err(not_on_housing(&mesh.source.display().to_string(), &group.name, purpose)),
@@ -56,19 +56,10 @@ pub(super) fn spread<'a>(
     // a triangle on three corners of a quadrilateral of the group lies in it
     let quads = elements.iter().filter(|(kind, ..)| kind.dimension() == 2 && kind.corners() == 4);
     let mut seen: BTreeSet<Vec<usize>> = quads
-        .flat_map(|(_, nodes, _)| {
-            (0..4).map(|left_out| {
-                let mut three: Vec<usize> =
-                    (0..4).filter(|&local| local != left_out).map(|local| nodes[local]).collect();
-                three.sort_unstable();
-                three
-            })
-        })
+        .flat_map(|(_, nodes, _)| (0..4).map(|left_out| sorted(&[1, 2, 3].map(|k| nodes[(left_out + k) % 4]))))
         .collect();
     for (kind, nodes, tag) in elements {
-        let mut corners = nodes[..kind.corners()].to_vec();
-        corners.sort_unstable();
-        if !seen.insert(corners) {
+        if !seen.insert(sorted(&nodes[..kind.corners()])) {
             continue; // a group is a set
         }
         let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
@@ -79,8 +70,7 @@ pub(super) fn spread<'a>(
         };
         let matrix = matrix.map_err(|source| ModelError::element(&mesh.source.display().to_string(), tag, &source))?;
         total += matrix.sum();
-        let nodes = nodes.to_vec();
-        found.push(Share { nodes, matrix });
+        found.push(Share { nodes: nodes.to_vec(), matrix });
     }
     for share in &mut found {
         share.matrix /= total;

@@ -1,7 +1,7 @@
 //! The surface of one side of a link, and the point of it that is nearest to a given one.
 
 use crate::fe::element::continuum::shape;
-use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
 /// Steps of the search for a foot; on a plane face one is enough, on a curved one each gains a factor of
@@ -18,26 +18,15 @@ pub(super) struct SideFace {
     pub nodes: Vec<usize>,
     /// gmsh's tag of the element, or of the one behind it.
     pub tag: u64,
-}
-
-/// Curves (plane housings) or faces (solid ones), or as many single points.
-#[derive(Debug)]
-pub(super) struct Surface<'m> {
-    mesh: &'m Mesh,
-    faces: Vec<Face>,
-}
-
-#[derive(Debug)]
-struct Face {
-    kind: ElementKind,
-    nodes: Vec<usize>,
-    low: Vector3<f64>,
-    high: Vector3<f64>,
+    /// Holds the face, curved or not.
+    bounds: BoundingBox,
 }
 
 /// The nearest point of a surface, and how a point fixed to the surface there moves.
 #[derive(Debug, Clone)]
-pub(super) struct Foot {
+pub(crate) struct Foot {
+    /// Kind of the face.
+    pub kind: ElementKind,
     /// Nodes of the face.
     pub nodes: Vec<usize>,
     /// The point's displacement is `sum_i follow_i u_i`: the face's at the foot and its rotation times the
@@ -51,92 +40,74 @@ pub(super) struct Foot {
     pub size: f64,
 }
 
-impl<'m> Surface<'m> {
-    /// The surface that these faces make.
-    pub(super) fn new(mesh: &'m Mesh, faces: &[SideFace]) -> Self {
-        let face = |face: &SideFace| Face::new(mesh, face.kind, &face.nodes);
-        Self { mesh, faces: faces.iter().map(face).collect() }
-    }
-
-    /// The point nearest to `point` (m); `None` if the surface is empty.
-    pub(super) fn nearest(&self, point: [f64; 3]) -> Option<Foot> {
-        let point = Vector3::from(point);
-        let mut best: Option<(f64, &Face, [f64; 2])> = None;
-        for face in &self.faces {
-            let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
-            if face.box_distance(&point) >= limit {
-                continue;
-            }
-            let (natural, distance) = face.project(self.mesh, &point);
-            if distance < limit {
-                best = Some((distance, face, natural));
-            }
+/// The point of some faces that is nearest to `point` (m): curves (plane housings), faces (solid ones), or as many single
+/// points; `None` if there are none.
+pub(super) fn nearest(mesh: &Mesh, faces: &[SideFace], point: [f64; 3]) -> Option<Foot> {
+    let point = Vector3::from(point);
+    let mut best: Option<(f64, &SideFace, [f64; 2])> = None;
+    for face in faces {
+        let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
+        if face.box_distance(&point) >= limit {
+            continue;
         }
-        best.map(|(distance, face, natural)| face.foot(self.mesh, &point, natural, distance))
+        let (natural, distance) = face.project(mesh, &point);
+        if distance < limit {
+            best = Some((distance, face, natural));
+        }
     }
+    best.map(|(distance, face, natural)| face.foot(mesh, &point, natural, distance))
 }
 
-/// Place and tangents of a face at natural coordinates.
-struct Local {
-    place: Vector3<f64>,
-    tangents: [Vector3<f64>; 2],
-}
-
-impl Face {
-    fn new(mesh: &Mesh, kind: ElementKind, nodes: &[usize]) -> Self {
-        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(-f64::INFINITY));
-        for &node in nodes {
-            let at = Vector3::from(mesh.nodes[node]);
-            (low, high) = (low.inf(&at), high.sup(&at));
-        }
-        let bulge = Vector3::repeat(BULGE * (high - low).max());
-        Self { kind, nodes: nodes.to_vec(), low: low - bulge, high: high + bulge }
+impl SideFace {
+    pub(super) fn new(mesh: &Mesh, kind: ElementKind, nodes: Vec<usize>, tag: u64) -> Self {
+        let bounds = BoundingBox::of(nodes.iter().map(|&node| mesh.nodes[node]));
+        Self { kind, nodes, tag, bounds: bounds.grown(BULGE * bounds.longest_side()) }
     }
 
     fn box_distance(&self, point: &Vector3<f64>) -> f64 {
-        let outside = (self.low - point).sup(&(point - self.high)).sup(&Vector3::zeros());
-        outside.norm()
+        let [low, high] = [self.bounds.min, self.bounds.max].map(Vector3::from);
+        (low - point).sup(&(point - high)).sup(&Vector3::zeros()).norm()
     }
 
-    fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> Local {
-        let mut local = Local { place: Vector3::zeros(), tangents: [Vector3::zeros(); 2] };
-        if self.kind == ElementKind::Point {
-            local.place = Vector3::from(mesh.nodes[self.nodes[0]]);
-            return local;
-        }
+    /// Place and tangents at natural coordinates.
+    fn at(&self, mesh: &Mesh, natural: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+        let (mut place, mut tangents) = (Vector3::zeros(), [Vector3::zeros(); 2]);
         let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
         for ((&node, value), derivative) in self.nodes.iter().zip(values).zip(derivatives) {
             let at = Vector3::from(mesh.nodes[node]);
-            local.place += at * value;
-            for (tangent, factor) in local.tangents.iter_mut().zip(derivative) {
+            place += at * value;
+            for (tangent, factor) in tangents.iter_mut().zip(derivative) {
                 *tangent += at * factor;
             }
         }
-        local
+        (place, tangents)
     }
 
     /// Natural coordinates and distance of the nearest point: inside, or else on a side.
     fn project(&self, mesh: &Mesh, point: &Vector3<f64>) -> ([f64; 2], f64) {
-        let distance = |natural| (self.at(mesh, natural).place - point).norm();
+        let distance = |natural| (self.at(mesh, natural).0 - point).norm();
         if self.kind == ElementKind::Point {
             return ([0.0; 2], distance([0.0; 2]));
         }
-        let domain = Domain::of(self.kind);
-        if let Some(inside) = self.descend(mesh, point, domain.centre, &domain) {
+        let centre = if self.kind.corners() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
+        if let Some(inside) = self.descend(mesh, point, centre) {
             return (inside, distance(inside));
         }
-        let on_sides = domain.sides.iter().map(|side| self.descend_side(mesh, point, *side));
+        // the edges of a face, the ends of a curve
+        let sides = self.kind.faces().iter();
+        let ends = sides.map(|side| [side.nodes[0], side.nodes[side.kind.corners() - 1]]);
+        let natural = |local: usize| [0, 1].map(|axis| self.kind.natural_nodes()[local][axis]);
+        let on_sides = ends.map(|ends| self.descend_side(mesh, point, ends.map(natural)));
         let nearest = on_sides.map(|natural| (natural, distance(natural)));
-        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((domain.centre, f64::INFINITY))
+        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((centre, f64::INFINITY))
     }
 
     /// Gauss-Newton on the squared distance; `None` if it leads out of the face.
-    fn descend(&self, mesh: &Mesh, point: &Vector3<f64>, from: [f64; 2], domain: &Domain) -> Option<[f64; 2]> {
-        let mut natural = from;
+    fn descend(&self, mesh: &Mesh, point: &Vector3<f64>, mut natural: [f64; 2]) -> Option<[f64; 2]> {
         for _ in 0..STEPS {
-            let Local { place, tangents: [s, t] } = self.at(mesh, natural);
+            let (place, [s, t]) = self.at(mesh, natural);
             let gap = point - place;
-            let step = match domain.dimension {
+            let step = match self.kind.dimension() {
                 1 => [s.dot(&gap) / s.norm_squared(), 0.0],
                 _ => {
                     let (ss, st, tt) = (s.norm_squared(), s.dot(&t), t.norm_squared());
@@ -146,14 +117,24 @@ impl Face {
                 }
             };
             natural = [natural[0] + step[0], natural[1] + step[1]];
-            if !domain.near(natural) {
+            // so far out that a search from there could not end inside
+            if !self.holds(natural, 1.0) {
                 return None;
             }
             if step[0].abs().max(step[1].abs()) < 1e-14 {
                 break;
             }
         }
-        domain.contains(natural).then_some(natural)
+        // inside or on the boundary, but for round-off
+        self.holds(natural, 1e-12).then_some(natural)
+    }
+
+    /// Whether natural coordinates are on the face, or beyond it by no more than a margin.
+    fn holds(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {
+        match self.kind.corners() {
+            3 => xi >= -margin && eta >= -margin && xi + eta <= 1.0 + margin,
+            _ => xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin,
+        }
     }
 
     /// The same along a side between two corners, kept between them.
@@ -162,7 +143,7 @@ impl Face {
         let natural = |s: f64| [a[0] + s * along[0], a[1] + s * along[1]];
         let mut s: f64 = 0.5;
         for _ in 0..STEPS {
-            let Local { place, tangents } = self.at(mesh, natural(s));
+            let (place, tangents) = self.at(mesh, natural(s));
             let tangent = tangents[0] * along[0] + tangents[1] * along[1];
             let squared = tangent.norm_squared();
             if squared <= 0.0 {
@@ -181,26 +162,19 @@ impl Face {
     /// How a point at a gap from the face follows it: `u + omega x gap`, the rotation `omega` from the
     /// derivatives of the face's displacements along it.
     fn foot(&self, mesh: &Mesh, point: &Vector3<f64>, natural: [f64; 2], distance: f64) -> Foot {
-        let local = self.at(mesh, natural);
-        let gap = (point - local.place).cross_matrix();
-        let turns = |[xi, eta, _]: [f64; 3]| -> Matrix3<f64> { rotation_rows(&local.tangents, [xi, eta]) };
-        let follow = match self.kind {
-            ElementKind::Point => vec![Matrix3::identity()],
-            kind => {
-                let (values, derivatives) = shape(kind, [natural[0], natural[1], 0.0]);
-                let nodes = self.nodes.len();
-                let pairs = values.into_iter().zip(derivatives).take(nodes);
-                pairs
-                    .map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative))
-                    .collect()
-            }
-        };
+        let (place, tangents) = self.at(mesh, natural);
+        let gap = (point - place).cross_matrix();
+        let turns = |[xi, eta, _]: [f64; 3]| rotation_rows(&tangents, [xi, eta]);
+        let (values, derivatives) = shape(self.kind, [natural[0], natural[1], 0.0]);
+        let pairs = values.into_iter().zip(derivatives).take(self.nodes.len());
+        let follow = pairs.map(|(value, derivative)| Matrix3::from_diagonal_element(value) - gap * turns(derivative));
         Foot {
+            kind: self.kind,
             nodes: self.nodes.clone(),
-            follow,
-            place: local.place.into(),
+            follow: follow.collect(),
+            place: place.into(),
             distance,
-            size: (self.high - self.low).max() / (1.0 + 2.0 * BULGE),
+            size: self.bounds.longest_side() / (1.0 + 2.0 * BULGE),
         }
     }
 }
@@ -225,53 +199,6 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
     rows
 }
 
-/// The natural coordinates that a face has.
-struct Domain {
-    dimension: usize,
-    centre: [f64; 2],
-    triangle: bool,
-    sides: &'static [[[f64; 2]; 2]],
-}
-
-impl Domain {
-    fn of(kind: ElementKind) -> Self {
-        const ENDS: [[[f64; 2]; 2]; 2] = [[[-1.0, 0.0]; 2], [[1.0, 0.0]; 2]];
-        const TRIANGLE: [[[f64; 2]; 2]; 3] =
-            [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [0.0, 0.0]]];
-        const SQUARE: [[[f64; 2]; 2]; 4] = [
-            [[-1.0, -1.0], [1.0, -1.0]],
-            [[1.0, -1.0], [1.0, 1.0]],
-            [[1.0, 1.0], [-1.0, 1.0]],
-            [[-1.0, 1.0], [-1.0, -1.0]],
-        ];
-        let (dimension, triangle, sides): (_, _, &'static [_]) = match kind {
-            ElementKind::Line2 | ElementKind::Line3 => (1, false, &ENDS),
-            ElementKind::Tri3 | ElementKind::Tri6 => (2, true, &TRIANGLE),
-            _ => (2, false, &SQUARE),
-        };
-        let centre = if triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
-        Self { dimension, centre, triangle, sides }
-    }
-
-    fn within(&self, [xi, eta]: [f64; 2], margin: f64) -> bool {
-        if self.triangle {
-            xi >= -margin && eta >= -margin && xi + eta <= 1.0 + margin
-        } else {
-            xi.abs() <= 1.0 + margin && eta.abs() <= 1.0 + margin
-        }
-    }
-
-    /// Inside or on the boundary, but for round-off.
-    fn contains(&self, natural: [f64; 2]) -> bool {
-        self.within(natural, 1e-12)
-    }
-
-    /// Not so far out that a search from there could still end inside.
-    fn near(&self, natural: [f64; 2]) -> bool {
-        self.within(natural, 1.0)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -289,8 +216,8 @@ mod tests {
         }
     }
 
-    fn face(kind: ElementKind) -> SideFace {
-        SideFace { kind, nodes: (0..kind.nodes()).collect(), tag: 1 }
+    fn face(mesh: &Mesh, kind: ElementKind) -> [SideFace; 1] {
+        [SideFace::new(mesh, kind, (0..kind.nodes()).collect(), 1)]
     }
 
     /// A warped quadrilateral, a curved triangle, an edge in the plane.
@@ -307,11 +234,11 @@ mod tests {
     fn a_point_beside_a_face_follows_every_rigid_motion() {
         for (kind, nodes) in FACES {
             let mesh = mesh(nodes);
-            let surface = Surface::new(&mesh, &[face(kind)]);
+            let faces = face(&mesh, kind);
             let plane = kind.dimension() == 1;
             for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4]] {
                 let point = if plane { [point[0], point[1], 0.0] } else { point };
-                let foot = surface.nearest(point).expect("one face");
+                let foot = nearest(&mesh, &faces, point).expect("one face");
                 for motion in 0..6 {
                     let unit = |k: usize| f64::from(u8::from(motion == k));
                     let along = Vector3::new(unit(0), unit(1), unit(2));
@@ -337,11 +264,10 @@ mod tests {
     fn the_foot_is_the_nearest_of_many_points() {
         for (kind, nodes) in FACES {
             let mesh = mesh(nodes);
-            let faces = [face(kind)];
-            let surface = Surface::new(&mesh, &faces);
+            let faces = face(&mesh, kind);
             for point in [[0.7, 0.6, 0.5], [0.4, 0.9, -0.3], [3.0, -1.0, 0.4], [-1.0, 0.5, 0.0]] {
                 let at = Vector3::from(point);
-                let found = surface.nearest(point).expect("one face").distance;
+                let found = nearest(&mesh, &faces, point).expect("one face").distance;
                 let mut sampled = f64::INFINITY;
                 for i in 0..=200 {
                     for j in 0..=200 {
@@ -350,7 +276,7 @@ mod tests {
                             ElementKind::Tri6 => [a, b * (1.0 - a)],
                             _ => [2.0 * a - 1.0, 2.0 * b - 1.0],
                         };
-                        let place = surface.faces[0].at(&mesh, natural).place;
+                        let place = faces[0].at(&mesh, natural).0;
                         sampled = sampled.min((place - at).norm());
                     }
                 }

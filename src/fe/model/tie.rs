@@ -73,15 +73,11 @@ impl RingTie {
         let on_housing = |node: &usize| housing.used[*node];
         let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
         if let Some(outer_radius) = outer_radius.into() {
-            check_radius(housing, group, &nodes, outer_radius)?;
-            check_axial(housing, group, &nodes, outer_radius)?;
+            check_places(housing, group, &nodes, outer_radius)?;
         }
         check_free(housing, group, &nodes)?;
         let d = housing.dimension;
-        let components = match fit {
-            Fit::Bonded => d,
-            Fit::Sliding => 1,
-        };
+        let components = if fit == Fit::Bonded { d } else { 1 };
         let mut driven = Vec::with_capacity(components * nodes.len());
         let mut tie = TripletBuilder::new(components * nodes.len(), ring.dof());
         for &node in &nodes {
@@ -100,14 +96,8 @@ impl RingTie {
                 }
             }
         }
-        let mut is_driven = vec![false; housing.dof()];
-        for &dof in &driven {
-            is_driven[dof] = true;
-        }
-        let free = housing.free_dofs().into_iter();
-        let interior = free.filter(|&dof| !is_driven[dof]).collect();
         Ok(Self {
-            partition: HousingPartition { driven, interior, tie: tie.build() },
+            partition: HousingPartition::new(housing, driven, tie.build()),
             rotation: (fit == Fit::Sliding).then(|| polar_rotation(housing, &nodes)),
         })
     }
@@ -149,7 +139,7 @@ impl RingTie {
 /// Displacement (radial, tangential, axial) of the ring's section at a bore node, for each of the ring's
 /// degrees of freedom that moves it.
 fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize, [f64; 3])> {
-    let [x, y, z] = housing.frame.point(housing.coordinates[node]);
+    let [x, y, z] = housing.ring_coordinates(node);
     let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
     match ring.space_rows_at(angle) {
         None => {
@@ -165,32 +155,26 @@ fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize,
     }
 }
 
-fn check_radius(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
-    let radius = |&node: &usize| {
-        let [x, y, _] = housing.frame.point(housing.coordinates[node]);
-        x.hypot(y)
+/// The nodes stand at the ring's outer radius. In space the ring's plane cuts the bore: a section that reached beyond it as a
+/// rigid arm would be stiffer than any bore.
+fn check_places(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
+    let extremes = |of: fn([f64; 3]) -> f64| {
+        nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| {
+            let value = of(housing.ring_coordinates(node));
+            [low.min(value), high.max(value)]
+        })
     };
-    let nearest = nodes.iter().map(radius).fold(f64::INFINITY, f64::min);
-    let farthest = nodes.iter().map(radius).fold(0.0, f64::max);
+    let [nearest, farthest] = extremes(|[x, y, _]| x.hypot(y));
+    let [lowest, highest] = extremes(|[_, _, z]| z);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
+    let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
-        let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
         return Err(ModelError::Refused(format!(
             "the tie finds no nodes of group \"{group}\" ({}) at the ring's outer radius {outer_radius:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
             housing.path
         )));
     }
-    Ok(())
-}
-
-/// In space the ring's plane cuts the bore: a section that reached beyond it as a rigid arm would be stiffer than any bore.
-fn check_axial(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
-    let along = |&node: &usize| housing.frame.point(housing.coordinates[node])[2];
-    let lowest = nodes.iter().map(along).fold(f64::INFINITY, f64::min);
-    let highest = nodes.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-    let tolerance = RADIUS_TOLERANCE * outer_radius;
     if housing.dimension == 3 && (lowest > tolerance || highest < -tolerance) {
-        let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
         return Err(ModelError::Refused(format!(
             "the ring's plane, through ({x:e}, {y:e}, {z:e}) m across ({a}, {b}, {c}), does not cut the group \"{group}\" ({}) that it is tied to: its nodes lie {lowest:.6e} to {highest:.6e} m from there along the axis, expected on both sides; check length_unit and tie.centre",
             housing.path
@@ -217,9 +201,7 @@ fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<()
 fn polar_rotation(housing: &HousingModel, nodes: &[usize]) -> SparseMatrix {
     let d = housing.dimension;
     let mut polar = vec![false; housing.coordinates.len()];
-    for &node in nodes {
-        polar[node] = true;
-    }
+    nodes.iter().for_each(|&node| polar[node] = true);
     let mut rotation = TripletBuilder::new(housing.dof(), housing.dof());
     for (node, &point) in housing.coordinates.iter().enumerate() {
         if !polar[node] {

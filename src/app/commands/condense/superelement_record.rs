@@ -107,7 +107,7 @@ impl Coordinates<'_> {
         let stage = self.stage;
         let housing = &stage.housing;
         let d = housing.model.dimension();
-        let used = |node: &usize| housing.model.is_used(*node);
+        let used = |node: &usize| housing.model.used[*node];
         let all: Vec<usize> = (0..housing.mesh.nodes.len()).filter(used).collect();
         let mut of_sensors = BTreeSet::new();
         for sensor in &case.sensors {

@@ -109,8 +109,7 @@ pub(crate) fn find<'a>(
         // a name that two groups share is no name
         let solids = mesh.groups.iter().filter(|group| group.dimension == dimension);
         let named = solids.map(|group| mesh.group(&group.name));
-        if let Some(shared) =
-            named.filter_map(Result::err).find(|error| matches!(error, MeshError::AmbiguousGroup { .. }))
+        if let Some(shared) = named.filter_map(Result::err).find(|error| matches!(error, MeshError::AmbiguousGroup(_)))
         {
             return Err(shared.into());
         }

@@ -111,7 +111,7 @@ fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
         ids().zip(model.elements().iter()).map(|(id, element)| ((id.block, id.index), element.part)).collect();
     let named = named_faces(mesh, dimension);
     // parts first, then the groups of faces that were met
-    let mut groups: Vec<String> = model.part_names().to_vec();
+    let mut groups: Vec<String> = model.part_groups();
     for face in &faces {
         let mut corners = face.nodes[..face.kind.corners()].to_vec();
         corners.sort_unstable();

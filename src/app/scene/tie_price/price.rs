@@ -155,7 +155,7 @@ pub(crate) fn compared(
             "The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height."
         ));
     }
-    if ring.has_springs() {
+    if !ring.springs.is_empty() {
         let text = "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes.";
         notes.push(text.to_owned());
     }

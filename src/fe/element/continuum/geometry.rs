@@ -144,7 +144,7 @@ impl Jacobian {
 }
 
 #[inline(always)]
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -159,30 +159,29 @@ fn position(kind: ElementKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64; 
     position
 }
 
-/// The smallest and the largest determinant at the nodes and the points of a rule, and where they are.
-#[derive(Debug, Clone, Copy)]
-struct Extremes {
-    low: f64,
-    low_at: [f64; 3],
-    high: f64,
-    high_at: [f64; 3],
-}
+/// A determinant and the natural coordinates where it is.
+type Determinant = (f64, [f64; 3]);
 
-fn extremes<const N: usize, const D: usize>(kind: ElementKind, coords: &[[f64; 3]; N], table: &Table) -> Extremes {
-    let mut found = Extremes { low: f64::INFINITY, low_at: [0.0; 3], high: f64::NEG_INFINITY, high_at: [0.0; 3] };
+/// The smallest and the largest determinant at the nodes and the points of a rule.
+fn extremes<const N: usize, const D: usize>(
+    kind: ElementKind,
+    coords: &[[f64; 3]; N],
+    table: &Table,
+) -> [Determinant; 2] {
+    let (mut low, mut high) = ((f64::INFINITY, [0.0; 3]), (f64::NEG_INFINITY, [0.0; 3]));
     for table in [&tables(kind).nodes, table] {
         let rows = table.derivatives::<N>().chunks_exact(D);
         for (rows, point) in rows.zip(&table.points) {
             let determinant = Jacobian::new::<N, D>(coords, rows).determinant();
-            if determinant < found.low {
-                (found.low, found.low_at) = (determinant, point.natural);
+            if determinant < low.0 {
+                low = (determinant, point.natural);
             }
-            if determinant > found.high {
-                (found.high, found.high_at) = (determinant, point.natural);
+            if determinant > high.0 {
+                high = (determinant, point.natural);
             }
         }
     }
-    found
+    [low, high]
 }
 
 /// What is wrong with an element that was not accepted.
@@ -193,13 +192,13 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
     placed: &Placed<N>,
     table: &Table,
 ) -> ElementError {
-    let found = extremes::<N, D>(kind, &placed.coords, table);
+    let [(low, low_at), (high, high_at)] = extremes::<N, D>(kind, &placed.coords, table);
     let name = kind.name();
     let place = |natural: [f64; 3]| match position(kind, coords, natural) {
         [x, y, _] if D == 2 => format!("({x:.6e}, {y:.6e}) m"),
         [x, y, z] => format!("({x:.6e}, {y:.6e}, {z:.6e}) m"),
     };
-    if found.high < -SMALLEST_DETERMINANT * power(placed.size, D) {
+    if high < -SMALLEST_DETERMINANT * power(placed.size, D) {
         let (cause, remedy) = match D {
             2 => (
                 "its nodes run clockwise",
@@ -208,19 +207,17 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
             _ => ("its nodes are numbered inside out", "the mesh was mirrored or the node order is not gmsh's"),
         };
         return ElementError(format!(
-            "the {name} element is inverted: {cause} (Jacobian determinant {:.6e} m^{D} at {}); {remedy}",
-            found.high,
-            place(found.high_at)
+            "the {name} element is inverted: {cause} (Jacobian determinant {high:.6e} m^{D} at {}); {remedy}",
+            place(high_at)
         ));
     }
-    let natural = match found.low_at {
+    let natural = match low_at {
         [xi, eta, _] if D == 2 => format!("({xi:.3}, {eta:.3})"),
         [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
     };
     ElementError(format!(
-        "the {name} element is degenerate or folded: Jacobian determinant {:.6e} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
-        found.low,
-        place(found.low_at)
+        "the {name} element is degenerate or folded: Jacobian determinant {low:.6e} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        place(low_at)
     ))
 }
 
@@ -252,12 +249,11 @@ fn sample<const N: usize, const D: usize>(
     coords: &[[f64; 3]],
 ) -> Result<ShapeQuality, ElementError> {
     let placed = Placed::<N>::new(kind, coords)?;
-    let found = extremes::<N, D>(kind, &placed.coords, &tables(kind).stiffness);
-    let largest = found.high.abs().max(found.low.abs());
-    let scaled_jacobian = if largest > 0.0 { found.low / largest } else { 0.0 };
+    let [(low, low_at), (high, _)] = extremes::<N, D>(kind, &placed.coords, &tables(kind).stiffness);
+    let largest = high.abs().max(low.abs());
     Ok(ShapeQuality {
-        smallest_determinant: found.low,
-        scaled_jacobian,
-        position: position(kind, coords, found.low_at),
+        smallest_determinant: low,
+        scaled_jacobian: if largest > 0.0 { low / largest } else { 0.0 },
+        position: position(kind, coords, low_at),
     })
 }

@@ -20,32 +20,19 @@ const PAIR_AT: [[usize; 3]; 3] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
 #[derive(Debug)]
 pub(super) struct Couplings<const M: usize>([[[f64; M]; M]; 6]);
 
-/// The inverse Jacobian at the centre times its determinant: what incompatible modes use instead of their own.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Centre {
-    scaled: [[f64; 3]; 3],
-}
-
-impl Centre {
-    pub(super) fn new(jacobian: Jacobian) -> (Self, f64) {
-        let (determinant, inverse) = jacobian.inverse();
-        let scaled = inverse.map(|row| row.map(|value| value * determinant));
-        (Self { scaled }, determinant)
-    }
-}
-
 impl<const M: usize> Couplings<M> {
     pub(super) fn zeros() -> Self {
         Self([[[0.0; M]; M]; 6])
     }
 
     /// Adds all points of a table; the N functions of the nodes come first, with a centre the D bubbles
-    /// `1 - xi_d^2` follow (M = N + D). Returns the smallest determinant.
+    /// `1 - xi_d^2` follow (M = N + D). Of the centre it takes the inverse Jacobian times its determinant, which incompatible
+    /// modes use instead of their own. Returns the smallest determinant.
     pub(super) fn integrate<const N: usize, const D: usize>(
         &mut self,
         coords: &[[f64; 3]; N],
         table: &Table,
-        centre: Option<Centre>,
+        centre: Option<[[f64; 3]; 3]>,
     ) -> f64 {
         let mut smallest = f64::INFINITY;
         let rows = table.derivatives::<N>();
@@ -69,7 +56,7 @@ impl<const M: usize> Couplings<M> {
                     if let Some(centre) = centre {
                         for d in 0..M - N {
                             let slope = -2.0 * point.natural[d] / determinant;
-                            gradient[i][N + d] = centre.scaled[d][i] * slope;
+                            gradient[i][N + d] = centre[d][i] * slope;
                         }
                     }
                     for a in 0..M {

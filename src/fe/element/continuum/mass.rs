@@ -17,7 +17,7 @@ const BLOCK: usize = 8;
 /// into `out` (nodes x nodes, symmetric, column by column, both triangles; whatever it held is replaced).
 ///
 /// The mass matrix of the degrees of freedom is this number times the identity over the displacements of nodes
-/// a and b. Integrated exactly for any geometry ([`ElementKind::mass_rule`]); the sum of all entries is rho t
+/// a and b. Integrated exactly for any geometry (`ElementKind::rules`); the sum of all entries is rho t
 /// A or rho V, and with it frequencies converge from above. `coords` as for
 /// [`stiffness_into`](super::stiffness_into). Source: Bathe, Finite Element Procedures (1996), equation 4.20.
 ///

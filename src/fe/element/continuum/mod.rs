@@ -11,7 +11,7 @@
 //!
 //! Frequencies from the compatible elements lie above those of the continuum and fall as the mesh is refined,
 //! as far as the integration is exact: which rule is exact for what stands with
-//! `ElementKind::stiffness_rule` and `ElementKind::mass_rule`. Quad4 and Hex8 have incompatible modes
+//! `ElementKind::rules`. Quad4 and Hex8 have incompatible modes
 //! by default ([`LinearFormulation`]), which bend without locking; their frequencies may come from below.
 //!
 //! # Limitations

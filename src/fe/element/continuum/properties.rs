@@ -1,9 +1,10 @@
 //! Material, thickness and plane assumption of a part, reduced to what an element integrates with.
 
 use crate::fe::element::ElementError;
-use crate::fe::material::{ElasticMaterial, Material};
+use crate::fe::material::ElasticMaterial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::array::from_fn;
 
 /// What vanishes across a plane model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -55,7 +56,7 @@ impl ContinuumProperties {
             ElasticMaterial::Isotropic(material) => {
                 Elasticity::Isotropic { lambda: material.lame_lambda(), mu: material.shear_modulus() }
             }
-            ElasticMaterial::Orthotropic(_) => general(&material.stiffness_matrix()),
+            ElasticMaterial::Orthotropic(material) => general(&material.stiffness_matrix()),
         };
         Self { dimension: 3, density: material.density(), thickness: 1.0, elasticity }
     }
@@ -78,7 +79,14 @@ impl ContinuumProperties {
             return Err(ElementError(format!("thickness must be positive and finite, found {thickness} m")));
         }
         let elasticity = match material {
-            ElasticMaterial::Isotropic(material) => isotropic_plane(material, assumption),
+            ElasticMaterial::Isotropic(material) => {
+                let nu = material.poisson;
+                let lambda = match assumption {
+                    PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
+                    PlaneAssumption::Strain => material.lame_lambda(),
+                };
+                Elasticity::Isotropic { lambda, mu: material.shear_modulus() }
+            }
             ElasticMaterial::Orthotropic(orthotropic) => {
                 let [x, y, z] = orthotropic.axes[2];
                 if x.abs() > LEAN || y.abs() > LEAN {
@@ -86,7 +94,7 @@ impl ContinuumProperties {
                         "the material axis z must be normal to the plane of the mesh, (0, 0, 1) or (0, 0, -1), found ({x:.6}, {y:.6}, {z:.6})"
                     )));
                 }
-                general(&in_the_plane(material.stiffness_matrix(), assumption))
+                general(&in_the_plane(orthotropic.stiffness_matrix(), assumption))
             }
         };
         Ok(Self { dimension: 2, density: material.density(), thickness, elasticity })
@@ -102,42 +110,15 @@ impl ContinuumProperties {
     }
 }
 
-fn isotropic_plane(material: &Material, assumption: PlaneAssumption) -> Elasticity {
-    let nu = material.poisson;
-    let lambda = match assumption {
-        PlaneAssumption::Stress => material.young * nu / (1.0 - nu * nu),
-        PlaneAssumption::Strain => material.lame_lambda(),
-    };
-    Elasticity::Isotropic { lambda, mu: material.shear_modulus() }
-}
-
 /// The 6 x 6 stiffness with the strain zz condensed (stress) or as it is (strain); only the rows xx, yy, xy
 /// count.
 fn in_the_plane(c: [[f64; 6]; 6], assumption: PlaneAssumption) -> [[f64; 6]; 6] {
     match assumption {
         PlaneAssumption::Strain => c,
-        PlaneAssumption::Stress => {
-            let mut condensed = c;
-            for (p, row) in condensed.iter_mut().enumerate() {
-                for (q, entry) in row.iter_mut().enumerate() {
-                    *entry -= c[p][2] * c[2][q] / c[2][2];
-                }
-            }
-            condensed
-        }
+        PlaneAssumption::Stress => from_fn(|p| from_fn(|q| c[p][q] - c[p][2] * c[2][q] / c[2][2])),
     }
 }
 
 fn general(c: &[[f64; 6]; 6]) -> Elasticity {
-    let mut tensor: Tensor = Default::default();
-    for (i, row) in tensor.iter_mut().enumerate() {
-        for (j, block) in row.iter_mut().enumerate() {
-            for (k, line) in block.iter_mut().enumerate() {
-                for (l, entry) in line.iter_mut().enumerate() {
-                    *entry = c[VOIGT[i][j]][VOIGT[k][l]];
-                }
-            }
-        }
-    }
-    Elasticity::General(tensor)
+    Elasticity::General(VOIGT.map(|row| row.map(|ij| VOIGT.map(|row| row.map(|kl| c[ij][kl])))))
 }

@@ -41,11 +41,22 @@ pub enum LinearFormulation {
 }
 
 impl ElementKind {
-    /// The rule that integrates the stiffness of an element with any edges.
+    /// The rule that integrates the mass and the measure, exact for every geometry, curved ones too:
+    /// `N_i N_j det J` is a polynomial of degree
+    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20);
+    /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
+    pub(crate) fn mass_rule(self) -> QuadratureRule {
+        self.rules()[1][0]
+    }
+
+    /// Rules of the stiffness and of the mass: that for any edges, and that which is exact if all edges are straight with
+    /// their nodes in the middle. For the stiffness the latter is of degree 2 for Tri6 and Tet10, whose Jacobian is then
+    /// constant. For the mass the Jacobian has the degree of the linear element's, which leaves 6 in each direction
+    /// (Hex20), 5 in the triangle and 6 along zeta (Wedge15).
     ///
-    /// Exact for straight-edged triangles and tetrahedra and for parallelograms, parallelepipeds and straight
+    /// The rule of the stiffness is exact for straight-edged triangles and tetrahedra and for parallelograms, parallelepipeds and straight
     /// prisms; curved and distorted elements have rational integrands, for which no rule is exact.
-    /// Straight Tri6 and Tet10 take the cheaper [`ElementKind::straight_stiffness_rule`].
+    /// Straight Tri6 and Tet10 take a cheaper one.
     ///
     /// Tri6 takes six points although three are exact for straight sides: on an annulus of 576 curved Tri6 the
     /// first 17 elastic frequencies agree with those of 64 points to 1e-9, three points are 4.5e-6 off
@@ -64,61 +75,20 @@ impl ElementKind {
     /// 27 points of a conical product (degree 5) are no better than 14. An element with a radial edge of 0.3 of
     /// the arc has 9.1e-7 at 10 degrees and 1.2e-4 at 20 with 24 points. Of the others, at 10 degrees: Tri6
     /// 3.1e-6, Quad8 2.9e-4, Hex20 2.6e-4, Wedge15 9.4e-5.
-    pub(crate) fn stiffness_rule(self) -> QuadratureRule {
+    pub(super) fn rules(self) -> [[QuadratureRule; 2]; 2] {
+        use QuadratureRule as Rule;
         match self {
-            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::Line4,
-            Self::Tri3 => QuadratureRule::Triangle1,
-            Self::Tri6 => QuadratureRule::Triangle6,
-            Self::Quad4 => QuadratureRule::Square2,
-            Self::Quad8 => QuadratureRule::Square3,
-            Self::Tet4 => QuadratureRule::Tetrahedron1,
-            Self::Tet10 => QuadratureRule::Tetrahedron24,
-            Self::Hex8 => QuadratureRule::Cube2,
-            Self::Hex20 => QuadratureRule::Cube3,
-            Self::Wedge6 => QuadratureRule::Wedge3x2,
-            Self::Wedge15 => QuadratureRule::Wedge6x3,
-        }
-    }
-
-    /// The rule that is exact for the stiffness if all edges are straight with their nodes in the middle:
-    /// degree 2 for Tri6 and Tet10, whose Jacobian is then constant; for all others that of
-    /// [`ElementKind::stiffness_rule`].
-    pub(crate) fn straight_stiffness_rule(self) -> QuadratureRule {
-        match self {
-            Self::Tri6 => QuadratureRule::Triangle3,
-            Self::Tet10 => QuadratureRule::Tetrahedron4,
-            _ => self.stiffness_rule(),
-        }
-    }
-
-    /// The rule that integrates the mass and the measure, exact for every geometry, curved ones too:
-    /// `N_i N_j det J` is a polynomial of degree
-    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20);
-    /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
-    pub(crate) fn mass_rule(self) -> QuadratureRule {
-        match self {
-            Self::Point | Self::Line2 | Self::Line3 => QuadratureRule::Line4,
-            Self::Tri3 => QuadratureRule::Triangle3,
-            Self::Tri6 => QuadratureRule::Triangle12,
-            Self::Quad4 => QuadratureRule::Square2,
-            Self::Quad8 => QuadratureRule::Square4,
-            Self::Tet4 => QuadratureRule::Tetrahedron4,
-            Self::Tet10 => QuadratureRule::Tetrahedron64,
-            Self::Hex8 => QuadratureRule::Cube3,
-            Self::Hex20 => QuadratureRule::Cube5,
-            Self::Wedge6 => QuadratureRule::Wedge6x3,
-            Self::Wedge15 => QuadratureRule::Wedge25x5,
-        }
-    }
-
-    /// The rule that is exact for the mass if all edges are straight with their nodes in the middle: the
-    /// Jacobian has then the degree of the linear element's, which leaves 6 in each direction (Hex20), 5 in the
-    /// triangle and 6 along zeta (Wedge15); for all others that of [`ElementKind::mass_rule`].
-    pub(crate) fn straight_mass_rule(self) -> QuadratureRule {
-        match self {
-            Self::Hex20 => QuadratureRule::Cube4,
-            Self::Wedge15 => QuadratureRule::Wedge12x4,
-            _ => self.mass_rule(),
+            Self::Point | Self::Line2 | Self::Line3 => [[Rule::Line4; 2]; 2],
+            Self::Tri3 => [[Rule::Triangle1; 2], [Rule::Triangle3; 2]],
+            Self::Tri6 => [[Rule::Triangle6, Rule::Triangle3], [Rule::Triangle12; 2]],
+            Self::Quad4 => [[Rule::Square2; 2]; 2],
+            Self::Quad8 => [[Rule::Square3; 2], [Rule::Square4; 2]],
+            Self::Tet4 => [[Rule::Tetrahedron1; 2], [Rule::Tetrahedron4; 2]],
+            Self::Tet10 => [[Rule::Tetrahedron24, Rule::Tetrahedron4], [Rule::Tetrahedron64; 2]],
+            Self::Hex8 => [[Rule::Cube2; 2], [Rule::Cube3; 2]],
+            Self::Hex20 => [[Rule::Cube3; 2], [Rule::Cube5, Rule::Cube4]],
+            Self::Wedge6 => [[Rule::Wedge3x2; 2], [Rule::Wedge6x3; 2]],
+            Self::Wedge15 => [[Rule::Wedge6x3; 2], [Rule::Wedge25x5, Rule::Wedge12x4]],
         }
     }
 }

@@ -12,7 +12,7 @@
 use nalgebra::DMatrix;
 
 use super::geometry::{Jacobian, Placed, diagnose};
-use super::kernel::{Centre, Couplings, mirror};
+use super::kernel::{Couplings, mirror};
 use super::table::{Table, for_kind, tables};
 use super::{ContinuumProperties, Formulation, Integration, LinearFormulation};
 use crate::fe::element::ElementError;
@@ -25,7 +25,7 @@ use crate::fe::mesh::ElementKind;
 /// freedom node by node: (u_x, u_y, u_z) of node 0, of node 1, ...; without u_z in the plane. `coords`: one
 /// (x, y, z) a node in gmsh's order, m; plane elements lie in xy and z is not read. Force components that hold
 /// the element in a given displacement are `K u`; a rigid motion needs none. Source: Bathe, Finite Element
-/// Procedures (1996), equation 4.19; rules: [`ElementKind::stiffness_rule`].
+/// Procedures (1996), equation 4.19; rules: `ElementKind::rules`.
 ///
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
@@ -139,7 +139,8 @@ fn incompatible<const N: usize, const M: usize, const D: usize>(
     let placed = Placed::<N>::new(kind, coords)?;
     let tables = tables(kind);
     let jacobian = Jacobian::new::<N, D>(&placed.coords, tables.centre.derivatives::<N>());
-    let (centre, at_centre) = Centre::new(jacobian);
+    let (at_centre, inverse) = jacobian.inverse();
+    let centre = inverse.map(|row| row.map(|value| value * at_centre));
     let mut couplings = Couplings::<M>::zeros();
     let smallest = couplings
         .integrate::<N, D>(&placed.coords, &tables.stiffness, Some(centre))

@@ -3,24 +3,13 @@
 use nalgebra::DMatrix;
 
 use super::QuadratureRule;
-use super::geometry::{not_finite, wrong_node_count};
-use super::shape::{ShapeDerivatives, shape};
+use super::geometry::{cross, not_finite, wrong_node_count};
+use super::shape::{ShapeDerivatives, ShapeValues, shape};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
 
 /// Smallest area accepted, as a part of the squared size; see the Jacobian of the elements.
 const SMALLEST_AREA: f64 = 1e-12;
-
-impl ElementKind {
-    /// The rule of [`surface_weights`]: exact for straight edges and for flat faces with straight edges; curved and
-    /// warped ones have square roots to integrate, for which no rule is exact.
-    fn surface_rule(self) -> QuadratureRule {
-        match self {
-            Self::Quad4 => QuadratureRule::Square4,
-            _ => self.mass_rule(),
-        }
-    }
-}
 
 /// Tributary lengths or areas `w_i = int N_i ds` (m) or `int N_i dA` (m^2), one a node: a stiffness or load per
 /// metre or square metre times `w_i` is what node i receives. Their sum is the length or area; corners of
@@ -44,9 +33,7 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
     }
     let origin = coords[0];
     let mut weights = vec![0.0; kind.nodes()];
-    for point in kind.surface_rule().points() {
-        let (values, derivatives) = shape(kind, point.natural);
-        let size = point.weight * stretch(kind, tangents(coords, &derivatives));
+    for (size, values) in sizes(kind, coords) {
         for (weight, value) in weights.iter_mut().zip(values) {
             *weight += size * value;
         }
@@ -66,6 +53,18 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
         let name = kind.name();
         Err(ElementError(format!("the {name} {what} at ({x:.6e}, {y:.6e}, {z:.6e}) m has no {size}")))
     }
+}
+
+/// Length or area that each point of a rule stands for, and the shape functions there.
+///
+/// The rule is exact for straight edges and for flat faces with straight edges; curved and warped ones have square roots to
+/// integrate, for which no rule is exact.
+fn sizes(kind: ElementKind, coords: &[[f64; 3]]) -> impl Iterator<Item = (f64, ShapeValues)> {
+    let rule = if kind == ElementKind::Quad4 { QuadratureRule::Square4 } else { kind.mass_rule() };
+    rule.points().iter().map(move |point| {
+        let (values, derivatives) = shape(kind, point.natural);
+        (point.weight * stretch(kind, tangents(coords, &derivatives)), values)
+    })
 }
 
 /// Derivatives of the place along the natural coordinates, m.
@@ -90,9 +89,7 @@ fn tangents(coords: &[[f64; 3]], derivatives: &ShapeDerivatives) -> [[f64; 3]; 2
 pub(crate) fn surface_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     surface_weights(kind, coords)?;
     let mut matrix = DMatrix::zeros(kind.nodes(), kind.nodes());
-    for point in kind.surface_rule().points() {
-        let (values, derivatives) = shape(kind, point.natural);
-        let size = point.weight * stretch(kind, tangents(coords, &derivatives));
+    for (size, values) in sizes(kind, coords) {
         for b in 0..kind.nodes() {
             for a in 0..kind.nodes() {
                 matrix[(a, b)] += size * values[a] * values[b];
@@ -105,9 +102,5 @@ pub(crate) fn surface_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<D
 /// Length of the tangent of an edge, or area of the parallelogram of both tangents of a face.
 fn stretch(kind: ElementKind, [t, s]: [[f64; 3]; 2]) -> f64 {
     let length = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
-    if kind.dimension() == 1 {
-        length(t)
-    } else {
-        length([t[1] * s[2] - t[2] * s[1], t[2] * s[0] - t[0] * s[2], t[0] * s[1] - t[1] * s[0]])
-    }
+    if kind.dimension() == 1 { length(t) } else { length(cross(t, s)) }
 }

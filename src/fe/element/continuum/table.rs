@@ -108,11 +108,13 @@ impl Tables {
                 *entry += point.weight * product;
             }
         }
+        let [[stiffness, straight_stiffness], [mass, straight_mass]] =
+            kind.rules().map(|rules| rules.map(|rule| Table::new(kind, rule.points())));
         Self {
-            stiffness: Table::new(kind, kind.stiffness_rule().points()),
-            straight_stiffness: Table::new(kind, kind.straight_stiffness_rule().points()),
-            mass: Table::new(kind, kind.mass_rule().points()),
-            straight_mass: Table::new(kind, kind.straight_mass_rule().points()),
+            stiffness,
+            straight_stiffness,
+            mass,
+            straight_mass,
             nodes: Table::new(kind, &nodes),
             centre: Table::new(kind, &[unweighted(&[0.0; 3])]),
             natural_mass,

@@ -75,15 +75,8 @@ pub struct PinchedRing {
 /// # Errors
 /// [`NotPositive`] names the property.
 pub fn thin_frequency_hz(order: u32, radius: f64, bending: f64, mass_per_length: f64) -> Result<f64, NotPositive> {
-    positive("radius", radius)?;
-    positive("bending stiffness", bending)?;
-    positive("mass per length", mass_per_length)?;
-    if order < 2 {
-        return Ok(0.0);
-    }
-    let n = f64::from(order);
-    let shape = n * (n * n - 1.0) / (n * n + 1.0).sqrt();
-    Ok(shape / (2.0 * PI * radius * radius) * (bending / mass_per_length).sqrt())
+    positive(&[("radius", radius), ("bending stiffness", bending), ("mass per length", mass_per_length)])?;
+    Ok(thin_hz(order, radius, bending / mass_per_length, 1.0))
 }
 
 /// Frequency (Hz) of out-of-plane mode `order` (waves around the ring) of a thin, free ring:
@@ -108,16 +101,23 @@ pub fn thin_out_of_plane_frequency_hz(
     torsion: f64,
     mass_per_length: f64,
 ) -> Result<f64, NotPositive> {
-    positive("radius", radius)?;
-    positive("bending stiffness", bending)?;
-    positive("torsion stiffness", torsion)?;
-    positive("mass per length", mass_per_length)?;
+    positive(&[
+        ("radius", radius),
+        ("bending stiffness", bending),
+        ("torsion stiffness", torsion),
+        ("mass per length", mass_per_length),
+    ])?;
+    Ok(thin_hz(order, radius, bending / mass_per_length, bending / torsion))
+}
+
+/// `n (n² − 1) / (2 π R² sqrt(n² + addend)) · sqrt(bending over mass)`, and 0 for the orders below 2.
+fn thin_hz(order: u32, radius: f64, bending_over_mass: f64, addend: f64) -> f64 {
     if order < 2 {
-        return Ok(0.0);
+        return 0.0;
     }
     let n = f64::from(order);
-    let shape = n * (n * n - 1.0) / (n * n + bending / torsion).sqrt();
-    Ok(shape / (2.0 * PI * radius * radius) * (bending / mass_per_length).sqrt())
+    let shape = n * (n * n - 1.0) / (n * n + addend).sqrt();
+    shape / (2.0 * PI * radius * radius) * bending_over_mass.sqrt()
 }
 
 /// Diameters of a ring pinched by two opposite forces of `force` N each, inwards positive:
@@ -131,10 +131,12 @@ pub fn thin_out_of_plane_frequency_hz(
 /// [`NotPositive`] names the property of `section` that is not positive.
 pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, NotPositive> {
     let RingSection { radius, bending, axial, shear } = *section;
-    positive("radius", radius)?;
-    positive("bending stiffness", bending)?;
-    positive("axial stiffness", axial)?;
-    positive("shear stiffness", shear)?;
+    positive(&[
+        ("radius", radius),
+        ("bending stiffness", bending),
+        ("axial stiffness", axial),
+        ("shear stiffness", shear),
+    ])?;
     let flexure = force * radius * radius * radius / bending;
     let stretch = force * radius / axial;
     let slide = force * radius / shear;
@@ -144,8 +146,9 @@ pub fn pinched(section: &RingSection, force: f64) -> Result<PinchedRing, NotPosi
     })
 }
 
-fn positive(name: &'static str, value: f64) -> Result<(), NotPositive> {
-    if value > 0.0 { Ok(()) } else { Err(NotPositive { name, value }) }
+fn positive(properties: &[(&'static str, f64)]) -> Result<(), NotPositive> {
+    let wrong = properties.iter().find(|(_, value)| value.is_nan() || *value <= 0.0);
+    wrong.map_or(Ok(()), |&(name, value)| Err(NotPositive { name, value }))
 }
 
 #[cfg(test)]

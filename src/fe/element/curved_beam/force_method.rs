@@ -32,7 +32,8 @@ pub(super) struct SolvedArc<A> {
     forces: Matrix3x6<f64>,
     /// Rigid motion of the middle from nodal displacements [3 x 6].
     rigid: Matrix3x6<f64>,
-    stiffness: Matrix6<f64>,
+    /// Stiffness matrix [6 x 6].
+    pub(super) stiffness: Matrix6<f64>,
 }
 
 impl<A: ForceStates> SolvedArc<A> {
@@ -59,11 +60,6 @@ impl<A: ForceStates> SolvedArc<A> {
             rigid += arc.rigid_from_displacement(end) * rest * 0.5;
         }
         Self { arc, forces, rigid, stiffness: (stiffness + stiffness.transpose()) * 0.5 }
-    }
-
-    /// Stiffness matrix [6 x 6].
-    pub(super) fn stiffness(&self) -> &Matrix6<f64> {
-        &self.stiffness
     }
 
     /// Displacements at phi (rad) from the nodal ones [3 x 6].

@@ -2,7 +2,7 @@
 
 use super::exact_arc::ExactArc;
 use super::force_method::SolvedArc;
-use super::quadrature::over_arc;
+use super::quadrature::arc_mass;
 use super::raveendranath::CoupledPolynomial;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
@@ -24,10 +24,10 @@ pub enum RingInterpolation {
 /// One element of a ring: its interpolation and its matrices in polar nodal components.
 #[derive(Debug, Clone)]
 pub struct CurvedBeam {
-    half_angle: f64,
     field: Field,
     stiffness: Matrix6<f64>,
-    mass: Matrix6<f64>,
+    /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
+    pub(crate) mass: Matrix6<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -42,7 +42,7 @@ impl CurvedBeam {
         let (field, stiffness) = match interpolation {
             RingInterpolation::ExactArc => {
                 let arc = SolvedArc::new(ExactArc::new(section), half_angle);
-                let stiffness = *arc.stiffness();
+                let stiffness = arc.stiffness;
                 (Field::ExactArc(Box::new(arc)), stiffness)
             }
             RingInterpolation::Raveendranath => {
@@ -51,8 +51,11 @@ impl CurvedBeam {
                 (Field::Polynomial(Box::new(polynomial)), stiffness)
             }
         };
-        let mut element = Self { half_angle, field, stiffness, mass: Matrix6::zeros() };
-        element.mass = element.integrate_mass(section);
+        let mut element = Self { field, stiffness, mass: Matrix6::zeros() };
+        // [[rho A, 0, rho S], [0, rho A, 0], [rho S, 0, rho I]]
+        let (mass, moment) = (section.mass, section.mass_moment);
+        let density = Matrix3::new(mass, 0.0, moment, 0.0, mass, 0.0, moment, 0.0, section.rotary);
+        element.mass = arc_mass(half_angle, section.radius, density, |phi| element.interpolation(phi));
         element
     }
 
@@ -66,11 +69,6 @@ impl CurvedBeam {
         &self.stiffness
     }
 
-    /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
-    pub(crate) fn mass(&self) -> &Matrix6<f64> {
-        &self.mass
-    }
-
     /// Interpolation (u, w, theta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
     /// |phi| <= half_angle.
     pub(crate) fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
@@ -78,24 +76,5 @@ impl CurvedBeam {
             Field::ExactArc(arc) => arc.interpolation(phi),
             Field::Polynomial(polynomial) => polynomial.interpolation(phi),
         }
-    }
-
-    /// `M = integral N^T [[rho A, 0, rho S], [0, rho A, 0], [rho S, 0, rho I]] N R dphi`.
-    fn integrate_mass(&self, section: &BeamSection) -> Matrix6<f64> {
-        let density = Matrix3::new(
-            section.mass,
-            0.0,
-            section.mass_moment,
-            0.0,
-            section.mass,
-            0.0,
-            section.mass_moment,
-            0.0,
-            section.rotary,
-        );
-        over_arc(self.half_angle, |phi| {
-            let n = self.interpolation(phi);
-            n.transpose() * density * n * section.radius
-        })
     }
 }

@@ -32,7 +32,7 @@
 
 use super::differences::Differences;
 use super::force_method::{ForceStates, SolvedArc};
-use super::quadrature::over_arc;
+use super::quadrature::arc_mass;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 
@@ -44,9 +44,9 @@ use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 /// the arm a outside the centroid line moves along e_z by `v - a beta`.
 #[derive(Debug, Clone)]
 pub struct OutOfPlaneArc {
-    half_angle: f64,
     solved: SolvedArc<Arc>,
-    mass: Matrix6<f64>,
+    /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
+    pub(crate) mass: Matrix6<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -71,45 +71,23 @@ impl OutOfPlaneArc {
             bending: radius / out.bending,
             torsion: radius / out.torsion,
         };
-        let mut element = Self { half_angle, solved: SolvedArc::new(arc, half_angle), mass: Matrix6::zeros() };
-        element.mass = element.integrate_mass(section);
-        element
+        let solved = SolvedArc::new(arc, half_angle);
+        // [[rho A, 0, -rho S], [0, rho I_a, 0], [-rho S, 0, rho I_p]]
+        let (mass, moment) = (section.mass, -section.mass_moment);
+        let density = Matrix3::new(mass, 0.0, moment, 0.0, out.radial_rotary, 0.0, moment, 0.0, out.polar_rotary);
+        let mass = arc_mass(half_angle, radius, density, |phi| solved.interpolation(phi));
+        Self { solved, mass }
     }
 
     /// Stiffness matrix [6 x 6] in N/m, N and N m.
     pub fn stiffness(&self) -> &Matrix6<f64> {
-        self.solved.stiffness()
-    }
-
-    /// Consistent mass matrix [6 x 6] with rotary inertia, in kg, kg m and kg m^2.
-    pub(crate) fn mass(&self) -> &Matrix6<f64> {
-        &self.mass
+        &self.solved.stiffness
     }
 
     /// Interpolation (v, alpha, beta)(phi) = N(phi) d [3 x 6]; phi in rad from the middle,
     /// |phi| <= half_angle.
     pub(crate) fn interpolation(&self, phi: f64) -> Matrix3x6<f64> {
         self.solved.interpolation(phi)
-    }
-
-    /// `M = integral N^T [[rho A, 0, -rho S], [0, rho I_a, 0], [-rho S, 0, rho I_p]] N R dphi`.
-    fn integrate_mass(&self, section: &BeamSection) -> Matrix6<f64> {
-        let out = &section.out_of_plane;
-        let density = Matrix3::new(
-            section.mass,
-            0.0,
-            -section.mass_moment,
-            0.0,
-            out.radial_rotary,
-            0.0,
-            -section.mass_moment,
-            0.0,
-            out.polar_rotary,
-        );
-        over_arc(self.half_angle, |phi| {
-            let n = self.interpolation(phi);
-            n.transpose() * density * n * section.radius
-        })
     }
 }
 

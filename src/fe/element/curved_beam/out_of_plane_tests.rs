@@ -2,6 +2,7 @@
 //! `tests/verification/ring_in_space.rs`.
 
 use super::*;
+use crate::fe::element::curved_beam::quadrature::over_arc;
 use crate::fe::material::{Bond, Material, RadiusRule, RingLayer};
 use nalgebra::Vector6;
 
@@ -104,7 +105,7 @@ fn the_mass_is_that_of_the_arc() {
     let element = OutOfPlaneArc::new(&section, half);
     let of = |motion: usize| {
         let d = at_nodes(half, |phi| rigid(motion, phi));
-        (d.transpose() * element.mass() * d)[0]
+        (d.transpose() * element.mass * d)[0]
     };
     let (radius, out) = (section.radius, &section.out_of_plane);
     let mean = |sign: f64| radius * (half + sign * 0.5 * (2.0 * half).sin());

@@ -1,5 +1,6 @@
 //! Integration along an arc.
 
+use nalgebra::{Matrix3, Matrix3x6, Matrix6};
 use std::ops::{Add, Mul};
 
 /// Positive abscissae and weights of the twelve-point Gauss-Legendre rule on [-1, 1], exact to
@@ -22,6 +23,20 @@ where
     let pair = |(abscissa, weight): (f64, f64)| (f(abscissa * half) + f(-abscissa * half)) * (weight * half);
     let [first, rest @ ..] = GAUSS_12;
     rest.into_iter().map(pair).fold(pair(first), |sum, term| sum + term)
+}
+
+/// Consistent mass `integral N^T density N R dphi` [6 x 6] of an interpolation N(phi) over [-half, half]; `density` [3 x 3]
+/// is that per length for the three components.
+pub(super) fn arc_mass(
+    half: f64,
+    radius: f64,
+    density: Matrix3<f64>,
+    interpolation: impl Fn(f64) -> Matrix3x6<f64>,
+) -> Matrix6<f64> {
+    over_arc(half, |phi| {
+        let n = interpolation(phi);
+        n.transpose() * density * n * radius
+    })
 }
 
 #[cfg(test)]

@@ -1,22 +1,9 @@
 //! From what has been read to a [`Mesh`]: which elements belong to which physical group, and how much memory lists of them
 //! may take.
 
-use std::path::Path;
-
 use super::MshError;
 use super::entities::Physical;
-use super::nodes::NodeTable;
-use crate::fe::mesh::{ElementBlock, ElementId, Mesh, MshFormat, PhysicalGroup};
-
-/// What a file holds, checked.
-pub(super) struct Content {
-    pub(super) format: MshFormat,
-    pub(super) nodes: NodeTable,
-    pub(super) blocks: Vec<ElementBlock>,
-    pub(super) memberships: Vec<Membership>,
-    pub(super) names: Vec<Name>,
-    pub(super) allowance: Allowance,
-}
+use crate::fe::mesh::{ElementBlock, ElementId, PhysicalGroup};
 
 /// Name of a physical group.
 pub(super) struct Name {
@@ -32,14 +19,17 @@ impl Name {
     }
 }
 
-/// The mesh with its groups by dimension and tag: those that elements belong to and those that only
-/// have a name.
-pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
-    let Content { format, nodes, blocks, mut memberships, mut names, mut allowance } = content;
-    drop(nodes.index);
+/// The groups by dimension and tag: those that elements belong to and those that only have a name.
+pub(super) fn groups(
+    node_count: usize,
+    blocks: &[ElementBlock],
+    mut memberships: Vec<Membership>,
+    mut names: Vec<Name>,
+    allowance: &mut Allowance,
+) -> Result<Vec<PhysicalGroup>, MshError> {
     memberships.sort_unstable_by_key(|own| (own.key(), own.block));
     names.sort_unstable_by_key(|name| (name.dimension, name.tag));
-    let mut marks = Marks::new(nodes.tags.len());
+    let mut marks = Marks { round: vec![0; node_count], now: 0 };
     let together = |a: &Membership, b: &Membership| a.key() == b.key();
     // those with and without elements, counted twice where they have a name too
     let count = names.len() + memberships.chunk_by(together).count();
@@ -56,31 +46,20 @@ pub(super) fn mesh(content: Content, path: &Path) -> Result<Mesh, MshError> {
         let name = names.next_if(|name| name.key() == (dimension, tag));
         let own = unnamed.next_if(|own| own[0].key() == (dimension, tag));
         let own = own.unwrap_or_default();
-        let elements = elements(own, &blocks, &mut allowance)?;
+        let count = own.iter().map(|own| own.len(blocks)).sum();
+        allowance.take(count)?;
+        let mut elements = Vec::with_capacity(count);
+        own.iter().for_each(|own| elements.extend(own.elements(blocks)));
         groups.push(PhysicalGroup {
             name: name.map_or_else(|| tag.to_string(), |name| name.name),
             dimension,
             tag,
-            nodes: marks.nodes(&elements, &blocks, &mut allowance)?,
+            nodes: marks.nodes(&elements, blocks, allowance)?,
             elements,
         });
     }
     groups.shrink_to_fit();
-    Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format, source: path.to_path_buf() })
-}
-
-fn elements(
-    own: &[Membership],
-    blocks: &[ElementBlock],
-    allowance: &mut Allowance,
-) -> Result<Vec<ElementId>, MshError> {
-    let count = own.iter().map(|own| own.len(blocks)).sum();
-    allowance.take(count)?;
-    let mut elements = Vec::with_capacity(count);
-    for own in own {
-        elements.extend(own.elements(blocks));
-    }
-    Ok(elements)
+    Ok(groups)
 }
 
 /// Which node was seen last in which round.
@@ -90,10 +69,6 @@ struct Marks {
 }
 
 impl Marks {
-    fn new(nodes: usize) -> Self {
-        Self { round: vec![0; nodes], now: 0 }
-    }
-
     /// The nodes of these elements, sorted, each once.
     fn nodes(
         &mut self,
@@ -103,10 +78,11 @@ impl Marks {
     ) -> Result<Vec<usize>, MshError> {
         self.now += 2;
         let mut count = 0;
-        visit(elements, blocks, |node| {
+        let listed = || elements.iter().flat_map(|id| blocks[id.block].nodes_of(id.index));
+        for &node in listed() {
             count += usize::from(self.round[node] != self.now);
             self.round[node] = self.now;
-        });
+        }
         // a node takes half of what an element takes
         allowance.take(count / 2)?;
         let mut found = Vec::with_capacity(count);
@@ -114,24 +90,15 @@ impl Marks {
             let marked = self.round.iter().enumerate();
             found.extend(marked.filter(|(_, round)| **round == self.now).map(|(node, _)| node));
         } else {
-            visit(elements, blocks, |node| {
+            for &node in listed() {
                 if self.round[node] == self.now {
                     self.round[node] -= 1;
                     found.push(node);
                 }
-            });
+            }
             found.sort_unstable();
         }
         Ok(found)
-    }
-}
-
-fn visit(elements: &[ElementId], blocks: &[ElementBlock], mut each: impl FnMut(usize)) {
-    for of_block in elements.chunk_by(|a, b| a.block == b.block) {
-        let block = &blocks[of_block[0].block];
-        for id in of_block {
-            block.nodes_of(id.index).iter().for_each(|&node| each(node));
-        }
     }
 }
 
@@ -174,8 +141,8 @@ impl Membership {
 
 /// The memory that groups may take: entities in many groups multiply what a file holds, without limit.
 pub(super) struct Allowance {
-    file_bytes: usize,
-    listed: u64,
+    pub(super) file_bytes: usize,
+    pub(super) listed: u64,
 }
 
 impl Allowance {
@@ -188,10 +155,6 @@ impl Allowance {
     const GROUP: usize = 10;
     /// What a membership takes, in items of a list.
     const MEMBERSHIP: usize = 8;
-
-    pub(super) fn new(file_bytes: usize) -> Self {
-        Self { file_bytes, listed: 0 }
-    }
 
     /// Asks for room for so many more memberships.
     pub(super) fn take_memberships(&mut self, count: usize) -> Result<(), MshError> {

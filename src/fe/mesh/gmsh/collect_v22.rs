@@ -8,14 +8,16 @@
 
 use super::MshError;
 use super::build::{Allowance, Members, Membership};
-use super::elements_v22::{Label, Listed, Piece, Run};
+use super::elements_v22::{Label, Listed, Piece};
 use crate::fe::mesh::{ElementBlock, Entity};
+use std::collections::BTreeSet;
 
 pub(super) fn blocks(
     mut listed: Listed,
     allowance: &mut Allowance,
 ) -> Result<(Vec<ElementBlock>, Vec<Membership>), MshError> {
-    let mut pieces = pieces(std::mem::take(&mut listed.runs));
+    let mut pieces = std::mem::take(&mut listed.pieces);
+    pieces.shrink_to_fit();
     pieces.sort_unstable_by_key(Piece::order);
     let together = |a: &Piece, b: &Piece| (a.label.kind, a.label.entity) == (b.label.kind, b.label.entity);
     let (mut count, mut membership_count) = (0, 0);
@@ -48,22 +50,8 @@ pub(super) fn blocks(
 
 /// Groups of some pieces, sorted, each once.
 fn groups(pieces: &[Piece]) -> Vec<i32> {
-    let mut physical: Vec<i32> = pieces.iter().map(|piece| piece.label.physical).collect();
-    physical.sort_unstable();
-    physical.dedup();
-    physical
-}
-
-fn pieces(runs: Vec<Run>) -> Vec<Piece> {
-    let (mut first, mut first_node) = (0, 0);
-    let place = |Run { label, count }| {
-        let count = count as usize;
-        let piece = Piece { label, first, first_node, count };
-        first += count;
-        first_node += count * label.kind.nodes();
-        piece
-    };
-    runs.into_iter().map(place).collect()
+    let physical: BTreeSet<i32> = pieces.iter().map(|piece| piece.label.physical).collect();
+    physical.into_iter().collect()
 }
 
 /// The pieces as one block: all elements, or those kept, given by their position in the pieces.
@@ -116,15 +104,12 @@ const SEVERAL: usize = 64;
 /// Positions of the elements of one group.
 fn positions(pieces: &[Piece], physical: i32) -> Vec<u32> {
     let mut next = 0;
-    let mut found = Vec::new();
-    for piece in pieces {
-        let range = next..next + piece.count as u32;
-        next = range.end;
-        if piece.label.physical == physical {
-            found.extend(range);
-        }
-    }
-    found
+    let own = pieces.iter().flat_map(|piece| {
+        let first = next;
+        next += piece.count as u32;
+        if piece.label.physical == physical { first..next } else { 0..0 }
+    });
+    own.collect()
 }
 
 /// Any mixture of groups: elements on the same set of nodes are one. If a group itself holds several
@@ -140,27 +125,19 @@ fn one_by_one(listed: &Listed, pieces: &[Piece]) -> Merged {
     sets.chunks_exact_mut(node_count).for_each(<[u32]>::sort_unstable);
     let set = |element: u32| &sets[element as usize * node_count..][..node_count];
     let mut order: Vec<u32> = (0..physical.len() as u32).collect();
-    order.sort_unstable_by(|&a, &b| {
-        let key = |element: u32| (physical[element as usize], element);
-        set(a).cmp(set(b)).then(key(a).cmp(&key(b)))
-    });
+    let in_group = |element: u32| (set(element), physical[element as usize]);
+    order.sort_unstable_by(|&a, &b| in_group(a).cmp(&in_group(b)).then(a.cmp(&b)));
+    // how many of its group stand on the same nodes before it
+    let mut occurrences = vec![0_u32; physical.len()];
+    for group in order.chunk_by(|&a, &b| in_group(a) == in_group(b)) {
+        (0..).zip(group).for_each(|(occurrence, &element)| occurrences[element as usize] = occurrence);
+    }
+    let place = |element: u32| (set(element), occurrences[element as usize]);
+    order.sort_unstable_by(|&a, &b| place(a).cmp(&place(b)).then(a.cmp(&b)));
     // the first of the elements that each one is the same as
-    let mut same_as: Vec<u32> = (0..physical.len() as u32).collect();
-    for equal in order.chunk_by(|&a, &b| set(a) == set(b)) {
-        let mut occurrences: Vec<u32> = Vec::new();
-        for group in equal.chunk_by(|&a, &b| physical[a as usize] == physical[b as usize]) {
-            for (occurrence, &element) in group.iter().enumerate() {
-                match occurrences.get_mut(occurrence) {
-                    Some(first) => *first = element.min(*first),
-                    None => occurrences.push(element),
-                }
-            }
-        }
-        for group in equal.chunk_by(|&a, &b| physical[a as usize] == physical[b as usize]) {
-            for (&element, &first) in group.iter().zip(&occurrences) {
-                same_as[element as usize] = first;
-            }
-        }
+    let mut same_as = vec![0_u32; physical.len()];
+    for same in order.chunk_by(|&a, &b| place(a) == place(b)) {
+        same.iter().for_each(|&element| same_as[element as usize] = same[0]);
     }
     let kept: Vec<u32> = (0..physical.len() as u32).filter(|&element| same_as[element as usize] == element).collect();
     drop(sets);

@@ -52,17 +52,19 @@ impl<'a> Cursor<'a> {
     }
 
     /// Goes forward, never past the end, and returns what was passed over.
-    pub(super) fn advance(&mut self, count: usize) -> &'a [u8] {
+    fn advance(&mut self, count: usize) -> &'a [u8] {
         let end = self.position.saturating_add(count).min(self.bytes.len());
         let passed = &self.bytes[self.position..end];
         self.position = end;
         passed
     }
 
+    /// Passes over blanks; what follows is the place that messages name.
+    #[inline]
     pub(super) fn skip_blanks(&mut self) {
-        let rest = self.rest();
-        let blanks = rest.iter().take_while(|byte| byte.is_ascii_whitespace());
-        self.position += blanks.count();
+        while self.bytes.get(self.position).is_some_and(u8::is_ascii_whitespace) {
+            self.position += 1;
+        }
         self.set_mark();
     }
 
@@ -84,9 +86,8 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes over a section that is not read, to the line after its end.
-    pub(super) fn skip_section(&mut self, name: &str) -> Result<(), MshError> {
-        self.section = name.to_owned();
-        let end = format!("$End{name}");
+    pub(super) fn skip_section(&mut self) -> Result<(), MshError> {
+        let end = format!("$End{}", self.section);
         loop {
             if self.rest().starts_with(end.as_bytes()) {
                 self.take_line();

@@ -4,7 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::nodes::{dimension, no_elements, not_as_announced, not_too_large, tag_range};
+use super::nodes::{check_range, dimension, no_elements, not_as_announced, tag_range};
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
@@ -13,18 +13,14 @@ use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
 pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec<ElementBlock>, MshError> {
     let block_count = cursor.count("the number of blocks", Item::new(3, 3, 0))?;
     let announced = cursor.count("the number of elements", Item::new(2, 0, 0))?;
-    tag_range(
-        cursor,
-        ["the smallest element tag", "the largest element tag"],
-        "the largest element tag, not below the smallest",
-    )?;
+    tag_range(cursor, ["the smallest element tag", "the largest element tag"])?;
     let mut tags = TagSet::for_count(announced);
     let mut blocks = Vec::with_capacity(block_count);
     let mut listed = 0;
     for _ in 0..block_count {
         let dimension = dimension(cursor)?;
         let entity = Entity { dimension, tag: cursor.int("the tag of an entity")? };
-        let kind = kind(cursor, entity)?;
+        let kind = kind(cursor, Some(entity))?;
         if kind.dimension() != dimension {
             let expected = format!("elements of dimension {dimension} like their entity");
             return Err(cursor.malformed(expected, kind.name().as_bytes()));
@@ -43,9 +39,8 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
             block.tags.push(tag);
             for read in 0..kind.nodes() {
                 let node = cursor.size("the tag of a node of an element")?;
-                let index = node_index(cursor, nodes, tag, node)?;
-                let end = block.connectivity.len();
-                check_not_repeated(cursor, &block.connectivity[end - read..], index, [tag, node])?;
+                let earlier = &block.connectivity[block.connectivity.len() - read..];
+                let index = node_index(cursor, nodes, [tag, node], |index| earlier.contains(&index))?;
                 block.connectivity.push(index);
             }
         }
@@ -55,29 +50,31 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
     if listed != announced {
         return Err(not_as_announced(cursor, "elements", announced, listed));
     }
-    match listed {
-        0 => Err(no_elements()),
-        _ => Ok(blocks),
-    }
+    (listed > 0).then_some(blocks).ok_or_else(no_elements)
 }
 
 /// A tag greater than 0 that has not occurred.
 #[inline]
 pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Result<(), MshError> {
-    if tag == 0 {
-        return Err(cursor.malformed("an element tag, greater than 0", b"0"));
-    }
-    not_too_large(cursor, "an element tag", tag)?;
+    check_range(cursor, "an element tag", tag)?;
     if !seen.insert(tag) {
         return Err(cursor.fault(format_args!("element tag {tag} occurs a second time: expected every tag once")));
     }
     Ok(())
 }
 
-/// Index of a node of an element.
+/// Index of a node of an element, which is not among those that the element has already.
 #[inline]
-pub(super) fn node_index(cursor: &Cursor<'_>, nodes: &NodeIndex, element: u64, node: u64) -> Result<usize, MshError> {
+pub(super) fn node_index(
+    cursor: &Cursor<'_>,
+    nodes: &NodeIndex,
+    [element, node]: [u64; 2],
+    is_repeated: impl FnOnce(usize) -> bool,
+) -> Result<usize, MshError> {
     match nodes.get(node) {
+        Some(index) if is_repeated(index) => {
+            Err(cursor.fault(format_args!("element {element} has the node {node} twice: expected different nodes")))
+        }
         Some(index) => Ok(index),
         None => {
             Err(cursor.fault(format_args!("element {element} refers to node {node}: expected a tag listed in $Nodes")))
@@ -85,34 +82,18 @@ pub(super) fn node_index(cursor: &Cursor<'_>, nodes: &NodeIndex, element: u64, n
     }
 }
 
-/// The node is not among those that the element has already.
-#[inline]
-pub(super) fn check_not_repeated<T: PartialEq>(
-    cursor: &Cursor<'_>,
-    earlier: &[T],
-    index: T,
-    [element, node]: [u64; 2],
-) -> Result<(), MshError> {
-    if earlier.contains(&index) {
-        return Err(cursor.fault(format_args!("element {element} has the node {node} twice: expected different nodes")));
-    }
-    Ok(())
-}
-
-/// The element type at the cursor.
-fn kind(cursor: &mut Cursor<'_>, entity: Entity) -> Result<ElementKind, MshError> {
+/// The kind of the element type at the cursor; MSH 2.2 gives the type before the entity.
+pub(super) fn kind(cursor: &mut Cursor<'_>, entity: Option<Entity>) -> Result<ElementKind, MshError> {
     let gmsh_type = cursor.int("an element type")?;
-    ElementKind::from_gmsh_type(gmsh_type).ok_or_else(|| unknown_kind(cursor, gmsh_type, Some(entity)))
-}
-
-/// An element type that the program has no element for; MSH 2.2 gives the type before the entity.
-pub(super) fn unknown_kind(cursor: &Cursor<'_>, gmsh_type: i32, entity: Option<Entity>) -> MshError {
+    if let Some(kind) = ElementKind::from_gmsh_type(gmsh_type) {
+        return Ok(kind);
+    }
     let (name, advice) = unsupported(gmsh_type);
     let on_entity =
         entity.map_or(String::new(), |Entity { dimension, tag }| format!(" on entity {tag} of dimension {dimension}"));
     let known: Vec<&str> = ElementKind::all().map(ElementKind::name).collect();
     let known = known.join(", ");
-    cursor.fault(format_args!("element type {gmsh_type} ({name}){on_entity}: expected one of {known}; {advice}"))
+    Err(cursor.fault(format_args!("element type {gmsh_type} ({name}){on_entity}: expected one of {known}; {advice}")))
 }
 
 /// Highest element type number in gmsh 4.15 (`GmshDefines.h`).

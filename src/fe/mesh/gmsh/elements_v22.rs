@@ -4,7 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::elements::{check_not_repeated, check_tag, node_index, unknown_kind};
+use super::elements::{check_tag, kind, node_index};
 use super::nodes::no_elements;
 use super::numbers::Item;
 use super::tags::{NodeIndex, TagSet};
@@ -17,14 +17,7 @@ pub(super) struct Listed {
     /// Node indices of one element after the other.
     pub(super) connectivity: Vec<u32>,
     /// What they are, in the same order.
-    pub(super) runs: Vec<Run>,
-}
-
-/// Elements that follow one another and agree in kind, entity and group.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
-    pub(super) label: Label,
-    pub(super) count: u32,
+    pub(super) pieces: Vec<Piece>,
 }
 
 /// Where an element belongs.
@@ -37,16 +30,7 @@ pub(super) struct Label {
     pub(super) physical: i32,
 }
 
-impl Listed {
-    fn add_label(&mut self, label: Label) {
-        match self.runs.last_mut() {
-            Some(run) if run.label == label => run.count += 1,
-            _ => self.runs.push(Run { label, count: 1 }),
-        }
-    }
-}
-
-/// A run with its place in the lists.
+/// Elements that follow one another and agree in kind, entity and group, with their place in the lists.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub(super) label: Label,
@@ -91,17 +75,14 @@ pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed,
         true => reader.binary(count)?,
         false => reader.ascii(count)?,
     }
-    match count {
-        0 => Err(no_elements()),
-        _ => Ok(reader.listed),
-    }
+    (count > 0).then_some(reader.listed).ok_or_else(no_elements)
 }
 
 impl Reader<'_, '_> {
     fn ascii(&mut self, count: usize) -> Result<(), MshError> {
         for _ in 0..count {
             let tag = self.tag()?;
-            let kind = self.kind()?;
+            let kind = kind(self.cursor, None)?;
             let tag_count = self.tag_count()?;
             self.rest_of_element(tag, kind, tag_count)?;
         }
@@ -111,7 +92,7 @@ impl Reader<'_, '_> {
     /// Blocks of elements of one kind; gmsh itself writes a header for every element.
     fn binary(&mut self, count: usize) -> Result<(), MshError> {
         while self.listed.tags.len() < count {
-            let kind = self.kind()?;
+            let kind = kind(self.cursor, None)?;
             let what = "the number of elements that follow";
             let found = self.cursor.int(what)?;
             let left = count - self.listed.tags.len();
@@ -135,11 +116,6 @@ impl Reader<'_, '_> {
         Ok(tag)
     }
 
-    fn kind(&mut self) -> Result<ElementKind, MshError> {
-        let gmsh_type = self.cursor.int("an element type")?;
-        ElementKind::from_gmsh_type(gmsh_type).ok_or_else(|| unknown_kind(self.cursor, gmsh_type, None))
-    }
-
     fn tag_count(&mut self) -> Result<usize, MshError> {
         let what = "the number of tags of an element";
         let count = self.cursor.unsigned_int(what, what)?;
@@ -157,16 +133,20 @@ impl Reader<'_, '_> {
             }
         }
         let [physical, entity] = tags;
-        self.listed.add_label(Label { kind, entity, physical: physical.saturating_abs() });
-        self.listed.tags.push(tag);
-        let connectivity = &mut self.listed.connectivity;
+        let label = Label { kind, entity, physical: physical.saturating_abs() };
+        let Listed { tags, connectivity, pieces } = &mut self.listed;
+        match pieces.last_mut() {
+            Some(piece) if piece.label == label => piece.count += 1,
+            _ => pieces.push(Piece { label, first: tags.len(), first_node: connectivity.len(), count: 1 }),
+        }
+        tags.push(tag);
         for read in 0..kind.nodes() {
             let what = "the tag of a node of an element";
             let node = self.cursor.unsigned_int(what, what)?;
-            // a node has an index below u32::MAX
-            let index = node_index(self.cursor, self.nodes, tag, node)? as u32;
             let earlier = &connectivity[connectivity.len() - read..];
-            check_not_repeated(self.cursor, earlier, index, [tag, node])?;
+            let is_repeated = |index: usize| earlier.contains(&(index as u32));
+            // a node has an index below u32::MAX
+            let index = node_index(self.cursor, self.nodes, [tag, node], is_repeated)? as u32;
             connectivity.push(index);
         }
         Ok(())

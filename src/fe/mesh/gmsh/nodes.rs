@@ -25,10 +25,7 @@ impl NodeTable {
     }
 
     fn add_tag(&mut self, cursor: &mut Cursor<'_>, tag: u64) -> Result<(), MshError> {
-        if tag == 0 {
-            return Err(cursor.malformed("a node tag, greater than 0", b"0"));
-        }
-        not_too_large(cursor, "a node tag", tag)?;
+        check_range(cursor, "a node tag", tag)?;
         let index = u32::try_from(self.tags.len()).ok();
         let index = index
             .filter(|&index| index < u32::MAX)
@@ -59,10 +56,7 @@ impl NodeTable {
     }
 
     fn complete(self) -> Result<Self, MshError> {
-        match self.tags.is_empty() {
-            true => Err(no_elements()),
-            false => Ok(self),
-        }
+        (!self.tags.is_empty()).then_some(self).ok_or_else(no_elements)
     }
 }
 
@@ -76,16 +70,17 @@ pub(super) fn no_elements() -> MshError {
 pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
     let blocks = cursor.count("the number of blocks", Item::new(1, 3, 0))?;
     let announced = cursor.count("the number of nodes", Item::new(1, 0, 3))?;
-    tag_range(
-        cursor,
-        ["the smallest node tag", "the largest node tag"],
-        "the largest node tag, not below the smallest",
-    )?;
+    tag_range(cursor, ["the smallest node tag", "the largest node tag"])?;
     let mut nodes = NodeTable::for_count(announced);
     for _ in 0..blocks {
         dimension(cursor)?;
         cursor.int("the tag of an entity")?;
-        not_parametric(cursor)?;
+        let flag = "the flag for parametric coordinates, 0 or 1";
+        match cursor.int(flag)? {
+            0 => {}
+            1 => return Err(parametric(cursor)),
+            found => return Err(cursor.malformed(flag, found.to_string().as_bytes())),
+        }
         let count = cursor.count("the number of nodes of a block", Item::new(1, 0, 3))?;
         if count > announced - nodes.tags.len() {
             return Err(not_as_announced(cursor, "nodes", announced, nodes.tags.len() + count));
@@ -116,22 +111,15 @@ pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
     nodes.complete()
 }
 
-/// Results keep tags in 64 bits with a sign.
+/// A tag of a node or an element is greater than 0; results keep it in 64 bits with a sign.
 #[inline]
-pub(super) fn not_too_large(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(), MshError> {
-    match i64::try_from(tag) {
-        Ok(_) => Ok(()),
-        Err(_) => Err(cursor.malformed(format!("{what}, at most {}", i64::MAX), tag.to_string().as_bytes())),
-    }
-}
-
-fn not_parametric(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
-    let what = "the flag for parametric coordinates, 0 or 1";
-    match cursor.int(what)? {
-        0 => Ok(()),
-        1 => Err(parametric(cursor)),
-        found => Err(cursor.malformed(what, found.to_string().as_bytes())),
-    }
+pub(super) fn check_range(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(), MshError> {
+    let expected = match i64::try_from(tag) {
+        Ok(1..) => return Ok(()),
+        Ok(_) => format!("{what}, greater than 0"),
+        Err(_) => format!("{what}, at most {}", i64::MAX),
+    };
+    Err(cursor.malformed(expected, tag.to_string().as_bytes()))
 }
 
 /// Nodes with their parameters on curves and surfaces: of no use here.
@@ -140,16 +128,12 @@ pub(super) fn parametric(cursor: &Cursor<'_>) -> MshError {
 }
 
 /// The smallest and the largest tag at the start of a section: read for their order alone.
-pub(super) fn tag_range(
-    cursor: &mut Cursor<'_>,
-    what: [&'static str; 2],
-    expected: &'static str,
-) -> Result<(), MshError> {
-    let smallest = cursor.size(what[0])?;
-    match cursor.size(what[1])? {
-        largest if largest < smallest => Err(cursor.malformed(expected, largest.to_string().as_bytes())),
-        _ => Ok(()),
+pub(super) fn tag_range(cursor: &mut Cursor<'_>, [smallest, largest]: [&'static str; 2]) -> Result<(), MshError> {
+    let [low, high] = [cursor.size(smallest)?, cursor.size(largest)?];
+    if high < low {
+        return Err(cursor.malformed(format!("{largest}, not below the smallest"), high.to_string().as_bytes()));
     }
+    Ok(())
 }
 
 /// Dimension of the entity of a block.

@@ -44,16 +44,16 @@ impl Cursor<'_> {
     #[inline]
     pub(super) fn size(&mut self, what: &'static str) -> Result<u64, MshError> {
         let found = match self.encoding {
-            Encoding::Ascii => self.digits(),
+            Encoding::Ascii => {
+                self.skip_blanks();
+                self.digits_here()
+            }
             Encoding::Binary { big_endian, size_bytes: 4 } => {
                 self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian))
             }
             Encoding::Binary { big_endian, .. } => self.chunk::<8>().map(|bytes| unsigned(bytes, big_endian)),
         };
-        match found {
-            Some(value) => Ok(value),
-            None => Err(self.no_whole_number(what, u64::MAX)),
-        }
+        found.ok_or_else(|| self.no_number(what, Some(u64::MAX)))
     }
 
     /// gmsh's int.
@@ -65,10 +65,7 @@ impl Cursor<'_> {
                 self.chunk::<4>().map(|bytes| unsigned(bytes, big_endian) as u32 as i32)
             }
         };
-        match found {
-            Some(value) => Ok(value),
-            None => Err(self.no_whole_number(what, i32::MAX as u64)),
-        }
+        found.ok_or_else(|| self.no_number(what, Some(i32::MAX as u64)))
     }
 
     /// An int that is not negative; messages about one that is say what was expected.
@@ -87,10 +84,7 @@ impl Cursor<'_> {
                 self.chunk::<8>().map(|bytes| f64::from_bits(unsigned(bytes, big_endian)))
             }
         };
-        match found {
-            Some(value) => Ok(value),
-            None => Err(self.no_number(what)),
-        }
+        found.ok_or_else(|| self.no_number(what, None))
     }
 
     /// A count of items, checked against what is left of the file: nothing is allocated for a count that
@@ -127,29 +121,13 @@ impl Cursor<'_> {
         }
     }
 
+    /// The next bytes, if there are as many.
     #[inline]
-    fn chunk<const N: usize>(&mut self) -> Option<[u8; N]> {
+    pub(super) fn chunk<const N: usize>(&mut self) -> Option<[u8; N]> {
         self.set_mark();
         let bytes = self.rest().first_chunk().copied()?;
         self.position += N;
         Some(bytes)
-    }
-
-    /// Passes over blanks; what follows is the place that messages name.
-    #[inline]
-    fn begin_word(&mut self) {
-        let mut at = self.position;
-        while self.bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
-            at += 1;
-        }
-        self.position = at;
-        self.mark = at;
-    }
-
-    #[inline]
-    fn digits(&mut self) -> Option<u64> {
-        self.begin_word();
-        self.digits_here()
     }
 
     /// The digits at the position, up to a blank or the end.
@@ -173,7 +151,7 @@ impl Cursor<'_> {
     }
 
     fn signed_digits(&mut self) -> Option<i32> {
-        self.begin_word();
+        self.skip_blanks();
         let negative = self.bytes.get(self.position) == Some(&b'-');
         self.position += usize::from(negative);
         let size = i64::try_from(self.digits_here()?).ok()?;
@@ -182,7 +160,7 @@ impl Cursor<'_> {
 
     #[inline]
     fn fraction(&mut self) -> Option<f64> {
-        self.begin_word();
+        self.skip_blanks();
         let rest = self.rest();
         let length = rest.iter().position(u8::is_ascii_whitespace);
         let word = &rest[..length.unwrap_or(rest.len())];
@@ -191,33 +169,20 @@ impl Cursor<'_> {
         Some(value)
     }
 
-    /// Why there is no whole number up to `most` at the mark.
+    /// Why there is no number at the mark, or no whole number up to `most`.
     #[cold]
     #[inline(never)]
-    fn no_whole_number(&mut self, what: &'static str, most: u64) -> MshError {
+    fn no_number(&mut self, what: &'static str, most: Option<u64>) -> MshError {
         self.position = self.mark;
         if self.is_binary() {
             return self.truncated(what);
         }
-        match self.take_word() {
-            word @ [_, ..] if word.iter().all(u8::is_ascii_digit) => {
+        match (self.take_word(), most) {
+            ([], _) => self.truncated(what),
+            (word, Some(most)) if word.iter().all(u8::is_ascii_digit) => {
                 self.malformed(format!("{what}, at most {most}"), word)
             }
-            _ => self.no_number(what),
-        }
-    }
-
-    /// Why there is no number at the mark.
-    #[cold]
-    #[inline(never)]
-    fn no_number(&mut self, what: &'static str) -> MshError {
-        self.position = self.mark;
-        if self.is_binary() {
-            return self.truncated(what);
-        }
-        match self.take_word() {
-            [] => self.truncated(what),
-            word => self.malformed(what, word),
+            (word, _) => self.malformed(what, word),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A file from its header through its sections to a mesh.
 
-use super::build::{self, Allowance, Content, Name, by_entity};
+use super::build::{Allowance, Name, by_entity, groups};
 use super::cursor::{Cursor, Encoding, quoted};
 use super::elements_v22::Listed;
 use super::entities::Physical;
@@ -32,24 +32,19 @@ impl Mesh {
     /// # Errors
     /// [`MeshError::Gmsh`], as from [`Self::read_gmsh`].
     pub fn from_gmsh_bytes(bytes: impl AsRef<[u8]>, path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
-        let found = read(bytes.as_ref(), unit.to_metres());
+        let found = Found::read(bytes.as_ref(), unit.to_metres());
         // blocks and groups can have this room
         drop(bytes);
-        mesh(found, path)
+        let mesh = found.and_then(|found| found.into_mesh(path));
+        let mut mesh = mesh.map_err(|fault| MeshError::Gmsh { path: path.to_path_buf(), fault })?;
+        mesh.turn_clockwise();
+        Ok(mesh)
     }
 }
 
-fn mesh(found: Result<(MshFormat, Found), MshError>, path: &Path) -> Result<Mesh, MeshError> {
-    let mut mesh = found
-        .and_then(|(format, found)| build::mesh(found.complete(format)?, path))
-        .map_err(|fault| MeshError::Gmsh { path: path.to_path_buf(), fault })?;
-    mesh.turn_clockwise();
-    Ok(mesh)
-}
-
 /// Sections read so far.
-#[derive(Default)]
 struct Found {
+    format: MshFormat,
     file_bytes: usize,
     names: Option<Vec<Name>>,
     entities: Option<Physical>,
@@ -62,33 +57,32 @@ enum Elements {
     V22(Listed),
 }
 
-/// Reads a whole file; one of its units is so many metres.
-fn read(bytes: &[u8], metres: f64) -> Result<(MshFormat, Found), MshError> {
-    let mut cursor = Cursor::new(bytes);
-    let format = header(&mut cursor)?;
-    let mut found = Found { file_bytes: bytes.len(), ..Found::default() };
-    loop {
-        cursor.skip_blanks();
-        let line = cursor.take_line();
-        if line.is_empty() {
-            break;
-        }
-        cursor.section = section_name(&cursor, line)?;
-        match found.section(&mut cursor, format.version, metres)? {
-            true => cursor.close_section()?,
-            false => {
-                let name = cursor.section.clone();
-                cursor.skip_section(&name)?;
+impl Found {
+    /// Reads a whole file; one of its units is so many metres.
+    fn read(bytes: &[u8], metres: f64) -> Result<Self, MshError> {
+        let mut cursor = Cursor::new(bytes);
+        let format = header(&mut cursor)?;
+        let mut found =
+            Self { format, file_bytes: bytes.len(), names: None, entities: None, nodes: None, elements: None };
+        loop {
+            cursor.skip_blanks();
+            let line = cursor.take_line();
+            if line.is_empty() {
+                return Ok(found);
+            }
+            cursor.section = section_name(&cursor, line)?;
+            if found.section(&mut cursor, metres)? {
+                cursor.close_section()?;
+            } else {
+                cursor.skip_section()?;
             }
         }
     }
-    Ok((format, found))
-}
 
-impl Found {
     /// Reads a section up to its end; false if it is of no use.
-    fn section(&mut self, cursor: &mut Cursor<'_>, version: MshVersion, metres: f64) -> Result<bool, MshError> {
+    fn section(&mut self, cursor: &mut Cursor<'_>, metres: f64) -> Result<bool, MshError> {
         use MshVersion::{V22, V41};
+        let version = self.format.version;
         match (cursor.section.as_str(), version) {
             ("PhysicalNames", _) => once(&mut self.names, cursor, names)?,
             ("Entities", V41) => once(&mut self.entities, cursor, entities::read)?,
@@ -113,11 +107,12 @@ impl Found {
         Ok(true)
     }
 
-    /// Blocks and which groups they belong to; nothing of the file is needed any more.
-    fn complete(self, format: MshFormat) -> Result<Content, MshError> {
+    /// Blocks and groups from what was read; nothing of the file is needed any more.
+    fn into_mesh(self, path: &Path) -> Result<Mesh, MshError> {
         let hint = "; is the file complete?";
         let nodes = self.nodes.ok_or_else(|| missing("Nodes", hint))?;
-        let mut allowance = Allowance::new(self.file_bytes);
+        drop(nodes.index);
+        let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
         let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
             Elements::V41(blocks) => {
                 let entities = self.entities.unwrap_or_default();
@@ -126,7 +121,10 @@ impl Found {
             }
             Elements::V22(listed) => collect_v22::blocks(listed, &mut allowance)?,
         };
-        Ok(Content { format, nodes, blocks, memberships, names: self.names.unwrap_or_default(), allowance })
+        let names = self.names.unwrap_or_default();
+        let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
+        let source = path.to_path_buf();
+        Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format: self.format, source })
     }
 }
 
@@ -164,10 +162,11 @@ fn header(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
         cursor.skip_blanks();
         match cursor.take_line() {
             b"$MeshFormat" => break,
-            b"$Comments" => cursor.skip_section("Comments")?,
-            b"$NOD" | b"$PARA" => {
-                return Err(unknown_version("1.0"));
+            b"$Comments" => {
+                cursor.section = "Comments".to_owned();
+                cursor.skip_section()?;
             }
+            b"$NOD" | b"$PARA" => return Err(unknown_version("1.0")),
             line => {
                 let found = quoted(line);
                 return Err(MshError(format!("not a gmsh mesh: expected $MeshFormat at the start, found {found}")));
@@ -178,13 +177,8 @@ fn header(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
     let version = version(cursor)?;
     let binary = flag(cursor, "the file type, 0 (ASCII) or 1 (binary)", [b"0", b"1"])?;
     let size_bytes = match version {
-        MshVersion::V41 => {
-            if flag(cursor, "the size of size_t, 4 or 8", [b"4", b"8"])? {
-                8
-            } else {
-                4
-            }
-        }
+        MshVersion::V41 if flag(cursor, "the size of size_t, 4 or 8", [b"4", b"8"])? => 8,
+        MshVersion::V41 => 4,
         // 2.2 counts with int and gives the size of a double here
         MshVersion::V22 => {
             flag(cursor, "the size of a double, 8", [b"8", b"8"])?;
@@ -219,16 +213,12 @@ fn unknown_version(found: &str) -> MshError {
 /// Byte order from the integer 1 that begins the binary data.
 fn big_endian(cursor: &mut Cursor<'_>) -> Result<bool, MshError> {
     const WHAT: &str = "the integer 1 that shows the byte order";
-    cursor.set_mark();
-    let one: Option<[u8; 4]> = cursor.rest().first_chunk().copied();
-    let one = one.ok_or_else(|| cursor.truncated(WHAT))?;
-    let big_endian = match (i32::from_le_bytes(one), i32::from_be_bytes(one)) {
-        (1, _) => false,
-        (_, 1) => true,
-        _ => return Err(cursor.malformed(WHAT, &one)),
-    };
-    cursor.advance(one.len());
-    Ok(big_endian)
+    let one = cursor.chunk().ok_or_else(|| cursor.truncated(WHAT))?;
+    match (i32::from_le_bytes(one), i32::from_be_bytes(one)) {
+        (1, _) => Ok(false),
+        (_, 1) => Ok(true),
+        _ => Err(cursor.malformed(WHAT, &one)),
+    }
 }
 
 /// One of two words: false for the first, true for the second.

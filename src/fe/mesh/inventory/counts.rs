@@ -2,7 +2,7 @@
 
 use super::nodes::{self, BoundingBox, DuplicateNodes, UnusedNodes};
 use super::parts::{self, Part};
-use crate::fe::mesh::{ElementId, ElementKind, Mesh, MshFormat};
+use crate::fe::mesh::{ElementKind, Mesh, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -50,8 +50,7 @@ impl Mesh {
     /// Counts and extent of this mesh, and what is often wrong with one.
     pub fn inventory(&self) -> Inventory {
         let bounding_box = BoundingBox::of(self.nodes.iter().copied());
-        let dimension = self.blocks.iter().map(|block| block.kind.dimension());
-        let dimension = dimension.max().unwrap_or(0);
+        let dimension = self.dimension();
         let unused = nodes::unused(self);
         Inventory {
             format: self.format,
@@ -62,7 +61,7 @@ impl Mesh {
             bounding_box,
             dimension,
             elements: counted(self.blocks.iter().map(|block| (block.kind, block.len()))),
-            groups: summaries(self),
+            groups: self.groups.iter().map(|group| GroupSummary::new(self, group)).collect(),
             overlaps: overlaps(self),
             ungrouped_elements: ungrouped(self, dimension),
             parts: parts::parts(self, dimension),
@@ -111,18 +110,17 @@ pub struct GroupOverlap {
     pub elements: usize,
 }
 
-fn summaries(mesh: &Mesh) -> Vec<GroupSummary> {
-    let groups = mesh.groups.iter();
-    groups
-        .map(|group| GroupSummary {
+impl GroupSummary {
+    fn new(mesh: &Mesh, group: &PhysicalGroup) -> Self {
+        Self {
             name: group.name.clone(),
             dimension: group.dimension,
             tag: group.tag,
             nodes: group.nodes.len(),
             elements: group.elements.len(),
             kinds: counted(group.elements.iter().map(|id| (mesh.blocks[id.block].kind, 1))),
-        })
-        .collect()
+        }
+    }
 }
 
 fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
@@ -130,7 +128,10 @@ fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
     for (position, group) in mesh.groups.iter().enumerate() {
         let others = mesh.groups[position + 1..].iter();
         for other in others.take_while(|other| other.dimension == group.dimension) {
-            let elements = common(&group.elements, &other.elements);
+            let mut lists = [&group.elements, &other.elements];
+            lists.sort_by_key(|list| list.len());
+            // both are in the order of the mesh
+            let elements = lists[0].iter().filter(|id| lists[1].binary_search(id).is_ok()).count();
             if elements > 0 {
                 found.push(GroupOverlap {
                     dimension: group.dimension,
@@ -144,33 +145,11 @@ fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
     found
 }
 
-/// How many elements two sorted lists share.
-fn common(a: &[ElementId], b: &[ElementId]) -> usize {
-    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-    let mut count = 0;
-    while let (Some(first), Some(second)) = (a.peek(), b.peek()) {
-        match first.cmp(second) {
-            std::cmp::Ordering::Less => drop(a.next()),
-            std::cmp::Ordering::Greater => drop(b.next()),
-            std::cmp::Ordering::Equal => {
-                count += 1;
-                a.next();
-                b.next();
-            }
-        }
-    }
-    count
-}
-
 /// Elements of a dimension that no group holds.
 fn ungrouped(mesh: &Mesh, dimension: usize) -> usize {
-    let blocks = mesh.blocks.iter();
-    let mut grouped: Vec<Vec<bool>> = blocks.map(|block| vec![false; block.len()]).collect();
+    let mut grouped = mesh.for_each_element(false);
     for id in mesh.groups.iter().flat_map(|group| &group.elements) {
         grouped[id.block][id.index] = true;
     }
-    let own = mesh.blocks.iter().zip(&grouped);
-    own.filter(|(block, _)| block.kind.dimension() == dimension)
-        .map(|(_, grouped)| grouped.iter().filter(|grouped| !**grouped).count())
-        .sum()
+    mesh.element_ids(dimension).filter(|id| !grouped[id.block][id.index]).count()
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::fe::mesh::Mesh;
+use std::collections::BTreeSet;
 
 /// How many examples a list shows.
 const EXAMPLES: usize = 5;
@@ -32,6 +33,16 @@ impl BoundingBox {
             self.min[axis] = self.min[axis].min(value);
             self.max[axis] = self.max[axis].max(value);
         }
+    }
+
+    /// Grown by `reach` (m) to all sides.
+    pub(crate) fn grown(self, reach: f64) -> Self {
+        Self { min: self.min.map(|x| x - reach), max: self.max.map(|x| x + reach) }
+    }
+
+    /// Length of the longest side, m, >= 0.
+    pub(crate) fn longest_side(&self) -> f64 {
+        self.extent().into_iter().fold(0.0, f64::max)
     }
 
     /// Lengths of the sides, m, >= 0.
@@ -84,73 +95,35 @@ const TOLERANCE: f64 = 1e-7;
 /// cube and in the up to seven that it is nearest to. O(n log n), unless a great many nodes crowd in one cube.
 pub(super) fn duplicates(mesh: &Mesh, extent: &BoundingBox) -> DuplicateNodes {
     let tolerance = TOLERANCE * extent.diagonal();
-    let cubes = Cubes::new(mesh, extent, 2.0 * tolerance);
-    let mut count = 0;
-    let mut first_pairs = Vec::new();
-    for node in 0..mesh.nodes.len() {
-        if let Some(earlier) = cubes.earlier_neighbour(node, tolerance) {
-            count += 1;
-            if first_pairs.len() < EXAMPLES {
-                first_pairs.push([earlier, node].map(|node| mesh.node_tags[node]));
-            }
-        }
-    }
-    DuplicateNodes { tolerance, count, first_pairs }
-}
-
-/// Nodes by the cube that they are in.
-struct Cubes<'a> {
-    mesh: &'a Mesh,
-    origin: [f64; 3],
-    side: f64,
-    /// Cube and node, sorted.
-    sorted: Vec<([u32; 3], u32)>,
-}
-
-impl<'a> Cubes<'a> {
-    fn new(mesh: &'a Mesh, extent: &BoundingBox, side: f64) -> Self {
-        let mut cubes = Self { mesh, origin: extent.min, side, sorted: Vec::new() };
-        let nodes = (0..).zip(&mesh.nodes);
-        cubes.sorted = nodes.map(|(node, &point)| (cubes.position(point).map(|x| x as u32), node)).collect();
-        cubes.sorted.sort_unstable();
-        cubes
-    }
-
-    /// Coordinates in sides of a cube, below 1 / (2 * TOLERANCE).
-    fn position(&self, point: [f64; 3]) -> [f64; 3] {
+    let side = 2.0 * tolerance;
+    // in sides of a cube, below 1 / (2 * TOLERANCE)
+    let position = |node: usize| {
         [0, 1, 2].map(|axis| {
-            let from_origin = point[axis] - self.origin[axis];
+            let from_origin = mesh.nodes[node][axis] - extent.min[axis];
             // all nodes in one point: a cube without side
-            if self.side > 0.0 { from_origin / self.side } else { 0.0 }
+            if side > 0.0 { from_origin / side } else { 0.0 }
         })
-    }
-
-    /// The first node before this one that is within the tolerance.
-    fn earlier_neighbour(&self, node: usize, tolerance: f64) -> Option<usize> {
-        let point = self.mesh.nodes[node];
-        let position = self.position(point);
-        let own = position.map(|x| x as u32);
-        // the cubes beyond the nearer wall in each direction
-        let beside = [0, 1, 2]
-            .map(|axis| if position[axis].fract() < 0.5 { own[axis].saturating_sub(1) } else { own[axis] + 1 });
-        let corner = |choice: usize, axis: usize| {
-            if choice >> axis & 1 == 0 { own[axis] } else { beside[axis] }
-        };
-        (0..8)
-            .map(|choice| [0, 1, 2].map(|axis| corner(choice, axis)))
-            .filter_map(|cube| self.first_in(cube, node, point, tolerance))
-            .min()
-    }
-
-    fn first_in(&self, cube: [u32; 3], node: usize, point: [f64; 3], tolerance: f64) -> Option<usize> {
-        let start = self.sorted.partition_point(|(other, _)| *other < cube);
-        let earlier =
-            self.sorted[start..].iter().take_while(|(other, earlier)| *other == cube && (*earlier as usize) < node);
-        let mut earlier = earlier.map(|(_, earlier)| *earlier as usize);
-        earlier.find(|&earlier| {
-            let other = self.mesh.nodes[earlier];
-            let [x, y, z] = [0, 1, 2].map(|axis| point[axis] - other[axis]);
-            x.hypot(y).hypot(z) <= tolerance
-        })
-    }
+    };
+    let nodes = 0..mesh.nodes.len();
+    let cubes: BTreeSet<([u32; 3], usize)> =
+        nodes.clone().map(|node| (position(node).map(|x| x as u32), node)).collect();
+    let near = |a: usize, b: usize| {
+        let [x, y, z] = [0, 1, 2].map(|axis| mesh.nodes[a][axis] - mesh.nodes[b][axis]);
+        x.hypot(y).hypot(z) <= tolerance
+    };
+    let first_neighbour = |node: usize| {
+        // its own cube, and that beyond the nearer wall, in each direction
+        let choices = position(node).map(|x| {
+            let own = x as u32;
+            [own, if x.fract() < 0.5 { own.saturating_sub(1) } else { own + 1 }]
+        });
+        let earlier = (0..8_usize).filter_map(|choice| {
+            let cube = [0, 1, 2].map(|axis| choices[axis][choice >> axis & 1]);
+            cubes.range((cube, 0)..(cube, node)).map(|&(_, earlier)| earlier).find(|&earlier| near(earlier, node))
+        });
+        earlier.min()
+    };
+    let pairs: Vec<[usize; 2]> = nodes.filter_map(|node| Some([first_neighbour(node)?, node])).collect();
+    let first_pairs = pairs.iter().take(EXAMPLES).map(|pair| pair.map(|node| mesh.node_tags[node]));
+    DuplicateNodes { tolerance, count: pairs.len(), first_pairs: first_pairs.collect() }
 }

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 use super::nodes::BoundingBox;
 use crate::fe::mesh::Mesh;
@@ -56,28 +57,23 @@ pub(super) fn parts(mesh: &Mesh, dimension: usize) -> Vec<Part> {
             sets.join(element[0], node);
         }
     }
-    let mut parts: Vec<Part> = Vec::new();
-    // a root is the first node of its part
-    let mut number = vec![0; mesh.nodes.len()];
+    // by their roots, which are their first nodes
+    let mut parts: BTreeMap<usize, Part> = BTreeMap::new();
     for node in (0..mesh.nodes.len()).filter(|&node| used[node]) {
         let point = mesh.nodes[node];
-        let root = sets.root(node);
-        if root == node {
-            number[node] = parts.len();
-            parts.push(Part {
-                elements: 0,
-                nodes: 0,
-                node_tag: mesh.node_tags[node],
-                bounding_box: BoundingBox::of([point].into_iter()),
-            });
-        }
-        let part = &mut parts[number[root]];
+        let part = parts.entry(sets.root(node)).or_insert_with(|| Part {
+            elements: 0,
+            nodes: 0,
+            node_tag: mesh.node_tags[node],
+            bounding_box: BoundingBox::of([point].into_iter()),
+        });
         part.nodes += 1;
         part.bounding_box.add(point);
     }
     for element in own().flat_map(|block| block.elements()) {
-        parts[number[sets.root(element[0])]].elements += 1;
+        parts.entry(sets.root(element[0])).and_modify(|part| part.elements += 1);
     }
+    let mut parts: Vec<Part> = parts.into_values().collect();
     parts.sort_by_key(|part| std::cmp::Reverse(part.elements));
     parts
 }

@@ -1,7 +1,8 @@
 //! Bodies of a housing: elements that hang together through whole faces, edges in the plane.
 
-use crate::fe::mesh::{FaceCorners, Sets};
+use crate::fe::mesh::{Sets, sorted_faces};
 use crate::fe::model::{HousingModel, Ring};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 const NO_BODY: u32 = u32::MAX;
@@ -89,14 +90,8 @@ pub(super) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Body of each element, numbered as met. A mesh has fewer than 2^32 - 1 nodes and elements, which the reader sees to.
 fn joined_through_faces(model: &HousingModel) -> Vec<u32> {
-    let mut faces: Vec<(FaceCorners, u32)> = Vec::new();
-    for (number, element) in (0..).zip(model.elements.iter()) {
-        let nodes = model.elements.nodes(element);
-        for face in element.kind.faces() {
-            faces.push((face.sorted_corners(nodes), number));
-        }
-    }
-    faces.sort_unstable();
+    let elements = model.elements.list.par_iter();
+    let faces = sorted_faces(elements.map(|element| (element.kind, model.elements.nodes(element))));
     let mut sets = Sets::new(model.elements.len());
     for pair in faces.windows(2) {
         if pair[0].0 == pair[1].0 {

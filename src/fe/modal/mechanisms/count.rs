@@ -244,7 +244,7 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
         .enumerate()
         .map(|(number, (extent, (parts, groups)))| Body {
             is_ring: map.ring == Some(number),
-            parts: names(&model.part_groups, parts),
+            parts: names(&model.part_groups(), parts),
             groups: names(&membership.names, groups),
             elements: extent.elements,
             centroid: extent.centre,
@@ -330,7 +330,7 @@ fn joint(between: &Between, own: &Constraints, model: &HousingModel, full: usize
     let free = full * between.bodies.len() - rank(&rows);
     let motions = free.saturating_sub(full);
     let link = |&link: &usize| {
-        let link = model.links.get(link)?;
+        let link = model.description.links.get(link)?;
         Some(format!("{} - {}", link.between[0], link.between[1]))
     };
     let tags = own.shared_nodes.iter().filter_map(|&node| model.node_tags.get(node).copied());

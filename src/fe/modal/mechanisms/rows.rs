@@ -174,7 +174,7 @@ impl<'m> AllConstraints<'m> {
             for i in 0..model.dimension {
                 let mut row = Row::new();
                 self.displacement(&mut row, body, node, i, 1.0);
-                for (&leader, follow) in tied.nodes.iter().zip(&tied.follow) {
+                for (&leader, follow) in tied.foot.nodes.iter().zip(&tied.foot.follow) {
                     let Some(other) = self.bodies.of_node(leader) else {
                         continue;
                     };
@@ -247,7 +247,7 @@ impl Constraints {
 pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> {
     let motions = ring_motions(ring, frame, frame.centre());
     let translations = if ring.is_in_space() { 3 } else { 2 };
-    let of_spring = ring.springs().iter().map(|spring| {
+    let of_spring = ring.springs.iter().map(|spring| {
         let mut row = [0.0; 6];
         for (motion, entry) in row.iter_mut().enumerate().take(motions.ncols()) {
             let turn = if motion < translations { 1.0 } else { ring.section().radius };

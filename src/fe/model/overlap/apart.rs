@@ -2,12 +2,12 @@
 
 use super::bodies::{Bodies, at};
 use super::facets::Facet;
-use crate::fe::model::nodal::TiedNode;
+use crate::fe::model::nodal::{TiedNode, sorted};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Nodes of a tie that are farther from the face that they follow than flat faces miss a curved surface.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Apart {
     /// Names of the groups that are tied.
     pub between: [String; 2],
@@ -76,19 +76,12 @@ impl Bodies<'_> {
             }
             at_corners.insert(sorted(&facet.corners), facet);
         }
-        let is_plane = self.solids.first()?.kind.dimension() == 2;
         let mut found: Option<Apart> = None;
         let mut heights: BTreeMap<usize, f64> = BTreeMap::new();
-        for &(node, TiedNode { nodes: face, foot, size, .. }) in tied {
-            let corners = match face.len() {
-                3 if is_plane => 2,
-                6 => 3,
-                8 => 4,
-                count => count,
-            };
-            let corners = &face[..corners];
+        for &(node, TiedNode { foot, .. }) in tied {
+            let corners = &foot.nodes[..foot.kind.corners()];
             let facet = at_corners.get(&sorted(corners));
-            let gap = Vector3::from(self.points[node]) - Vector3::from(*foot);
+            let gap = Vector3::from(self.points[node]) - Vector3::from(foot.place);
             let distance = gap.norm();
             let of_face = corners.iter().map(|&corner| reach[corner]).fold(0.0, f64::max);
             let limit = self.tolerance + reach[node] + of_face;
@@ -97,22 +90,13 @@ impl Bodies<'_> {
             if distance <= limit {
                 continue;
             }
-            let apart = found.get_or_insert_with(|| Apart {
-                between: between.clone(),
-                nodes: 0,
-                tied: tied.len(),
-                distance: 0.0,
-                share: 0.0,
-                tag: 0,
-                place: [0.0; 3],
-                inside: 0,
-                masses: [0.0; 2],
-            });
+            let apart =
+                found.get_or_insert_with(|| Apart { between: between.clone(), tied: tied.len(), ..Apart::default() });
             apart.nodes += 1;
             apart.inside += usize::from(height < -limit);
             if distance > apart.distance {
                 apart.distance = distance;
-                apart.share = distance / *size;
+                apart.share = distance / foot.size;
                 apart.tag = tags[node];
                 apart.place = self.points[node];
             }
@@ -128,10 +112,4 @@ impl Bodies<'_> {
         }
         Some(apart)
     }
-}
-
-fn sorted(corners: &[usize]) -> Vec<usize> {
-    let mut corners = corners.to_vec();
-    corners.sort_unstable();
-    corners
 }

@@ -1,8 +1,9 @@
 //! The elements that are searched, with the names of their parts.
 
 use crate::fe::element::continuum::measure;
-use crate::fe::mesh::{BoundingBox, ElementKind, Mesh};
-use crate::fe::model::elements::HousingElements;
+use crate::fe::mesh::{BoundingBox, ElementKind, Mesh, sorted_corners};
+use crate::fe::model::{HousingElements, HousingPart};
+use nalgebra::Vector3;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
@@ -22,6 +23,10 @@ impl Solid<'_> {
     pub(super) fn corners(&self) -> &[usize] {
         &self.nodes[..self.kind.corners()]
     }
+
+    pub(super) fn sorted_corners(&self) -> [u32; 8] {
+        sorted_corners(self.corners().iter().copied())
+    }
 }
 
 /// The elements of the highest dimension of a mesh with the names of their parts.
@@ -37,23 +42,21 @@ pub struct Bodies<'m> {
 impl<'m> Bodies<'m> {
     /// The elements of a mesh; the part of each is the first group of its dimension that holds it.
     pub(crate) fn of_mesh(mesh: &'m Mesh) -> Self {
-        let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max();
-        let groups = mesh.groups.iter();
-        let groups: Vec<_> = groups.filter(|group| Some(group.dimension) == dimension).collect();
+        let dimension = mesh.dimension();
+        let groups: Vec<_> = mesh.groups.iter().filter(|group| group.dimension == dimension).collect();
         let mut parts: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
         parts.push("no group".to_owned());
-        let blocks = mesh.blocks.iter();
-        let mut part: Vec<Vec<usize>> = blocks.map(|block| vec![groups.len(); block.len()]).collect();
+        let mut part = mesh.for_each_element(groups.len());
         for (number, group) in groups.iter().enumerate().rev() {
             for id in &group.elements {
                 part[id.block][id.index] = number;
             }
         }
-        let own = mesh.blocks.iter().zip(&part);
-        let own = own.filter(|(block, _)| block.kind.dimension() >= 2 && Some(block.kind.dimension()) == dimension);
-        let solids = own.flat_map(|(block, parts)| {
-            let each = block.elements().zip(&block.tags).zip(parts);
-            each.map(|((nodes, &tag), &part)| Solid { tag, kind: block.kind, nodes, part })
+        // of points and lines none
+        let solids = mesh.element_ids(dimension.max(2)).map(|id| {
+            let block = &mesh.blocks[id.block];
+            let (tag, nodes) = (block.tags[id.index], block.nodes_of(id.index));
+            Solid { tag, kind: block.kind, nodes, part: part[id.block][id.index] }
         });
         Self::new(&mesh.nodes, solids.collect(), parts)
     }
@@ -62,7 +65,7 @@ impl<'m> Bodies<'m> {
     pub(in crate::fe::model) fn of_housing(
         points: &'m [[f64; 3]],
         elements: &'m HousingElements,
-        parts: &[String],
+        parts: &[HousingPart],
     ) -> Self {
         let solids = elements.iter().map(|element| Solid {
             tag: element.tag,
@@ -70,7 +73,7 @@ impl<'m> Bodies<'m> {
             nodes: elements.nodes(element),
             part: element.part,
         });
-        Self::new(points, solids.collect(), parts.to_vec())
+        Self::new(points, solids.collect(), parts.iter().map(|part| part.group.clone()).collect())
     }
 
     fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
@@ -85,27 +88,42 @@ impl<'m> Bodies<'m> {
 
     /// Whether places inside have a meaning: solids, or plane elements in one plane z = const.
     pub(super) fn is_flat_or_solid(&self) -> bool {
-        let mut solids = self.solids.iter();
-        let Some(first) = solids.next() else {
-            return false;
-        };
-        let z = self.points[first.nodes[0]][2];
-        let in_plane = |node: &usize| (self.points[*node][2] - z).abs() <= self.tolerance;
-        first.kind.dimension() == 3 || self.solids.iter().all(|solid| solid.nodes.iter().all(in_plane))
+        self.solids.first().is_some_and(|first| {
+            let z = self.points[first.nodes[0]][2];
+            let in_plane = |node: &usize| (self.points[*node][2] - z).abs() <= self.tolerance;
+            first.kind.dimension() == 3 || self.solids.iter().all(|solid| solid.nodes.iter().all(in_plane))
+        })
     }
 
-    pub(super) fn coordinates(&self, solid: &Solid) -> Vec<[f64; 3]> {
-        solid.nodes.iter().map(|&node| self.points[node]).collect()
+    /// Box of some nodes.
+    pub(super) fn extent(&self, nodes: &[usize]) -> BoundingBox {
+        BoundingBox::of(nodes.iter().map(|&node| self.points[node]))
+    }
+
+    /// Places of some nodes, m.
+    pub(super) fn places(&self, nodes: &[usize]) -> Vec<Vector3<f64>> {
+        nodes.iter().map(|&node| Vector3::from(self.points[node])).collect()
     }
 
     /// Area (m^2) of a plane element, volume (m^3) of a solid; `None` for one that is inverted, folded or without size.
     pub(super) fn size(&self, solid: &Solid) -> Option<f64> {
-        measure(solid.kind, &self.coordinates(solid)).ok()
+        let coordinates: Vec<[f64; 3]> = solid.nodes.iter().map(|&node| self.points[node]).collect();
+        measure(solid.kind, &coordinates).ok()
     }
 
     pub(super) fn names(&self, parts: [usize; 2]) -> [String; 2] {
         parts.map(|part| self.parts[part].clone())
     }
+}
+
+/// Size that two parts have in common, from that of the elements or faces of each; in one part both sides are counted.
+pub(super) fn common_size([a, b]: [usize; 2], sizes: [f64; 2]) -> f64 {
+    if a == b { 0.5 * sizes[0] } else { sizes[0].max(sizes[1]) }
+}
+
+/// A number of things in words.
+pub(super) fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 /// Two parts in words, or the one that both are.

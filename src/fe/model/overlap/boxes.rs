@@ -6,11 +6,6 @@ use crate::fe::mesh::BoundingBox;
 const LEAF: usize = 8;
 
 impl BoundingBox {
-    /// Grown by `reach` (m) to all sides.
-    pub(super) fn grown(self, reach: f64) -> Self {
-        Self { min: self.min.map(|x| x - reach), max: self.max.map(|x| x + reach) }
-    }
-
     fn holds(&self, point: [f64; 3], reach: f64) -> bool {
         (0..3).all(|axis| self.min[axis] - reach <= point[axis] && point[axis] <= self.max[axis] + reach)
     }

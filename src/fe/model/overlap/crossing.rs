@@ -2,9 +2,8 @@
 
 use super::bodies::{Bodies, Solid, at, both};
 use super::boxes::BoxTree;
-use super::outline::normal;
+use super::outline::{corners_of, normal};
 use super::{Overlap, Touching};
-use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -79,17 +78,16 @@ impl Bodies<'_> {
         if body.iter().all(|own| *own == body[0]) {
             return Vec::new();
         }
-        let bounds = self.solids.par_iter().map(|solid| self.bounds(solid));
+        let bounds = self.solids.par_iter().map(|solid| self.extent(solid.corners()));
         let tree = BoxTree::new(bounds.collect());
         let mut outer: Vec<usize> = outer.into_iter().map(|(solid, _)| solid).collect();
         outer.dedup();
         let held = |solid: &Solid| solid.nodes.iter().any(|&node| linked(node));
         let pairs = outer.par_iter().flat_map_iter(|&index| {
             let solid = &self.solids[index];
-            let own = self.bounds(solid);
-            let (middle, sides) = ([0, 1, 2].map(|axis| own.middle(axis)), own.extent());
+            let own = self.extent(solid.corners());
             let mut found = Vec::new();
-            tree.visit(middle, 0.5 * sides.into_iter().fold(0.0, f64::max), |other| {
+            tree.visit([0, 1, 2].map(|axis| own.middle(axis)), 0.5 * own.longest_side(), |other| {
                 let of_other = &self.solids[other];
                 let common = || solid.nodes.iter().any(|node| of_other.nodes.contains(node));
                 if body[other] == body[index] || common() || held(solid) && held(of_other) {
@@ -104,36 +102,32 @@ impl Bodies<'_> {
         let mut pairs: Vec<([usize; 2], f64)> = pairs.collect();
         pairs.sort_unstable_by_key(|pair| pair.0);
         pairs.dedup_by_key(|pair| pair.0);
-        let mut by_parts: BTreeMap<[usize; 2], (usize, [usize; 2], f64)> = BTreeMap::new();
+        let mut found: BTreeMap<[usize; 2], Crossing> = BTreeMap::new();
         for (pair, depth) in pairs {
-            let mut parts = pair.map(|index| self.solids[index].part);
+            let pair = pair.map(|index| &self.solids[index]);
+            let mut parts = pair.map(|solid| solid.part);
             parts.sort_unstable();
-            let sum = by_parts.entry(parts).or_insert((0, pair, 0.0));
-            sum.0 += 1;
-            if depth > sum.2 {
-                (sum.1, sum.2) = (pair, depth);
+            let crossing = found.entry(parts).or_insert_with(|| Crossing {
+                parts: self.names(parts),
+                pairs: 0,
+                depth: 0.0,
+                tags: [0; 2],
+                place: [0.0; 3],
+            });
+            crossing.pairs += 1;
+            if depth > crossing.depth {
+                let [a, b] = pair.map(|solid| self.extent(solid.corners()));
+                crossing.depth = depth;
+                crossing.tags = pair.map(|solid| solid.tag);
+                crossing.place =
+                    [0, 1, 2].map(|axis| 0.5 * (a.min[axis].max(b.min[axis]) + a.max[axis].min(b.max[axis])));
             }
         }
-        let found = by_parts.into_iter().map(|(parts, (pairs, deepest, depth))| {
-            let [a, b] = deepest.map(|index| self.bounds(&self.solids[index]));
-            Crossing {
-                parts: self.names(parts),
-                pairs,
-                depth,
-                tags: deepest.map(|index| self.solids[index].tag),
-                place: [0, 1, 2].map(|axis| 0.5 * (a.min[axis].max(b.min[axis]) + a.max[axis].min(b.max[axis]))),
-            }
-        });
-        let known = overlaps.iter().map(|overlap| &overlap.parts);
-        let known: Vec<_> = known
-            .chain({ touching.iter() }.filter(|touching| !touching.sunk).map(|touching| &touching.parts))
-            .collect();
-        found.filter(|crossing| !known.contains(&&crossing.parts)).collect()
-    }
-
-    fn bounds(&self, solid: &Solid) -> BoundingBox {
-        let corners = solid.corners().iter();
-        BoundingBox::of(corners.map(|&node| self.points[node]))
+        let is_known = |crossing: &Crossing| {
+            let on_faces = |touching: &Touching| !touching.sunk && touching.parts == crossing.parts;
+            overlaps.iter().any(|overlap| overlap.parts == crossing.parts) || touching.iter().any(on_faces)
+        };
+        found.into_values().filter(|crossing| !is_known(crossing)).collect()
     }
 
     /// The least distance that would part two elements, if that is more than round-off, m.
@@ -180,8 +174,7 @@ impl Bodies<'_> {
             }
         };
         for face in solid.kind.faces() {
-            let corners = &face.nodes[..face.kind.corners()];
-            let places: Vec<_> = corners.iter().map(|&local| Vector3::from(self.points[solid.nodes[local]])).collect();
+            let places = self.places(&corners_of(solid, face));
             add(&mut normals, normal(&places));
             for (from, to) in places.iter().zip(places.iter().cycle().skip(1)) {
                 add(&mut edges, to - from);

@@ -1,7 +1,7 @@
 //! Elements that stand on the corners of another one, and elements of first order beside those of second order on the same
 //! edges, which come apart between the corners.
 
-use super::bodies::{Bodies, Solid, at, both};
+use super::bodies::{Bodies, Solid, at, both, counted};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -27,29 +27,48 @@ impl Doubled {
         let [first, second] = self.tags;
         format!(
             "{} on the corners of another element, the first are elements {first} and {second} of {} at {}",
-            match self.elements {
-                1 => "1 element stands".to_owned(),
-                count => format!("{count} elements stand"),
-            },
+            counted(self.elements, "element stands", "elements stand"),
             both(&self.parts),
             at(self.place)
         )
     }
 }
 
-/// Corners of an element, sorted; `NO_CORNER` fills up.
-pub(super) type Corners = [u32; 8];
+/// No middle node of an edge. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
+const NO_NODE: u32 = u32::MAX;
 
-const NO_CORNER: u32 = u32::MAX;
+/// Edges on which elements do not have the same middle node.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MixedOrders {
+    /// How many, > 0.
+    pub edges: usize,
+    /// Tags of two elements with the first of these edges.
+    pub tags: [u64; 2],
+    /// Names of the parts of these two.
+    pub parts: [String; 2],
+    /// Centre of that edge, m.
+    pub place: [f64; 3],
+}
 
-/// A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-pub(super) fn sorted_corners(solid: &Solid) -> Corners {
-    let mut corners = [NO_CORNER; 8];
-    for (slot, &node) in corners.iter_mut().zip(solid.corners()) {
-        *slot = node as u32;
+impl MixedOrders {
+    /// What they are, in words.
+    pub fn sentence(&self) -> String {
+        let [first, second] = self.tags;
+        format!(
+            "{} without a middle node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
+            counted(self.edges, "edge is", "edges are"),
+            both(&self.parts),
+            at(self.place)
+        )
     }
-    corners.sort_unstable();
-    corners
+}
+
+/// Edges of an element: the corners in order, and the middle node.
+fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
+    (kind.corners()..).zip(kind.corner_edges()).map(|(middle, ends)| {
+        let [a, b] = ends.map(|local| nodes[local] as u32);
+        [a.min(b), a.max(b), nodes.get(middle).map_or(NO_NODE, |&node| node as u32)]
+    })
 }
 
 impl Bodies<'_> {
@@ -57,8 +76,8 @@ impl Bodies<'_> {
     /// Hex20 on the same corners fill the same space.
     pub(crate) fn doubled(&self) -> Option<Doubled> {
         let solids = self.solids.par_iter().enumerate();
-        let mut keys: Vec<(Corners, u32)> =
-            solids.map(|(index, solid)| (sorted_corners(solid), index as u32)).collect();
+        let mut keys: Vec<([u32; 8], u32)> =
+            solids.map(|(index, solid)| (solid.sorted_corners(), index as u32)).collect();
         keys.par_sort_unstable();
         let mut elements = 0;
         let mut first: Option<[u32; 2]> = None;
@@ -85,50 +104,7 @@ impl Bodies<'_> {
             sum / nodes.len() as f64
         })
     }
-}
 
-/// Edges on which elements do not have the same middle node.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct MixedOrders {
-    /// How many, > 0.
-    pub edges: usize,
-    /// Tags of two elements with the first of these edges.
-    pub tags: [u64; 2],
-    /// Names of the parts of these two.
-    pub parts: [String; 2],
-    /// Centre of that edge, m.
-    pub place: [f64; 3],
-}
-
-impl MixedOrders {
-    /// What they are, in words.
-    pub fn sentence(&self) -> String {
-        let [first, second] = self.tags;
-        format!(
-            "{} without a middle node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
-            match self.edges {
-                1 => "1 edge is".to_owned(),
-                count => format!("{count} edges are"),
-            },
-            both(&self.parts),
-            at(self.place)
-        )
-    }
-}
-
-/// The middle node of an edge of first order. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-const NO_NODE: u32 = u32::MAX;
-
-/// Edges of an element: the corners in order, and the middle node.
-fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
-    kind.edges().map(|(ends, middle)| {
-        let [a, b] = ends.map(|local| nodes[local] as u32);
-        let middle = middle.map_or(NO_NODE, |local| nodes[local] as u32);
-        [a.min(b), a.max(b), middle]
-    })
-}
-
-impl Bodies<'_> {
     fn has_middle_nodes(&self) -> bool {
         self.solids.iter().any(|solid| solid.kind.order() == 2)
     }
@@ -165,7 +141,7 @@ impl Bodies<'_> {
         let mut of_group: BTreeMap<[u32; 2], (u32, u64)> = BTreeMap::new();
         for id in &group.elements {
             let block = &mesh.blocks[id.block];
-            for [a, b, middle] in edges(block.kind, block.element(id.index).unwrap_or_default()) {
+            for [a, b, middle] in edges(block.kind, block.nodes_of(id.index)) {
                 let entry = of_group.entry([a, b]).or_insert((middle, block.tags[id.index]));
                 if middle == NO_NODE {
                     *entry = (middle, block.tags[id.index]);

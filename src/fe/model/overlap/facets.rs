@@ -1,8 +1,8 @@
 //! The faces that bound the bodies, as flat facets.
 
 use super::bodies::Bodies;
-use super::outline::{centre, normal};
-use crate::fe::mesh::{FaceCorners, Sets};
+use super::outline::{centre, corners_of, normal};
+use crate::fe::mesh::{Sets, sorted_faces};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -33,8 +33,7 @@ impl Bodies<'_> {
     /// The facets of all bodies, in the order of the elements.
     pub(super) fn facets(&self) -> Vec<Facet> {
         let (outer, body) = self.outer_faces();
-        let facets = outer.into_iter();
-        let facets = facets.filter_map(|(solid, number)| self.facet(solid, number, body[solid]));
+        let facets = outer.into_iter().filter_map(|(solid, number)| self.facet(solid, number, body[solid]));
         let mut facets: Vec<Facet> = facets.collect();
         reach_to_neighbours(&mut facets);
         facets
@@ -43,15 +42,7 @@ impl Bodies<'_> {
     /// The faces of one element and of no other, as its index and the face's number, in the order of the elements; and the body
     /// of each element: those that hang together through whole faces have one.
     pub(super) fn outer_faces(&self) -> (Vec<(usize, u8)>, Vec<usize>) {
-        let faces = self.solids.par_iter().enumerate();
-        let mut faces: Vec<(FaceCorners, u32, u8)> = faces
-            .flat_map_iter(|(index, solid)| {
-                (0..)
-                    .zip(solid.kind.faces())
-                    .map(move |(number, face)| (face.sorted_corners(solid.nodes), index as u32, number))
-            })
-            .collect();
-        faces.par_sort_unstable();
+        let faces = sorted_faces(self.solids.par_iter().map(|solid| (solid.kind, solid.nodes)));
         let mut bodies = Sets::new(self.solids.len());
         let mut once = Vec::new();
         for same in faces.chunk_by(|a, b| a.0 == b.0) {
@@ -62,19 +53,16 @@ impl Bodies<'_> {
         }
         once.sort_unstable();
         let roots = (0..self.solids.len()).map(|solid| bodies.root(solid));
-        let roots = roots.collect();
-        (once, roots)
+        (once, roots.collect())
     }
 
     /// `None` for a face without size.
     fn facet(&self, solid: usize, number: u8, body: usize) -> Option<Facet> {
         let own = &self.solids[solid];
         let face = own.kind.faces().get(usize::from(number))?;
-        let local = &face.nodes[..face.kind.corners()];
-        let corners: Vec<usize> = local.iter().map(|&local| own.nodes[local]).collect();
-        let places: Vec<_> = corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
+        let corners = corners_of(own, face);
         let middle = Vector3::from(self.mean(&corners));
-        let normal = normal(&places);
+        let normal = normal(&self.places(&corners));
         let length = normal.norm();
         // a chord may lie deeper in a curved element than the element's centre
         let on_curve = self.middle(own, face);
@@ -94,8 +82,7 @@ impl Bodies<'_> {
     pub(super) fn height(&self, facet: &Facet, point: &Vector3<f64>) -> Option<f64> {
         let along = facet.normal.dot(&(point - facet.centre));
         let foot = point - facet.normal * along;
-        let places: Vec<_> = facet.corners.iter().map(|&node| Vector3::from(self.points[node])).collect();
-        let on_it = match places.as_slice() {
+        let on_it = match self.places(&facet.corners).as_slice() {
             [a, b] => {
                 [(b - a, a), (a - b, b)].iter().all(|(to, from)| to.dot(&(foot - *from)) >= -self.tolerance * to.norm())
             }

@@ -1,10 +1,8 @@
 //! Bodies that lie in one another: elements whose centre is within another element.
 
-use super::bodies::{Bodies, at, both};
+use super::bodies::{Bodies, at, both, common_size};
 use super::boxes::BoxTree;
-use super::doubled::sorted_corners;
 use super::outline::{centre, holds};
-use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -59,14 +57,6 @@ impl Overlap {
     }
 }
 
-/// What is known of a pair of parts.
-struct Sum {
-    elements: usize,
-    /// Of the elements of the first part and of the second.
-    sizes: [f64; 2],
-    first: [usize; 2],
-}
-
 impl Bodies<'_> {
     /// Parts that lie in one another, by pairs in the order of the parts. Elements on the same corners are left to
     /// [`Bodies::doubled`], elements without valid shape to the assembly.
@@ -74,10 +64,7 @@ impl Bodies<'_> {
         if !self.is_flat_or_solid() {
             return Vec::new();
         }
-        let bounds = self.solids.par_iter().map(|solid| {
-            let points = solid.nodes.iter().map(|&node| self.points[node]);
-            BoundingBox::of(points)
-        });
+        let bounds = self.solids.par_iter().map(|solid| self.extent(solid.nodes));
         let tree = BoxTree::new(bounds.collect());
         let centres = self.solids.par_iter().map(|solid| centre(self, solid));
         let centres: Vec<Vector3<f64>> = centres.collect();
@@ -89,30 +76,28 @@ impl Bodies<'_> {
             })
             .collect();
         within.sort_unstable();
-        let mut sums: BTreeMap<[usize; 2], Sum> = BTreeMap::new();
+        // with the sizes of the elements of the first part and of the second
+        let mut found: BTreeMap<[usize; 2], (Overlap, [f64; 2])> = BTreeMap::new();
         for [index, other] in within {
-            let solid = &self.solids[index];
-            let (part, of_other) = (solid.part, self.solids[other].part);
-            let sum = sums.entry([part.min(of_other), part.max(of_other)]).or_insert_with(|| Sum {
-                elements: 0,
-                sizes: [0.0; 2],
-                first: [index, other],
+            let pair = [index, other].map(|index| &self.solids[index]);
+            let [part, of_other] = pair.map(|solid| solid.part);
+            let parts = [part.min(of_other), part.max(of_other)];
+            let (overlap, sizes) = found.entry(parts).or_insert_with(|| {
+                let overlap = Overlap {
+                    parts: self.names(parts),
+                    elements: 0,
+                    size: 0.0,
+                    tags: pair.map(|solid| solid.tag),
+                    place: centres[index].into(),
+                    dimension: pair[0].kind.dimension(),
+                };
+                (overlap, [0.0; 2])
             });
-            sum.elements += 1;
-            sum.sizes[usize::from(part > of_other)] += self.size(solid).unwrap_or(0.0);
+            overlap.elements += 1;
+            sizes[usize::from(part > of_other)] += self.size(pair[0]).unwrap_or(0.0);
+            overlap.size = common_size(parts, *sizes);
         }
-        let found = sums.into_iter().map(|(parts, sum)| Overlap {
-            parts: self.names(parts),
-            elements: sum.elements,
-            size: match parts {
-                [a, b] if a == b => 0.5 * sum.sizes[0],
-                _ => sum.sizes[0].max(sum.sizes[1]),
-            },
-            tags: sum.first.map(|index| self.solids[index].tag),
-            place: centres[sum.first[0]].into(),
-            dimension: self.solids[sum.first[0]].kind.dimension(),
-        });
-        found.collect()
+        found.into_values().map(|(overlap, _)| overlap).collect()
     }
 
     /// The first element other than this one that its centre lies in.
@@ -127,6 +112,6 @@ impl Bodies<'_> {
         });
         let other = &self.solids[found?];
         let valid = self.size(solid).is_some() && self.size(other).is_some();
-        found.filter(|_| valid && sorted_corners(solid) != sorted_corners(other))
+        found.filter(|_| valid && solid.sorted_corners() != other.sorted_corners())
     }
 }

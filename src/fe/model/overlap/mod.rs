@@ -27,4 +27,5 @@ pub use bodies::Bodies;
 pub use crossing::Crossing;
 pub use doubled::{Doubled, MixedOrders};
 pub use inside::{Overlap, OverlapRule};
+pub(super) use outline::normal;
 pub use touching::Touching;

@@ -28,7 +28,7 @@ fn blended(bodies: &Bodies, kind: ElementKind, nodes: &[usize]) -> Vector3<f64> 
 
 /// Normal of a face by its corners, as long as twice its area; of an edge in the plane, as long as the edge. Its sign is
 /// that of the nodes' order.
-pub(super) fn normal(corners: &[Vector3<f64>]) -> Vector3<f64> {
+pub(in crate::fe::model) fn normal(corners: &[Vector3<f64>]) -> Vector3<f64> {
     match corners {
         [a, b] => Vector3::new(b.y - a.y, a.x - b.x, 0.0),
         [a, b, c] => (b - a).cross(&(c - a)),
@@ -57,6 +57,11 @@ pub(super) fn holds(bodies: &Bodies, solid: &Solid, own: &Vector3<f64>, point: &
             let (normal, _) = plane(bodies, solid, face);
             behind(&normal, &bodies.middle(solid, face))
         }))
+}
+
+/// Corners of a face of an element.
+pub(super) fn corners_of(solid: &Solid, face: &Face) -> Vec<usize> {
+    face.nodes[..face.kind.corners()].iter().map(|&local| solid.nodes[local]).collect()
 }
 
 /// Normal and mean of the corners of a face.

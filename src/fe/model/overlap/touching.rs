@@ -1,15 +1,14 @@
 //! Faces that lie on each other and have no nodes in common.
 
-use super::bodies::{Bodies, at, both};
+use super::bodies::{Bodies, at, both, common_size};
 use super::boxes::BoxTree;
 use super::facets::Facet;
 use super::outline::{centre, holds};
-use crate::fe::mesh::BoundingBox;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Cosine from which on the outward normals of two faces that lie on each other oppose: within 60 degrees.
 const OPPOSED: f64 = -0.5;
@@ -70,14 +69,9 @@ struct Behind {
     sunk: bool,
 }
 
-struct Sum {
-    faces: usize,
-    sizes: [f64; 2],
-    gap: f64,
-    node_pairs: Vec<[usize; 2]>,
-    place: Vector3<f64>,
-    sunk: bool,
-}
+/// What touches between two parts, with the sizes of the faces of the first and of the second, and the pairs of corners in
+/// one place.
+type Between = (Touching, [f64; 2], BTreeSet<[usize; 2]>);
 
 impl Bodies<'_> {
     /// Faces on each other, by pairs of parts; those left out whose corners, or those of the face that they lie on, are
@@ -91,10 +85,7 @@ impl Bodies<'_> {
         }
         let facets = self.facets();
         // with the whole element behind it: the face of another body may have sunk into it
-        let bounds = facets.iter().map(|facet| {
-            let nodes = self.solids[facet.solid].nodes.iter();
-            BoundingBox::of(nodes.map(|&node| self.points[node])).grown(facet.reach)
-        });
+        let bounds = facets.iter().map(|facet| self.extent(self.solids[facet.solid].nodes).grown(facet.reach));
         let tree = BoxTree::new(bounds.collect());
         let order = tree.order().par_iter();
         let mut on: Vec<(usize, Behind)> = order
@@ -104,44 +95,35 @@ impl Bodies<'_> {
             })
             .collect();
         on.sort_unstable_by_key(|pair| pair.0);
-        let mut sums: BTreeMap<[usize; 2], Sum> = BTreeMap::new();
+        let mut found: BTreeMap<[usize; 2], Between> = BTreeMap::new();
         let is_linked = |facet: &Facet| facet.corners.iter().all(|&node| linked(node));
         let pairs = on.into_iter();
         let pairs = pairs.map(|(index, behind)| (&facets[index], &facets[behind.facet], behind));
         for (facet, other, behind) in pairs.filter(|(a, b, _)| !is_linked(a) && !is_linked(b)) {
             let [part, of_other] = [facet, other].map(|facet| self.solids[facet.solid].part);
-            let sum = sums.entry([part.min(of_other), part.max(of_other)]).or_insert_with(|| Sum {
-                faces: 0,
-                sizes: [0.0; 2],
-                gap: 0.0,
-                node_pairs: Vec::new(),
-                place: facet.centre,
-                sunk: false,
+            let parts = [part.min(of_other), part.max(of_other)];
+            let (touching, sizes, node_pairs) = found.entry(parts).or_insert_with(|| {
+                let touching = Touching {
+                    parts: self.names(parts),
+                    faces: 0,
+                    size: 0.0,
+                    gap: 0.0,
+                    node_pairs: 0,
+                    place: facet.centre.into(),
+                    dimension: self.solids[facet.solid].kind.dimension(),
+                    sunk: false,
+                };
+                (touching, [0.0; 2], BTreeSet::new())
             });
-            sum.faces += 1;
-            sum.gap = sum.gap.max(behind.distance);
-            sum.sunk |= behind.sunk;
-            sum.sizes[usize::from(part > of_other)] += facet.size;
-            sum.node_pairs.extend(self.node_pairs(facet, other));
+            sizes[usize::from(part > of_other)] += facet.size;
+            node_pairs.extend(self.node_pairs(facet, other));
+            touching.faces += 1;
+            touching.size = common_size(parts, *sizes);
+            touching.gap = touching.gap.max(behind.distance);
+            touching.node_pairs = node_pairs.len();
+            touching.sunk |= behind.sunk;
         }
-        let found = sums.into_iter().map(|(parts, mut sum)| {
-            sum.node_pairs.sort_unstable();
-            sum.node_pairs.dedup();
-            Touching {
-                parts: self.names(parts),
-                faces: sum.faces,
-                size: match parts {
-                    [a, b] if a == b => 0.5 * sum.sizes[0],
-                    _ => sum.sizes[0].max(sum.sizes[1]),
-                },
-                gap: sum.gap,
-                node_pairs: sum.node_pairs.len(),
-                place: sum.place.into(),
-                dimension: self.solids.first().map_or(3, |solid| solid.kind.dimension()),
-                sunk: sum.sunk,
-            }
-        });
-        found.collect()
+        found.into_values().map(|(touching, ..)| touching).collect()
     }
 
     /// The nearest facet that looks the other way and that the centre of this one lies on or is sunk behind.
@@ -163,18 +145,16 @@ impl Bodies<'_> {
             };
             let nearer = best.is_none_or(|best| (height.abs(), number) < (best.distance, best.facet));
             let touches = height.abs() <= limit;
-            let sunk = || other.body != facet.body && height < 0.0 && self.is_within(facet, other);
+            let is_within = || {
+                let solid = &self.solids[other.solid];
+                holds(self, solid, &centre(self, solid), &facet.centre)
+            };
+            let sunk = || other.body != facet.body && height < 0.0 && is_within();
             if nearer && (touches || sunk()) {
                 best = Some(Behind { facet: number, distance: height.abs(), sunk: !touches });
             }
         });
         best
-    }
-
-    /// Whether the centre of a facet lies within the element behind another one.
-    fn is_within(&self, facet: &Facet, other: &Facet) -> bool {
-        let solid = &self.solids[other.solid];
-        holds(self, solid, &centre(self, solid), &facet.centre)
     }
 
     /// Corners of two facets that are in one place and are not one.

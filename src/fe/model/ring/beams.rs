@@ -27,7 +27,8 @@ pub struct Ring {
     pub(super) out_of_plane: Option<OutOfPlaneArc>,
     pub(super) stiffness: DenseMatrix,
     mass: DenseMatrix,
-    pub(super) springs: Vec<RingSpring>,
+    /// Each along one direction.
+    pub(crate) springs: Vec<RingSpring>,
 }
 
 /// A ring that cannot be built: too few nodes, or a support that no node stands on.
@@ -58,8 +59,7 @@ impl Ring {
     /// # Errors
     /// [`RingError`] for fewer than 3 nodes.
     pub fn new(nodes: usize, section: BeamSection, interpolation: RingInterpolation) -> Result<Self, RingError> {
-        let element = CurvedBeam::new(&section, half_angle(nodes)?, interpolation);
-        Ok(Self::assemble(nodes, section, element, None))
+        Self::assemble(nodes, section, interpolation, false)
     }
 
     /// A free ring in space, six degrees of freedom a node: the ring of [`Ring::new`], and out of its
@@ -68,20 +68,25 @@ impl Ring {
     /// # Errors
     /// [`RingError`] for fewer than 3 nodes.
     pub fn in_space(nodes: usize, section: BeamSection, interpolation: RingInterpolation) -> Result<Self, RingError> {
-        let half = half_angle(nodes)?;
-        let element = CurvedBeam::new(&section, half, interpolation);
-        let out_of_plane = OutOfPlaneArc::new(&section, half);
-        Ok(Self::assemble(nodes, section, element, Some(out_of_plane)))
+        Self::assemble(nodes, section, interpolation, true)
     }
 
-    fn assemble(nodes: usize, section: BeamSection, element: CurvedBeam, out_of_plane: Option<OutOfPlaneArc>) -> Self {
-        let blocks = if out_of_plane.is_some() { 2 } else { 1 };
-        let dof = blocks * NODE_DOF * nodes;
+    fn assemble(
+        nodes: usize,
+        section: BeamSection,
+        interpolation: RingInterpolation,
+        in_space: bool,
+    ) -> Result<Self, RingError> {
+        if nodes < 3 {
+            return Err(RingError(format!("a ring needs at least 3 nodes, found {nodes}")));
+        }
+        let half_angle = PI / nodes as f64;
+        let dof = if in_space { 2 } else { 1 } * NODE_DOF * nodes;
         let mut ring = Self {
             nodes,
             section,
-            element,
-            out_of_plane,
+            element: CurvedBeam::new(&section, half_angle, interpolation),
+            out_of_plane: in_space.then(|| OutOfPlaneArc::new(&section, half_angle)),
             stiffness: DenseMatrix::zeros(dof, dof),
             mass: DenseMatrix::zeros(dof, dof),
             springs: Vec::new(),
@@ -89,14 +94,14 @@ impl Ring {
         for index in 0..nodes {
             let (dofs, turn) = ring.frame(index);
             add(&mut ring.stiffness, ring.element.stiffness(), &dofs, &turn);
-            add(&mut ring.mass, ring.element.mass(), &dofs, &turn);
+            add(&mut ring.mass, &ring.element.mass, &dofs, &turn);
             let (dofs, turn) = ring.space_frame(index);
             if let Some(arc) = &ring.out_of_plane {
                 add(&mut ring.stiffness, arc.stiffness(), &dofs, &turn);
-                add(&mut ring.mass, arc.mass(), &dofs, &turn);
+                add(&mut ring.mass, &arc.mass, &dofs, &turn);
             }
         }
-        ring
+        Ok(ring)
     }
 
     /// Number of nodes.
@@ -160,14 +165,6 @@ impl Ring {
     pub fn rigid_motion(&self, x: f64, y: f64, rotation: f64) -> Vec<f64> {
         self.rigid_motion_in_space([x, y, 0.0], [0.0, 0.0, rotation])
     }
-}
-
-/// Half the angle of an element, rad.
-fn half_angle(nodes: usize) -> Result<f64, RingError> {
-    if nodes < 3 {
-        return Err(RingError(format!("a ring needs at least 3 nodes, found {nodes}")));
-    }
-    Ok(PI / nodes as f64)
 }
 
 /// Adds an element's matrix in polar components to a ring's.

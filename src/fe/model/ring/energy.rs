@@ -1,6 +1,6 @@
 //! Strain energy of a ring's shapes, element by element and spring by spring.
 
-use super::{Ring, RingSpring};
+use super::Ring;
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::{Matrix6, Vector6};
 
@@ -14,16 +14,6 @@ pub struct RingStrain {
 }
 
 impl Ring {
-    /// Whether springs hold the ring.
-    pub(crate) fn has_springs(&self) -> bool {
-        !self.springs.is_empty()
-    }
-
-    /// The springs, each along one direction.
-    pub(crate) fn springs(&self) -> &[RingSpring] {
-        &self.springs
-    }
-
     /// `D^T K D` for displacements D [dof x count].
     ///
     /// Of every element the motion of its first node is taken out, as a rigid motion, before its stiffness is
@@ -34,18 +24,27 @@ impl Ring {
         let mut beams = DenseMatrix::zeros(count, count);
         for index in 0..self.nodes {
             let (dofs, turn) = self.frame(index);
+            let [dx, dy] = self.chord(index);
             let exact = self.element.is_exact_for_rigid_motions();
             let moves = |d: &[f64]| {
-                let own = dofs.map(|dof| d[dof]);
-                let own = if exact { self.without_rigid_plane(index, own) } else { own };
-                turn * Vector6::from(own)
+                // (u_x, u_y, theta_z) of both nodes
+                let [x, y, about_z, x2, y2, about_z2] = dofs.map(|dof| d[dof]);
+                turn * match exact {
+                    true => {
+                        let [x, y] = [x2 - x + about_z * dy, y2 - y - about_z * dx];
+                        Vector6::new(0.0, 0.0, 0.0, x, y, about_z2 - about_z)
+                    }
+                    false => Vector6::new(x, y, about_z, x2, y2, about_z2),
+                }
             };
             add_products(&mut beams, self.element.stiffness(), shapes, &moves);
             if let Some(arc) = &self.out_of_plane {
                 let (dofs, turn) = self.space_frame(index);
                 let moves = |d: &[f64]| {
-                    let own = self.without_rigid_space(index, dofs.map(|dof| d[dof]));
-                    turn * Vector6::from(own)
+                    // (u_z, theta_x, theta_y) of both nodes
+                    let [z, about_x, about_y, z2, about_x2, about_y2] = dofs.map(|dof| d[dof]);
+                    let z = z2 - z - about_x * dy + about_y * dx;
+                    turn * Vector6::new(0.0, 0.0, 0.0, z, about_x2 - about_x, about_y2 - about_y)
                 };
                 add_products(&mut beams, arc.stiffness(), shapes, &moves);
             }
@@ -67,19 +66,6 @@ impl Ring {
         let [first, second] = [index, index + 1].map(|node| self.node_angle(node).sin_cos());
         let radius = self.section.radius;
         [radius * (second.1 - first.1), radius * (second.0 - first.0)]
-    }
-
-    /// (u_x, u_y, theta_z) of both nodes less the rigid motion of the first.
-    fn without_rigid_plane(&self, index: usize, d: [f64; 6]) -> [f64; 6] {
-        let [dx, dy] = self.chord(index);
-        let turn = d[2];
-        [0.0, 0.0, 0.0, d[3] - d[0] + turn * dy, d[4] - d[1] - turn * dx, d[5] - turn]
-    }
-
-    /// (u_z, theta_x, theta_y) of both nodes less the rigid motion of the first.
-    fn without_rigid_space(&self, index: usize, d: [f64; 6]) -> [f64; 6] {
-        let [dx, dy] = self.chord(index);
-        [0.0, 0.0, 0.0, d[3] - d[0] - d[1] * dy + d[2] * dx, d[4] - d[1], d[5] - d[2]]
     }
 }
 

@@ -1,6 +1,7 @@
 //! Interpolation of a ring at any angle, in its plane.
 
 use super::{NODE_DOF, Ring};
+use nalgebra::Matrix6;
 
 /// Interpolation at one angle: six entries in the vector of ring displacements for each polar
 /// component.
@@ -60,20 +61,26 @@ impl Ring {
     }
 
     /// In-plane degrees of freedom of an element and the matrix that turns them to polar components.
-    pub(super) fn frame(&self, index: usize) -> ([usize; 6], nalgebra::Matrix6<f64>) {
-        let ends = [index, (index + 1) % self.nodes];
-        let mut turn = nalgebra::Matrix6::zeros();
+    pub(super) fn frame(&self, index: usize) -> ([usize; 6], Matrix6<f64>) {
+        self.frame_of_block(index, 0, |sin, cos| [[-sin, cos, 0.0], [cos, sin, 0.0], [0.0, 0.0, 1.0]])
+    }
+
+    /// Degrees of freedom of an element in a block of the displacements, whose first node is `first_node`, and the matrix that
+    /// turns them to polar components; `rows` does so at one node, from the sine and the cosine of its angle.
+    pub(super) fn frame_of_block(
+        &self,
+        index: usize,
+        first_node: usize,
+        rows: impl Fn(f64, f64) -> [[f64; NODE_DOF]; NODE_DOF],
+    ) -> ([usize; 6], Matrix6<f64>) {
+        let mut turn = Matrix6::zeros();
         let mut dofs = [0; 6];
-        for (end, node) in ends.into_iter().enumerate() {
+        for (end, node) in [index, (index + 1) % self.nodes].into_iter().enumerate() {
             let (sin, cos) = self.node_angle(node).sin_cos();
             let first = NODE_DOF * end;
-            turn[(first, first)] = -sin;
-            turn[(first, first + 1)] = cos;
-            turn[(first + 1, first)] = cos;
-            turn[(first + 1, first + 1)] = sin;
-            turn[(first + 2, first + 2)] = 1.0;
-            for component in 0..NODE_DOF {
-                dofs[first + component] = NODE_DOF * node + component;
+            for (i, row) in rows(sin, cos).into_iter().enumerate() {
+                dofs[first + i] = NODE_DOF * (first_node + node) + i;
+                row.into_iter().enumerate().for_each(|(j, factor)| turn[(first + i, first + j)] = factor);
             }
         }
         (dofs, turn)

@@ -1,6 +1,6 @@
 //! A ring's interpolation and rigid motions in space.
 
-use super::{NODE_DOF, Ring};
+use super::Ring;
 use nalgebra::Matrix6;
 
 /// Interpolation at one angle in space: twelve entries in the vector of ring displacements for each
@@ -36,11 +36,8 @@ impl Ring {
         let plane = self.rows_in_element(index, phi);
         let (dofs, turn) = self.space_frame(index);
         let n = arc.interpolation(phi) * turn;
-        let pick = |plane: &dyn Fn(usize) -> f64, out: &dyn Fn(usize) -> f64| {
-            std::array::from_fn(|k| if k < 6 { plane(k) } else { out(k - 6) })
-        };
-        let in_plane = |row: &[f64; 6]| pick(&|k| row[k], &|_| 0.0);
-        let out_of_plane = |component: usize| pick(&|_| 0.0, &|k| n[(component, k)]);
+        let in_plane = |row: &[f64; 6]| std::array::from_fn(|k| if k < 6 { row[k] } else { 0.0 });
+        let out_of_plane = |component: usize| std::array::from_fn(|k| if k < 6 { 0.0 } else { n[(component, k - 6)] });
         Some(RingSpaceRows {
             dofs: std::array::from_fn(|k| if k < 6 { plane.dofs[k] } else { dofs[k - 6] }),
             radial: in_plane(&plane.radial),
@@ -74,22 +71,7 @@ impl Ring {
     /// Out-of-plane degrees of freedom of an element and the matrix that turns them to the polar
     /// components (v, about e_r, about e_t).
     pub(super) fn space_frame(&self, index: usize) -> ([usize; 6], Matrix6<f64>) {
-        let ends = [index, (index + 1) % self.nodes];
-        let mut turn = Matrix6::zeros();
-        let mut dofs = [0; 6];
-        for (end, node) in ends.into_iter().enumerate() {
-            let (sin, cos) = self.node_angle(node).sin_cos();
-            let first = NODE_DOF * end;
-            turn[(first, first)] = 1.0;
-            turn[(first + 1, first + 1)] = cos;
-            turn[(first + 1, first + 2)] = sin;
-            turn[(first + 2, first + 1)] = -sin;
-            turn[(first + 2, first + 2)] = cos;
-            for component in 0..NODE_DOF {
-                dofs[first + component] = NODE_DOF * (self.nodes + node) + component;
-            }
-        }
-        (dofs, turn)
+        self.frame_of_block(index, self.nodes, |sin, cos| [[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]])
     }
 }
 

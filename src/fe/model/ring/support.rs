@@ -47,12 +47,6 @@ pub struct RadialSupport {
 }
 
 impl Ring {
-    /// The node of a degree of freedom, and whether it is one of the ring's plane.
-    pub(in crate::fe::model) fn node_of(&self, dof: usize) -> (usize, bool) {
-        let place = dof / NODE_DOF;
-        (place % self.nodes, place < self.nodes)
-    }
-
     /// Attaches springs to the ground; at a node at angle phi the spring acts on the point
     /// `offset` outside, which moves by the node's displacement plus `offset theta e_phi` in the plane and
     /// `offset omega x e_r` in space.

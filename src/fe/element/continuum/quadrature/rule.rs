@@ -72,14 +72,14 @@ impl QuadratureRule {
     fn build(self) -> Vec<QuadraturePoint> {
         match self {
             Self::Line4 => product(&[origin()], 4, 0),
-            Self::Triangle1 => simplex::triangle_1(),
+            Self::Triangle1 => vec![simplex::point([1.0 / 3.0, 1.0 / 3.0, 0.0], 0.5)],
             Self::Triangle3 => simplex::triangle_3(),
             Self::Triangle6 => simplex::triangle_6(),
             Self::Triangle12 => simplex::triangle_12(),
             Self::Square2 => square(2),
             Self::Square3 => square(3),
             Self::Square4 => square(4),
-            Self::Tetrahedron1 => simplex::tetrahedron_1(),
+            Self::Tetrahedron1 => vec![simplex::point([0.25; 3], simplex::SIXTH)],
             Self::Tetrahedron4 => simplex::tetrahedron_4(),
             Self::Tetrahedron14 => simplex::tetrahedron_14(),
             Self::Tetrahedron24 => simplex::tetrahedron_24(),

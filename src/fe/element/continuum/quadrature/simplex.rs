@@ -2,10 +2,9 @@
 
 use super::line::{Gauss, QuadraturePoint, gauss};
 
-const THIRD: f64 = 1.0 / 3.0;
-const SIXTH: f64 = 1.0 / 6.0;
+pub(super) const SIXTH: f64 = 1.0 / 6.0;
 
-const fn point(natural: [f64; 3], weight: f64) -> QuadraturePoint {
+pub(super) const fn point(natural: [f64; 3], weight: f64) -> QuadraturePoint {
     QuadraturePoint { natural, weight }
 }
 
@@ -19,10 +18,6 @@ fn triangle_orbit_3(b: f64, weight: f64) -> [QuadraturePoint; 3] {
 fn triangle_orbit_6(d: f64, e: f64, weight: f64) -> [QuadraturePoint; 6] {
     let c = 1.0 - d - e;
     [[c, d], [d, c], [c, e], [e, c], [d, e], [e, d]].map(|[x, y]| point([x, y, 0.0], weight))
-}
-
-pub(super) fn triangle_1() -> Vec<QuadraturePoint> {
-    vec![point([THIRD, THIRD, 0.0], 0.5)]
 }
 
 pub(super) fn triangle_3() -> Vec<QuadraturePoint> {
@@ -52,10 +47,6 @@ pub(super) fn triangle_12() -> Vec<QuadraturePoint> {
 fn tetrahedron_orbit_4(b: f64, weight: f64) -> [QuadraturePoint; 4] {
     let a = 1.0 - 3.0 * b;
     [[b, b, b], [a, b, b], [b, a, b], [b, b, a]].map(|natural| point(natural, weight))
-}
-
-pub(super) fn tetrahedron_1() -> Vec<QuadraturePoint> {
-    vec![point([0.25; 3], SIXTH)]
 }
 
 /// Hammer and Stroud 1956: b = (5 - sqrt 5) / 20.

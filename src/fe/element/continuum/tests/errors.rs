@@ -135,7 +135,7 @@ fn a_fold_at_a_node_is_found() -> Outcome {
         }
         Ok(())
     };
-    for kind in ElementKind::continua() {
+    for kind in super::fixtures::continua() {
         if let Some(&[a, b]) = kind.middle_edges().first() {
             let mut coords = straight(kind);
             let (from, to) = (coords[a], coords[b]);
@@ -180,7 +180,7 @@ proptest! {
         scale in prop_oneof![Just(1.0), Just(1e-3), Just(1e-40), Just(1e-90), Just(1e40)],
     ) {
         let fail = |e: Box<dyn std::error::Error>| TestCaseError::fail(e.to_string());
-        let kind = ElementKind::continua().nth(which).unwrap_or(ElementKind::Tri3);
+        let kind = super::fixtures::continua().nth(which).unwrap_or(ElementKind::Tri3);
         let formulation = if four { FOUR_POINT } else { PLAIN };
         let moved = if is_wild { &wild } else { &tame };
         let mut coords = straight(kind);

@@ -8,6 +8,11 @@ use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, Quadra
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::ElementKind;
 
+/// Kinds of plane elements and solids, in the order of the enum.
+pub(super) fn continua() -> impl Iterator<Item = ElementKind> {
+    ElementKind::all().filter(|kind| kind.dimension() >= 2)
+}
+
 pub(super) const THICKNESS: f64 = 4e-3;
 /// A unidirectional carbon laminate.
 pub(super) const YOUNG: [f64; 3] = [140e9, 10e9, 9e9];

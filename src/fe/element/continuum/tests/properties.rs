@@ -4,7 +4,6 @@ use super::Outcome;
 use super::fixtures::{THICKNESS, aluminium, distorted, laminate_along, message};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption, stiffness};
 use crate::fe::material::{ElasticMaterial, Material, OrthotropicMaterial};
-use crate::fe::mesh::ElementKind;
 
 #[test]
 fn thickness_must_be_positive() -> Outcome {
@@ -38,7 +37,7 @@ fn isotropic_and_orthotropic_ways_agree() -> Outcome {
     let one = ElasticMaterial::from(Material::new(e, nu, 7800.0)?);
     let (x, y) = ([0.6, 0.8, 0.0], [-0.8, 0.6, 0.0]);
     let other = OrthotropicMaterial::new([e; 3], [nu; 3], [g; 3], 7800.0, x, y)?.into();
-    for kind in ElementKind::continua() {
+    for kind in super::fixtures::continua() {
         let coords = distorted(kind);
         let ways = [&one, &other].map(|m| super::fixtures::properties(kind, m));
         let [one, other] = ways;

@@ -7,7 +7,7 @@ use crate::fe::mesh::ElementKind;
 
 #[test]
 fn straight_elements_have_ratio_one() -> Outcome {
-    for kind in ElementKind::continua() {
+    for kind in super::fixtures::continua() {
         let found = quality(kind, &straight(kind))?;
         assert!((found.scaled_jacobian - 1.0).abs() < 1e-13, "{kind:?}: {found:?}");
         let natural: f64 = kind.mass_rule().points().iter().map(|p| p.weight).sum();
@@ -24,7 +24,7 @@ fn straight_elements_have_ratio_one() -> Outcome {
 /// Inverted ones are negative and no error; a point has zero.
 #[test]
 fn bad_elements_have_a_quality_too() -> Outcome {
-    for kind in ElementKind::continua() {
+    for kind in super::fixtures::continua() {
         let mirrored: Vec<_> = straight(kind).iter().map(|&[x, y, z]| [-x, y, z]).collect();
         let found = quality(kind, &mirrored)?;
         assert!(found.smallest_determinant < 0.0 && (found.scaled_jacobian + 1.0).abs() < 1e-13);

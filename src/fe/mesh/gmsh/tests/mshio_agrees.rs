@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{ElementId, Mesh};
 use crate::numerics::units::LengthUnit;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// Nodes and elements as both readers see them.
+/// Nodes, elements and the elements of groups as both readers see them.
 fn compare(path: &Path) -> Result<bool, Box<dyn std::error::Error>> {
     let bytes = std::fs::read(path)?;
     if !bytes.starts_with(b"$MeshFormat\n4.1") {
@@ -30,6 +30,26 @@ fn compare(path: &Path) -> Result<bool, Box<dyn std::error::Error>> {
         let tags: Vec<u64> = other.elements.iter().flat_map(|element| element.nodes.clone()).collect();
         let own: Vec<u64> = own.connectivity.iter().map(|&node| mesh.node_tags[node]).collect();
         assert_eq!(own, tags, "{}", path.display());
+    }
+    let entities = file.data.entities.ok_or("entities")?;
+    let mut physical: Vec<(usize, i32, &[i32])> = Vec::new();
+    physical.extend(entities.points.iter().map(|point| (0, point.tag, point.physical_tags.as_slice())));
+    physical.extend(entities.curves.iter().map(|curve| (1, curve.tag, curve.physical_tags.as_slice())));
+    physical.extend(entities.surfaces.iter().map(|surface| (2, surface.tag, surface.physical_tags.as_slice())));
+    physical.extend(entities.volumes.iter().map(|volume| (3, volume.tag, volume.physical_tags.as_slice())));
+    for group in &mesh.groups {
+        let of_group = physical.iter().filter(|(dimension, _, tags)| {
+            *dimension == group.dimension && tags.iter().any(|tag| tag.abs() == group.tag)
+        });
+        let of_group: Vec<i32> = of_group.map(|&(_, tag, _)| tag).collect();
+        let blocks = mesh
+            .blocks
+            .iter()
+            .enumerate()
+            .filter(|(_, block)| block.entity.dimension == group.dimension && of_group.contains(&block.entity.tag));
+        let expected: Vec<ElementId> =
+            blocks.flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index })).collect();
+        assert_eq!(group.elements, expected, "{}: {}", path.display(), group.name);
     }
     Ok(true)
 }
