@@ -1,14 +1,17 @@
 //! `$Entities` of MSH 4.1: which physical groups an entity belongs to.
+//!
+//! Every number is passed over first, which checks it and knows its place; mshio then reads the values,
+//! from small files made of a few entities each.
 
 use super::MshError;
-use super::cursor::Cursor;
+use super::cursor::{Cursor, Encoding};
 use super::numbers::Item;
 use crate::fe::mesh::Entity;
 
 /// Entities that belong to physical groups.
 #[derive(Default)]
 pub(super) struct Physical {
-    /// Entity and where its groups begin and end in `tags`, sorted by entity.
+    /// Entity and where its groups begin in `tags`, sorted by entity.
     entities: Vec<(Entity, usize, usize)>,
     tags: Vec<i32>,
 }
@@ -21,32 +24,42 @@ impl Physical {
         own.take_while(move |(other, ..)| *other == entity).flat_map(|&(_, first, end)| &self.tags[first..end]).copied()
     }
 
-    /// Reads an entity with its box, its physical tags and its boundary.
-    fn add(&mut self, cursor: &mut Cursor<'_>, dimension: usize) -> Result<(), MshError> {
-        let entity = Entity { dimension, tag: cursor.int("the tag of an entity")? };
-        for _ in 0..smallest(dimension).floats {
-            if !cursor.float("a coordinate of an entity")?.is_finite() {
-                let found = &cursor.bytes[cursor.mark..cursor.position];
-                return Err(cursor.malformed("a finite coordinate of an entity", found));
-            }
-        }
+    fn add(&mut self, dimension: usize, tag: i32, physical: &[i32]) {
         let first = self.tags.len();
-        for _ in 0..cursor.count("the number of physical tags", Item::new(0, 1, 0))? {
-            // gmsh writes a negative tag for a reversed entity
-            let tag = cursor.int("a physical tag")?.saturating_abs();
-            self.tags.extend((tag > 0).then_some(tag));
-        }
+        // gmsh writes a negative tag for a reversed entity
+        let tags = physical.iter().map(|tag| tag.saturating_abs());
+        self.tags.extend(tags.filter(|&tag| tag > 0));
         if self.tags.len() > first {
+            let entity = Entity { dimension, tag };
             self.entities.push((entity, first, self.tags.len()));
         }
-        if dimension > 0 {
-            for _ in 0..cursor.count("the number of bounding entities", Item::new(0, 1, 0))? {
-                cursor.int("the tag of a bounding entity")?;
+    }
+
+    /// Reads entities of one dimension with mshio.
+    fn parse(&mut self, file: &[u8]) -> Result<(), MshError> {
+        let parsed = mshio::parse_msh_bytes(file).map_err(|error| {
+            MshError(format!("{}: expected what the MSH 4.1 format prescribes", reader_message(&error)))
+        })?;
+        if let Some(entities) = &parsed.data.entities {
+            for point in &entities.points {
+                self.add(0, point.tag, &point.physical_tags);
+            }
+            for curve in &entities.curves {
+                self.add(1, curve.tag, &curve.physical_tags);
+            }
+            for surface in &entities.surfaces {
+                self.add(2, surface.tag, &surface.physical_tags);
+            }
+            for volume in &entities.volumes {
+                self.add(3, volume.tag, &volume.physical_tags);
             }
         }
         Ok(())
     }
 }
+
+/// How many entities mshio is given at once: it takes up to twenty times the length of a list.
+const PORTION: usize = 64;
 
 pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Physical, MshError> {
     const COUNTS: [&str; 4] =
@@ -56,13 +69,85 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Physical, MshError> {
         *count = cursor.count(what, smallest(dimension))?;
     }
     let mut found = Physical::default();
-    for (dimension, count) in counts.into_iter().enumerate() {
-        for _ in 0..count {
-            found.add(cursor, dimension)?;
+    for (dimension, mut left) in counts.into_iter().enumerate() {
+        while left > 0 {
+            let portion = left.min(PORTION);
+            let start = cursor.position;
+            for _ in 0..portion {
+                walk(cursor, dimension)?;
+            }
+            let content = &cursor.bytes[start..cursor.position];
+            found.parse(&alone(cursor.encoding, dimension, portion, content))?;
+            left -= portion;
         }
     }
     found.entities.sort_unstable();
     Ok(found)
+}
+
+/// A file of `$MeshFormat` and `$Entities` with some entities of one dimension.
+fn alone(encoding: Encoding, dimension: usize, count: usize, content: &[u8]) -> Vec<u8> {
+    let mut counts = [0; 4];
+    counts[dimension] = count as u64;
+    let [points, curves, surfaces, volumes] = counts;
+    let (start, numbers) = match encoding {
+        Encoding::Ascii => {
+            let mut numbers = format!("{points} {curves} {surfaces} {volumes}").into_bytes();
+            // not every blank is one to mshio
+            for word in content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
+                numbers.push(b' ');
+                numbers.extend_from_slice(word);
+            }
+            (b"$MeshFormat\n4.1 0 8".to_vec(), numbers)
+        }
+        Encoding::Binary { big_endian, size_bytes } => {
+            let order = |mut bytes: Vec<u8>| {
+                if big_endian {
+                    bytes.reverse();
+                }
+                bytes
+            };
+            let mut start = format!("$MeshFormat\n4.1 1 {size_bytes}\n").into_bytes();
+            start.extend(order(1_i32.to_le_bytes().to_vec()));
+            let size = |count: u64| order(count.to_le_bytes()[..size_bytes].to_vec());
+            let mut numbers: Vec<u8> = counts.into_iter().flat_map(size).collect();
+            numbers.extend_from_slice(content);
+            (start, numbers)
+        }
+    };
+    let middle = b"\n$EndMeshFormat\n$Entities\n".as_slice();
+    let end = b"\n$EndEntities\n".as_slice();
+    [start.as_slice(), middle, numbers.as_slice(), end].concat()
+}
+
+/// The library's own words, outermost first, without its dump of the file.
+fn reader_message(error: &mshio::MshParserError<&[u8]>) -> String {
+    let steps: Vec<String> =
+        error.filter_msh_errors().map(|(_, kind)| kind.to_string().trim_end_matches('.').to_owned()).collect();
+    match steps.is_empty() {
+        true => "the section $Entities cannot be parsed".to_owned(),
+        false => steps.into_iter().rev().collect::<Vec<_>>().join(": "),
+    }
+}
+
+/// Passes over an entity with its box, its physical tags and its boundary.
+fn walk(cursor: &mut Cursor<'_>, dimension: usize) -> Result<(), MshError> {
+    cursor.int("the tag of an entity")?;
+    for _ in 0..smallest(dimension).floats {
+        if !cursor.float("a coordinate of an entity")?.is_finite() {
+            let found = &cursor.bytes[cursor.mark..cursor.position];
+            return Err(cursor.malformed("a finite coordinate of an entity", found));
+        }
+    }
+    for _ in 0..cursor.count("the number of physical tags", Item::new(0, 1, 0))? {
+        cursor.int("a physical tag")?;
+    }
+    if dimension > 0 {
+        for _ in 0..cursor.count("the number of bounding entities", Item::new(0, 1, 0))? {
+            cursor.int("the tag of a bounding entity")?;
+        }
+    }
+    Ok(())
 }
 
 /// An entity without physical tags and boundary.

@@ -1,10 +1,10 @@
 //! Reading gmsh's MSH 4.1 and 2.2, ASCII and binary.
 //!
 //! One pass over the bytes reads the values and checks them where they stand; the line of what it objects to
-//! is counted when a message needs it. The tests hold mshio, an independent reader, against all values of the
-//! meshes. In the place of this reader it would read 4.1 only, drop node tags where their range is dense (wrong
-//! coordinates if they are not in order), accept coordinates that are no numbers and tags that lead nowhere, and
-//! take several times as long.
+//! is counted when a message needs it. mshio reads the entities of MSH 4.1 (which physical groups each belongs to);
+//! the tests hold it against all values of the meshes, as an independent reader. Alone it would read 4.1 only, drop
+//! node tags where their range is dense (wrong coordinates if they are not in order), accept coordinates that are no
+//! numbers and tags that lead nowhere, and take several times as long.
 //!
 //! No file, damaged or not, takes more memory than ten times its length and a fixed 64 KiB: nothing is
 //! allocated on the word of a count that the rest of the file cannot hold.
