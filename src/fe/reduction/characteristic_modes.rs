@@ -13,8 +13,9 @@
 //! alone would hold no rigid motion, and the condensed housing would be tied to the ground.
 
 use super::coupled_modes::{Attached, interface_matrices};
+use super::substructure::normalised;
 use super::{ReductionError, Substructure};
-use crate::numerics::linalg::{DenseMatrix, symmetric_eigen, symmetric_generalised_eigen};
+use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -42,7 +43,8 @@ pub struct CharacteristicModes {
     pub(super) mass: DenseMatrix,
     /// k_bb + k_a [interface x interface], N/m.
     pub(super) stiffness: DenseMatrix,
-    rigid: usize,
+    /// How many of the first ones are rigid motions.
+    pub(super) rigid: usize,
 }
 
 /// Share of the interface's static flexibility that kept modes lack.
@@ -66,32 +68,22 @@ impl CharacteristicModes {
         rigid: &DenseMatrix,
     ) -> Result<Self, ReductionError> {
         let [stiffness, mass] = interface_matrices(substructure, attached);
-        let rigid = orthonormal(rigid, &mass)?;
+        let normal = normalised(&(rigid.transpose() * (&mass * rigid)), DEPENDENT)?;
+        let rigid = rigid * normal;
         let spectrum = symmetric_generalised_eigen(&without(&stiffness, &mass, &rigid), &mass)?;
         let count = rigid.ncols();
         // a motion without mass has an infinite value; it moves nothing of the interior
-        let finite = spectrum.values.partition_point(|value| value.is_finite());
-        let vectors = DenseMatrix::from_fn(rigid.nrows(), finite.max(count), |row, mode| match mode {
-            mode if mode < count => rigid[(row, mode)],
-            mode => spectrum.vectors[(row, mode)],
-        });
-        let values = (0..vectors.ncols())
-            .map(|mode| match mode {
-                mode if mode < count => 0.0,
-                mode => spectrum.values[mode],
-            })
-            .collect();
+        let finite = spectrum.values.partition_point(|value| value.is_finite()).max(count);
+        let vectors = faer::concat![[rigid, spectrum.vectors.subcols(count, finite - count)]];
+        let mut values = spectrum.values;
+        values.truncate(finite);
+        values[..count].fill(0.0);
         Ok(Self { values, vectors, mass, stiffness, rigid: count })
     }
 
     /// Number of modes.
     pub(crate) fn count(&self) -> usize {
         self.values.len()
-    }
-
-    /// How many of the first ones are rigid motions.
-    pub(crate) fn rigid(&self) -> usize {
-        self.rigid
     }
 
     /// Frequency of a mode, Hz; `None` beyond the last.
@@ -149,17 +141,6 @@ impl CharacteristicModes {
             mean: lost.iter().sum::<f64>() / interface.max(1) as f64,
         }
     }
-}
-
-/// A basis of the columns of `motions` [n x r] with `V^T M V = 1`.
-fn orthonormal(motions: &DenseMatrix, mass: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-    let gram = symmetric_eigen(&(motions.transpose() * (mass * motions)))?;
-    let longest = gram.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
-    let normal = DenseMatrix::from_fn(motions.ncols(), kept.len(), |row, column| {
-        gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
-    });
-    Ok(motions * normal)
 }
 
 /// `P^T K P` with `P = 1 - V V^T M`: the stiffness of motions that are orthogonal to V, none of V.

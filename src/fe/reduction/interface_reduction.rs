@@ -9,7 +9,7 @@
 //! static response of the interface is no longer exact, and a load on few of its coordinates meets too stiff an interface.
 
 use super::coupled_modes::Attached;
-use super::{CharacteristicModes, CraigBampton, ErrorEstimate, InterfaceSize, ReductionError, Superelement};
+use super::{CharacteristicModes, CraigBampton, InterfaceSize, ReductionError, Superelement};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 
 /// A superelement on characteristic constraint modes, with the way back to the interface.
@@ -23,8 +23,8 @@ pub struct InterfaceReduction {
     inertia: DenseMatrix,
     /// Squared frequencies of the kept modes, 1/s^2, ascending.
     values: Vec<f64>,
-    /// That of the first mode left out.
-    next: Option<f64>,
+    /// That of the first mode left out, 1/s^2; `None` if all are kept.
+    pub(crate) next: Option<f64>,
 }
 
 impl InterfaceReduction {
@@ -39,16 +39,14 @@ impl InterfaceReduction {
     ) -> Result<Self, ReductionError> {
         let whole = &condensed.superelement;
         let (interface, kept) = (whole.interface_dof, modes.kept(size)?);
-        let transform = DenseMatrix::from_fn(whole.order(), kept + whole.modal_dof(), |row, column| {
-            match (row.checked_sub(interface), column.checked_sub(kept)) {
-                (None, None) => modes.vectors[(row, column)],
-                (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
-                _ => 0.0,
-            }
-        });
+        let (modal, r) = (whole.modal_dof(), modes.vectors.subcols(0, kept));
+        let transform = faer::concat![
+            [r, DenseMatrix::zeros(interface, modal)],
+            [DenseMatrix::zeros(modal, kept), DenseMatrix::identity(modal, modal)],
+        ];
         let mut stiffness = congruent(&whole.stiffness, &transform);
         // rigid motions that nothing holds have no stiffness: what stands there is round-off of a sum of large terms
-        for rigid in 0..modes.rigid() {
+        for rigid in 0..modes.rigid {
             for other in 0..stiffness.ncols() {
                 stiffness[(rigid, other)] = 0.0;
                 stiffness[(other, rigid)] = 0.0;
@@ -62,7 +60,7 @@ impl InterfaceReduction {
                 structural: whole.structural.as_ref().map(|matrix| congruent(matrix, &transform)),
                 interface_dof: kept,
             },
-            inertia: &modes.mass * modes.vectors.subcols(0, kept),
+            inertia: &modes.mass * r,
             transform,
             values: modes.values[..kept].to_vec(),
             next: modes.values.get(kept).copied(),
@@ -77,11 +75,6 @@ impl InterfaceReduction {
     /// Squared frequencies of the kept modes, 1/s^2, ascending; 0 of rigid motions.
     pub fn values(&self) -> &[f64] {
         &self.values
-    }
-
-    /// Squared frequency of the first mode left out, 1/s^2; `None` if all are kept.
-    pub(crate) fn next(&self) -> Option<f64> {
-        self.next
     }
 
     /// The modes R [interface x kept], kg^(-1/2).
@@ -106,10 +99,7 @@ impl InterfaceReduction {
     /// its mass: `p = R^T (m_bb + m_a) d`, no amplitudes of the interior.
     pub(crate) fn nearest(&self, motions: &DenseMatrix) -> DenseMatrix {
         let amplitudes = self.inertia.transpose() * motions;
-        DenseMatrix::from_fn(self.superelement.order(), motions.ncols(), |row, column| match row < self.kept() {
-            true => amplitudes[(row, column)],
-            false => 0.0,
-        })
+        faer::concat![[amplitudes], [DenseMatrix::zeros(self.superelement.modal_dof(), motions.ncols())]]
     }
 
     /// Squared frequencies with what is attached, 1/s^2, ascending.
@@ -130,21 +120,6 @@ impl InterfaceReduction {
             }
         }
         Ok(symmetric_generalised_eigen(&k, &m)?.values)
-    }
-
-    /// Errors of the frequencies in the band with the reduced interface: those of `estimate`, which is of the whole interface,
-    /// and on top what the frequencies rise by, which comes beside. The rise is exact.
-    ///
-    /// # Errors
-    /// As [`coupled_values`](Self::coupled_values).
-    pub(crate) fn estimate(
-        &self,
-        condensed: &CraigBampton,
-        attached: Option<Attached<'_>>,
-        estimate: &ErrorEstimate,
-    ) -> Result<(ErrorEstimate, Vec<f64>), ReductionError> {
-        let values = self.coupled_values(attached)?;
-        Ok(estimate.raised(&condensed.basis, &values))
     }
 }
 

@@ -179,7 +179,7 @@ fn residual_vectors_of_responses_reach_any_target() {
         while estimate.largest().is_some_and(|(_, error)| error > target) {
             vectors += 2;
             assert!(vectors <= 8, "each pair takes an order of magnitude, found {estimate:?}");
-            condensed = condensed.with_forces(estimate.forces().clone(), &weight).expect("finite");
+            condensed = condensed.with_forces(estimate.forces.clone(), &weight).expect("finite");
             (estimate, true_errors) = errors(&condensed);
         }
         // the estimate is right to a few per cent

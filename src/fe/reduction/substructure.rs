@@ -16,7 +16,7 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
-    submatrix, transpose_times_dense,
+    submatrix, symmetric_eigen, transpose_times_dense,
 };
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
@@ -30,14 +30,17 @@ const LARGEST_CONTRACTION: f64 = 1e-4;
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
 pub struct Substructure {
-    partition: HousingPartition,
+    /// How the degrees of freedom were split.
+    pub(crate) partition: HousingPartition,
     factor: SparseCholesky,
     interior: EigenProblem,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
+    /// Constraint modes Psi [interior x interface].
     pub(super) constraint_modes: DenseMatrix,
     stiffness: DenseMatrix,
-    mass: DenseMatrix,
+    /// m_bb [interface x interface], kg.
+    pub(super) mass: DenseMatrix,
 }
 
 impl Substructure {
@@ -110,16 +113,15 @@ impl Substructure {
             let mut m = known.transpose() * &follow;
             m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
             add_block(&mut self.mass, first, &m);
-            add_mirrored(&mut self.mass, first, &m);
+            for column in 0..width {
+                for row in 0..first {
+                    self.mass[(first + column, row)] += m[(row, column)];
+                }
+            }
         }
-        symmetrise(&mut self.stiffness);
-        symmetrise(&mut self.mass);
+        self.stiffness = symmetric(&self.stiffness);
+        self.mass = symmetric(&self.mass);
         Ok(())
-    }
-
-    /// How the degrees of freedom were split.
-    pub(crate) fn partition(&self) -> &HousingPartition {
-        &self.partition
     }
 
     /// Number of interface coordinates.
@@ -132,19 +134,9 @@ impl Substructure {
         self.partition.interior.len()
     }
 
-    /// Constraint modes Psi [interior x interface].
-    pub(crate) fn constraint_modes(&self) -> &DenseMatrix {
-        &self.constraint_modes
-    }
-
     /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
     pub fn stiffness(&self) -> &DenseMatrix {
         &self.stiffness
-    }
-
-    /// m_bb [interface x interface], kg.
-    pub(crate) fn mass(&self) -> &DenseMatrix {
-        &self.mass
     }
 
     /// `K_ii^-1 R` for `R` [interior x k].
@@ -217,21 +209,29 @@ fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
     }
 }
 
-/// Adds the rows of a block of columns above its diagonal block as columns.
-fn add_mirrored(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
-    for column in 0..block.ncols() {
-        for row in 0..first {
-            matrix[(first + column, row)] += block[(row, column)];
-        }
-    }
+/// A square matrix with these values on its diagonal.
+pub(super) fn diagonal(values: &[f64]) -> DenseMatrix {
+    DenseMatrix::from_fn(values.len(), values.len(), |row, column| if row == column { values[row] } else { 0.0 })
 }
 
-fn symmetrise(matrix: &mut DenseMatrix) {
-    for column in 0..matrix.ncols() {
-        for row in 0..column {
-            let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
-            matrix[(row, column)] = mean;
-            matrix[(column, row)] = mean;
-        }
-    }
+/// Some rows of a matrix.
+pub(super) fn rows_of(a: &DenseMatrix, rows: &[usize]) -> DenseMatrix {
+    DenseMatrix::from_fn(rows.len(), a.ncols(), |row, column| a[(rows[row], column)])
+}
+
+/// Combinations V of vectors with the Gram matrix G [n x n], `V^T G V = 1` [n x kept]. Those of which the squared length is
+/// below `dependent` of the longest are left out.
+pub(super) fn normalised(gram: &DenseMatrix, dependent: f64) -> Result<DenseMatrix, ReductionError> {
+    let spectrum = symmetric_eigen(gram)?;
+    let longest = spectrum.values.last().copied().unwrap_or(0.0);
+    let values = spectrum.values.iter().enumerate();
+    let kept: Vec<usize> = values.filter(|(_, value)| **value > dependent * longest).map(|(place, _)| place).collect();
+    Ok(DenseMatrix::from_fn(gram.nrows(), kept.len(), |row, column| {
+        spectrum.vectors[(row, kept[column])] / spectrum.values[kept[column]].sqrt()
+    }))
+}
+
+/// `(A + A^T) / 2`.
+pub(super) fn symmetric(a: &DenseMatrix) -> DenseMatrix {
+    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| 0.5 * (a[(row, column)] + a[(column, row)]))
 }
