@@ -165,26 +165,23 @@ impl CoupledSystem {
         if !dynamic && (setup.formulation == Formulation::Printed || setup.contact_damping > 0.0) {
             return Err(SystemError::BallsNeedInertia);
         }
-        let kept: Vec<usize> = (0..count).collect();
         let balls = setup.balls();
         let residual = if residual && !complete {
-            let residual = ResidualFlexibility::new(structure, modes, &kept)?;
-            Some(Coupling::new(residual, balls))
+            Some(Coupling::new(ResidualFlexibility::new(structure, modes, count)?, balls))
         } else {
             None
         };
-        let structural = kept.iter().map(|&mode| {
-            let squared_frequency = modes.squared_frequencies[mode].max(0.0);
+        let structural = modes.squared_frequencies[..count].iter().map(|square| {
+            let squared_frequency = square.max(0.0);
             LinearCoordinate { squared_frequency, damping: damping.coefficient(squared_frequency) }
         });
         let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
         let linear = structural.chain(std::iter::repeat_n(free, if dynamic { 2 + balls } else { 2 })).collect();
-        let over_modes =
-            |row: &[f64]| -> Vec<f64> { kept.iter().map(|&mode| modes.participation(mode, row)).collect() };
+        let over_modes = |row: &[f64]| -> Vec<f64> { (0..count).map(|mode| modes.participation(mode, row)).collect() };
         let outer = RaceContact::new(&setup, Race::Outer);
         let ring = structure.ring();
         let arm = setup.raceway_arm(ring.section().radius);
-        let radial = RacewayTable::new(ring, modes, &kept, |rows| rows.radial);
+        let radial = RacewayTable::new(ring, modes, count, |rows| rows.radial);
         let gravity = match setup.formulation {
             Formulation::Consistent => over_modes(structure.gravity()),
             Formulation::Printed => vec![0.0; count],
@@ -192,7 +189,7 @@ impl CoupledSystem {
         Ok(Self {
             inner_race: InnerRace::new(&setup.geometry),
             inner: RaceContact::new(&setup, Race::Inner),
-            reach: REACH + outer.rise(),
+            reach: REACH + outer.rise,
             outer,
             linear,
             modes: count,
@@ -201,11 +198,11 @@ impl CoupledSystem {
             ball_mobility: 1.0 / setup.geometry.ball_mass(),
             balls: Balls {
                 mode_bounds: radial.bounds(),
-                weight_bound: residual.as_ref().map_or(0.0, Coupling::weight_bound),
+                weight_bound: residual.as_ref().map_or(0.0, |coupling| coupling.residual.weight_bound()),
                 ..Balls::new(&setup, radial.groups())
             },
             radial,
-            tangential: RacewayTable::new(ring, modes, &kept, |rows| rows.tangential_at(arm)),
+            tangential: RacewayTable::new(ring, modes, count, |rows| rows.tangential_at(arm)),
             residual,
             centre: [0, 1].map(|component| over_modes(&mean_row(structure, component))),
             sensors: structure.sensors().iter().map(|sensor| (sensor.name.clone(), over_modes(&sensor.row))).collect(),
@@ -274,16 +271,13 @@ impl Work {
             velocities: of_modes(),
             modal_force: of_modes(),
             scratch_row: of_modes(),
-            cage_angle: 0.0,
-            cage_speed: 0.0,
             shaft_direction: [1.0, 0.0],
             spin: vec![[0.0; 2]; balls],
             damage: vec![Damage::None; balls],
             damaged: Vec::with_capacity(balls),
             uneven: Vec::with_capacity(balls),
             known: vec![(0.0, 0.0, RaceForce::default()); balls],
-            on_shaft: [0.0; 2],
-            force: Vec::new(),
+            ..Self::default()
         }
     }
 }

@@ -9,24 +9,9 @@ pub enum SystemError {
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
-    /// Housing and ring do not share their interface.
-    #[error("the ring has {expected} degrees of freedom, the superelement's interface {found}")]
-    InterfaceSize {
-        /// Degrees of freedom of the ring.
-        expected: usize,
-        /// Interface of the superelement.
-        found: usize,
-    },
-    /// A sensor row of the wrong length.
-    #[error("sensor {name}: {expected} coordinates expected, {found} found")]
-    SensorSize {
-        /// The sensor.
-        name: String,
-        /// Coordinates of the structure.
-        expected: usize,
-        /// Length of the row.
-        found: usize,
-    },
+    /// A superelement or a sensor row of another size than the structure's.
+    #[error("{0}")]
+    OtherSize(String),
     /// The structure can move as a whole.
     #[error(
         "ring and housing are not held: they can move without force; add springs or fixed nodes under [housing] supports or [ring] supports"

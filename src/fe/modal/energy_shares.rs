@@ -143,7 +143,7 @@ impl EnergyShares {
         let parts = model.properties.len();
         let size = [parts + membership.names.len(), 2 * shapes.ncols()];
         let sums = sum_over_elements(model, size, |work, place, element, sums| {
-            let groups = membership.of(place).iter().map(|group| parts + group);
+            let groups = membership.of(place).map(|group| parts + group);
             let rows: Vec<usize> = once(element.part).chain(groups).collect();
             for mode in 0..shapes.ncols() {
                 let [strain, kinetic] = work.energies(model, element, shapes.col_as_slice(mode));

@@ -83,9 +83,10 @@ impl MassProperties {
                 0.5 * (couples(0, 1) - couples(1, 0)),
             );
             let about_point = Matrix3::from_fn(|i, j| 0.5 * (rigid[(3 + i, 3 + j)] + rigid[(3 + j, 3 + i)]));
+            let shift = (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * mass;
             MassDistribution::Space {
                 centroid: (Vector3::from(about) + s).into(),
-                inertia: rows(&(about_point - shift(mass, s))),
+                inertia: (about_point - shift).transpose().into(),
             }
         };
         Ok(Self { mass, distribution })
@@ -123,7 +124,7 @@ impl MassProperties {
         let MassDistribution::Space { inertia, .. } = self.distribution else {
             return None;
         };
-        let inertia = matrix(&inertia);
+        let inertia = Matrix3::from(inertia).transpose();
         if inertia.iter().any(|value| !value.is_finite()) {
             return None;
         }
@@ -141,19 +142,6 @@ impl MassProperties {
             axes: [first, second, first.cross(&second)].map(Into::into),
         })
     }
-}
-
-/// `m (|s|^2 1 - s s^T)`.
-fn shift(mass: f64, s: Vector3<f64>) -> Matrix3<f64> {
-    (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * mass
-}
-
-fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))
-}
-
-fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| rows[i][j])
 }
 
 /// Mean of the coordinates of the nodes that an element uses, m.

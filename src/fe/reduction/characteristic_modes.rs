@@ -119,23 +119,16 @@ impl CharacteristicModes {
     /// taken out of all: `1 - sum_kept (r_j^2 / lambda) / sum_all (r_j^2 / lambda)`.
     pub(crate) fn lost_flexibility(&self, kept: usize) -> LostFlexibility {
         let interface = self.vectors.nrows();
-        let (mut of_kept, mut of_all) = (vec![0.0; interface], vec![0.0; interface]);
-        for mode in self.rigid..self.count() {
-            let value = self.values[mode];
-            if value <= 0.0 {
-                continue;
-            }
-            for (row, entry) in self.vectors.col_as_slice(mode).iter().enumerate() {
-                let flexibility = entry * entry / value;
-                of_all[row] += flexibility;
-                if mode < kept {
-                    of_kept[row] += flexibility;
-                }
-            }
-        }
-        let both = of_kept.iter().zip(&of_all);
-        let lost: Vec<f64> =
-            both.map(|(kept, all)| if *all > 0.0 { (1.0 - kept / all).max(0.0) } else { 0.0 }).collect();
+        let flexibility = |row: usize, end: usize| -> f64 {
+            let modes = (self.rigid..end).filter(|&mode| self.values[mode] > 0.0);
+            let part = |mode| self.vectors[(row, mode)] * self.vectors[(row, mode)] / self.values[mode];
+            modes.map(part).sum()
+        };
+        let lost = |row: usize| {
+            let all = flexibility(row, self.count());
+            if all > 0.0 { (1.0 - flexibility(row, kept) / all).max(0.0) } else { 0.0 }
+        };
+        let lost: Vec<f64> = (0..interface).map(lost).collect();
         LostFlexibility {
             largest: lost.iter().copied().fold(0.0, f64::max),
             mean: lost.iter().sum::<f64>() / interface.max(1) as f64,
@@ -153,7 +146,5 @@ fn without(stiffness: &DenseMatrix, mass: &DenseMatrix, v: &DenseMatrix) -> Dens
     // K - (K V) (M V)^T - (M V) (K V)^T + (M V) (V^T K V) (M V)^T
     let one_side = &stiff - &moved * (own * faer::Scale(0.5));
     let product = &one_side * moved.transpose();
-    DenseMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |row, column| {
-        stiffness[(row, column)] - (product[(row, column)] + product[(column, row)])
-    })
+    stiffness - (&product + product.transpose())
 }

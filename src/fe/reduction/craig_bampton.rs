@@ -86,10 +86,7 @@ impl CraigBampton {
             let width = BLOCK.min(order - first);
             let unit = DenseMatrix::from_fn(order, width, |row, column| f64::from(u8::from(row == first + column)));
             let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
-            let block = self.project(&moved);
-            for column in 0..width {
-                condensed.col_as_slice_mut(first + column).copy_from_slice(block.col_as_slice(column));
-            }
+            condensed.subcols_mut(first, width).copy_from(&self.project(&moved));
         }
         condensed
     }

@@ -18,6 +18,7 @@ use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
     submatrix, symmetric_eigen, transpose_times_dense,
 };
+use faer::{MatMut, MatRef};
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
 /// modes.
@@ -101,23 +102,17 @@ impl Substructure {
             let mut modes = columns_of(stiffness_ib, first, width);
             modes *= faer::Scale(-1.0);
             self.factor.solve_columns(&mut modes)?;
-            for column in 0..width {
-                self.constraint_modes.col_as_slice_mut(first + column).copy_from_slice(modes.col_as_slice(column));
-            }
+            self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
             let k = transpose_times_dense(stiffness_ib, &modes);
-            add_block(&mut self.stiffness, first, &k);
+            add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
             let mut follow = self.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
             // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
             let known = self.constraint_modes.subcols(0, first + width);
             let mut m = known.transpose() * &follow;
             m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
-            add_block(&mut self.mass, first, &m);
-            for column in 0..width {
-                for row in 0..first {
-                    self.mass[(first + column, row)] += m[(row, column)];
-                }
-            }
+            add_block(self.mass.submatrix_mut(0, first, first + width, width), m.as_ref());
+            add_block(self.mass.submatrix_mut(first, 0, width, first), m.subrows(0, first).transpose());
         }
         self.stiffness = symmetric(&self.stiffness);
         self.mass = symmetric(&self.mass);
@@ -201,12 +196,8 @@ fn add_columns(to: &mut DenseMatrix, sparse: &SparseMatrix, first: usize) {
     }
 }
 
-fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
-    for column in 0..block.ncols() {
-        for row in 0..block.nrows() {
-            matrix[(row, first + column)] += block[(row, column)];
-        }
-    }
+fn add_block(mut to: MatMut<'_, f64>, block: MatRef<'_, f64>) {
+    to += block;
 }
 
 /// A square matrix with these values on its diagonal.

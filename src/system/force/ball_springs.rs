@@ -31,7 +31,7 @@ pub(super) fn find_own_springs(system: &CoupledSystem, springs: &mut [f64], size
         let stiffness = lanes::each(|l| {
             let outer = tangent(outer[l], gap[l] - displaced[l]);
             let outer = outer / (1.0 + own[l] * outer);
-            system.ball_mobility * (outer + tangent(inner[l], group.penetration[l]))
+            system.ball_mobility * (outer + tangent(inner[l], group.inner.penetration[l]))
         });
         lanes::put(&together(stiffness), springs);
         let both = lanes::each(|l| system.ball_mobility * (outer[l] + inner[l]));

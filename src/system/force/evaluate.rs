@@ -41,7 +41,10 @@ impl SecondOrderSystem for CoupledSystem {
     }
 
     fn events(&self) -> usize {
-        self.contact_events()
+        match self.setup.balls_inertia {
+            BallsInertia::Dynamic => 2 * self.balls.count,
+            BallsInertia::QuasiStatic => 0,
+        }
     }
 
     fn events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
@@ -140,7 +143,7 @@ impl CoupledSystem {
                 });
             }
         }
-        if self.outer.is_irregular() {
+        if self.outer.irregular {
             self.tangential_structure_force();
         }
         let forces = lanes::first::<M, _>(&self.work.modal_force);

@@ -14,14 +14,6 @@ use crate::numerics::lanes::LANES;
 use crate::numerics::lanes::scalar_product;
 
 impl CoupledSystem {
-    /// How many events the contacts have.
-    pub(super) fn contact_events(&self) -> usize {
-        match self.setup.balls_inertia {
-            BallsInertia::Dynamic => 2 * self.balls.count,
-            BallsInertia::QuasiStatic => 0,
-        }
-    }
-
     /// Sets the overlaps at a state, m.
     pub(super) fn contact_events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
         if self.setup.balls_inertia == BallsInertia::QuasiStatic {

@@ -21,14 +21,14 @@ impl CoupledSystem {
         let modes = self.modes;
         let relative = [0, 1].map(|k| y[modes + k] - centre.position[k]);
         let velocity = [0, 1].map(|k| v[modes + k] - centre.velocity[k]);
-        let (law, rise) = (self.inner.plain(), self.inner.rise());
+        let (law, rise) = (self.inner.plain, self.inner.rise);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let (s, [cos, sin]) = (&group.displacement, &group.direction);
             let oversize = &group.oversize;
             let bounds = self.inner_race.penetration_bounds([cos, sin], s, relative);
             let bounds = lanes::each(|l| bounds[l] + oversize[l]);
             if bounds.iter().all(|&bound| bound <= -rise) {
-                group.penetration = bounds;
+                group.inner.penetration = bounds;
                 group.inner_force = [0.0; LANES];
                 group.on_inner = [[0.0; LANES]; 2];
                 continue;
@@ -53,12 +53,10 @@ impl CoupledSystem {
                 });
             }
             group.on_inner = [lanes::each(|l| -force[l] * n_x[l]), lanes::each(|l| -force[l] * n_y[l])];
-            group.penetration = penetration;
-            group.inner_distance = gap.distance;
-            group.inner_normal = gap.normal;
+            group.inner = InnerGap { penetration, ..gap };
             group.inner_force = force;
         }
-        if self.inner.is_irregular() {
+        if self.inner.irregular {
             self.irregular_inner_forces(velocity, shaft);
         }
         let mut sums = [[0.0; LANES]; 2];
@@ -71,7 +69,7 @@ impl CoupledSystem {
 
     /// The same for balls near a race that carries waves or defects, or that may meet a ball's flat.
     fn irregular_inner_forces(&mut self, velocity: [f64; 2], shaft: &RotationState) {
-        let rise = self.inner.rise();
+        let rise = self.inner.rise;
         for j in 0..self.balls.count {
             let gap = self.balls.inner_gap(j);
             if gap.penetration <= -rise {
@@ -145,11 +143,7 @@ impl CoupledSystem {
         let turned = (e[0] * n[1] - e[1] * n[0]).atan2(e[0] * n[0] + e[1] * n[1]);
         let [spin, speed] = self.work.spin[j];
         let flat = flat.filter(|&flat| self.inner.feels(flat, spin - turned));
-        let damage = match (defect, flat) {
-            (Some(defect), _) => Damage::Race(defect),
-            (None, Some(flat)) => Damage::Flat(flat),
-            (None, None) => Damage::None,
-        };
+        let damage = Damage::of(defect, flat);
         place.angle = self.ball_angle(j) + turned - shaft.angle;
         place.spin = [spin - turned, speed];
         (damage, place)

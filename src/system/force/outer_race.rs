@@ -21,10 +21,10 @@ impl CoupledSystem {
         if self.setup.contact_damping > 0.0 {
             self.rates_towards_outer_race::<B, M>(cage);
         }
-        if self.outer.is_irregular() || self.inner.is_irregular() {
+        if self.outer.irregular || self.inner.irregular {
             self.turn_flats(shaft, cage);
         }
-        if self.outer.is_irregular() {
+        if self.outer.irregular {
             self.find_damage();
             self.find_shifts(cage);
         }
@@ -67,7 +67,7 @@ impl CoupledSystem {
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
         let amplitudes = lanes::first::<M, _>(&self.work.amplitudes);
-        let (radial, stiffness) = (&self.radial, self.outer.plain().stiffness);
+        let (radial, stiffness) = (&self.radial, self.outer.plain.stiffness);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
@@ -168,7 +168,7 @@ impl CoupledSystem {
     /// Forces on a race that only the kept modes move, from those of plain contact without damping.
     #[inline(always)]
     pub(super) fn outer_forces<const B: usize>(&mut self) {
-        let damping = self.outer.plain().damping;
+        let damping = self.outer.plain.damping;
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             if damping > 0.0 {
                 let (force, rate) = (&group.outer_radial, &group.rate);

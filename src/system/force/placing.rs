@@ -22,7 +22,7 @@ impl CoupledSystem {
     pub(super) fn take<const B: usize, const M: usize>(&mut self, y: &[f64], v: &[f64]) {
         let (modes, work) = (self.modes, &mut self.work);
         lanes::set(lanes::first_mut::<M, _>(&mut work.amplitudes), &y[..modes]);
-        let moving = self.setup.contact_damping > 0.0 || self.outer.is_irregular();
+        let moving = self.setup.contact_damping > 0.0 || self.outer.irregular;
         if moving {
             lanes::set(lanes::first_mut::<M, _>(&mut work.velocities), &v[..modes]);
         }

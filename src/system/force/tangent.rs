@@ -178,29 +178,25 @@ impl CoupledSystem {
         let (along, aside) = (product(n, e), product(t, e));
         let (speed, carrier) = (self.work.cage_speed, place.carrier(damage));
         let (first, ball) = (self.modes, self.modes + 2 + j);
-        let mut term = tangent.add();
-        for k in 0..2 {
-            term.left[first + k] = self.shaft_mobility * n[k];
-            term.position[first + k] = -((rr - mixed * carrier) * n[k] + (rt + by_rate * turning) * t[k]);
-            term.velocity[first + k] = -(by_rate * n[k] + mixed * t[k]);
+        // along the normal and across it
+        let terms = [(n, along, [rr, rt], [by_rate, mixed]), (t, aside, [rt, tt], [mixed, by_across])];
+        for (direction, share, [by_along, by_aside], [rate_along, rate_aside]) in terms {
+            let mut term = tangent.add();
+            for k in 0..2 {
+                term.left[first + k] = self.shaft_mobility * direction[k];
+                term.position[first + k] =
+                    -((by_along - rate_aside * carrier) * n[k] + (by_aside + rate_along * turning) * t[k]);
+                term.velocity[first + k] = -(rate_along * n[k] + rate_aside * t[k]);
+            }
+            term.left[ball] = -self.ball_mobility * share;
+            // a ball farther out goes round faster: cage speed times e turned by a right angle
+            term.position[ball] = by_along * along
+                + by_aside * aside
+                + rate_along * (turning * aside - speed * aside)
+                + rate_aside * (speed - carrier) * along;
+            term.velocity[ball] = rate_along * along + rate_aside * aside;
+            self.follow_centre(&mut term);
         }
-        term.left[ball] = -self.ball_mobility * along;
-        // a ball farther out goes round faster: cage speed times e turned by a right angle
-        term.position[ball] =
-            rr * along + rt * aside + by_rate * (turning * aside - speed * aside) + mixed * (speed - carrier) * along;
-        term.velocity[ball] = by_rate * along + mixed * aside;
-        self.follow_centre(&mut term);
-        let mut term = tangent.add();
-        for k in 0..2 {
-            term.left[first + k] = self.shaft_mobility * t[k];
-            term.position[first + k] = -((rt - by_across * carrier) * n[k] + (tt + mixed * turning) * t[k]);
-            term.velocity[first + k] = -(mixed * n[k] + by_across * t[k]);
-        }
-        term.left[ball] = -self.ball_mobility * aside;
-        term.position[ball] =
-            rt * along + tt * aside + mixed * (turning * aside - speed * aside) + by_across * (speed - carrier) * along;
-        term.velocity[ball] = mixed * along + by_across * aside;
-        self.follow_centre(&mut term);
     }
 
     /// Both contacts of a ball without inertia.

@@ -18,25 +18,21 @@ pub(in crate::system) struct RacewayTable {
 }
 
 impl RacewayTable {
-    /// Table of `component(rows) . phi` for the given modes.
+    /// Table of `component(rows) . phi` for the lowest `kept` modes.
     pub(crate) fn new(
         ring: &Ring,
         modes: &StructureModes,
-        kept: &[usize],
+        kept: usize,
         component: impl Fn(&RingRows) -> [f64; 6],
     ) -> Self {
         let sample = |element: usize, xi: f64| -> Vec<f64> {
             let half = PI / ring.nodes() as f64;
             let rows = ring.rows_in_element(element, xi * half);
             let factors = component(&rows);
-            kept.iter()
-                .map(|&mode| {
-                    let shape = modes.shapes.col(mode);
-                    (0..6).map(|k| factors[k] * shape[rows.dofs[k]]).sum()
-                })
-                .collect()
+            let value = |mode: usize| -> f64 { (0..6).map(|k| factors[k] * modes.shapes[(rows.dofs[k], mode)]).sum() };
+            (0..kept).map(value).collect()
         };
-        Self::fit(ring.nodes(), kept.len(), &sample)
+        Self::fit(ring.nodes(), kept, &sample)
     }
 
     /// Table of the radial interpolation itself: six values over the polar components of an
@@ -112,13 +108,15 @@ impl RacewayTable {
     }
 }
 
+/// Values of quintics side by side at a place, -1 <= x <= 1.
 #[inline(always)]
-fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
+pub(in crate::system) fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
     each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
 }
 
+/// Their derivatives by the place.
 #[inline(always)]
-fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
+pub(in crate::system) fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
     each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
 }
 

@@ -1,6 +1,7 @@
 //! Pairs of modes, or of clusters of them, that belong together.
 
 use super::super::ModalError;
+use super::super::error::check_value;
 use super::assignment::assignment;
 use super::points::{ModeSet, PointMatch, matched_points};
 use super::subspace::{basis, clusters, joined, mac, squared_cosines};
@@ -64,8 +65,8 @@ impl ModalComparison {
     /// Sources: Allemang and Brown (1982) for MAC, Bjorck and Golub (1973) for the principal angles.
     ///
     /// # Errors
-    /// [`ModalError::Shape`], [`ModalError::NotFinite`] for lists that do not fit or values that are no numbers,
-    /// [`ModalError::Option`], [`ModalError::TooFewPoints`] for fewer than three common points.
+    /// [`ModalError::Shape`] for lists that do not fit, [`ModalError::Invalid`] for values that are no numbers and options,
+    /// [`ModalError::TooFewPoints`] for fewer than three common points.
     pub fn new(first: &ModeSet, second: &ModeSet, options: ComparisonOptions) -> Result<Self, ModalError> {
         first.check()?;
         second.check()?;
@@ -74,7 +75,9 @@ impl ModalComparison {
         let points = matched_points(first, second, tolerance)?;
         let here = Side::new(first, &points, 0);
         let there = Side::new(second, &points, 1);
-        let mac = DenseMatrix::from_fn(here.modes(), there.modes(), |a, b| mac(here.column(a), there.column(b)));
+        let mac = DenseMatrix::from_fn(here.shapes.ncols(), there.shapes.ncols(), |a, b| {
+            mac(here.shapes.col_as_slice(a), there.shapes.col_as_slice(b))
+        });
         let [own, other] = common_clusters(&here, &there, options);
         let [own_bases, other_bases] = [(&here, &own), (&there, &other)].map(|(side, clusters)| {
             let of = |cluster: &Vec<usize>| basis(&side.shapes, cluster);
@@ -117,13 +120,13 @@ impl ModalComparison {
 
 impl ComparisonOptions {
     fn check(&self) -> Result<(), ModalError> {
-        let within = |name, found: f64| match (0.0..=1.0).contains(&found) {
-            true => Ok(()),
-            false => Err(ModalError::Option { name, expected: "0 to 1", found }),
-        };
-        within("point_tolerance", self.point_tolerance)?;
-        within("cluster_gap", self.cluster_gap)?;
-        within("least_mac", self.least_mac)
+        let options = [
+            ("point_tolerance", self.point_tolerance),
+            ("cluster_gap", self.cluster_gap),
+            ("least_mac", self.least_mac),
+        ];
+        let check = |(name, found)| check_value(name, "0 to 1", found, (0.0..=1.0).contains(&found));
+        options.into_iter().try_for_each(check)
     }
 }
 
@@ -140,14 +143,6 @@ impl<'s> Side<'s> {
             set.shapes[(3 * points.pairs[row / 3][side] + row % 3, mode)]
         });
         Self { frequencies_hz: &set.frequencies_hz, shapes }
-    }
-
-    fn modes(&self) -> usize {
-        self.shapes.ncols()
-    }
-
-    fn column(&self, mode: usize) -> &[f64] {
-        self.shapes.col_as_slice(mode)
     }
 
     fn mean(&self, modes: &[usize]) -> f64 {

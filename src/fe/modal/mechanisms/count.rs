@@ -218,8 +218,8 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
     let mut parts = vec![BTreeSet::new(); map.extents.len()];
     let mut groups = vec![BTreeSet::new(); map.extents.len()];
     for (number, (element, &body)) in model.elements.iter().zip(&map.of_element).enumerate() {
-        parts[body as usize].insert(element.part);
-        groups[body as usize].extend(membership.of(number).iter().copied());
+        parts[body].insert(element.part);
+        groups[body].extend(membership.of(number));
     }
     let names = |list: &[String], chosen: &BTreeSet<usize>| -> Vec<String> {
         chosen.iter().filter_map(|&place| list.get(place).cloned()).collect()

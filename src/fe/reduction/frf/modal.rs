@@ -285,14 +285,10 @@ fn massless_statics(
 }
 
 fn largest_coupling(modal: &DenseMatrix) -> f64 {
-    let mut largest = 0.0_f64;
-    for column in 0..modal.ncols() {
-        for row in 0..column {
-            let size = (modal[(row, row)] * modal[(column, column)]).abs().sqrt();
-            if size > 0.0 {
-                largest = largest.max(modal[(row, column)].abs() / size);
-            }
-        }
-    }
-    largest
+    let pairs = (0..modal.ncols()).flat_map(|column| (0..column).map(move |row| (row, column)));
+    let couplings = pairs.map(|(row, column)| {
+        let size = (modal[(row, row)] * modal[(column, column)]).abs().sqrt();
+        if size > 0.0 { modal[(row, column)].abs() / size } else { 0.0 }
+    });
+    couplings.fold(0.0, f64::max)
 }
