@@ -148,18 +148,10 @@ fn linearised(
     let (count, balls) = (modes.count(), setup.balls());
     let order = count + 2 + balls;
     let printed = setup.formulation == Formulation::Printed;
-    let mut k = DenseMatrix::zeros(order, order);
-    for mode in 0..count {
-        k[(mode, mode)] = modes.squared_frequencies[mode];
-    }
     // mean ring displacement by mode; zero unless the formulation uses it
     let mean = |mode: usize| if printed { structure.ring_mean(&modes.shapes, mode) } else { [0.0; 2] };
     let centre: Vec<[f64; 2]> = (0..count).map(mean).collect();
-    let races = RestingRaces::new(setup, equilibrium.shaft_angle);
-    let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
-    let contacts = contact_rows(structure, setup, &angles);
-    add_outer(&mut k, &races, structure, modes, equilibrium, &contacts);
-    add_inner(&mut k, &races, setup, equilibrium, &centre);
+    let k = stiffness(structure, modes, setup, equilibrium, &centre);
     let mut masses = vec![1.0; count];
     masses.extend([setup.shaft.mass; 2]);
     masses.extend(vec![setup.geometry.ball_mass(); balls]);
@@ -169,8 +161,8 @@ fn linearised(
         let accelerations = DenseMatrix::from_fn(2, order, |component, column| {
             (0..count).map(|mode| centre[mode][component] * matrix[(mode, column)]).sum()
         });
-        for (j, angle) in angles.iter().enumerate() {
-            let (sin, cos) = angle.sin_cos();
+        for (j, ball) in equilibrium.balls.iter().enumerate() {
+            let (sin, cos) = ball.angle.sin_cos();
             for column in 0..order {
                 matrix[(count + 2 + j, column)] -= cos * accelerations[(0, column)] + sin * accelerations[(1, column)];
             }
@@ -190,70 +182,62 @@ fn real_part(spectrum: &GeneralSpectrum, pair: usize) -> Vec<f64> {
     vector.iter().map(|entry| (entry * phase).re).collect()
 }
 
-/// Outer contacts: the relative motion is s - w (radial) and -u (tangential).
-fn add_outer(
-    k: &mut DenseMatrix,
-    races: &RestingRaces,
+/// Stiffness over (modes, shaft, balls), N/m. Outer contacts: the relative motion is s - w (radial) and -u (tangential). Inner
+/// contacts with the geometric term -F/chi; in `printed` the inner race's position is relative to the ring's mean, by mode `centre`,
+/// and the ring does not feel the force.
+fn stiffness(
     structure: &Structure,
     modes: &StructureModes,
+    setup: &BearingSetup,
     equilibrium: &Equilibrium,
-    contacts: &DenseMatrix,
-) {
-    let rows = modes.shapes.transpose() * contacts;
+    centre: &[[f64; 2]],
+) -> DenseMatrix {
+    let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
+    let contacts = contact_rows(structure, setup, &angles);
+    let rows = modes.shapes.transpose() * &contacts;
     let load = DenseMatrix::from_fn(structure.dof(), 1, |row, _| equilibrium.structure_load[row]);
     // displacement of the race under every ball, m
     let moved = structure
         .static_response(&load)
         .map_or_else(|_| DenseMatrix::zeros(contacts.ncols(), 1), |response| contacts.transpose() * response);
-    let modes = modes.count();
+    let races = RestingRaces::new(setup, equilibrium.shaft_angle);
+    let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
+    let spin = equilibrium.cage_speed.powi(2);
+    let modes = &modes.squared_frequencies;
+    let (count, order) = (modes.len(), modes.len() + 2 + angles.len());
+    let mut k = DenseMatrix::zeros(order, order);
+    for (mode, square) in modes.iter().enumerate() {
+        k[(mode, mode)] = *square;
+    }
     for (j, ball) in equilibrium.balls.iter().enumerate() {
+        let own = count + 2 + j;
         let shift = moved[(2 * j + 1, 0)] / (races.inner_race.touching_radius + ball.displacement);
         let s = ball.displacement - moved[(2 * j, 0)];
-        let force = races.outer_force(j, ball.angle, shift, s);
-        let [rr, rt, tt] = force.tangent;
-        let place = modes + 2 + j;
+        let [rr, rt, tt] = races.outer_force(j, ball.angle, shift, s).tangent;
         let (w, u) = (rows.col(2 * j), rows.col(2 * j + 1));
-        for a in 0..modes {
-            for b in 0..modes {
+        for a in 0..count {
+            for b in 0..count {
                 k[(a, b)] += rr * w[a] * w[b] + rt * (w[a] * u[b] + u[a] * w[b]) + tt * u[a] * u[b];
             }
             let cross = rr * w[a] + rt * u[a];
-            k[(a, place)] -= cross;
-            k[(place, a)] -= cross;
+            k[(a, own)] -= cross;
+            k[(own, a)] -= cross;
         }
-        k[(place, place)] += rr;
-    }
-}
-
-/// Inner contacts with the geometric term -F/chi; in `printed` the inner race's position is
-/// relative to the ring's mean and the ring does not feel the force.
-fn add_inner(
-    k: &mut DenseMatrix,
-    races: &RestingRaces,
-    setup: &BearingSetup,
-    equilibrium: &Equilibrium,
-    centre: &[[f64; 2]],
-) {
-    let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
-    let spin = equilibrium.cage_speed.powi(2);
-    let modes = centre.len();
-    for (j, ball) in equilibrium.balls.iter().enumerate() {
-        k[(modes + 2 + j, modes + 2 + j)] -= setup.geometry.ball_mass() * spin;
+        k[(own, own)] += rr;
+        k[(own, own)] -= setup.geometry.ball_mass() * spin;
         let contact = races.inner_contact(j, ball.angle, ball.displacement, relative);
         if contact.magnitude <= 0.0 {
             continue;
         }
-        let place = [modes, modes + 1, modes + 2 + j];
-        for a in 0..3 {
-            for b in 0..3 {
-                let value = contact.curvature[a][b];
-                k[(place[a], place[b])] += value;
-                if b < 2 {
-                    for mode in 0..modes {
-                        k[(place[a], mode)] -= value * centre[mode][b];
-                    }
-                }
+        for (row, values) in [count, count + 1, own].into_iter().zip(contact.curvature) {
+            for (column, value) in [count, count + 1, own].into_iter().zip(values) {
+                k[(row, column)] += value;
+            }
+            for mode in 0..count {
+                k[(row, mode)] -= values[0] * centre[mode][0];
+                k[(row, mode)] -= values[1] * centre[mode][1];
             }
         }
     }
+    k
 }

@@ -110,10 +110,9 @@ impl CondensedHousing {
     ///
     /// # Errors
     /// [`ComputeError::Reduction`].
-    pub(crate) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, ComputeError> {
-        let weight = self.matrices().weight.clone();
-        self.condensed = self.condensed.with_loads(loads, &weight)?;
-        Ok(self.with_structural())
+    pub(crate) fn with_loads(self, loads: &DenseMatrix) -> Result<Self, ComputeError> {
+        let forces = self.condensed.interior_of(loads);
+        self.with_forces(forces)
     }
 
     /// The same with the static response to forces on the interior [interior x k] in the basis.

@@ -97,17 +97,14 @@ impl MassProperties {
     /// # Errors
     /// As [`Self::from_rigid_inertia`].
     pub fn of_housing(matrices: &SystemMatrices, model: &HousingModel) -> Result<Self, ModalError> {
-        let mut about = middle(model);
         let inertia = |about| {
             let r = rigid_motions(&model.coordinates, model.dimension, about);
             r.transpose() * sparse_times_dense(&matrices.mass, &r)
         };
-        let first = Self::from_rigid_inertia(&inertia(about), about)?;
+        let middle = middle(model);
+        let first = Self::from_rigid_inertia(&inertia(middle), middle)?.centroid();
         // a second time about the centroid itself, where nothing is left to subtract
-        let centroid = first.centroid();
-        for (to, from) in about.iter_mut().zip(centroid) {
-            *to = from.unwrap_or(*to);
-        }
+        let about = [0, 1, 2].map(|axis| first[axis].unwrap_or(middle[axis]));
         Self::from_rigid_inertia(&inertia(about), about)
     }
 

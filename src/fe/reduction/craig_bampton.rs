@@ -72,7 +72,7 @@ impl CraigBampton {
     /// the mesh stays the weight of the mesh, whatever the basis keeps.
     pub(crate) fn project(&self, load: &DenseMatrix) -> DenseMatrix {
         let partition = &self.substructure.partition;
-        let (interior, driven) = (rows_of(load, &partition.interior), rows_of(load, &partition.driven));
+        let (interior, driven) = (self.interior_of(load), rows_of(load, &partition.driven));
         let interface =
             transpose_times_dense(&partition.tie, &driven) + self.substructure.constraint_modes.transpose() * &interior;
         faer::concat![[interface], [self.basis.vectors.transpose() * &interior]]
@@ -91,18 +91,13 @@ impl CraigBampton {
         condensed
     }
 
-    /// The same housing with further vectors in its basis: the static response of the interior to loads
-    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too. Structural damping is to be added
-    /// again.
-    ///
-    /// # Errors
-    /// As [`InteriorBasis::extended`].
-    pub(crate) fn with_loads(self, loads: &DenseMatrix, weight: &DenseMatrix) -> Result<Self, ReductionError> {
-        let forces = rows_of(loads, &self.substructure.partition.interior);
-        self.with_forces(forces, weight)
+    /// Rows of the interior [interior x k] of loads or motions over the housing's degrees of freedom [dof x k].
+    pub(crate) fn interior_of(&self, all: &DenseMatrix) -> DenseMatrix {
+        rows_of(all, &self.substructure.partition.interior)
     }
 
-    /// The same for forces on the interior [interior x k].
+    /// The same housing with further vectors in its basis: the static response to forces on the interior [interior x k], so that it
+    /// is exact for them too. Structural damping is to be added again.
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].

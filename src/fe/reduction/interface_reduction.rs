@@ -110,13 +110,9 @@ impl InterfaceReduction {
         let (mut k, mut m) = (self.superelement.stiffness.clone(), self.superelement.mass.clone());
         if let Some(part) = attached {
             let modes = self.modes();
-            let own = [congruent(part.stiffness, &modes), congruent(part.mass, &modes)];
-            for (whole, own) in [&mut k, &mut m].into_iter().zip(own) {
-                for column in 0..own.ncols() {
-                    for row in 0..own.nrows() {
-                        whole[(row, column)] += own[(row, column)];
-                    }
-                }
+            for (whole, part) in [(&mut k, part.stiffness), (&mut m, part.mass)] {
+                let mut interface = whole.submatrix_mut(0, 0, self.kept(), self.kept());
+                interface += congruent(part, &modes);
             }
         }
         Ok(symmetric_generalised_eigen(&k, &m)?.values)

@@ -10,9 +10,8 @@
 //! Moving with coordinates p, the interior needs the forces `w^2 B p - i S p`: its inertia, `B = [A, M_ii Q]`, and the losses
 //! of its material, S those of the structural stiffness.
 
-use super::substructure::rows_of;
-use super::{CraigBampton, InteriorBasis, ReductionError, Substructure};
-use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
+use super::{InteriorBasis, ReductionError, Substructure};
+use crate::numerics::linalg::DenseMatrix;
 use faer::c64;
 
 /// Share of the first eigenvalue left out up to which the rest of the series is summed: nearer to it, or above, that sum
@@ -72,14 +71,5 @@ impl ResidualFlexibility {
             sum += pulled * load;
         }
         sum
-    }
-}
-
-impl CraigBampton {
-    /// `S p` for motions in columns [order x k]: what a matrix over the housing's degrees of freedom takes of the interior
-    /// [interior x k].
-    pub(crate) fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
-        let whole = sparse_times_dense(matrix, &self.field(motions, matrix.rows()));
-        rows_of(&whole, &self.substructure.partition.interior)
     }
 }

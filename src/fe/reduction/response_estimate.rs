@@ -11,7 +11,7 @@ use super::frf::{
 };
 use super::residual_flexibility::ResidualFlexibility;
 use super::{CraigBampton, ReductionError};
-use crate::numerics::linalg::{ComplexMatrix, DenseMatrix, SparseMatrix};
+use crate::numerics::linalg::{ComplexMatrix, DenseMatrix, SparseMatrix, sparse_times_dense};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -76,7 +76,10 @@ impl ResponseEstimate {
     ) -> Result<Self, ReductionError> {
         let ends = Ends::new(system, modes, paths, frequencies_hz)?;
         let inertia = interior_inertia(&condensed.substructure, &condensed.basis, &ends.motions);
-        let losses = damping.structural.map(|matrix| condensed.force_of(matrix, &ends.motions));
+        let loss = |matrix: &SparseMatrix| {
+            condensed.interior_of(&sparse_times_dense(matrix, &condensed.field(&ends.motions, matrix.rows())))
+        };
+        let losses = damping.structural.map(loss);
         let forces = beside(&inertia, losses.as_ref());
         let (substructure, basis) = (&condensed.substructure, &condensed.basis);
         let flexibility = ResidualFlexibility::new(substructure, basis, forces.clone())?;

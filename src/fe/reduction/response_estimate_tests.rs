@@ -36,7 +36,8 @@ fn with_statics(condensed: CraigBampton) -> CraigBampton {
     let at = [FORCE, SENSORS[0]];
     let loads = DenseMatrix::from_fn(NODES, 2, |row, end| f64::from(u8::from(row == at[end])));
     let weight = rod(NODES).weight;
-    condensed.with_loads(&loads, &weight).expect("finite")
+    let forces = condensed.interior_of(&loads);
+    condensed.with_forces(forces, &weight).expect("finite")
 }
 
 fn reduced(condensed: &CraigBampton) -> (ReducedSystem, FrfPaths) {

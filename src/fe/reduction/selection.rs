@@ -24,10 +24,10 @@ pub fn choose_basis(
             let basis = InteriorBasis::of_modes(substructure, &pairs, fixed_interface);
             filled(substructure, basis, count, |basis, _| coupled_modes(substructure, basis, attached))
         }
-        BasisSize::UpTo(hz) => up_to(substructure, choice, hz, usize::MAX, attached),
+        BasisSize::UpTo(hz) => up_to(substructure, choice, (hz, usize::MAX), attached),
         BasisSize::AtMost(hz, numbers) => {
             let most = (numbers / substructure.interior_dof().max(1)).max(1);
-            up_to(substructure, choice, hz, most, attached)
+            up_to(substructure, choice, (hz, most), attached)
         }
         BasisSize::Auto(target) => smallest_basis(substructure, choice, target, attached),
     }
@@ -37,8 +37,7 @@ pub fn choose_basis(
 fn up_to(
     substructure: &Substructure,
     choice: BasisChoice,
-    hz: f64,
-    most: usize,
+    (hz, most): (f64, usize),
     attached: Option<Attached<'_>>,
 ) -> Result<InteriorBasis, ReductionError> {
     let band = (TAU * choice.band_hz).powi(2);

@@ -167,10 +167,8 @@ impl<'a> Problem<'a> {
     fn tangent(&self, forces: &[RaceForce]) -> DMatrix<f64> {
         let mut tangent = DMatrix::zeros(2 * forces.len(), 2 * forces.len());
         for (j, force) in forces.iter().enumerate() {
-            tangent[(2 * j, 2 * j)] = force.tangent[0];
-            tangent[(2 * j, 2 * j + 1)] = force.tangent[1];
-            tangent[(2 * j + 1, 2 * j)] = force.tangent[1];
-            tangent[(2 * j + 1, 2 * j + 1)] = force.tangent[2];
+            let [rr, rt, tt] = force.tangent;
+            tangent.view_mut((2 * j, 2 * j), (2, 2)).copy_from_slice(&[rr, rt, rt, tt]);
         }
         tangent
     }

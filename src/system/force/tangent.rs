@@ -27,7 +27,7 @@ use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceForce};
 use super::super::resting::in_the_plane;
 use crate::bearing::RotationState;
-use crate::numerics::lanes::LANES;
+use crate::numerics::lanes::{self, LANES, Lanes};
 use crate::numerics::ode::{Tangent, TangentTerm};
 use std::f64::consts::TAU;
 
@@ -96,9 +96,7 @@ impl CoupledSystem {
             let by = [[rt + across * sliding, tt], [mixed, across]];
             self.by_motion_on_outer(j, by, &mut term);
             self.find_row_across(j);
-            for i in 0..modes {
-                term.left[i] = self.scratch(i);
-            }
+            lanes::get(&self.work.scratch_row, &mut term.left[..modes]);
             self.follow_centre(&mut term);
         }
         let mut term = tangent.add();
@@ -129,29 +127,20 @@ impl CoupledSystem {
         term.velocity[ball] = rate;
         let scale = self.work.cage_speed / TAU;
         if rate != 0.0 {
-            let at = self.radial.locate(&self.balls.groups[j / LANES].turn);
-            let place = at.get(j % LANES);
+            let place = self.radial.locate(&self.balls.groups[j / LANES].turn).get(j % LANES);
             self.radial.slopes_into(place, scale, &mut self.work.scratch_row);
-            for i in 0..modes {
-                term.position[i] -= rate * self.scratch(i);
-            }
+            take(&mut term.position[..modes], rate, &self.work.scratch_row);
         }
         if along != 0.0 {
             self.find_row_across(j);
-            for i in 0..modes {
-                term.position[i] -= along * self.scratch(i);
-            }
+            take(&mut term.position[..modes], along, &self.work.scratch_row);
         }
         if rate_along != 0.0 && self.setup.formulation == Formulation::Consistent {
             self.find_row_across(j);
-            for i in 0..modes {
-                term.velocity[i] -= rate_along * self.scratch(i);
-            }
+            take(&mut term.velocity[..modes], rate_along, &self.work.scratch_row);
             let place = self.tangential_place(j);
             self.tangential.slopes_into(place, scale, &mut self.work.scratch_row);
-            for i in 0..modes {
-                term.position[i] -= rate_along * self.scratch(i);
-            }
+            take(&mut term.position[..modes], rate_along, &self.work.scratch_row);
         }
     }
 
@@ -283,9 +272,12 @@ impl CoupledSystem {
     fn radial_row(&self, j: usize, i: usize) -> f64 {
         self.balls.groups[j / LANES].rows[i / LANES][j % LANES][i % LANES]
     }
+}
 
-    fn scratch(&self, i: usize) -> f64 {
-        self.work.scratch_row[i / LANES][i % LANES]
+/// Takes `factor` times a row from as many entries as there are.
+fn take(from: &mut [f64], factor: f64, row: &[Lanes]) {
+    for (entry, value) in from.iter_mut().zip(row.as_flattened()) {
+        *entry -= factor * value;
     }
 }
 

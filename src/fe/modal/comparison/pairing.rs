@@ -78,7 +78,10 @@ impl ModalComparison {
         let mac = DenseMatrix::from_fn(here.shapes.ncols(), there.shapes.ncols(), |a, b| {
             mac(here.shapes.col_as_slice(a), there.shapes.col_as_slice(b))
         });
-        let [own, other] = common_clusters(&here, &there, options);
+        // what is one cluster on one side and several on the other is joined there
+        let [own, other] = [&here, &there].map(|side| clusters(side.frequencies_hz, options.cluster_gap));
+        let other = join_like(&there, other, &here, &own, options.least_mac);
+        let own = join_like(&here, own, &there, &other, options.least_mac);
         let [own_bases, other_bases] = [(&here, &own), (&there, &other)].map(|(side, clusters)| {
             let of = |cluster: &Vec<usize>| basis(&side.shapes, cluster);
             clusters.iter().map(of).collect::<Vec<_>>()
@@ -149,14 +152,6 @@ impl<'s> Side<'s> {
         let sum: f64 = modes.iter().map(|&mode| self.frequencies_hz[mode]).sum();
         sum / modes.len().max(1) as f64
     }
-}
-
-/// Clusters of both sides; what is one cluster on one side and several on the other is joined there.
-fn common_clusters(here: &Side, there: &Side, options: ComparisonOptions) -> [Vec<Vec<usize>>; 2] {
-    let [own, other] = [here, there].map(|side| clusters(side.frequencies_hz, options.cluster_gap));
-    let other = join_like(there, other, here, &own, options.least_mac);
-    let own = join_like(here, own, there, &other, options.least_mac);
-    [own, other]
 }
 
 /// Joins clusters of `side` that lie in one cluster of the other: by at least `least` in every direction.

@@ -1,6 +1,6 @@
 //! Rigid-body motions of a superelement, and its mass properties, against those of the mesh.
 
-use super::super::substructure::{rows_of, symmetric};
+use super::super::substructure::symmetric;
 use super::matrices::{largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;
@@ -139,11 +139,10 @@ impl RigidMotions {
     /// M_ii r` (Bessel), of every unit motion.
     fn effective_mass(&self, condensed: &CraigBampton) -> Option<Check> {
         let substructure = &condensed.substructure;
-        let interior = &substructure.partition.interior;
         if condensed.basis.count() == 0 {
             return None;
         }
-        let motions = rows_of(&self.housing, interior);
+        let motions = condensed.interior_of(&self.housing);
         let moved = substructure.mass_times(&motions);
         let factors = condensed.basis.vectors.transpose() * &moved;
         let shares: Vec<f64> = (0..motions.ncols())
