@@ -1,14 +1,11 @@
 //! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
 
 use super::balls::Balls;
-use super::bearing_setup::{BallsInertia, BearingSetup, Formulation};
-use super::equilibrium::Equilibrium;
-use super::error::SystemError;
 use super::inner::InnerRace;
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
 use super::residual::{Coupling, ResidualFlexibility};
-use super::structure::{Structure, StructureModes};
+use super::{BallsInertia, BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::bearing::{Race, RotationCursor};
 use crate::numerics::lanes::{self, Lanes};
 use crate::numerics::ode::{LinearCoordinate, State};
@@ -199,7 +196,7 @@ impl CoupledSystem {
             balls: Balls {
                 mode_bounds: radial.bounds(),
                 weight_bound: residual.as_ref().map_or(0.0, |coupling| coupling.residual.weight_bound()),
-                ..Balls::new(&setup, radial.groups())
+                ..Balls::new(&setup, radial.groups)
             },
             radial,
             tangential: RacewayTable::new(ring, modes, count, |rows| rows.tangential_at(arm)),

@@ -1,10 +1,8 @@
 //! Eigenfrequencies with the contacts' stiffness at a static equilibrium.
 
-use super::bearing_setup::{BearingSetup, Formulation};
-use super::equilibrium::{Equilibrium, contact_rows};
-use super::error::SystemError;
+use super::equilibrium::contact_rows;
 use super::resting::RestingRaces;
-use super::structure::{Structure, StructureModes};
+use super::{BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::numerics::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
 use faer::c64;
 use schemars::JsonSchema;

@@ -99,7 +99,8 @@ impl RestingRaces {
         };
         let mut force = at(0.0, 0.0);
         if damage != Damage::None && force.magnitude > 0.0 {
-            let step = DIFFERENCE * race.usual_penetration(force.magnitude);
+            // of the penetration of the undamaged race under this force
+            let step = DIFFERENCE * (force.magnitude / race.plain.stiffness).cbrt().powi(2);
             // the profile turns the normals, which the contacts' own derivatives leave out
             let radius = race.radius(penetration);
             let outward = race.sign;

@@ -1,8 +1,7 @@
 //! Where a mode's strain and kinetic energy sit: by part, by physical group, in the ring, by spring and by point mass.
 
-use super::ModalError;
 use super::element_work::sum_over_elements;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use super::membership::Membership;
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{HousingModel, NodalMatrix, NodalSource, Ring};

@@ -1,7 +1,7 @@
 //! Mass, centroid and moments of inertia of a model, from its mass matrix.
 
-use super::error::check_count;
-use super::{ModalError, rigid_motions};
+use super::error::{ModalError, check_count};
+use super::rigid_motions;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingModel;
 use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};

@@ -1,7 +1,6 @@
 //! Which physical groups the elements of a housing are in.
 
-use super::ModalError;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::HousingModel;
 

@@ -1,7 +1,6 @@
 //! Rigid motions of a set of nodes, and modes over all degrees of freedom.
 
-use super::ModalError;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use crate::fe::model::{HousingModel, Ring, RingFrame};
 use crate::numerics::linalg::{DenseMatrix, scattered_rows, sparse_times_dense};
 

@@ -1,8 +1,7 @@
 //! Strain energy of shapes, and between shapes, without the round-off of an assembled matrix.
 
-use super::ModalError;
 use super::element_work::sum_over_elements;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use super::spring_rows::spring_rows;
 use crate::fe::model::HousingModel;
 use crate::numerics::linalg::DenseMatrix;

@@ -66,7 +66,7 @@ pub(super) fn interior_inertia(
     let interface = substructure.interface_dof();
     let amplitudes = coordinates.subrows(interface, basis.count());
     substructure.follow(&coordinates.subrows(0, interface).to_owned())
-        + substructure.mass_times(&(&basis.vectors * amplitudes))
+        + substructure.interior.mass_times(&(&basis.vectors * amplitudes))
 }
 
 /// What the interior's equations lack, for modes `chosen` of `modes` [interior x chosen]:
@@ -87,7 +87,7 @@ pub(super) fn interior_residuals(
         DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| modes.vectors[(row, chosen[column])]);
     let mut residual = interior_inertia(substructure, basis, &coordinates);
     let amplitudes = coordinates.subrows(substructure.interface_dof(), basis.count());
-    let stiff = substructure.stiffness_times(&(&basis.vectors * amplitudes));
+    let stiff = substructure.interior.stiffness_times(&(&basis.vectors * amplitudes));
     for (column, &mode) in chosen.iter().enumerate() {
         let lambda = modes.values[mode];
         let stiff = stiff.col_as_slice(column);

@@ -8,8 +8,7 @@
 //! carried, frequencies converge from above, k_qc stays zero; with all modes kept nothing changes. What is given up:
 //! static response of the interface is no longer exact, and a load on few of its coordinates meets too stiff an interface.
 
-use super::coupled_modes::Attached;
-use super::{CharacteristicModes, CraigBampton, InterfaceSize, ReductionError, Superelement};
+use super::{Attached, CharacteristicModes, CraigBampton, InterfaceSize, ReductionError, Superelement};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 
 /// A superelement on characteristic constraint modes, with the way back to the interface.
@@ -17,7 +16,7 @@ use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eige
 pub struct InterfaceReduction {
     /// The reduced matrices; their interface coordinates are amplitudes of the modes.
     pub superelement: Superelement,
-    /// diag(R, 1) [order x reduced order].
+    /// diag(R, 1) [order x reduced order]: coordinates with the whole interface from the reduced ones.
     pub(super) transform: DenseMatrix,
     /// `(m_bb + m_a) R` [interface x kept], kg^(1/2).
     inertia: DenseMatrix,
@@ -82,12 +81,6 @@ impl InterfaceReduction {
         let interface = self.inertia.nrows();
         let modes = self.transform.subrows(0, interface);
         modes.subcols(0, self.kept()).to_owned()
-    }
-
-    /// Coordinates [order x k] of the superelement with the whole interface for those of the reduced one
-    /// [reduced order x k].
-    pub(crate) fn expanded(&self, coordinates: &DenseMatrix) -> DenseMatrix {
-        &self.transform * coordinates
     }
 
     /// Rows over the coordinates [order x k], as columns, over the reduced ones [reduced order x k].

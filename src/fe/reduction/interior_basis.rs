@@ -89,20 +89,20 @@ impl InteriorBasis {
 
     /// Of vectors `z` [interior x k] what is orthogonal to the basis, orthonormal.
     fn independent(&self, substructure: &Substructure, mut z: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-        let before = lengths(&substructure.mass_times(&z), &z);
-        let inside = self.vectors.transpose() * substructure.mass_times(&z);
+        let before = lengths(&substructure.interior.mass_times(&z), &z);
+        let inside = self.vectors.transpose() * substructure.interior.mass_times(&z);
         z -= &self.vectors * inside;
-        let after = lengths(&substructure.mass_times(&z), &z);
+        let after = lengths(&substructure.interior.mass_times(&z), &z);
         let new: Vec<usize> = (0..z.ncols()).filter(|&column| after[column] > CONTAINED * before[column]).collect();
         let z = DenseMatrix::from_fn(z.nrows(), new.len(), |row, column| z[(row, new[column])] / after[new[column]]);
-        let normal = normalised(&(z.transpose() * substructure.mass_times(&z)), DEPENDENT)?;
+        let normal = normalised(&(z.transpose() * substructure.interior.mass_times(&z)), DEPENDENT)?;
         Ok(z * normal)
     }
 
     /// The basis with orthonormal vectors that are orthogonal to it, turned to its Ritz vectors.
     fn joined(&self, substructure: &Substructure, z: &DenseMatrix) -> Result<Self, ReductionError> {
         let q = self.count();
-        let stiff = substructure.stiffness_times(z);
+        let stiff = substructure.interior.stiffness_times(z);
         let coupling = self.vectors.transpose() * &stiff;
         let own = z.transpose() * &stiff;
         let stiffness = faer::concat![[diagonal(&self.values), coupling], [coupling.transpose(), symmetric(&own)]];

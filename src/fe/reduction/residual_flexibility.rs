@@ -46,8 +46,8 @@ impl ResidualFlexibility {
         // W
         let moved = substructure.solve_interior(forces)? - &basis.vectors * carried;
         Ok(Self {
-            flexibility: moved.transpose() * substructure.stiffness_times(&moved),
-            inertia: moved.transpose() * substructure.mass_times(&moved),
+            flexibility: moved.transpose() * substructure.interior.stiffness_times(&moved),
+            inertia: moved.transpose() * substructure.interior.mass_times(&moved),
             complete_below: basis.complete_below,
         })
     }

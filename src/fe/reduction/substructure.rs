@@ -34,7 +34,8 @@ pub struct Substructure {
     /// How the degrees of freedom were split.
     pub(crate) partition: HousingPartition,
     factor: SparseCholesky,
-    interior: EigenProblem,
+    /// K_ii and M_ii.
+    pub(super) interior: EigenProblem,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
     /// Constraint modes Psi [interior x interface].
@@ -105,7 +106,7 @@ impl Substructure {
             self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
             let k = transpose_times_dense(stiffness_ib, &modes);
             add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
-            let mut follow = self.mass_times(&modes);
+            let mut follow = self.interior.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
             // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
             let known = self.constraint_modes.subcols(0, first + width);
@@ -143,25 +144,15 @@ impl Substructure {
         Ok(r)
     }
 
-    /// `K_ii X` for `X` [interior x k].
-    pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.interior.stiffness_times(x)
-    }
-
-    /// `M_ii X` for `X` [interior x k].
-    pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.interior.mass_times(x)
-    }
-
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
     pub(crate) fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
         let interior = &self.constraint_modes * u;
-        self.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
+        self.interior.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
     }
 
     /// `A^T X` for `X` [interior x k].
     pub(crate) fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.constraint_modes.transpose() * self.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
+        self.constraint_modes.transpose() * self.interior.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
     }
 
     /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.

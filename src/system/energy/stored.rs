@@ -1,8 +1,7 @@
 //! What a state stores.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::ode::Instant;
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 impl CoupledSystem {
     /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.

@@ -4,8 +4,7 @@ use super::StaticCondition;
 use super::problem::Problem;
 use super::search::{Found, HELD};
 use crate::numerics::linalg::DenseMatrix;
-use crate::system::bearing_setup::{BearingSetup, Formulation};
-use crate::system::{Structure, SystemError};
+use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
 /// Displacement of the start to one side of the load, m: it decides between mirror images.

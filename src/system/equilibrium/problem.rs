@@ -2,10 +2,9 @@
 
 use super::condition::StaticCondition;
 use crate::numerics::linalg::DenseMatrix;
-use crate::system::bearing_setup::{BearingSetup, Formulation};
 use crate::system::race::RaceForce;
 use crate::system::resting::RestingRaces;
-use crate::system::{Structure, SystemError};
+use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
 /// One evaluation of the reduced potential.

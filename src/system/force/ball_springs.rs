@@ -1,8 +1,7 @@
 //! The spring that a ball meets between its contacts.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::lanes::{self, LANES, together};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 use multiversion::multiversion;
 
 /// What [`own_springs_into`] says. Of a ball: the stiffness of both contacts over its mass, `3/2 F / delta` of each, the outer one

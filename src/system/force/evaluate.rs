@@ -1,12 +1,11 @@
 //! The force on modes, shaft and balls at a state.
 
-use super::super::bearing_setup::BallsInertia;
-use super::super::coupled::CoupledSystem;
 use super::ball_springs::find_own_springs;
 use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES};
 use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
+use crate::system::{BallsInertia, CoupledSystem};
 use multiversion::multiversion;
 
 impl SecondOrderSystem for CoupledSystem {

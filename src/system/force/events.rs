@@ -8,10 +8,9 @@
 //! passes through zero there has an event where nothing happens. Balls without inertia have none: their forces follow from
 //! each other, and what begins and ends there is found with them.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::lanes::LANES;
 use crate::numerics::lanes::scalar_product;
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 impl CoupledSystem {
     /// Sets the overlaps at a state, m.

@@ -1,12 +1,11 @@
 //! Where everything is that a force depends on: coordinates side by side, the ring's centre, the balls and what they may feel.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
 use super::super::turning::directions;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, scalar_product};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 /// Motion of the ring's mean centre, from which `printed` measures; at rest in `consistent`.
 #[derive(Debug, Clone, Copy, Default)]

@@ -22,13 +22,12 @@
 //! it the parts by u / rho and by the radial velocity over chi; of the static residual what one ball's force moves under the
 //! others; without the balls' inertia all but both contacts in series along one normal.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceForce};
 use super::super::resting::in_the_plane;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes};
 use crate::numerics::ode::{Tangent, TangentTerm};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 use std::f64::consts::TAU;
 
 /// Contact of a ball with the outer race.

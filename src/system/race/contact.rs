@@ -159,11 +159,6 @@ impl RaceContact {
         self.touching_radius + self.sign * penetration
     }
 
-    /// Penetration (m) of the undamaged race under a force (N).
-    pub(crate) fn usual_penetration(&self, force: f64) -> f64 {
-        (force / self.plain.stiffness).cbrt().powi(2)
-    }
-
     /// Number of the defect that a ball in direction `e` (unit vector in the race's frame) may feel.
     #[inline]
     pub(crate) fn defect_at(&self, e: [f64; 2]) -> Option<usize> {

@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 pub(in crate::system) struct RacewayTable {
     /// Pieces all round, as a number that places are multiplied with.
     pieces: f64,
-    /// Groups of modes: the length of a row.
-    groups: usize,
+    /// Groups of modes: the length of a row, at least one.
+    pub groups: usize,
     /// [piece][group of modes]
     quintics: Vec<Quintic>,
 }
@@ -49,16 +49,17 @@ impl RacewayTable {
         Self { pieces: (elements * cuts) as f64, groups: modes.div_ceil(LANES), quintics: polynomials.cut(cuts) }
     }
 
-    /// Groups of modes: the length of a row, at least one.
-    #[inline(always)]
-    pub(crate) fn groups(&self) -> usize {
-        self.groups
-    }
-
     /// Where places in turns, 0 <= turn < 1, lie.
     #[inline(always)]
     pub(crate) fn locate(&self, turns: &Lanes) -> Places {
-        Places::among(self.pieces, turns)
+        let (place, last) = (each(|l| turns[l] * self.pieces), self.pieces - 1.0);
+        let whole = each(|l| nearest_whole(place[l] - 0.5));
+        // also what is not a number gets a piece, and shows itself in the value
+        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
+        Places {
+            pieces: together(each(|l| piece[l] + WHOLE)),
+            xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)),
+        }
     }
 
     /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
@@ -136,16 +137,6 @@ pub(in crate::system) struct Places {
 }
 
 impl Places {
-    /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
-    #[inline(always)]
-    pub(crate) fn among(pieces: f64, turns: &Lanes) -> Self {
-        let (place, last) = (each(|l| turns[l] * pieces), pieces - 1.0);
-        let whole = each(|l| nearest_whole(place[l] - 0.5));
-        // also what is not a number gets a piece, and shows itself in the value
-        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
-        Self { pieces: together(each(|l| piece[l] + WHOLE)), xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)) }
-    }
-
     #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Place {
         Place { piece: self.pieces[lane].to_bits() as u32 as usize, xi: self.xi[lane] }

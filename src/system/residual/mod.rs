@@ -9,9 +9,8 @@
 
 mod coupling;
 
-use super::SystemError;
 use super::raceway::RacewayTable;
-use super::structure::{Structure, StructureModes};
+use super::{Structure, StructureModes, SystemError};
 use crate::fe::model::Ring;
 use crate::numerics::lanes::{LANES, Lanes};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, TripletBuilder, sparse_times_dense};

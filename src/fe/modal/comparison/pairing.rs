@@ -1,7 +1,6 @@
 //! Pairs of modes, or of clusters of them, that belong together.
 
-use super::super::ModalError;
-use super::super::error::check_value;
+use super::super::error::{ModalError, check_value};
 use super::assignment::assignment;
 use super::points::{ModeSet, PointMatch, matched_points};
 use super::subspace::{basis, clusters, joined, mac, squared_cosines};

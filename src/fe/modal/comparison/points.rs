@@ -1,7 +1,6 @@
 //! Modes at points, and which points of two sets are one.
 
-use super::super::ModalError;
-use super::super::error::{check_count, check_finite, check_value};
+use super::super::error::{ModalError, check_count, check_finite, check_value};
 use crate::numerics::linalg::DenseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,7 +1,6 @@
 //! Richardson's extrapolation with the grid convergence index as uncertainty.
 
-use super::super::ModalError;
-use super::super::error::{check_count, check_finite, check_value};
+use super::super::error::{ModalError, check_count, check_finite, check_value};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -23,7 +23,7 @@ const TRIALS: usize = 3;
 pub(super) fn checks(condensed: &CraigBampton, matrices: &SystemMatrices, band_hz: f64) -> Vec<Check> {
     let substructure = &condensed.substructure;
     let (q, values) = (&condensed.basis.vectors, condensed.basis.values());
-    let (moved, stiff) = (substructure.mass_times(q), substructure.stiffness_times(q));
+    let (moved, stiff) = (substructure.interior.mass_times(q), substructure.interior.stiffness_times(q));
     let gram = q.transpose() * &moved;
     let energy = q.transpose() * &stiff;
     let pairs = || pairs(q.ncols());
@@ -85,7 +85,7 @@ fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
         return 0.0;
     }
     let k_ib = submatrix(&matrices.stiffness, &partition.interior, &partition.driven);
-    let stiff = substructure.stiffness_times(q);
+    let stiff = substructure.interior.stiffness_times(q);
     let product = stiff.transpose() * &substructure.constraint_modes
         + transpose_times_dense(&partition.tie, &transpose_times_dense(&k_ib, q)).transpose();
     let k_bb = &condensed.superelement.stiffness;

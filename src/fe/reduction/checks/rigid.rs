@@ -63,7 +63,7 @@ impl RigidMotions {
         let (coordinates, on_interface) = match reduction {
             Some(reduced) => {
                 let nearest = reduced.nearest(&interface);
-                let expanded = reduced.expanded(&nearest);
+                let expanded = &reduced.transform * &nearest;
                 (nearest, expanded)
             }
             None => (whole.clone(), whole),
@@ -143,7 +143,7 @@ impl RigidMotions {
             return None;
         }
         let motions = condensed.interior_of(&self.housing);
-        let moved = substructure.mass_times(&motions);
+        let moved = substructure.interior.mass_times(&motions);
         let factors = condensed.basis.vectors.transpose() * &moved;
         let shares: Vec<f64> = (0..motions.ncols())
             .map(|motion| {

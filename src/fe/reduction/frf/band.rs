@@ -1,7 +1,6 @@
 //! Means over a band, and variants ranked by them.
 
-use super::FrfError;
-use super::error::check_frequencies;
+use super::error::{FrfError, check_frequencies};
 use super::system::same;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,7 +1,6 @@
 //! Damping given mode by mode.
 
-use super::FrfError;
-use super::error::{check_coefficients, check_frequencies};
+use super::error::{FrfError, check_coefficients, check_frequencies};
 use super::system::same;
 use std::f64::consts::TAU;
 

@@ -1,8 +1,7 @@
 //! Frequencies at which a response is worth computing.
 
-use super::FrfError;
 use super::band::check_band;
-use super::error::{check_coefficients, wrong_frequency};
+use super::error::{FrfError, check_coefficients, wrong_frequency};
 
 /// A resonance to be resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
