@@ -139,9 +139,8 @@ impl CoupledSystem {
     /// sensors.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] for a free structure with `residual`;
-    /// [`SystemError::PrintedNeedsAllModes`]; [`SystemError::NoModesKept`]; [`SystemError::BallsNeedInertia`] for balls
-    /// without inertia in the `printed` equations or with contact damping.
+    /// [`SystemError::NoModesKept`]; [`SystemError::Refused`] for a free structure with `residual`, for `printed` equations without all
+    /// modes, and for balls without inertia in them or with contact damping.
     pub fn new(
         structure: &Structure,
         modes: &StructureModes,
@@ -156,11 +155,15 @@ impl CoupledSystem {
             return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) });
         }
         if setup.formulation == Formulation::Printed && !complete {
-            return Err(SystemError::PrintedNeedsAllModes);
+            return Err(SystemError::Refused(
+                "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\"",
+            ));
         }
         let dynamic = setup.balls_inertia == BallsInertia::Dynamic;
         if !dynamic && (setup.formulation == Formulation::Printed || setup.contact_damping > 0.0) {
-            return Err(SystemError::BallsNeedInertia);
+            return Err(SystemError::Refused(
+                "balls_inertia = \"quasi-static\" leaves out how fast balls move, which contact_damping and formulation = \"printed\" need: set balls_inertia = \"dynamic\"",
+            ));
         }
         let balls = setup.balls();
         let residual = if residual && !complete {

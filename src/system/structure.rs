@@ -190,7 +190,7 @@ impl Structure {
     /// Static responses `K^-1 B`.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] if the structure can move without force.
+    /// [`SystemError::Refused`] if the structure can move without force.
     pub fn static_response(&self, loads: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
         match self.factor.get_or_init(|| self.factorised()) {
             Some(StaticFactor::Dense(factor)) => Ok(factor.solve(loads)),
@@ -199,7 +199,9 @@ impl Structure {
                 factor.solve_columns(&mut response)?;
                 Ok(response)
             }
-            None => Err(SystemError::NotSupported),
+            None => Err(SystemError::Refused(
+                "ring and housing are not held: they can move without force; add springs or fixed nodes under [housing] supports or [ring] supports",
+            )),
         }
     }
 
@@ -230,7 +232,7 @@ impl StructureModes {
     /// in which a linear coupling through these loads is felt as with all modes, up to terms of order (f / hz)^4.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] for a structure that is not held; what the eigenvalue computation reports.
+    /// [`SystemError::Refused`] for a structure that is not held; what the eigenvalue computation reports.
     pub fn with_static_response(
         &self,
         structure: &Structure,

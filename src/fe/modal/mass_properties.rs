@@ -4,7 +4,7 @@ use super::error::{ModalError, check_count};
 use super::rigid_motions;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingModel;
-use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -97,15 +97,27 @@ impl MassProperties {
     /// # Errors
     /// As [`Self::from_rigid_inertia`].
     pub fn of_housing(matrices: &SystemMatrices, model: &HousingModel) -> Result<Self, ModalError> {
-        let inertia = |about| {
-            let r = rigid_motions(&model.coordinates, model.dimension, about);
-            r.transpose() * sparse_times_dense(&matrices.mass, &r)
+        Self::about_centroid(&matrices.mass, middle(model), |about| {
+            rigid_motions(&model.coordinates, model.dimension, about)
+        })
+    }
+
+    /// By the mass matrix and its rigid motions about a point: about `start` (m), and a second time about the centroid itself, where
+    /// nothing is left to subtract.
+    ///
+    /// # Errors
+    /// As [`Self::from_rigid_inertia`].
+    pub(super) fn about_centroid(
+        mass: &SparseMatrix,
+        start: [f64; 3],
+        rigid: impl Fn([f64; 3]) -> DenseMatrix,
+    ) -> Result<Self, ModalError> {
+        let of = |about: [f64; 3]| {
+            let r = rigid(about);
+            Self::from_rigid_inertia(&(r.transpose() * sparse_times_dense(mass, &r)), about)
         };
-        let middle = middle(model);
-        let first = Self::from_rigid_inertia(&inertia(middle), middle)?.centroid();
-        // a second time about the centroid itself, where nothing is left to subtract
-        let about = [0, 1, 2].map(|axis| first[axis].unwrap_or(middle[axis]));
-        Self::from_rigid_inertia(&inertia(about), about)
+        let first = of(start)?.centroid();
+        of([0, 1, 2].map(|axis| first[axis].unwrap_or(start[axis])))
     }
 
     /// Coordinates of the centroid, m; z is `None` for a plane model.

@@ -129,13 +129,7 @@ impl ModalSurvey {
             let of_ring = ring_motions(ring, frame, about);
             matrices.motions.coordinates(&of_housing, &of_ring)
         };
-        let inertia = |about: [f64; 3]| {
-            let rigid = rigid_about(about);
-            let inertia = rigid.transpose() * sparse_times_dense(&matrices.mass, &rigid);
-            MassProperties::from_rigid_inertia(&inertia, about)
-        };
-        // a second time about the centroid itself, where nothing is left to subtract
-        let mass = inertia(centroid(&inertia(frame.centre())?))?;
+        let mass = MassProperties::about_centroid(&matrices.mass, frame.centre(), rigid_about)?;
         let rigid = rigid_about(centroid(&mass));
         let products = |motions: &CoupledMotions, all: &DenseMatrix| {
             let of_ring = ring.strain_products(&motions.ring(all));

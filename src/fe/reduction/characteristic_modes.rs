@@ -95,7 +95,7 @@ impl CharacteristicModes {
     /// How many modes a size keeps; all if it asks for more than there are.
     ///
     /// # Errors
-    /// [`ReductionError::FewInterfaceModes`] for fewer than the rigid motions, or none.
+    /// [`ReductionError::Refused`] for fewer than the rigid motions, or none.
     pub(crate) fn kept(&self, size: InterfaceSize) -> Result<usize, ReductionError> {
         let asked = match size {
             InterfaceSize::Count(count) => count.min(self.count()),
@@ -106,11 +106,10 @@ impl CharacteristicModes {
         };
         let least = self.rigid.max(1);
         if asked < least {
-            return Err(ReductionError::FewInterfaceModes {
-                found: asked,
-                least,
-                first_hz: self.frequency_hz(0).unwrap_or(f64::INFINITY),
-            });
+            let first_hz = self.frequency_hz(0).unwrap_or(f64::INFINITY);
+            return Err(ReductionError::Refused(format!(
+                "{asked} modes of the interface are kept, expected at least {least}: rigid motions that nothing holds, or else one (the first has {first_hz:.0} Hz)"
+            )));
         }
         Ok(asked)
     }

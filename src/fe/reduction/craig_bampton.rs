@@ -135,10 +135,8 @@ impl CraigBampton {
         let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
         for column in 0..coordinates.ncols() {
             let to = all.col_as_slice_mut(column);
-            for (&dof, &value) in partition.interior.iter().zip(interior.col_as_slice(column)) {
-                to[dof] = value;
-            }
-            for (&dof, &value) in partition.driven.iter().zip(driven.col_as_slice(column)) {
+            let inside = partition.interior.iter().zip(interior.col_as_slice(column));
+            for (&dof, &value) in inside.chain(partition.driven.iter().zip(driven.col_as_slice(column))) {
                 to[dof] = value;
             }
         }

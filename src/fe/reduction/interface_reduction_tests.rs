@@ -209,6 +209,5 @@ fn too_few_modes_are_named() {
     let two = DenseMatrix::from_fn(INTERFACE, 2, |row, motion| (row as f64).powi(motion as i32));
     let modes = CharacteristicModes::of(&condensed.substructure, None, &two).expect("finite");
     let error = modes.kept(InterfaceSize::Count(1)).expect_err("one of two");
-    let ReductionError::FewInterfaceModes { found, least, .. } = error else { panic!("{error}") };
-    assert_eq!((found, least), (1, 2));
+    assert!(error.to_string().starts_with("1 modes of the interface are kept, expected at least 2"), "{error}");
 }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Chooses a basis.
 ///
 /// # Errors
-/// [`ReductionError::TargetMissed`] for `Auto`; what the eigenvalue iteration reports.
+/// [`ReductionError::Refused`] for `Auto`; what the eigenvalue iteration reports.
 pub fn choose_basis(
     substructure: &Substructure,
     choice: BasisChoice,

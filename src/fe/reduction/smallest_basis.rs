@@ -52,7 +52,10 @@ pub(super) fn smallest_basis(
             pairs = modes(substructure, 2 * count)?;
         }
     }
-    Err(ReductionError::TargetMissed { vectors: least, band_hz: choice.band_hz, target, reached })
+    Err(ReductionError::Refused(format!(
+        "no basis of up to {least} vectors brings the estimated error in the band to {} Hz below {target}: {reached:.1e} was reached",
+        choice.band_hz
+    )))
 }
 
 /// Number of modes, and the modes of the coupled structure that need a residual vector, for the smallest sum; `None`
@@ -107,19 +110,19 @@ fn corrected(
     attached: Option<Attached<'_>>,
     (mut basis, mut residuals): (InteriorBasis, Vec<usize>),
 ) -> Result<(InteriorBasis, f64), ReductionError> {
-    for _ in 0..ENLARGEMENTS {
+    let mut rounds = 0;
+    loop {
         let before = basis.count();
         let spectrum = coupled_modes(substructure, &basis, attached)?;
         basis = basis_vectors::corrected(substructure, &basis, &spectrum, residuals)?;
         let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
         let error = estimate.largest();
-        let modes = estimate.modes.iter().enumerate();
-        residuals = modes.filter(|(_, mode)| mode.relative_error > target).map(|(place, _)| place).collect();
         let stuck = basis.count() == before && before > 0;
-        if error <= target || !choice.enhanced || stuck {
+        rounds += 1;
+        if error <= target || !choice.enhanced || stuck || rounds == ENLARGEMENTS {
             return Ok((basis, error));
         }
+        let modes = estimate.modes.iter().enumerate();
+        residuals = modes.filter(|(_, mode)| mode.relative_error > target).map(|(place, _)| place).collect();
     }
-    let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
-    Ok((basis, estimate.largest()))
 }

@@ -49,16 +49,20 @@ impl Substructure {
     /// Splits a housing and condenses it statically.
     ///
     /// # Errors
-    /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
+    /// [`ReductionError::Refused`] for no interior and for no interface, [`ReductionError::FloatingInterior`] if K_ii
     /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
     pub fn new(matrices: &SystemMatrices, partition: &HousingPartition) -> Result<Self, ReductionError> {
         let (k, m) = (&matrices.stiffness, &matrices.mass);
         let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
         if i.is_empty() {
-            return Err(ReductionError::NoInterior);
+            return Err(ReductionError::Refused(
+                "the interface takes every free displacement of the housing, so that nothing is left to condense: expected an interface of fewer nodes, or a finer mesh"
+                    .to_owned(),
+            ));
         }
         if tie.cols() == 0 {
-            return Err(ReductionError::NoInterface);
+            let what = "the interface has no free degree of freedom: every one of its nodes is fixed or tied";
+            return Err(ReductionError::Refused(what.to_owned()));
         }
         let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
         let dof = |row: usize| i.get(row).copied().unwrap_or(0);

@@ -63,8 +63,7 @@ impl Equilibrium {
     /// Finds the stable equilibrium at which the shaft arrives when the load pushes it into the clearance.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`], [`SystemError::NoEquilibrium`],
-    /// [`SystemError::NothingHoldsTheShaft`].
+    /// [`SystemError::NoEquilibrium`]; [`SystemError::Refused`] for a structure or a shaft that nothing holds.
     pub fn find(structure: &Structure, setup: &BearingSetup, condition: StaticCondition) -> Result<Self, SystemError> {
         let (mut problem, loads) = Problem::new(structure, setup, condition)?;
         let start = start(setup, condition, 0.0)?;
@@ -199,7 +198,9 @@ fn start(setup: &BearingSetup, condition: StaticCondition, angle: f64) -> Result
         z[0] = along[0] * depth - along[1] * ASIDE;
         z[1] = along[1] * depth + along[0] * ASIDE;
     } else if play >= 0.0 {
-        return Err(SystemError::NothingHoldsTheShaft);
+        return Err(SystemError::Refused(
+            "the shaft is not held in the loaded direction: without load on it, it can move in the clearance",
+        ));
     }
     Ok(z)
 }

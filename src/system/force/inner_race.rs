@@ -2,7 +2,7 @@
 
 use super::super::coupled::CoupledSystem;
 use super::super::inner::InnerGap;
-use super::super::race::{Damage, RaceForce, RacePlace};
+use super::super::race::{Damage, RacePlace};
 use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, positive};
@@ -77,7 +77,8 @@ impl CoupledSystem {
             }
             let rate = self.balls.get(j, |ball| &ball.displacement_rate);
             let moving = self.velocity_on_inner(j, &gap, rate, velocity);
-            let force = self.irregular_inner_force(j, &gap, moving, shaft);
+            let (damage, place) = self.inner_place(j, &gap, moving, shaft);
+            let force = self.inner.force(damage, &place);
             let n = gap.normal;
             let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
             group.inner_force[lane] = force.magnitude;
@@ -99,18 +100,6 @@ impl CoupledSystem {
         let turn = self.radius(j) * self.work.cage_speed;
         let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
         [-(n[0] * moving[0] + n[1] * moving[1]), n[0] * moving[1] - n[1] * moving[0]]
-    }
-
-    /// Force of ball `j` on such a race, for velocities of the ball's centre towards the race's and across, m/s.
-    pub(super) fn irregular_inner_force(
-        &self,
-        j: usize,
-        gap: &InnerGap,
-        velocity: [f64; 2],
-        shaft: &RotationState,
-    ) -> RaceForce {
-        let (damage, place) = self.inner_place(j, gap, velocity, shaft);
-        self.inner.force(damage, &place)
     }
 
     /// What ball `j` feels at the inner race, and its place there, for velocities of the ball's centre towards the race's and

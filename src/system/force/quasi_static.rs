@@ -192,10 +192,10 @@ impl CoupledSystem {
 
     /// Force of ball `j` at rest on the inner race.
     pub(super) fn inner_force_at(&self, j: usize, gap: &InnerGap, shaft: &RotationState) -> RaceForce {
-        if self.inner.irregular {
-            self.irregular_inner_force(j, gap, [0.0; 2], shaft)
-        } else {
-            self.inner.plain_force(gap.penetration, 0.0)
+        if !self.inner.irregular {
+            return self.inner.plain_force(gap.penetration, 0.0);
         }
+        let (damage, place) = self.inner_place(j, gap, [0.0; 2], shaft);
+        self.inner.force(damage, &place)
     }
 }

@@ -50,7 +50,7 @@ struct Touch {
 
 impl ResidualFlexibility {
     /// # Errors
-    /// [`SystemError::NotSupported`] if the structure is free.
+    /// [`SystemError::Refused`] if the structure is free.
     pub(super) fn new(structure: &Structure, modes: &StructureModes, kept: usize) -> Result<Self, SystemError> {
         let (dof, ring) = (structure.dof(), structure.ring());
         let ring_dof = ring.dof();

@@ -236,12 +236,13 @@ pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> 
     let motions = ring_motions(ring, frame, frame.centre());
     let translations = if ring.is_in_space() { 3 } else { 2 };
     let of_spring = ring.springs().iter().map(|spring| {
-        let mut row = [0.0; 6];
-        for (motion, entry) in row.iter_mut().enumerate().take(motions.ncols()) {
+        std::array::from_fn(|motion| {
+            if motion >= motions.ncols() {
+                return 0.0;
+            }
             let turn = if motion < translations { 1.0 } else { ring.section().radius };
-            *entry = spring.stretch(motions.col_as_slice(motion)) / turn;
-        }
-        row
+            spring.stretch(motions.col_as_slice(motion)) / turn
+        })
     });
     of_spring.collect()
 }
