@@ -190,9 +190,7 @@ fn attached(model: &HousingModel, matrices: &[NodalMatrix], shapes: &DenseMatrix
     let d = model.dimension;
     let mut sums = DenseMatrix::zeros(sources.len(), shapes.ncols());
     for NodalMatrix { nodes, matrix, source } in matrices {
-        let Ok(place) = sources.binary_search(source) else {
-            continue;
-        };
+        let place = sources.partition_point(|other| other < source);
         // rows of a node: its components together (masses: the same for every component), or each by itself (springs)
         let rows = matrix.nrows() / nodes.len().max(1);
         let components = if rows == d { 1 } else { d };

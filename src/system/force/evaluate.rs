@@ -103,14 +103,14 @@ fn evaluate_sized<const B: usize, const M: usize>(
     let cage = system.setup.cage.motion_from(&mut system.cursors[1], t);
     system.take::<B, M>(y, v);
     system.place_balls::<B>(&shaft, &cage);
-    system.approach_outer_race::<B, M>(&shaft, &cage);
+    system.approach_outer_race::<B, M>();
     let inertia = system.setup.balls_inertia;
     match (inertia, &system.residual) {
         (BallsInertia::QuasiStatic, _) => {
             let centre = [y[system.modes], y[system.modes + 1]];
             system.settle_balls(centre, &shaft, &cage);
         }
-        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual::<B>(&cage),
+        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual::<B>(),
         (BallsInertia::Dynamic, None) => system.outer_forces::<B>(),
     }
     system.structure_force::<B, M>(g);

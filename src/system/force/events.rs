@@ -23,9 +23,9 @@ impl CoupledSystem {
         let cage = self.setup.cage.motion_from(&mut self.cursors[1], t);
         self.take::<0, 0>(y, v);
         self.place_balls::<0>(&shaft, &cage);
-        self.approach_outer_race::<0, 0>(&shaft, &cage);
+        self.approach_outer_race::<0, 0>();
         if self.residual.is_some() {
-            self.outer_forces_with_residual::<0>(&cage);
+            self.outer_forces_with_residual::<0>();
         }
         let modes = self.modes;
         let centre = match self.setup.formulation {

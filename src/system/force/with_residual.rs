@@ -2,7 +2,6 @@
 
 use super::super::balls::BallGroup;
 use super::super::coupled::CoupledSystem;
-use crate::bearing::RotationState;
 use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
@@ -32,9 +31,9 @@ impl CoupledSystem {
     /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j` and, on waves
     /// and damage, what changes as the ball moves along: they are found in the first of the same sweeps.
     #[inline(always)]
-    pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
+    pub(super) fn outer_forces_with_residual<const B: usize>(&mut self) {
         let damped = self.setup.contact_damping > 0.0;
-        self.start_sweeps::<B>(cage);
+        self.start_sweeps::<B>();
         let mut done = false;
         for sweep in 0..SWEEPS {
             self.displace_race::<B>();
@@ -148,7 +147,7 @@ impl CoupledSystem {
 
     /// Forces on a race that gives way by each ball's own share alone, and the rates.
     #[inline(always)]
-    fn start_sweeps<const B: usize>(&mut self, cage: &RotationState) {
+    fn start_sweeps<const B: usize>(&mut self) {
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             group.displaced = [0.0; LANES];
             group.growth = [0.0; LANES];
@@ -165,7 +164,7 @@ impl CoupledSystem {
             group.outer_radial = each(|l| law[l] / (1.0 + own[l] * tangent[l]));
         }
         if self.setup.contact_damping > 0.0 {
-            self.rates_by_turning::<B>(cage);
+            self.rates_by_turning::<B>();
         }
     }
 
@@ -231,7 +230,8 @@ impl CoupledSystem {
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
     /// forces at the start of the sweeps; and what each ball's own force moves there.
     #[inline(always)]
-    fn rates_by_turning<const B: usize>(&mut self, cage: &RotationState) {
+    fn rates_by_turning<const B: usize>(&mut self) {
+        let speed = self.work.cage_speed;
         let Some(coupling) = &self.residual else {
             return;
         };
@@ -239,7 +239,7 @@ impl CoupledSystem {
         for group in &mut *groups {
             group.approach = group.rate;
         }
-        let turning = |group: &BallGroup| each(|l| -(cage.speed * group.outer_radial[l]));
+        let turning = |group: &BallGroup| each(|l| -(speed * group.outer_radial[l]));
         add_columns(groups, turning, |ball| coupling.slope_column::<B>(ball), |group| &mut group.approach);
         for group in groups {
             let (approach, own, tangent) = (&group.approach, &group.own, &group.law[1]);

@@ -117,12 +117,8 @@ fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 fn tagged_pairs(first: &ModeSet, second: &ModeSet) -> Option<Vec<[usize; 2]>> {
     let (own, other) = (first.node_tags.as_ref()?, second.node_tags.as_ref()?);
     // of a tag that occurs twice the first place counts, on both sides
-    let places = |tags: &[u64]| {
-        let mut places = HashMap::new();
-        for (place, &tag) in tags.iter().enumerate() {
-            places.entry(tag).or_insert(place);
-        }
-        places
+    let places = |tags: &[u64]| -> HashMap<u64, usize> {
+        tags.iter().enumerate().rev().map(|(place, &tag)| (tag, place)).collect()
     };
     let (own_places, other_places) = (places(own), places(other));
     let pairs = own.iter().enumerate().filter_map(|(place, tag)| {
