@@ -180,6 +180,12 @@ impl CoupledSystem {
         let over_modes = |row: &[f64]| -> Vec<f64> { (0..count).map(|mode| modes.participation(mode, row)).collect() };
         let outer = RaceContact::new(&setup, Race::Outer);
         let ring = structure.ring();
+        // mean of the ring nodes' displacement in one direction, the source's (11) and (12)
+        let mean_row = |component: usize| -> Vec<f64> {
+            let is_mean = |row: usize| row < 3 * ring.nodes() && row % 3 == component;
+            let share = 1.0 / ring.nodes() as f64;
+            (0..structure.dof()).map(|row| if is_mean(row) { share } else { 0.0 }).collect()
+        };
         let arm = setup.raceway_arm(ring.section().radius);
         let radial = RacewayTable::new(ring, modes, count, |rows| rows.radial);
         let gravity = match setup.formulation {
@@ -204,7 +210,7 @@ impl CoupledSystem {
             radial,
             tangential: RacewayTable::new(ring, modes, count, |rows| rows.tangential_at(arm)),
             residual,
-            centre: [0, 1].map(|component| over_modes(&mean_row(structure, component))),
+            centre: [0, 1].map(|component| over_modes(&mean_row(component))),
             sensors: structure.sensors().iter().map(|sensor| (sensor.name.clone(), over_modes(&sensor.row))).collect(),
             cursors: [RotationCursor::default(); 2],
             work: Work::new(balls, count),
@@ -280,14 +286,4 @@ impl Work {
             ..Self::default()
         }
     }
-}
-
-/// Mean of the ring nodes' displacement in one direction, the source's (11) and (12).
-fn mean_row(structure: &Structure, component: usize) -> Vec<f64> {
-    let nodes = structure.ring().nodes();
-    let mut row = vec![0.0; structure.dof()];
-    for node in 0..nodes {
-        row[3 * node + component] = 1.0 / nodes as f64;
-    }
-    row
 }

@@ -66,30 +66,25 @@ impl<'a> CoupledProblem<'a> {
     /// # Errors
     /// What the dense solvers report.
     pub(super) fn lowest(&self, basis: &InteriorBasis, count: usize) -> Result<SymmetricSpectrum, ReductionError> {
-        let problem = self.bordered(basis);
-        let (inner, rigid) = (problem.kappa.len(), self.interface.rigid);
-        let found = problem.lowest(count, SHIFT * basis.lowest_value())?;
-        // back from modes of the interface to its coordinates
-        let part = |first: usize, count: usize| found.vectors.subrows(first, count);
-        let moved = &self.interface.vectors * faer::concat![[part(inner, rigid)], [part(0, inner)]];
-        let vectors = faer::concat![[moved], [part(inner + rigid, basis.count())]];
-        Ok(SymmetricSpectrum { values: found.values, vectors })
-    }
-
-    fn bordered(&self, basis: &InteriorBasis) -> Bordered {
         let (rigid, q) = (self.interface.rigid, basis.count());
         let inner = self.interface.count() - rigid;
         let driven = &basis.participation * &self.interface.vectors;
         let unit = DenseMatrix::identity(rigid, rigid);
         let own = [self.stiffness.subcols(0, rigid), unit.as_ref()];
-        Bordered {
+        let problem = Bordered {
             kappa: self.interface.values[rigid..].to_vec(),
             across: [
                 faer::concat![[self.stiffness.subcols(rigid, inner)], [DenseMatrix::zeros(q, inner)]],
                 faer::concat![[DenseMatrix::zeros(rigid, inner)], [driven.subcols(rigid, inner)]],
             ],
             border: with_amplitudes(own, basis, driven.subcols(0, rigid)),
-        }
+        };
+        let found = problem.lowest(count, SHIFT * basis.lowest_value())?;
+        // back from modes of the interface to its coordinates
+        let part = |first: usize, count: usize| found.vectors.subrows(first, count);
+        let moved = &self.interface.vectors * faer::concat![[part(inner, rigid)], [part(0, inner)]];
+        let vectors = faer::concat![[moved], [part(inner + rigid, q)]];
+        Ok(SymmetricSpectrum { values: found.values, vectors })
     }
 }
 

@@ -57,20 +57,20 @@ impl SecondOrderSystem for CoupledSystem {
         // beyond half a ball radius neither Hertz theory nor the geometry holds
         let limit = 0.5 * self.setup.geometry.ball_radius();
         let positions = &y[self.modes..];
-        let name = |place: usize| match place {
-            0 => "shaft displacement x".to_owned(),
-            1 => "shaft displacement y".to_owned(),
-            ball => format!("radial displacement of ball {}", ball - 1),
-        };
         let beyond = |value: &f64| value.abs() > limit;
         // all at once, as in nearly every call none is
         if !positions.iter().fold(false, |any, value| any | beyond(value)) {
             return Ok(());
         }
-        match positions.iter().position(beyond) {
-            Some(place) => Err(Divergence::OutOfRange { what: name(place), value: positions[place], limit, unit: "m" }),
-            None => Ok(()),
-        }
+        let Some(place) = positions.iter().position(beyond) else {
+            return Ok(());
+        };
+        let what = match place {
+            0 => "shaft displacement x".to_owned(),
+            1 => "shaft displacement y".to_owned(),
+            ball => format!("radial displacement of ball {}", ball - 1),
+        };
+        Err(Divergence::OutOfRange { what, value: positions[place], limit, unit: "m" })
     }
 }
 
@@ -115,7 +115,7 @@ fn evaluate_sized<const B: usize, const M: usize>(
     }
     system.structure_force::<B, M>(g);
     let centre = system.centre_motion(y, v, g);
-    system.inner_forces::<B>(&centre, &shaft, &cage, y, v);
+    system.inner_forces::<B>(&centre, &shaft, y, v);
     system.shaft_force(t, &shaft, g);
     if inertia == BallsInertia::Dynamic {
         system.ball_forces::<B>(&centre, &cage, g);

@@ -14,14 +14,13 @@ impl CoupledSystem {
         &mut self,
         centre: &CentreMotion,
         shaft: &RotationState,
-        cage: &RotationState,
         y: &[f64],
         v: &[f64],
     ) {
         let modes = self.modes;
         let relative = [0, 1].map(|k| y[modes + k] - centre.position[k]);
         let velocity = [0, 1].map(|k| v[modes + k] - centre.velocity[k]);
-        let (law, rise) = (self.inner.plain, self.inner.rise);
+        let (law, rise, speed) = (self.inner.plain, self.inner.rise, self.work.cage_speed);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let (s, [cos, sin]) = (&group.displacement, &group.direction);
             let oversize = &group.oversize;
@@ -43,7 +42,7 @@ impl CoupledSystem {
             if law.damping > 0.0 {
                 let rate = &group.displacement_rate;
                 force = lanes::each(|l| {
-                    let turn = (self.inner_race.touching_radius + s[l]) * cage.speed;
+                    let turn = (self.inner_race.touching_radius + s[l]) * speed;
                     let moving = [
                         rate[l] * cos[l] - turn * sin[l] - velocity[0],
                         rate[l] * sin[l] + turn * cos[l] - velocity[1],

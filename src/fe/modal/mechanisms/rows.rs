@@ -205,7 +205,9 @@ impl<'m> AllConstraints<'m> {
                             constraints.links.insert(link);
                         }
                     }
-                    _ => drop(self.add(terms, true)),
+                    _ => {
+                        self.add(terms, true);
+                    }
                 }
             }
         }
