@@ -177,8 +177,5 @@ fn join_like(side: &Side, clusters: Vec<Vec<usize>>, to: &Side, among: &[Vec<usi
 /// Sum of the squared cosines, which counts modes explained; nothing if one direction of the smaller space is not in
 /// the other.
 fn worth(squares: &[f64], least: f64) -> f64 {
-    match squares.last() {
-        Some(smallest) if *smallest >= least => squares.iter().sum(),
-        _ => 0.0,
-    }
+    squares.last().filter(|smallest| **smallest >= least).map_or(0.0, |_| squares.iter().sum())
 }

@@ -184,10 +184,7 @@ impl Sequence<'_> {
             }),
             (h, f) => law_past_many(h, f),
         };
-        match law {
-            None => self.without_limit(Behaviour::Diverging, high - low),
-            Some(law) => self.by_law(law),
-        }
+        law.map_or_else(|| self.without_limit(Behaviour::Diverging, high - low), |law| self.by_law(law))
     }
 
     fn by_law(&self, law: Law) -> Convergence {
