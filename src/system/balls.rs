@@ -60,11 +60,8 @@ pub(super) struct BallGroup {
     pub outer_tangential: Lanes,
     /// Sum of contact force magnitudes, N.
     pub outer_magnitude: Lanes,
-    /// Overlap with the inner race, m.
-    pub penetration: Lanes,
-    /// Distance from the inner race's centre, m, and unit vector from there.
-    pub inner_distance: Lanes,
-    pub inner_normal: [Lanes; 2],
+    /// Where the balls stand to the inner race; distances and normals of balls that are far from it are stale.
+    pub inner: InnerGap<Lanes>,
     /// Sum of contact force magnitudes, N.
     pub inner_force: Lanes,
     /// Force on the inner race, N.
@@ -130,11 +127,6 @@ impl Balls {
     /// Where ball `j` stands to the inner race.
     #[inline]
     pub(super) fn inner_gap(&self, j: usize) -> InnerGap {
-        let (group, lane) = (&self.groups[j / LANES], j % LANES);
-        InnerGap {
-            penetration: group.penetration[lane],
-            distance: group.inner_distance[lane],
-            normal: group.inner_normal.map(|component| component[lane]),
-        }
+        self.groups[j / LANES].inner.get(j % LANES)
     }
 }

@@ -1,14 +1,11 @@
 //! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
 
 use super::balls::Balls;
-use super::bearing_setup::{BallsInertia, BearingSetup, Formulation};
-use super::equilibrium::Equilibrium;
-use super::error::SystemError;
 use super::inner::InnerRace;
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
 use super::residual::{Coupling, ResidualFlexibility};
-use super::structure::{Structure, StructureModes};
+use super::{BallsInertia, BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::bearing::{Race, RotationCursor};
 use crate::numerics::lanes::{self, Lanes};
 use crate::numerics::ode::{LinearCoordinate, State};
@@ -142,9 +139,8 @@ impl CoupledSystem {
     /// sensors.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] for a free structure with `residual`;
-    /// [`SystemError::PrintedNeedsAllModes`]; [`SystemError::NoModesKept`]; [`SystemError::BallsNeedInertia`] for balls
-    /// without inertia in the `printed` equations or with contact damping.
+    /// [`SystemError::NoModesKept`]; [`SystemError::Refused`] for a free structure with `residual`, for `printed` equations without all
+    /// modes, and for balls without inertia in them or with contact damping.
     pub fn new(
         structure: &Structure,
         modes: &StructureModes,
@@ -159,32 +155,39 @@ impl CoupledSystem {
             return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) });
         }
         if setup.formulation == Formulation::Printed && !complete {
-            return Err(SystemError::PrintedNeedsAllModes);
+            return Err(SystemError::Refused(
+                "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\"",
+            ));
         }
         let dynamic = setup.balls_inertia == BallsInertia::Dynamic;
         if !dynamic && (setup.formulation == Formulation::Printed || setup.contact_damping > 0.0) {
-            return Err(SystemError::BallsNeedInertia);
+            return Err(SystemError::Refused(
+                "balls_inertia = \"quasi-static\" leaves out how fast balls move, which contact_damping and formulation = \"printed\" need: set balls_inertia = \"dynamic\"",
+            ));
         }
-        let kept: Vec<usize> = (0..count).collect();
         let balls = setup.balls();
         let residual = if residual && !complete {
-            let residual = ResidualFlexibility::new(structure, modes, &kept)?;
-            Some(Coupling::new(residual, balls))
+            Some(Coupling::new(ResidualFlexibility::new(structure, modes, count)?, balls))
         } else {
             None
         };
-        let structural = kept.iter().map(|&mode| {
-            let squared_frequency = modes.squared_frequencies[mode].max(0.0);
+        let structural = modes.squared_frequencies[..count].iter().map(|square| {
+            let squared_frequency = square.max(0.0);
             LinearCoordinate { squared_frequency, damping: damping.coefficient(squared_frequency) }
         });
         let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
         let linear = structural.chain(std::iter::repeat_n(free, if dynamic { 2 + balls } else { 2 })).collect();
-        let over_modes =
-            |row: &[f64]| -> Vec<f64> { kept.iter().map(|&mode| modes.participation(mode, row)).collect() };
+        let over_modes = |row: &[f64]| -> Vec<f64> { (0..count).map(|mode| modes.participation(mode, row)).collect() };
         let outer = RaceContact::new(&setup, Race::Outer);
         let ring = structure.ring();
+        // mean of the ring nodes' displacement in one direction, the source's (11) and (12)
+        let mean_row = |component: usize| -> Vec<f64> {
+            let is_mean = |row: usize| row < 3 * ring.nodes() && row % 3 == component;
+            let share = 1.0 / ring.nodes() as f64;
+            (0..structure.dof()).map(|row| if is_mean(row) { share } else { 0.0 }).collect()
+        };
         let arm = setup.raceway_arm(ring.section().radius);
-        let radial = RacewayTable::new(ring, modes, &kept, |rows| rows.radial);
+        let radial = RacewayTable::new(ring, modes, count, |rows| rows.radial);
         let gravity = match setup.formulation {
             Formulation::Consistent => over_modes(structure.gravity()),
             Formulation::Printed => vec![0.0; count],
@@ -192,7 +195,7 @@ impl CoupledSystem {
         Ok(Self {
             inner_race: InnerRace::new(&setup.geometry),
             inner: RaceContact::new(&setup, Race::Inner),
-            reach: REACH + outer.rise(),
+            reach: REACH + outer.rise,
             outer,
             linear,
             modes: count,
@@ -201,13 +204,13 @@ impl CoupledSystem {
             ball_mobility: 1.0 / setup.geometry.ball_mass(),
             balls: Balls {
                 mode_bounds: radial.bounds(),
-                weight_bound: residual.as_ref().map_or(0.0, Coupling::weight_bound),
-                ..Balls::new(&setup, radial.groups())
+                weight_bound: residual.as_ref().map_or(0.0, |coupling| coupling.residual.weight_bound()),
+                ..Balls::new(&setup, radial.groups)
             },
             radial,
-            tangential: RacewayTable::new(ring, modes, &kept, |rows| rows.tangential_at(arm)),
+            tangential: RacewayTable::new(ring, modes, count, |rows| rows.tangential_at(arm)),
             residual,
-            centre: [0, 1].map(|component| over_modes(&mean_row(structure, component))),
+            centre: [0, 1].map(|component| over_modes(&mean_row(component))),
             sensors: structure.sensors().iter().map(|sensor| (sensor.name.clone(), over_modes(&sensor.row))).collect(),
             cursors: [RotationCursor::default(); 2],
             work: Work::new(balls, count),
@@ -274,26 +277,13 @@ impl Work {
             velocities: of_modes(),
             modal_force: of_modes(),
             scratch_row: of_modes(),
-            cage_angle: 0.0,
-            cage_speed: 0.0,
             shaft_direction: [1.0, 0.0],
             spin: vec![[0.0; 2]; balls],
             damage: vec![Damage::None; balls],
             damaged: Vec::with_capacity(balls),
             uneven: Vec::with_capacity(balls),
             known: vec![(0.0, 0.0, RaceForce::default()); balls],
-            on_shaft: [0.0; 2],
-            force: Vec::new(),
+            ..Self::default()
         }
     }
-}
-
-/// Mean of the ring nodes' displacement in one direction, the source's (11) and (12).
-fn mean_row(structure: &Structure, component: usize) -> Vec<f64> {
-    let nodes = structure.ring().nodes();
-    let mut row = vec![0.0; structure.dof()];
-    for node in 0..nodes {
-        row[3 * node + component] = 1.0 / nodes as f64;
-    }
-    row
 }

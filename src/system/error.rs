@@ -9,39 +9,12 @@ pub enum SystemError {
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
-    /// Housing and ring do not share their interface.
-    #[error("the ring has {expected} degrees of freedom, the superelement's interface {found}")]
-    InterfaceSize {
-        /// Degrees of freedom of the ring.
-        expected: usize,
-        /// Interface of the superelement.
-        found: usize,
-    },
-    /// A sensor row of the wrong length.
-    #[error("sensor {name}: {expected} coordinates expected, {found} found")]
-    SensorSize {
-        /// The sensor.
-        name: String,
-        /// Coordinates of the structure.
-        expected: usize,
-        /// Length of the row.
-        found: usize,
-    },
-    /// The structure can move as a whole.
-    #[error(
-        "ring and housing are not held: they can move without force; add springs or fixed nodes under [housing] supports or [ring] supports"
-    )]
-    NotSupported,
-    /// Reduced model and formulation that exclude each other.
-    #[error(
-        "formulation = \"printed\" couples the balls to the ring's mean acceleration and needs all modes: set transient.modes = \"all\""
-    )]
-    PrintedNeedsAllModes,
-    /// Balls without inertia where their motion enters the equations.
-    #[error(
-        "balls_inertia = \"quasi-static\" leaves out how fast balls move, which contact_damping and formulation = \"printed\" need: set balls_inertia = \"dynamic\""
-    )]
-    BallsNeedInertia,
+    /// A superelement or a sensor row of another size than the structure's.
+    #[error("{0}")]
+    OtherSize(String),
+    /// What the input asks for does not exist, and what to change.
+    #[error("{0}")]
+    Refused(&'static str),
     /// A selection without modes.
     #[error(
         "no mode of the structure is kept: the lowest is at {lowest_hz:.4e} Hz; raise accuracy.band_hz or set transient.modes"
@@ -60,7 +33,4 @@ pub enum SystemError {
         /// Largest force out of balance, N.
         residual_n: f64,
     },
-    /// Nothing holds the shaft.
-    #[error("the shaft is not held in the loaded direction: without load on it, it can move in the clearance")]
-    NothingHoldsTheShaft,
 }

@@ -13,24 +13,27 @@ pub(super) struct InnerRace {
     pub play: f64,
 }
 
-/// Where ball and inner race stand to each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct InnerGap {
+/// Where a ball and the inner race, or balls side by side and the race, stand to each other.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct InnerGap<T = f64> {
     /// Penetration delta_i, m; positive in contact.
-    pub penetration: f64,
+    pub penetration: T,
     /// Distance chi from inner race centre to ball centre, m.
-    pub distance: f64,
+    pub distance: T,
     /// Unit vector from inner race centre to ball centre.
-    pub normal: [f64; 2],
+    pub normal: [T; 2],
 }
 
-/// The same for balls side by side.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct InnerGaps {
-    pub penetration: Lanes,
-    pub distance: Lanes,
-    /// Components in x and y.
-    pub normal: [Lanes; 2],
+impl InnerGap<Lanes> {
+    /// That of one of the balls.
+    #[inline]
+    pub(super) fn get(&self, lane: usize) -> InnerGap {
+        InnerGap {
+            penetration: self.penetration[lane],
+            distance: self.distance[lane],
+            normal: self.normal.map(|component| component[lane]),
+        }
+    }
 }
 
 impl InnerRace {
@@ -41,12 +44,7 @@ impl InnerRace {
     /// Gap for a ball in direction `e` at outward displacement `s`, the inner race at `centre`.
     pub(super) fn gap(&self, e: [f64; 2], s: f64, centre: [f64; 2]) -> InnerGap {
         let [cos, sin] = e.map(|component| [component; LANES]);
-        let gaps = self.gaps([&cos, &sin], &[s; LANES], centre);
-        InnerGap {
-            penetration: gaps.penetration[0],
-            distance: gaps.distance[0],
-            normal: gaps.normal.map(|component| component[0]),
-        }
+        self.gaps([&cos, &sin], &[s; LANES], centre).get(0)
     }
 
     /// Not less than the penetration of balls in directions (`cos`, `sin`) at outward displacements `s`: what it would be in
@@ -61,7 +59,7 @@ impl InnerRace {
     /// `delta_i = r + rho_b - chi = -(play + s) + (rho - chi)` with
     /// `rho - chi = (2 rho e.centre - |centre|^2) / (rho + chi)`: no difference of large numbers.
     #[inline(always)]
-    pub(super) fn gaps(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, centre: [f64; 2]) -> InnerGaps {
+    pub(super) fn gaps(&self, [cos, sin]: [&Lanes; 2], s: &Lanes, centre: [f64; 2]) -> InnerGap<Lanes> {
         let [x, y] = centre;
         let square = x * x + y * y;
         let rho = each(|l| self.touching_radius + s[l]);
@@ -69,7 +67,7 @@ impl InnerRace {
         let distance = each(|l| (b[0][l] * b[0][l] + b[1][l] * b[1][l]).sqrt());
         // one division for 1 / chi and 1 / (rho + chi)
         let both = each(|l| 1.0 / (distance[l] * (rho[l] + distance[l])));
-        InnerGaps {
+        InnerGap {
             penetration: each(|l| {
                 let along = cos[l] * x + sin[l] * y;
                 (2.0 * rho[l] * along - square) * (both[l] * distance[l]) - (self.play + s[l])

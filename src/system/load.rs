@@ -1,5 +1,7 @@
 //! A force over time: straight lines between points, constant beyond them.
 
+use std::cmp::Ordering;
+
 /// Force in the bearing's plane, N.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadProfile {
@@ -15,13 +17,9 @@ impl LoadProfile {
 
     /// Through points (s, N); those that do not come after the one before are left out. Without points there is no force.
     pub(crate) fn through(points: &[(f64, [f64; 2])]) -> Self {
-        let mut kept: Vec<(f64, [f64; 2])> = Vec::with_capacity(points.len());
-        for &point in points {
-            if kept.last().is_none_or(|last| point.0 > last.0) {
-                kept.push(point);
-            }
-        }
-        Self { points: kept }
+        let mut points = points.to_vec();
+        points.dedup_by(|next, before| next.0.partial_cmp(&before.0) != Some(Ordering::Greater));
+        Self { points }
     }
 
     /// The first time (s) after `time` at which the slope jumps; infinity if there is none.

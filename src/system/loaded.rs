@@ -1,14 +1,14 @@
 //! Eigenfrequencies with the contacts' stiffness at a static equilibrium.
 
-use super::bearing_setup::{BearingSetup, Formulation};
-use super::equilibrium::{Equilibrium, contact_rows};
-use super::error::SystemError;
-use super::resting::{RestingRaces, in_the_plane};
-use super::structure::{Structure, StructureModes};
+use super::equilibrium::contact_rows;
+use super::resting::RestingRaces;
+use super::{BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::numerics::linalg::{DenseMatrix, GeneralSpectrum, general_spectrum, symmetric_eigen};
+use faer::c64;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// One mode of the loaded system.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -42,15 +42,6 @@ pub struct LoadedShapes {
     pub modes: LoadedModes,
     /// For each of them the amplitudes of the structure's modes, of the shaft's x and y and of the balls, to one scale.
     pub amplitudes: Vec<Vec<f64>>,
-}
-
-/// Blocks of the linearised equations over (modes, shaft, balls), divided by the masses.
-struct Linearised {
-    /// Stiffness, rows divided by the mass of their coordinate [n x n].
-    matrix: DenseMatrix,
-    modes: usize,
-    /// Mass of each coordinate, kg; 1 for a mode.
-    masses: Vec<f64>,
 }
 
 impl LoadedModes {
@@ -93,22 +84,43 @@ impl LoadedShapes {
         setup: &BearingSetup,
         equilibrium: &Equilibrium,
     ) -> Result<Self, SystemError> {
-        let linearised = Linearised::new(structure, modes, setup, equilibrium);
-        let pairs = match setup.formulation {
-            Formulation::Consistent => linearised.symmetric_pairs()?,
-            Formulation::Printed => linearised.general_pairs()?,
+        let (matrix, masses) = linearised(structure, modes, setup, equilibrium);
+        let (n, order) = (modes.count(), masses.len());
+        let root = |i: usize| masses[i].sqrt();
+        // rows and columns of one size
+        let scaled = |i: usize, j: usize| matrix[(i, j)] * root(i) / root(j);
+        let pairs: Vec<(c64, Vec<f64>)> = match setup.formulation {
+            Formulation::Consistent => {
+                let symmetric = DenseMatrix::from_fn(order, order, |i, j| 0.5 * (scaled(i, j) + scaled(j, i)));
+                let spectrum = symmetric_eigen(&symmetric)?;
+                let vector = |pair: usize| spectrum.vectors.col_as_slice(pair).to_vec();
+                (0..order).map(|pair| (c64::new(spectrum.values[pair], 0.0), vector(pair))).collect()
+            }
+            Formulation::Printed => {
+                let spectrum = general_spectrum(&DenseMatrix::from_fn(order, order, scaled))?;
+                (0..order).map(|pair| (spectrum.values[pair], real_part(&spectrum, pair))).collect()
+            }
         };
         // contacts of 1e6 N/m make 1e10 1/s^2; what is a million times softer is not held
         let held = 1e4;
         let mut found = Vec::new();
         let (mut without_stiffness, mut unstable) = (0, 0);
-        for pair in pairs {
-            if pair.value.abs() < held {
+        for (value, vector) in pairs {
+            if value.re.abs() < held {
                 without_stiffness += 1;
-            } else if pair.value < 0.0 || pair.imaginary.abs() > 1e-6 * pair.value.abs() {
+            } else if value.re < 0.0 || value.im.abs() > 1e-6 * value.re.abs() {
                 unstable += 1;
             } else {
-                found.push((linearised.describe(&pair), pair.amplitudes));
+                let amplitudes: Vec<f64> = vector.iter().enumerate().map(|(i, entry)| entry / root(i)).collect();
+                let energy = |range: Range<usize>| -> f64 { range.map(|i| amplitudes[i].powi(2) * masses[i]).sum() };
+                let total = energy(0..order);
+                let mode = LoadedMode {
+                    frequency_hz: value.re.sqrt() / TAU,
+                    structure_share: energy(0..n) / total,
+                    shaft_share: energy(n..n + 2) / total,
+                    ball_share: energy(n + 2..order) / total,
+                };
+                found.push((mode, amplitudes));
             }
         }
         found.sort_by(|(a, _), (b, _)| a.frequency_hz.total_cmp(&b.frequency_hz));
@@ -124,92 +136,37 @@ impl LoadedMode {
     }
 }
 
-/// Eigenvalue with its vector.
-struct Pair {
-    value: f64,
-    imaginary: f64,
-    /// Amplitude of each coordinate.
-    amplitudes: Vec<f64>,
-}
-
-impl Linearised {
-    fn new(structure: &Structure, modes: &StructureModes, setup: &BearingSetup, equilibrium: &Equilibrium) -> Self {
-        let (count, balls) = (modes.count(), setup.balls());
-        let order = count + 2 + balls;
-        let printed = setup.formulation == Formulation::Printed;
-        let mut k = DenseMatrix::zeros(order, order);
-        for mode in 0..count {
-            k[(mode, mode)] = modes.squared_frequencies[mode];
-        }
-        let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
-        let rows = modes.shapes.transpose() * contact_rows(structure, setup, &angles);
-        let centre = centre_rows(structure, modes, printed);
-        let races = RestingRaces::new(setup, equilibrium.shaft_angle);
-        add_outer(&mut k, &races, setup, structure, equilibrium, &rows, count);
-        add_inner(&mut k, &races, setup, equilibrium, &centre, count);
-        let mut masses = vec![1.0; count];
-        masses.extend([setup.shaft.mass; 2]);
-        masses.extend(vec![setup.geometry.ball_mass(); balls]);
-        let mut matrix = DenseMatrix::from_fn(order, order, |i, j| k[(i, j)] / masses[i]);
-        if printed {
-            // s'' + e . centre'' = ...: take the centre's acceleration to the right-hand side
-            let accelerations = DenseMatrix::from_fn(2, order, |component, column| {
-                (0..count).map(|mode| centre[(component, mode)] * matrix[(mode, column)]).sum()
-            });
-            for (j, angle) in angles.iter().enumerate() {
-                let (sin, cos) = angle.sin_cos();
-                for column in 0..order {
-                    matrix[(count + 2 + j, column)] -=
-                        cos * accelerations[(0, column)] + sin * accelerations[(1, column)];
-                }
+/// Stiffness over (modes, shaft, balls), rows divided by the mass of their coordinate [n x n], and these masses, kg; 1 for a mode.
+fn linearised(
+    structure: &Structure,
+    modes: &StructureModes,
+    setup: &BearingSetup,
+    equilibrium: &Equilibrium,
+) -> (DenseMatrix, Vec<f64>) {
+    let (count, balls) = (modes.count(), setup.balls());
+    let order = count + 2 + balls;
+    let printed = setup.formulation == Formulation::Printed;
+    // mean ring displacement by mode; zero unless the formulation uses it
+    let mean = |mode: usize| if printed { structure.ring_mean(&modes.shapes, mode) } else { [0.0; 2] };
+    let centre: Vec<[f64; 2]> = (0..count).map(mean).collect();
+    let k = stiffness(structure, modes, setup, equilibrium, &centre);
+    let mut masses = vec![1.0; count];
+    masses.extend([setup.shaft.mass; 2]);
+    masses.extend(vec![setup.geometry.ball_mass(); balls]);
+    let mut matrix = DenseMatrix::from_fn(order, order, |i, j| k[(i, j)] / masses[i]);
+    if printed {
+        // s'' + e . centre'' = ...: take the centre's acceleration to the right-hand side
+        let accelerations = DenseMatrix::from_fn(2, order, |component, column| {
+            (0..count).map(|mode| centre[mode][component] * matrix[(mode, column)]).sum()
+        });
+        for (j, ball) in equilibrium.balls.iter().enumerate() {
+            let (sin, cos) = ball.angle.sin_cos();
+            for column in 0..order {
+                matrix[(count + 2 + j, column)] -= cos * accelerations[(0, column)] + sin * accelerations[(1, column)];
             }
         }
-        Self { matrix, modes: count, masses }
     }
-
-    fn symmetric_pairs(&self) -> Result<Vec<Pair>, SystemError> {
-        let order = self.masses.len();
-        let root = |i: usize| self.masses[i].sqrt();
-        let scaled = DenseMatrix::from_fn(order, order, |i, j| {
-            0.5 * (self.matrix[(i, j)] * root(i) / root(j) + self.matrix[(j, i)] * root(j) / root(i))
-        });
-        let spectrum = symmetric_eigen(&scaled)?;
-        Ok((0..order)
-            .map(|pair| Pair {
-                value: spectrum.values[pair],
-                imaginary: 0.0,
-                amplitudes: (0..order).map(|i| spectrum.vectors[(i, pair)] / root(i)).collect(),
-            })
-            .collect())
-    }
-
-    fn general_pairs(&self) -> Result<Vec<Pair>, SystemError> {
-        let order = self.masses.len();
-        let root = |i: usize| self.masses[i].sqrt();
-        // scaled as the symmetric problem is, so that rows and columns have one size
-        let scaled = DenseMatrix::from_fn(order, order, |i, j| self.matrix[(i, j)] * root(i) / root(j));
-        let spectrum = general_spectrum(&scaled)?;
-        Ok((0..order)
-            .map(|pair| Pair {
-                value: spectrum.values[pair].re,
-                imaginary: spectrum.values[pair].im,
-                amplitudes: real_part(&spectrum, pair).iter().enumerate().map(|(i, entry)| entry / root(i)).collect(),
-            })
-            .collect())
-    }
-
-    fn describe(&self, pair: &Pair) -> LoadedMode {
-        let energy =
-            |range: std::ops::Range<usize>| -> f64 { range.map(|i| pair.amplitudes[i].powi(2) * self.masses[i]).sum() };
-        let (n, order) = (self.modes, self.masses.len());
-        let total = energy(0..order);
-        LoadedMode {
-            frequency_hz: pair.value.sqrt() / TAU,
-            structure_share: energy(0..n) / total,
-            shaft_share: energy(n..n + 2) / total,
-            ball_share: energy(n + 2..order) / total,
-        }
-    }
+    (matrix, masses)
 }
 
 /// The vector of an eigenvalue, turned so that its largest entry is real: all of it where the eigenvalue is real.
@@ -223,100 +180,62 @@ fn real_part(spectrum: &GeneralSpectrum, pair: usize) -> Vec<f64> {
     vector.iter().map(|entry| (entry * phase).re).collect()
 }
 
-/// Mean ring displacement over the modes [2 x modes]; zero unless the formulation uses it.
-fn centre_rows(structure: &Structure, modes: &StructureModes, printed: bool) -> DenseMatrix {
-    let nodes = structure.ring().nodes();
-    DenseMatrix::from_fn(2, modes.count(), |component, mode| {
-        if !printed {
-            return 0.0;
-        }
-        let sum: f64 = (0..nodes).map(|node| modes.shapes[(3 * node + component, mode)]).sum();
-        sum / nodes as f64
-    })
-}
-
-/// Outer contacts: the relative motion is s - w (radial) and -u (tangential).
-fn add_outer(
-    k: &mut DenseMatrix,
-    races: &RestingRaces,
-    setup: &BearingSetup,
+/// Stiffness over (modes, shaft, balls), N/m. Outer contacts: the relative motion is s - w (radial) and -u (tangential). Inner
+/// contacts with the geometric term -F/chi; in `printed` the inner race's position is relative to the ring's mean, by mode `centre`,
+/// and the ring does not feel the force.
+fn stiffness(
     structure: &Structure,
+    modes: &StructureModes,
+    setup: &BearingSetup,
     equilibrium: &Equilibrium,
-    rows: &DenseMatrix,
-    modes: usize,
-) {
-    let response = race_displacement(structure, equilibrium, setup);
-    let touching = setup.geometry.outer_race_radius() - setup.geometry.ball_radius();
+    centre: &[[f64; 2]],
+) -> DenseMatrix {
+    let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
+    let contacts = contact_rows(structure, setup, &angles);
+    let rows = modes.shapes.transpose() * &contacts;
+    let load = DenseMatrix::from_fn(structure.dof(), 1, |row, _| equilibrium.structure_load[row]);
+    // displacement of the race under every ball, m
+    let moved = structure
+        .static_response(&load)
+        .map_or_else(|_| DenseMatrix::zeros(contacts.ncols(), 1), |response| contacts.transpose() * response);
+    let races = RestingRaces::new(setup, equilibrium.shaft_angle);
+    let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
+    let spin = equilibrium.cage_speed.powi(2);
+    let modes = &modes.squared_frequencies;
+    let (count, order) = (modes.len(), modes.len() + 2 + angles.len());
+    let mut k = DenseMatrix::zeros(order, order);
+    for (mode, square) in modes.iter().enumerate() {
+        k[(mode, mode)] = *square;
+    }
     for (j, ball) in equilibrium.balls.iter().enumerate() {
-        let shift = response[2 * j + 1] / (touching + ball.displacement);
-        let s = ball.displacement - response[2 * j];
-        let force = races.outer_force(j, ball.angle, shift, s);
-        let [rr, rt, tt] = force.tangent;
-        let place = modes + 2 + j;
+        let own = count + 2 + j;
+        let shift = moved[(2 * j + 1, 0)] / (races.inner_race.touching_radius + ball.displacement);
+        let s = ball.displacement - moved[(2 * j, 0)];
+        let [rr, rt, tt] = races.outer_force(j, ball.angle, shift, s).tangent;
         let (w, u) = (rows.col(2 * j), rows.col(2 * j + 1));
-        for a in 0..modes {
-            for b in 0..modes {
+        for a in 0..count {
+            for b in 0..count {
                 k[(a, b)] += rr * w[a] * w[b] + rt * (w[a] * u[b] + u[a] * w[b]) + tt * u[a] * u[b];
             }
             let cross = rr * w[a] + rt * u[a];
-            k[(a, place)] -= cross;
-            k[(place, a)] -= cross;
+            k[(a, own)] -= cross;
+            k[(own, a)] -= cross;
         }
-        k[(place, place)] += rr;
-    }
-}
-
-/// Displacement of the race under every ball in the equilibrium [2 balls], m.
-fn race_displacement(structure: &Structure, equilibrium: &Equilibrium, setup: &BearingSetup) -> Vec<f64> {
-    let load = &equilibrium.structure_load;
-    let column = DenseMatrix::from_fn(load.len(), 1, |row, _| load[row]);
-    let angles: Vec<f64> = equilibrium.balls.iter().map(|ball| ball.angle).collect();
-    structure.static_response(&column).map_or_else(
-        |_| vec![0.0; 2 * angles.len()],
-        |response| {
-            let at = contact_rows(structure, setup, &angles).transpose() * response;
-            at.col(0).iter().copied().collect()
-        },
-    )
-}
-
-/// Inner contacts with the geometric term -F/chi; in `printed` the inner race's position is
-/// relative to the ring's mean and the ring does not feel the force.
-fn add_inner(
-    k: &mut DenseMatrix,
-    races: &RestingRaces,
-    setup: &BearingSetup,
-    equilibrium: &Equilibrium,
-    centre: &DenseMatrix,
-    modes: usize,
-) {
-    let relative = [0, 1].map(|i| equilibrium.shaft[i] - equilibrium.centre[i]);
-    let spin = equilibrium.cage_speed.powi(2);
-    for (j, ball) in equilibrium.balls.iter().enumerate() {
-        let (sin, cos) = ball.angle.sin_cos();
-        k[(modes + 2 + j, modes + 2 + j)] -= setup.geometry.ball_mass() * spin;
-        let gap = races.inner_race.gap([cos, sin], ball.displacement, relative);
-        let force = races.inner_force(j, ball.angle, &gap);
-        if force.magnitude <= 0.0 {
+        k[(own, own)] += rr;
+        k[(own, own)] -= setup.geometry.ball_mass() * spin;
+        let contact = races.inner_contact(j, ball.angle, ball.displacement, relative);
+        if contact.magnitude <= 0.0 {
             continue;
         }
-        let curvature = in_the_plane(&force, gap.distance);
-        let n = gap.normal;
-        let along = [-n[0], -n[1], n[0] * cos + n[1] * sin];
-        let across = [n[1], -n[0], n[0] * sin - n[1] * cos];
-        let place = [modes, modes + 1, modes + 2 + j];
-        for a in 0..3 {
-            for b in 0..3 {
-                let value = curvature[0] * along[a] * along[b]
-                    + curvature[1] * (along[a] * across[b] + across[a] * along[b])
-                    + curvature[2] * across[a] * across[b];
-                k[(place[a], place[b])] += value;
-                if b < 2 {
-                    for mode in 0..modes {
-                        k[(place[a], mode)] -= value * centre[(b, mode)];
-                    }
-                }
+        for (row, values) in [count, count + 1, own].into_iter().zip(contact.curvature) {
+            for (column, value) in [count, count + 1, own].into_iter().zip(values) {
+                k[(row, column)] += value;
+            }
+            for mode in 0..count {
+                k[(row, mode)] -= values[0] * centre[mode][0];
+                k[(row, mode)] -= values[1] * centre[mode][1];
             }
         }
     }
+    k
 }

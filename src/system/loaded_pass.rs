@@ -41,7 +41,7 @@ impl LoadedPass {
     ) -> Result<Self, SystemError> {
         watch.stage("ball pass");
         let condition = StaticCondition::at(setup, time);
-        let point = |at: f64, condition: StaticCondition| {
+        let point = |at: f64, condition: StaticCondition| -> Result<LoadedPoint, SystemError> {
             let rest = match Equilibrium::find(structure, setup, condition) {
                 Err(SystemError::NoEquilibrium { .. }) => {
                     return Ok(LoadedPoint { at, modes: None });
@@ -51,17 +51,14 @@ impl LoadedPass {
             let modes = LoadedModes::at(structure, modes, setup, &rest)?;
             Ok(LoadedPoint { at, modes: Some(modes) })
         };
-        let angle = |place: usize| {
+        let over_angle = (0..ANGLES).into_par_iter().map(|place| {
             let turned = setup.cage.spacing * place as f64 / (ANGLES - 1) as f64;
             point(turned, condition.turned_by(setup, turned))
-        };
-        let load = |place: usize| {
+        });
+        let over_load = (0..LOADS).into_par_iter().map(|place| {
             let factor = 10_f64.powf(2.0 * place as f64 / (LOADS - 1) as f64 - 1.0);
             point(factor, condition.loaded(factor))
-        };
-        let all = |points: usize, at: &(dyn Fn(usize) -> Result<LoadedPoint, SystemError> + Sync)| {
-            (0..points).into_par_iter().map(at).collect::<Result<Vec<_>, _>>()
-        };
-        Ok(Self { over_angle: all(ANGLES, &angle)?, over_load: all(LOADS, &load)? })
+        });
+        Ok(Self { over_angle: over_angle.collect::<Result<_, _>>()?, over_load: over_load.collect::<Result<_, _>>()? })
     }
 }

@@ -27,8 +27,8 @@ pub struct Recorder {
     filters: Vec<Decimator>,
     /// Rows that were not taken out; those whose sensors are still to come at the end.
     queue: RunRecord,
-    /// Rows at the start of the queue that are good.
-    confirmed: usize,
+    /// Number of rows at the start of the queue that are good and may leave.
+    pub(crate) confirmed: usize,
 }
 
 impl Recorder {
@@ -58,11 +58,6 @@ impl Recorder {
     /// that blows up showed in its last interval stays here.
     pub(crate) fn confirm(&mut self) {
         self.confirmed = self.queue.rows();
-    }
-
-    /// Number of rows that may leave.
-    pub(crate) fn confirmed(&self) -> usize {
-        self.confirmed
     }
 
     /// Takes these rows out.
@@ -111,18 +106,15 @@ impl Recorder {
                 SnapshotError::Other { what: "steps an output", expected: self.ratio, found: state.phase as u64 };
             *filter = filter.clone().with_state(&state).map_err(|_| other)?;
         }
-        for column in Column::all(self.filters.len()) {
-            *self.queue.column_mut(column) = snapshot.numbers()?;
+        for values in self.queue.columns_mut() {
+            *values = snapshot.numbers()?;
         }
         let (begun, balls) = (self.queue.time_s.len(), self.queue.balls);
         for column in Column::all(self.filters.len()) {
             let (expected, found) = (begun * column.width(balls), self.queue.column(column).len());
             if found != expected && !matches!(column, Column::Sensor(_)) {
-                return Err(SnapshotError::Other {
-                    what: "numbers of a column",
-                    expected: expected as u64,
-                    found: found as u64,
-                });
+                let (expected, found) = (expected as u64, found as u64);
+                return Err(SnapshotError::Other { what: "numbers of a column", expected, found });
             }
         }
         self.confirmed = 0;
@@ -135,10 +127,8 @@ impl Observer<CoupledSystem> for Recorder {
         let modes = system.modes;
         for (sensor, filter) in self.filters.iter_mut().enumerate() {
             let modal = scalar_product(&system.sensors[sensor].1, &now.y[..modes]);
-            let residual = system
-                .residual
-                .as_ref()
-                .map_or(0.0, |residual| residual.at_sensor(sensor, system.balls.all(|ball| &ball.outer_radial)));
+            let forces = system.balls.all(|ball| &ball.outer_radial);
+            let residual = system.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, forces));
             if let Some(acceleration) = filter.push(modal + residual) {
                 self.queue.sensors[sensor].1.push(acceleration);
             }

@@ -1,7 +1,7 @@
 //! Both races with cage and shaft at rest: forces and their derivatives for given positions.
 
 use super::bearing_setup::BearingSetup;
-use super::inner::{InnerGap, InnerRace};
+use super::inner::InnerRace;
 use super::race::{Damage, RaceContact, RaceForce, RacePlace};
 use crate::bearing::Race;
 
@@ -21,6 +21,16 @@ pub(super) struct RestingRaces {
     spins: Vec<Option<(usize, f64)>>,
     /// How much larger than nominal each ball's radius is, m.
     oversizes: Vec<f64>,
+}
+
+/// A contact with the inner race, and its potential over the shaft's x and y and the ball's outward displacement.
+pub(super) struct InnerContact {
+    /// Sum of the contact forces' magnitudes, N.
+    pub magnitude: f64,
+    /// N.
+    pub slope: [f64; 3],
+    /// N/m.
+    pub curvature: [[f64; 3]; 3],
 }
 
 /// Curvature of a contact's potential in the plane from its derivatives in polar coordinates about the race's centre, N/m:
@@ -48,13 +58,27 @@ impl RestingRaces {
         self.force(&self.outer, ball, angle - shift, shift, penetration)
     }
 
-    /// Force of `ball` at `angle` (rad) about the bearing's centre on the inner race.
-    pub(super) fn inner_force(&self, ball: usize, angle: f64, gap: &InnerGap) -> RaceForce {
-        let [x, y] = gap.normal;
+    /// Contact with the inner race of `ball` at `angle` (rad) about the bearing's centre and the outward displacement `s` (m), the
+    /// shaft at `centre` (m).
+    pub(super) fn inner_contact(&self, ball: usize, angle: f64, s: f64, centre: [f64; 2]) -> InnerContact {
         let (sin, cos) = angle.sin_cos();
+        let gap = self.inner_race.gap([cos, sin], s, centre);
+        let [x, y] = gap.normal;
         let turned = (cos * y - sin * x).atan2(cos * x + sin * y);
         let own = angle + turned - self.shaft_angle;
-        self.force(&self.inner, ball, own, -turned, gap.penetration)
+        let force = self.force(&self.inner, ball, own, -turned, gap.penetration);
+        // b = rho e - shaft over (x, y, s): along and across the normal
+        let along = [-x, -y, x * cos + y * sin];
+        let across = [y, -x, x * sin - y * cos];
+        let [rr, rt, tt] = in_the_plane(&force, gap.distance);
+        let curvature = |a: usize, b: usize| {
+            rr * along[a] * along[b] + rt * (along[a] * across[b] + across[a] * along[b]) + tt * across[a] * across[b]
+        };
+        InnerContact {
+            magnitude: force.magnitude,
+            slope: [0, 1, 2].map(|a| force.radial * along[a] + force.tangential * across[a]),
+            curvature: [0, 1, 2].map(|a| [0, 1, 2].map(|b| curvature(a, b))),
+        }
     }
 
     /// Force on a race at `angle` in its own frame; `spun` is what the ball's flat is turned by as seen from there.
@@ -63,11 +87,7 @@ impl RestingRaces {
         let (sin, cos) = angle.sin_cos();
         let flat = self.spins[ball].filter(|(flat, spin)| race.feels(*flat, spin + spun));
         let spin = flat.map_or(0.0, |(_, spin)| spin + spun);
-        let damage = match (race.defect_at([cos, sin]), flat) {
-            (Some(defect), _) => Damage::Race(defect),
-            (None, Some((flat, _))) => Damage::Flat(flat),
-            (None, None) => Damage::None,
-        };
+        let damage = Damage::of(race.defect_at([cos, sin]), flat.map(|(flat, _)| flat));
         let at = |pressed: f64, turned: f64| {
             let place = RacePlace {
                 angle: angle + turned,
@@ -79,10 +99,11 @@ impl RestingRaces {
         };
         let mut force = at(0.0, 0.0);
         if damage != Damage::None && force.magnitude > 0.0 {
-            let step = DIFFERENCE * race.usual_penetration(force.magnitude);
+            // of the penetration of the undamaged race under this force
+            let step = DIFFERENCE * (force.magnitude / race.plain.stiffness).cbrt().powi(2);
             // the profile turns the normals, which the contacts' own derivatives leave out
             let radius = race.radius(penetration);
-            let outward = race.pressed_outward();
+            let outward = race.sign;
             let [less, more] = [-step, step].map(|step| at(outward * step, 0.0));
             let [before, after] = [-step, step].map(|step| at(0.0, step / radius));
             let slope = |a: f64, b: f64| (b - a) / (2.0 * step);

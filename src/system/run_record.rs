@@ -93,22 +93,17 @@ impl RunRecord {
         }
     }
 
-    pub(super) fn column_mut(&mut self, column: Column) -> &mut Vec<f64> {
-        match column {
-            Column::Time => &mut self.time_s,
-            Column::ShaftX => &mut self.shaft_x,
-            Column::ShaftY => &mut self.shaft_y,
-            Column::Sensor(sensor) => &mut self.sensors[sensor].1,
-            Column::BallRadius => &mut self.ball_radius,
-            Column::OuterForce => &mut self.outer_force,
-            Column::InnerForce => &mut self.inner_force,
-        }
+    /// All columns, in the order of [`Column::all`].
+    pub(super) fn columns_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        let sensors = self.sensors.iter_mut().map(|(_, values)| values);
+        let forces = [&mut self.ball_radius, &mut self.outer_force, &mut self.inner_force];
+        [&mut self.time_s, &mut self.shaft_x, &mut self.shaft_y].into_iter().chain(sensors).chain(forces)
     }
 
     /// Appends rows of the same sensors and balls.
     pub fn append(&mut self, rows: &Self) {
-        for column in Column::all(self.sensors.len()) {
-            self.column_mut(column).extend_from_slice(rows.column(column));
+        for (column, values) in Column::all(self.sensors.len()).zip(self.columns_mut()) {
+            values.extend_from_slice(rows.column(column));
         }
     }
 
@@ -116,10 +111,9 @@ impl RunRecord {
     pub(super) fn take_first(&mut self, rows: usize) -> Self {
         let names = self.sensors.iter().map(|(name, _)| name.clone());
         let mut taken = Self::blank(names, self.balls);
-        for column in Column::all(self.sensors.len()) {
-            let end = column.places(&(0..rows), self.balls).end;
-            let values = self.column_mut(column).drain(..end);
-            taken.column_mut(column).extend(values);
+        let ends = Column::all(taken.sensors.len()).map(|column| rows * column.width(taken.balls)).collect::<Vec<_>>();
+        for ((values, to), end) in self.columns_mut().zip(taken.columns_mut()).zip(ends) {
+            to.extend(values.drain(..end));
         }
         taken
     }

@@ -68,60 +68,53 @@ impl Structure {
     ///
     /// `gravity` in m/s^2 loads the ring's mass.
     pub fn ring_alone(ring: Ring, gravity: [f64; 2]) -> Self {
-        let load = ring_gravity(&ring, gravity);
-        Self {
-            stiffness: ring.stiffness().clone(),
-            mass: ring.mass().clone(),
-            gravity: load,
-            sensors: Vec::new(),
-            factor: OnceLock::new(),
-            ring,
-        }
+        let (stiffness, mass, load) = (ring.stiffness().clone(), ring.mass().clone(), ring_gravity(&ring, gravity));
+        Self::new(ring, [stiffness, mass], load)
+    }
+
+    fn new(ring: Ring, [stiffness, mass]: [DenseMatrix; 2], gravity: Vec<f64>) -> Self {
+        Self { ring, stiffness, mass, gravity, sensors: Vec::new(), factor: OnceLock::new() }
     }
 
     /// The ring tied to a condensed housing whose interface is the ring's displacements.
     ///
     /// # Errors
-    /// [`SystemError::InterfaceSize`] if the superelement has another interface.
+    /// [`SystemError::OtherSize`] if the superelement has another interface.
     pub fn with_housing(ring: Ring, housing: &Superelement, gravity: [f64; 2]) -> Result<Self, SystemError> {
         let interface = ring.dof();
         if housing.interface_dof != interface {
-            return Err(SystemError::InterfaceSize { expected: interface, found: housing.interface_dof });
+            return Err(SystemError::OtherSize(format!(
+                "the ring has {interface} degrees of freedom, the superelement's interface {}",
+                housing.interface_dof
+            )));
         }
-        let add_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
+        let with_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
             let mut sum = housing.clone();
-            for column in 0..interface {
-                for row in 0..interface {
-                    sum[(row, column)] += ring[(row, column)];
-                }
-            }
+            let mut interface = sum.submatrix_mut(0, 0, interface, interface);
+            interface += ring;
             sum
         };
         let mut load = housing.gravity_load(gravity);
         for (total, own) in load.iter_mut().zip(ring_gravity(&ring, gravity)) {
             *total += own;
         }
-        Ok(Self {
-            stiffness: add_ring(&housing.stiffness, ring.stiffness()),
-            mass: add_ring(&housing.mass, ring.mass()),
-            gravity: load,
-            sensors: Vec::new(),
-            factor: OnceLock::new(),
-            ring,
-        })
+        let stiffness = with_ring(&housing.stiffness, ring.stiffness());
+        let mass = with_ring(&housing.mass, ring.mass());
+        Ok(Self::new(ring, [stiffness, mass], load))
     }
 
     /// Adds a sensor.
     ///
     /// # Errors
-    /// [`SystemError::SensorSize`] if its row has another length than the coordinates.
+    /// [`SystemError::OtherSize`] if its row has another length than the coordinates.
     pub fn add_sensor(&mut self, sensor: Sensor) -> Result<(), SystemError> {
-        if sensor.row.len() == self.dof() {
-            self.sensors.push(sensor);
-            Ok(())
-        } else {
-            Err(SystemError::SensorSize { name: sensor.name, expected: self.dof(), found: sensor.row.len() })
+        if sensor.row.len() != self.dof() {
+            let (name, found) = (sensor.name, sensor.row.len());
+            let what = format!("sensor {name}: {} coordinates expected, {found} found", self.dof());
+            return Err(SystemError::OtherSize(what));
         }
+        self.sensors.push(sensor);
+        Ok(())
     }
 
     /// A sensor on the ring at an angle (rad) in a direction of the plane, at the node radius.
@@ -146,6 +139,14 @@ impl Structure {
     /// Sensors in the order they were added.
     pub fn sensors(&self) -> &[Sensor] {
         &self.sensors
+    }
+
+    /// Mean of the ring nodes' displacement in x and y, of a column of displacements [dof x k], m.
+    pub(super) fn ring_mean(&self, displacements: &DenseMatrix, column: usize) -> [f64; 2] {
+        let nodes = self.ring.nodes();
+        let sum =
+            |component: usize| -> f64 { (0..nodes).map(|node| displacements[(3 * node + component, column)]).sum() };
+        [0, 1].map(|component| sum(component) / nodes as f64)
     }
 
     /// Stiffness [dof x dof].
@@ -189,7 +190,7 @@ impl Structure {
     /// Static responses `K^-1 B`.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] if the structure can move without force.
+    /// [`SystemError::Refused`] if the structure can move without force.
     pub fn static_response(&self, loads: &DenseMatrix) -> Result<DenseMatrix, SystemError> {
         match self.factor.get_or_init(|| self.factorised()) {
             Some(StaticFactor::Dense(factor)) => Ok(factor.solve(loads)),
@@ -198,7 +199,9 @@ impl Structure {
                 factor.solve_columns(&mut response)?;
                 Ok(response)
             }
-            None => Err(SystemError::NotSupported),
+            None => Err(SystemError::Refused(
+                "ring and housing are not held: they can move without force; add springs or fixed nodes under [housing] supports or [ring] supports",
+            )),
         }
     }
 
@@ -229,7 +232,7 @@ impl StructureModes {
     /// in which a linear coupling through these loads is felt as with all modes, up to terms of order (f / hz)^4.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`] for a structure that is not held; what the eigenvalue computation reports.
+    /// [`SystemError::Refused`] for a structure that is not held; what the eigenvalue computation reports.
     pub fn with_static_response(
         &self,
         structure: &Structure,
@@ -248,19 +251,10 @@ impl StructureModes {
         let k = residual.transpose() * (structure.stiffness() * &residual);
         let m = residual.transpose() * (structure.mass() * &residual);
         let own = symmetric_generalised_eigen(&k, &m)?;
-        let shapes = &residual * &own.vectors;
         let mut squares = self.squared_frequencies[..kept].to_vec();
         squares.extend(&own.values);
-        Ok(Self {
-            has_more: false,
-            squared_frequencies: squares,
-            shapes: DenseMatrix::from_fn(structure.dof(), kept + loads.ncols(), |row, column| {
-                match column.checked_sub(kept) {
-                    None => self.shapes[(row, column)],
-                    Some(own) => shapes[(row, own)],
-                }
-            }),
-        })
+        let shapes = faer::concat![[lowest, &residual * &own.vectors]];
+        Ok(Self { has_more: false, squared_frequencies: squares, shapes })
     }
 
     /// Frequency of a mode, Hz; rigid ones within round-off of zero.

@@ -123,8 +123,8 @@ fn summary(result: &CondenseResult) -> String {
         format!(
             "{} interface coordinates, {} fixed-interface modes, {} residual vectors, for {} interior degrees of freedom",
             element.interface_dof,
-            basis.count() - basis.residual_vectors(),
-            basis.residual_vectors(),
+            basis.count() - basis.residual_vectors,
+            basis.residual_vectors,
             result.stage.condensed.substructure.interior_dof()
         ),
         format!(

@@ -7,7 +7,7 @@ use super::ring::{Boundary, ring_and_tie};
 use crate::app::case::{Case, FixedInterfaceModes, Interface};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
-use crate::fe::modal::{Mechanisms, rigid_motions, ring_motions, unless_too_many_bodies};
+use crate::fe::modal::{Bore, Mechanisms, rigid_motions, ring_motions};
 use crate::fe::model::{HousingModel, NodeInterface};
 use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, ReductionError, RigidMotions, craig_bampton};
 use crate::formats::DofLabel;
@@ -110,10 +110,9 @@ impl CondensedHousing {
     ///
     /// # Errors
     /// [`ComputeError::Reduction`].
-    pub(crate) fn with_loads(mut self, loads: &DenseMatrix) -> Result<Self, ComputeError> {
-        let weight = self.matrices().weight.clone();
-        self.condensed = self.condensed.with_loads(loads, &weight)?;
-        Ok(self.with_structural())
+    pub(crate) fn with_loads(self, loads: &DenseMatrix) -> Result<Self, ComputeError> {
+        let forces = self.condensed.interior_of(loads);
+        self.with_forces(forces)
     }
 
     /// The same with the static response to forces on the interior [interior x k] in the basis.
@@ -224,8 +223,7 @@ fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(),
         return Ok(()); // refused for this
     }
     let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
-    let found = Mechanisms::find_with_held(&housing.mesh, &housing.model, &partition.driven, rotation);
-    match unless_too_many_bodies(found)? {
+    match Mechanisms::find_in(&housing.mesh, &housing.model, &Bore::Held(&partition.driven, rotation))? {
         Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior { what: found.sentences() }),
         _ => Ok(()),
     }

@@ -8,7 +8,7 @@ use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{FullModes, ModeSet, OwnModes, RingShapes};
+use crate::fe::modal::{FullModes, ModeSet, RingShapes, mode_set};
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
@@ -49,15 +49,10 @@ impl Bodies {
     pub(crate) fn mode_set(&self, modes: &FullModes) -> ModeSet {
         let all = modes.over_all_rows();
         let housing = self.housing.as_ref();
-        let moved = housing.map(|(_, model)| modes.motions().housing(model, &all));
-        let of_ring = self.ring.as_ref().map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions().ring(&all)));
-        let with_shapes = housing.zip(moved.as_ref());
-        let own = OwnModes {
-            frequencies_hz: &modes.basis.frequencies_hz,
-            housing: with_shapes.map(|((mesh, model), moved)| (mesh, model, moved)),
-            ring: of_ring.as_ref(),
-        };
-        own.set()
+        let moved = housing.map(|(_, model)| modes.motions.housing(model, &all));
+        let of_ring = self.ring.as_ref().map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions.ring(&all)));
+        let housing = housing.zip(moved.as_ref()).map(|((mesh, model), moved)| (mesh, model, moved));
+        mode_set(&modes.basis.frequencies_hz, housing, of_ring.as_ref())
     }
 
     /// Where the ring sits: in the mesh's axes, or in its own.

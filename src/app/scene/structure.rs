@@ -125,7 +125,7 @@ impl CoupledStructure {
             housing: Some(housing),
             tie: Some(tie),
             fixed_interface_modes: condensed.basis.count(),
-            complete_hz: condensed.basis.complete_below().sqrt() / TAU,
+            complete_hz: condensed.basis.complete_below.sqrt() / TAU,
             ..Self::solved(structure, case, rows, count, watch)?
         })
     }
@@ -176,18 +176,11 @@ impl CoupledStructure {
     /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
     fn survey_of_imported(&self, range: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
         let ring = self.structure.ring();
-        let modes = FullModes::of(self.full_matrices(), range, watch)?;
-        let of_ring = modes.motions().ring(&modes.over_all_rows());
+        let modes = FullModes::of(self.full_matrices(), range, None, watch)?;
+        let of_ring = modes.motions.ring(&modes.over_all_rows());
         Ok(ModalSurvey {
-            dof: self.structure.dof(),
-            free_dof: modes.free_dof(),
-            basis: modes.basis,
-            mass: None,
-            participation: None,
-            shares: None,
-            mechanisms: None,
-            housing: None,
             ring: Some(RingShapes::new(ring, &self.frame(), &of_ring)),
+            ..ModalSurvey::without_mass(self.structure.dof(), modes.free_dof(), modes.basis)
         })
     }
 

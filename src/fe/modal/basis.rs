@@ -1,6 +1,6 @@
 //! Modes of a structure with everything that proves them.
 
-use crate::numerics::linalg::{DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
+use crate::numerics::linalg::{DenseMatrix, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
 use std::f64::consts::TAU;
 
 /// Error bounds below which an eigenvalue counts as zero: the bound itself is an estimate.
@@ -88,14 +88,34 @@ impl ModalBasis {
     /// # Errors
     /// [`LinalgError`] of factorisation, iteration or proof.
     pub fn of(problem: &EigenProblem, range: ModeRange) -> Result<Self, LinalgError> {
-        let squared = |hz: f64| (TAU * hz).powi(2);
         let pairs = match range {
             ModeRange::Count(count) => problem.lowest(count),
             ModeRange::AtMost(count) => problem.lowest(count.min(problem.order()).max(1)),
-            ModeRange::UpToHz(hz) => problem.below(squared(hz)),
+            ModeRange::UpToHz(high) => problem.below(squared(high)),
             ModeRange::BandHz([low, high]) => problem.between(squared(low), squared(high)),
         }?;
-        Ok(Self::new(pairs))
+        let check = pairs.count_check;
+        let mut basis = Self {
+            rigid_modes: 0,
+            frequencies_hz: Vec::new(),
+            error_bounds_hz: Vec::new(),
+            eigenvalues: pairs.values,
+            residuals: pairs.residuals,
+            shapes: pairs.vectors,
+            orthogonality: pairs.orthogonality,
+            count_check: FrequencyCount {
+                above_hz: check.above.map(hz),
+                below_hz: hz(check.below),
+                counted: check.counted,
+                found: check.found,
+            },
+            shift: pairs.shift,
+            times: pairs.times,
+            bounds: pairs.bounds,
+            rounding: pairs.rounding,
+        };
+        basis.judge();
+        Ok(basis)
     }
 
     /// The modes of a problem with those near zero [sharpened](Self::sharpen): their whole space is computed where the range cuts it, for
@@ -129,7 +149,6 @@ impl ModalBasis {
 
     /// Leaves out what lies beyond a range.
     fn keep(&mut self, range: ModeRange) {
-        let squared = |hz: f64| (TAU * hz).powi(2);
         let lies_in = |mode: &usize| {
             let (value, bound) = (self.eigenvalues[*mode], self.bounds[*mode]);
             match range {
@@ -152,31 +171,6 @@ impl ModalBasis {
         let shapes = &self.shapes;
         self.shapes = DenseMatrix::from_fn(shapes.nrows(), kept.len(), |row, mode| shapes[(row, kept[mode])]);
         self.judge();
-    }
-
-    fn new(pairs: EigenPairs) -> Self {
-        let check = pairs.count_check;
-        let mut basis = Self {
-            rigid_modes: 0,
-            frequencies_hz: Vec::new(),
-            error_bounds_hz: Vec::new(),
-            eigenvalues: pairs.values,
-            residuals: pairs.residuals,
-            shapes: pairs.vectors,
-            orthogonality: pairs.orthogonality,
-            count_check: FrequencyCount {
-                above_hz: check.above.map(hz),
-                below_hz: hz(check.below),
-                counted: check.counted,
-                found: check.found,
-            },
-            shift: pairs.shift,
-            times: pairs.times,
-            bounds: pairs.bounds,
-            rounding: pairs.rounding,
-        };
-        basis.judge();
-        basis
     }
 
     /// What follows from eigenvalues and bounds.
@@ -260,7 +254,7 @@ impl ModalBasis {
         let check = self.count_check;
         match self.eigenvalues.get(count) {
             Some(&next) => next,
-            None if check.above_hz.is_none() && check.found == count => (TAU * check.below_hz).powi(2),
+            None if check.above_hz.is_none() && check.found == count => squared(check.below_hz),
             None => 0.0,
         }
     }
@@ -269,6 +263,10 @@ impl ModalBasis {
     pub fn count(&self) -> usize {
         self.eigenvalues.len()
     }
+}
+
+fn squared(hz: f64) -> f64 {
+    (TAU * hz).powi(2)
 }
 
 fn hz(eigenvalue: f64) -> f64 {

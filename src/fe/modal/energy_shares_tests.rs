@@ -39,7 +39,7 @@ fn blocks(dimension: usize, tied: bool) -> (Cells, Solved) {
 
 fn shares(cells: &Cells, solved: &Solved) -> EnergyShares {
     let rigid = solved.rigid_modes;
-    EnergyShares::new(&cells.mesh, &solved.model, &solved.shapes, rigid).expect("modes of this model")
+    EnergyShares::new(Some((&cells.mesh, &solved.model, &solved.shapes)), None, rigid).expect("modes of this model")
 }
 
 /// Parts and springs together hold all of the energy, and that is the eigenvalue.
@@ -115,7 +115,9 @@ fn the_number_of_threads_does_not_change_a_bit() {
     let shapes = DenseMatrix::from_fn(model.dof(), 3, |dof, mode| (0.37 * (dof + 1) as f64 * (mode + 1) as f64).sin());
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads").install(|| EnergyShares::new(&cells.mesh, &model, &shapes, 0)).expect("shares")
+        pool.expect("threads")
+            .install(|| EnergyShares::new(Some((&cells.mesh, &model, &shapes)), None, 0))
+            .expect("shares")
     };
     let one = on(1);
     for threads in [2, 3, 8] {
@@ -132,7 +134,7 @@ fn the_number_of_threads_does_not_change_a_bit() {
 fn modes_of_another_model_are_refused() {
     let (cells, solved) = blocks(2, false);
     let shapes = DenseMatrix::zeros(3, 1);
-    let found = EnergyShares::new(&cells.mesh, &solved.model, &shapes, 0);
+    let found = EnergyShares::new(Some((&cells.mesh, &solved.model, &shapes)), None, 0);
     assert!(matches!(found, Err(ModalError::Shape { .. })));
 }
 
@@ -156,7 +158,8 @@ fn a_ring_has_its_share() {
         let solved = ringed(&cells.mesh, all, ring, fit, 12);
         let (model, basis) = (&solved.model, &solved.basis);
         let (shapes, of_ring) = (&solved.housing, &solved.of_ring);
-        let found = EnergyShares::with_ring((&cells.mesh, model), &solved.ring, shapes, of_ring, basis.rigid_modes);
+        let found =
+            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.ring, of_ring)), basis.rigid_modes);
         let found = found.expect("modes of this model");
         assert_eq!(found.springs, ["top", "ring supports"]);
         let own = |k: &DenseMatrix, mode: usize| -> f64 {
@@ -210,7 +213,8 @@ fn a_ring_has_its_share() {
         // the ring is not for show
         let most = found.modes.iter().filter_map(|mode| mode.strain.as_ref()?.ring);
         assert!(most.fold(0.0, f64::max) > 0.05);
-        let other = EnergyShares::with_ring((&cells.mesh, model), &solved.ring, shapes, &DenseMatrix::zeros(5, 12), 0);
+        let other =
+            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.ring, &DenseMatrix::zeros(5, 12))), 0);
         assert!(matches!(other, Err(ModalError::Shape { .. })));
     }
 }

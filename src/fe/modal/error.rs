@@ -24,16 +24,9 @@ pub enum ModalError {
         /// Number found.
         found: usize,
     },
-    /// Something that is not a finite number.
-    #[error("{what} {index}: expected a finite number, found {value}")]
-    NotFinite {
-        /// What it is.
-        what: &'static str,
-        /// Which one, from 0.
-        index: usize,
-        /// What was found.
-        value: f64,
-    },
+    /// A value, an option or a list of meshes that makes no sense.
+    #[error("{0}")]
+    Invalid(String),
     /// A body without mass.
     #[error("the mass is {mass:e} kg: expected more than zero")]
     NoMass {
@@ -75,30 +68,6 @@ pub enum ModalError {
         /// Distance up to which points coincide, m.
         tolerance: f64,
     },
-    /// An option out of its range.
-    #[error("{name}: expected {expected}, found {found}")]
-    Option {
-        /// Its name.
-        name: &'static str,
-        /// Admissible range.
-        expected: &'static str,
-        /// What was found.
-        found: f64,
-    },
-    /// Fewer meshes than an extrapolation needs.
-    #[error("{found} meshes: an estimate of the discretisation error needs at least 2")]
-    TooFewMeshes {
-        /// Number of meshes.
-        found: usize,
-    },
-    /// Two meshes of the same size.
-    #[error("two meshes have sizes {finer:e} and {coarser:e}: expected them to differ by 1 % at least")]
-    SameSize {
-        /// Smaller size.
-        finer: f64,
-        /// Larger size.
-        coarser: f64,
-    },
 }
 
 /// Finite, or an error that names the first value that is not.
@@ -106,12 +75,20 @@ pub(super) fn check_finite<'a>(
     what: &'static str,
     values: impl IntoIterator<Item = &'a f64>,
 ) -> Result<(), ModalError> {
-    for (index, &value) in values.into_iter().enumerate() {
-        if !value.is_finite() {
-            return Err(ModalError::NotFinite { what, index, value });
+    match values.into_iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((index, value)) => {
+            Err(ModalError::Invalid(format!("{what} {index}: expected a finite number, found {value}")))
         }
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Valid, or an error that says what is.
+pub(super) fn check_value(name: &str, expected: &str, found: f64, valid: bool) -> Result<(), ModalError> {
+    match valid {
+        true => Ok(()),
+        false => Err(ModalError::Invalid(format!("{name}: expected {expected}, found {found}"))),
+    }
 }
 
 /// Equal, or an error with both numbers.

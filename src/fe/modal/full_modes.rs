@@ -1,132 +1,75 @@
 //! Modes of a housing, a ring, or both over the free degrees of freedom of their matrices.
 
-use super::{ModalBasis, ModalError, ModeRange, Participation, strain_products};
+use super::{ModalBasis, ModalError, ModeRange, strain_products};
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::model::HousingModel;
-use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows, sparse_times_dense};
+use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows};
 use crate::numerics::{Unwatched, Watch};
+
+/// `Phi^T K Phi` [count x count] of shapes Phi over all rows of coupled matrices [rows x count], element by element.
+pub(crate) type Products<'p> = &'p dyn Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>;
 
 /// Modes of a housing, a ring, or both.
 #[derive(Debug)]
 pub struct FullModes {
     /// The modes over the free degrees of freedom.
     pub basis: ModalBasis,
-    rows: Rows,
-}
-
-/// The rows of coupled matrices, and what they mean.
-#[derive(Debug)]
-struct Rows {
-    motions: CoupledMotions,
-    /// Rows that are neither fixed nor driven.
+    /// What the coordinates mean.
+    pub(crate) motions: CoupledMotions,
+    /// Rows that are neither fixed nor driven: those that the modes were computed over.
     free: Vec<usize>,
-    /// Number of all.
-    count: usize,
-}
-
-impl Rows {
-    /// Shapes over all rows from those over the free ones.
-    fn all(&self, shapes: &DenseMatrix) -> DenseMatrix {
-        scattered_rows(shapes, &self.free, self.count)
-    }
+    /// Number of all rows.
+    rows: usize,
 }
 
 impl FullModes {
-    /// Modes over the free rows, at least one. The matrices are gone before they are factorised.
-    ///
-    /// # Errors
-    /// [`ModalError::Linalg`], [`ModalError::NoModes`].
-    pub(crate) fn of(matrices: CoupledMatrices, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
-        Self::by(matrices, range, |problem, _| Ok(ModalBasis::of(problem, range)?), watch)
-    }
-
-    /// Modes with those near zero by the energies of elements. `products` gives `Phi^T K Phi` of shapes over all rows, element by element.
+    /// Modes over the free rows, at least one; with `products` those near zero by the energies of elements. The matrices are gone
+    /// before they are factorised.
     ///
     /// # Errors
     /// [`ModalError::Linalg`], [`ModalError::NoModes`], and what `products` reports.
-    pub(crate) fn sharpened(
+    pub(crate) fn of(
         matrices: CoupledMatrices,
         range: ModeRange,
-        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
-        watch: &impl Watch,
-    ) -> Result<Self, ModalError> {
-        let solve = |problem: &EigenProblem, rows: &Rows| {
-            ModalBasis::sharpened(problem, range, |shapes| products(&rows.motions, &rows.all(shapes)))
-        };
-        Self::by(matrices, range, solve, watch)
-    }
-
-    /// Modes as `solve` finds them from the problem over the free rows.
-    fn by(
-        matrices: CoupledMatrices,
-        range: ModeRange,
-        solve: impl FnOnce(&EigenProblem, &Rows) -> Result<ModalBasis, ModalError>,
+        products: Option<Products<'_>>,
         watch: &impl Watch,
     ) -> Result<Self, ModalError> {
         let CoupledMatrices { stiffness, mass, free_dofs: free, motions } = matrices;
-        let rows = Rows { motions, free, count: mass.rows() };
+        let rows = mass.rows();
         watch.stage("order");
-        let problem = EigenProblem::restricted(&stiffness, &mass, &rows.free)?;
+        let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
         drop((stiffness, mass));
         watch.stage("eigen");
-        let basis = solve(&problem, &rows)?;
-        if basis.count() == 0 {
-            return Err(ModalError::NoModes { range });
+        let basis = match products {
+            None => ModalBasis::of(&problem, range)?,
+            Some(products) => {
+                let products = |shapes: &DenseMatrix| products(&motions, &scattered_rows(shapes, &free, rows));
+                ModalBasis::sharpened(&problem, range, products)?
+            }
+        };
+        match basis.count() {
+            0 => Err(ModalError::NoModes { range }),
+            _ => Ok(Self { basis, motions, free, rows }),
         }
-        Ok(Self { basis, rows })
     }
 
-    /// Modes as [`sharpened`](Self::sharpened), their shapes over all rows, and their participation in the unit motions `rigid`.
-    ///
-    /// # Errors
-    /// As [`sharpened`](Self::sharpened).
-    pub(crate) fn analysed(
-        matrices: CoupledMatrices,
-        range: ModeRange,
-        rigid: &DenseMatrix,
-        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
-        watch: &impl Watch,
-    ) -> Result<(Self, DenseMatrix, Participation), ModalError> {
-        let moved = sparse_times_dense(&matrices.mass, rigid);
-        let modes = Self::sharpened(matrices, range, products, watch)?;
-        let all = modes.over_all_rows();
-        let participation = Participation::of_normalised(&moved, &all, rigid)?;
-        Ok((modes, all, participation))
-    }
-
-    /// The lowest `count` modes, or all if there are fewer.
-    ///
-    /// # Errors
-    /// [`ModalError::Linalg`].
-    pub(crate) fn lowest(matrices: CoupledMatrices, count: usize, watch: &impl Watch) -> Result<Self, ModalError> {
-        Self::of(matrices, ModeRange::AtMost(count), watch)
-    }
-
-    /// Computes the modes near zero again by the energies of elements: `products` as in [`sharpened`](Self::sharpened).
+    /// Computes the modes near zero again by the energies of elements.
     ///
     /// # Errors
     /// What `products` reports, and [`ModalError::Linalg`].
-    pub(crate) fn sharpen(
-        &mut self,
-        products: impl Fn(&CoupledMotions, &DenseMatrix) -> Result<DenseMatrix, ModalError>,
-    ) -> Result<(), ModalError> {
-        let rows = &self.rows;
-        self.basis.sharpen(|shapes| products(&rows.motions, &rows.all(shapes)))
-    }
-
-    /// What the coordinates mean.
-    pub(crate) fn motions(&self) -> &CoupledMotions {
-        &self.rows.motions
+    pub(crate) fn sharpen(&mut self, products: Products<'_>) -> Result<(), ModalError> {
+        let Self { basis, motions, free, rows } = self;
+        basis.sharpen(|shapes| products(motions, &scattered_rows(shapes, free, *rows)))
     }
 
     /// Number of degrees of freedom that the modes were computed over.
     pub(crate) fn free_dof(&self) -> usize {
-        self.rows.free.len()
+        self.free.len()
     }
 
     /// Shapes over all rows of the matrices [rows x count].
     pub(crate) fn over_all_rows(&self) -> DenseMatrix {
-        self.rows.all(&self.basis.shapes)
+        scattered_rows(&self.basis.shapes, &self.free, self.rows)
     }
 }
 
@@ -142,7 +85,7 @@ pub fn housing_modes(
 ) -> Result<ModalBasis, ModalError> {
     let matrices = CoupledMatrices::of_housing(matrices, model);
     let products = |motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all));
-    Ok(FullModes::sharpened(matrices, range, products, &Unwatched)?.basis)
+    Ok(FullModes::of(matrices, range, Some(&products), &Unwatched)?.basis)
 }
 
 impl HousingModel {

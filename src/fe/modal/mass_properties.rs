@@ -1,10 +1,10 @@
 //! Mass, centroid and moments of inertia of a model, from its mass matrix.
 
-use super::error::check_count;
-use super::{ModalError, rigid_motions};
+use super::error::{ModalError, check_count};
+use super::rigid_motions;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingModel;
-use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -83,9 +83,10 @@ impl MassProperties {
                 0.5 * (couples(0, 1) - couples(1, 0)),
             );
             let about_point = Matrix3::from_fn(|i, j| 0.5 * (rigid[(3 + i, 3 + j)] + rigid[(3 + j, 3 + i)]));
+            let shift = (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * mass;
             MassDistribution::Space {
                 centroid: (Vector3::from(about) + s).into(),
-                inertia: rows(&(about_point - shift(mass, s))),
+                inertia: (about_point - shift).transpose().into(),
             }
         };
         Ok(Self { mass, distribution })
@@ -96,18 +97,27 @@ impl MassProperties {
     /// # Errors
     /// As [`Self::from_rigid_inertia`].
     pub fn of_housing(matrices: &SystemMatrices, model: &HousingModel) -> Result<Self, ModalError> {
-        let mut about = middle(model);
-        let inertia = |about| {
-            let r = rigid_motions(&model.coordinates, model.dimension, about);
-            r.transpose() * sparse_times_dense(&matrices.mass, &r)
+        Self::about_centroid(&matrices.mass, middle(model), |about| {
+            rigid_motions(&model.coordinates, model.dimension, about)
+        })
+    }
+
+    /// By the mass matrix and its rigid motions about a point: about `start` (m), and a second time about the centroid itself, where
+    /// nothing is left to subtract.
+    ///
+    /// # Errors
+    /// As [`Self::from_rigid_inertia`].
+    pub(super) fn about_centroid(
+        mass: &SparseMatrix,
+        start: [f64; 3],
+        rigid: impl Fn([f64; 3]) -> DenseMatrix,
+    ) -> Result<Self, ModalError> {
+        let of = |about: [f64; 3]| {
+            let r = rigid(about);
+            Self::from_rigid_inertia(&(r.transpose() * sparse_times_dense(mass, &r)), about)
         };
-        let first = Self::from_rigid_inertia(&inertia(about), about)?;
-        // a second time about the centroid itself, where nothing is left to subtract
-        let centroid = first.centroid();
-        for (to, from) in about.iter_mut().zip(centroid) {
-            *to = from.unwrap_or(*to);
-        }
-        Self::from_rigid_inertia(&inertia(about), about)
+        let first = of(start)?.centroid();
+        of([0, 1, 2].map(|axis| first[axis].unwrap_or(start[axis])))
     }
 
     /// Coordinates of the centroid, m; z is `None` for a plane model.
@@ -123,7 +133,7 @@ impl MassProperties {
         let MassDistribution::Space { inertia, .. } = self.distribution else {
             return None;
         };
-        let inertia = matrix(&inertia);
+        let inertia = Matrix3::from(inertia).transpose();
         if inertia.iter().any(|value| !value.is_finite()) {
             return None;
         }
@@ -141,19 +151,6 @@ impl MassProperties {
             axes: [first, second, first.cross(&second)].map(Into::into),
         })
     }
-}
-
-/// `m (|s|^2 1 - s s^T)`.
-fn shift(mass: f64, s: Vector3<f64>) -> Matrix3<f64> {
-    (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * mass
-}
-
-fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))
-}
-
-fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| rows[i][j])
 }
 
 /// Mean of the coordinates of the nodes that an element uses, m.

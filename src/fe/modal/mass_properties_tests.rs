@@ -58,7 +58,7 @@ fn principal_axes_of_a_turned_body() {
         mass: 1.0,
         distribution: MassDistribution::Space {
             centroid: [0.0; 3],
-            inertia: rows(&(inertia * turn.matrix().transpose())),
+            inertia: (inertia * turn.matrix().transpose()).transpose().into(),
         },
     };
     let principal = body.principal().expect("in space");

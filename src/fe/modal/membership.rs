@@ -1,7 +1,6 @@
 //! Which physical groups the elements of a housing are in.
 
-use super::ModalError;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::HousingModel;
 
@@ -9,9 +8,8 @@ use crate::fe::model::HousingModel;
 pub(super) struct Membership {
     /// Groups of the elements' dimension, in the mesh's order.
     pub names: Vec<String>,
-    /// Start of each element's list in `groups`, and the end of the last.
-    starts: Vec<usize>,
-    groups: Vec<usize>,
+    /// Elements and their groups, ascending.
+    pairs: Vec<(usize, usize)>,
 }
 
 impl Membership {
@@ -39,13 +37,12 @@ impl Membership {
             names.push(group.name.clone());
         }
         pairs.sort_unstable();
-        let starts = (0..=count).map(|element| pairs.partition_point(|pair| pair.0 < element)).collect();
-        Ok(Self { names, starts, groups: pairs.into_iter().map(|pair| pair.1).collect() })
+        Ok(Self { names, pairs })
     }
 
     /// Groups of an element, as places in `names`.
-    pub(super) fn of(&self, element: usize) -> &[usize] {
-        let range = self.starts[element]..self.starts[element + 1];
-        &self.groups[range]
+    pub(super) fn of(&self, element: usize) -> impl Iterator<Item = usize> {
+        let start = self.pairs.partition_point(|pair| pair.0 < element);
+        self.pairs[start..].iter().take_while(move |pair| pair.0 == element).map(|pair| pair.1)
     }
 }

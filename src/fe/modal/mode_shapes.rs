@@ -5,43 +5,29 @@ use crate::fe::mesh::Mesh;
 use crate::fe::model::{HousingModel, Ring, RingFrame};
 use crate::numerics::linalg::DenseMatrix;
 
-/// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct OwnModes<'a> {
-    /// Frequencies, Hz.
-    pub frequencies_hz: &'a [f64],
-    /// The housing with its displacements in the mesh's axes [dof x modes].
-    pub housing: Option<(&'a Mesh, &'a HousingModel, &'a DenseMatrix)>,
-    /// The ring.
-    pub ring: Option<&'a RingShapes>,
-}
-
-impl OwnModes<'_> {
-    /// Points and displacements in one list; labelled by the mesh's tags where no node of a ring is among them.
-    pub(crate) fn set(&self) -> ModeSet {
-        let mut points = Vec::new();
-        if let Some((mesh, ..)) = self.housing {
-            points.extend_from_slice(&mesh.nodes);
-        }
-        let nodes = points.len();
-        points.extend(self.ring.iter().flat_map(|ring| &ring.points));
-        let shapes = DenseMatrix::from_fn(3 * points.len(), self.frequencies_hz.len(), |row, mode| {
-            let (point, axis) = (row / 3, row % 3);
-            match (self.housing, self.ring) {
-                (Some((_, model, shapes)), _) if point < nodes => {
-                    let d = model.dimension();
-                    if axis < d { shapes[(d * point + axis, mode)] } else { 0.0 }
-                }
-                (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
-                _ => 0.0,
+/// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring, in one list: of the housing its
+/// displacements in the mesh's axes [dof x modes]. Labelled by the mesh's tags where no node of a ring is among them.
+pub(crate) fn mode_set(
+    frequencies_hz: &[f64],
+    housing: Option<(&Mesh, &HousingModel, &DenseMatrix)>,
+    ring: Option<&RingShapes>,
+) -> ModeSet {
+    let mut points = housing.map_or(Vec::new(), |(mesh, ..)| mesh.nodes.clone());
+    let nodes = points.len();
+    points.extend(ring.iter().flat_map(|ring| &ring.points));
+    let shapes = DenseMatrix::from_fn(3 * points.len(), frequencies_hz.len(), |row, mode| {
+        let (point, axis) = (row / 3, row % 3);
+        match (housing, ring) {
+            (Some((_, model, shapes)), _) if point < nodes => {
+                let d = model.dimension();
+                if axis < d { shapes[(d * point + axis, mode)] } else { 0.0 }
             }
-        });
-        let tags = match (self.housing, self.ring) {
-            (Some((mesh, ..)), None) => Some(mesh.node_tags.clone()),
-            _ => None,
-        };
-        ModeSet { frequencies_hz: self.frequencies_hz.to_vec(), points, node_tags: tags, shapes }
-    }
+            (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
+            _ => 0.0,
+        }
+    });
+    let node_tags = housing.filter(|_| ring.is_none()).map(|(mesh, ..)| mesh.node_tags.clone());
+    ModeSet { frequencies_hz: frequencies_hz.to_vec(), points, node_tags, shapes }
 }
 
 /// A mode that belongs to another one.

@@ -1,7 +1,6 @@
 //! Rigid motions of a set of nodes, and modes over all degrees of freedom.
 
-use super::ModalError;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use crate::fe::model::{HousingModel, Ring, RingFrame};
 use crate::numerics::linalg::{DenseMatrix, scattered_rows, sparse_times_dense};
 
@@ -70,25 +69,18 @@ pub fn over_all_dofs(
 pub(crate) fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
     let centre = frame.centre();
     let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
-    let motion = |translation: [f64; 3], rotation: [f64; 3]| {
+    let motion = |axis: usize, turns: bool| {
+        let mut unit = [0.0; 3];
+        unit[axis] = 1.0;
+        let (translation, rotation) = if turns { ([0.0; 3], unit) } else { (unit, [0.0; 3]) };
         let [x, y, z] = rotation;
         let carried = [y * arm[2] - z * arm[1], z * arm[0] - x * arm[2], x * arm[1] - y * arm[0]];
         let of_centre = [0, 1, 2].map(|axis| translation[axis] + carried[axis]);
         ring.rigid_motion_in_space(frame.vector(of_centre), frame.vector(rotation))
     };
-    let along = |axis: usize| {
-        let mut unit = [0.0; 3];
-        unit[axis] = 1.0;
-        unit
-    };
-    let motions: Vec<Vec<f64>> = if ring.is_in_space() {
-        let translations = (0..3).map(|axis| motion(along(axis), [0.0; 3]));
-        let rotations = (0..3).map(|axis| motion([0.0; 3], along(axis)));
-        translations.chain(rotations).collect()
-    } else {
-        let translations = (0..2).map(|axis| motion(along(axis), [0.0; 3]));
-        let rotation = motion([0.0; 3], along(2));
-        translations.chain([rotation]).collect()
+    let motions: Vec<Vec<f64>> = match ring.is_in_space() {
+        true => (0..6).map(|place| motion(place % 3, place >= 3)).collect(),
+        false => vec![motion(0, false), motion(1, false), motion(2, true)],
     };
     DenseMatrix::from_fn(ring.dof(), motions.len(), |row, column| motions[column][row])
 }

@@ -1,7 +1,6 @@
 //! How much of the mass each mode sets in motion when the ground moves.
 
-use super::ModalError;
-use super::error::check_count;
+use super::error::{ModalError, check_count};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
 
 /// Participation factors and effective masses of modes.

@@ -1,12 +1,10 @@
 //! Strain energy of shapes, and between shapes, without the round-off of an assembled matrix.
 
-use super::ModalError;
-use super::element_work::{CHUNK, ElementWork, MAX_DOF};
-use super::error::check_count;
+use super::element_work::sum_over_elements;
+use super::error::{ModalError, check_count};
 use super::spring_rows::spring_rows;
-use crate::fe::model::{HousingModel, ModelError};
+use crate::fe::model::HousingModel;
 use crate::numerics::linalg::DenseMatrix;
-use rayon::prelude::*;
 
 /// `Phi^T K Phi` [count x count] of shapes Phi [dof x count] over all degrees of freedom of a housing, tied nodes
 /// filled in.
@@ -22,42 +20,17 @@ use rayon::prelude::*;
 pub fn strain_products(model: &HousingModel, shapes: &DenseMatrix) -> Result<DenseMatrix, ModalError> {
     check_count("rows of the modes", model.dof(), shapes.nrows())?;
     let count = shapes.ncols();
-    let chunks: Vec<Result<DenseMatrix, ModelError>> = model
-        .elements
-        .list
-        .par_chunks(CHUNK)
-        .map(|elements| {
-            let mut sum = DenseMatrix::zeros(count, count);
-            let mut work = ElementWork::new();
-            let mut moves = vec![[0.0; MAX_DOF]; count];
-            let mut force = [0.0; MAX_DOF];
-            for element in elements {
-                work.load(model, element)?;
-                for (mode, moves) in moves.iter_mut().enumerate() {
-                    work.moves(model, element, shapes.col_as_slice(mode), moves);
-                    work.take_rigid_out(model.dimension, moves);
-                }
-                for (b, own) in moves.iter().enumerate() {
-                    work.force(own, &mut force);
-                    for (a, other) in moves.iter().enumerate() {
-                        let pairs = other.iter().zip(&force).take(work.dof());
-                        sum[(a, b)] += pairs.map(|(u, f)| u * f).sum::<f64>();
-                    }
-                }
+    let mut total = sum_over_elements(model, [count; 2], |work, _, element, sum| {
+        let of_mode = |mode| work.strains(model, element, shapes.col_as_slice(mode));
+        let moves: Vec<_> = (0..count).map(of_mode).collect();
+        for (b, own) in moves.iter().enumerate() {
+            let force = work.force(own);
+            for (a, other) in moves.iter().enumerate() {
+                sum[(a, b)] += work.work(other, &force);
             }
-            Ok(sum)
-        })
-        .collect();
-    let mut total = DenseMatrix::zeros(count, count);
-    for chunk in chunks {
-        total += chunk?;
-    }
-    add_springs(&mut total, model, shapes);
-    Ok(total)
-}
-
-fn add_springs(total: &mut DenseMatrix, model: &HousingModel, shapes: &DenseMatrix) {
-    let (d, count) = (model.dimension, shapes.ncols());
+        }
+    })?;
+    let d = model.dimension;
     for spring in &model.springs {
         for row in spring_rows(&spring.matrix) {
             let stretch = |mode: usize| -> f64 {
@@ -73,6 +46,7 @@ fn add_springs(total: &mut DenseMatrix, model: &HousingModel, shapes: &DenseMatr
             }
         }
     }
+    Ok(total)
 }
 
 #[cfg(test)]

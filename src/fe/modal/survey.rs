@@ -1,10 +1,10 @@
 //! The modes of a housing, a ring, or both, without contact and in full: nothing condensed.
 
-use super::full_modes::FullModes;
-use super::mode_shapes::{OwnModes, RingShapes};
+use super::full_modes::{FullModes, Products};
+use super::mode_shapes::{RingShapes, mode_set};
 use super::{
-    EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, Participation, rigid_motions,
-    ring_motions, strain_products,
+    Bore, EnergyShares, MassProperties, Mechanisms, ModalBasis, ModalError, ModeRange, ModeSet, Participation,
+    rigid_motions, ring_motions, strain_products,
 };
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
@@ -54,34 +54,61 @@ impl ModalSurvey {
         let matrices = CoupledMatrices::of_housing(matrices, model);
         let products =
             |motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all));
-        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
+        let (survey, motions, all) = Self::analysed(matrices, range, (mass, &rigid), &products, watch)?;
         watch.stage("analyse");
-        let shapes = modes.motions().housing(model, &all);
+        let shapes = motions.housing(model, &all);
         let groups = mesh.groups.iter();
         let groups = groups.filter(|group| group.dimension == model.dimension());
         let several = model.description.parts.len() > 1 || groups.count() > 1 || !model.spring_nodes().is_empty();
-        let shares = several.then(|| EnergyShares::new(mesh, model, &shapes, modes.basis.rigid_modes)).transpose()?;
-        let mechanisms = unless_too_many_bodies(Mechanisms::find(mesh, model))?;
+        let shares = several.then(|| EnergyShares::new(Some((mesh, model, &shapes)), None, survey.basis.rigid_modes));
         Ok(Self {
-            dof: model.dof(),
-            free_dof: modes.free_dof(),
-            basis: modes.basis,
-            mass: Some(mass),
-            participation: Some(participation),
-            shares,
-            mechanisms,
+            shares: shares.transpose()?,
+            mechanisms: Mechanisms::find_in(mesh, model, &Bore::Empty)?,
             housing: Some(shapes),
-            ring: None,
+            ..survey
         })
     }
 
-    /// The modes at the nodes of the mesh and of the ring; `housing` is what they are of.
-    pub(crate) fn own_modes<'a>(&'a self, housing: Option<(&'a Mesh, &'a HousingModel)>) -> OwnModes<'a> {
-        OwnModes {
-            frequencies_hz: &self.basis.frequencies_hz,
-            housing: housing.zip(self.housing.as_ref()).map(|((mesh, model), shapes)| (mesh, model, shapes)),
-            ring: self.ring.as_ref(),
+    /// Modes with their participation in the unit motions `rigid` about the centroid, what the coordinates mean, and the
+    /// shapes over all rows.
+    fn analysed(
+        matrices: CoupledMatrices,
+        range: ModeRange,
+        (mass, rigid): (MassProperties, &DenseMatrix),
+        products: Products<'_>,
+        watch: &impl Watch,
+    ) -> Result<(Self, CoupledMotions, DenseMatrix), ModalError> {
+        let moved = sparse_times_dense(&matrices.mass, rigid);
+        let modes = FullModes::of(matrices, range, Some(products), watch)?;
+        let all = modes.over_all_rows();
+        let participation = Participation::of_normalised(&moved, &all, rigid)?;
+        let survey = Self {
+            mass: Some(mass),
+            participation: Some(participation),
+            ..Self::without_mass(all.nrows(), modes.free_dof(), modes.basis)
+        };
+        Ok((survey, modes.motions, all))
+    }
+
+    /// The modes alone.
+    pub(crate) fn without_mass(dof: usize, free_dof: usize, basis: ModalBasis) -> Self {
+        Self {
+            dof,
+            free_dof,
+            basis,
+            mass: None,
+            participation: None,
+            shares: None,
+            mechanisms: None,
+            housing: None,
+            ring: None,
         }
+    }
+
+    /// The modes at the nodes of the mesh and of the ring; `housing` is what they are of.
+    pub(crate) fn mode_set(&self, housing: Option<(&Mesh, &HousingModel)>) -> ModeSet {
+        let housing = housing.zip(self.housing.as_ref()).map(|((mesh, model), shapes)| (mesh, model, shapes));
+        mode_set(&self.basis.frequencies_hz, housing, self.ring.as_ref())
     }
 
     /// Modes of a housing and the ring in it, tied to its bore.
@@ -102,36 +129,23 @@ impl ModalSurvey {
             let of_ring = ring_motions(ring, frame, about);
             matrices.motions.coordinates(&of_housing, &of_ring)
         };
-        let inertia = |about: [f64; 3]| {
-            let rigid = rigid_about(about);
-            let inertia = rigid.transpose() * sparse_times_dense(&matrices.mass, &rigid);
-            MassProperties::from_rigid_inertia(&inertia, about)
-        };
-        // a second time about the centroid itself, where nothing is left to subtract
-        let mass = inertia(centroid(&inertia(frame.centre())?))?;
+        let mass = MassProperties::about_centroid(&matrices.mass, frame.centre(), rigid_about)?;
         let rigid = rigid_about(centroid(&mass));
         let products = |motions: &CoupledMotions, all: &DenseMatrix| {
             let of_ring = ring.strain_products(&motions.ring(all));
             let of_housing = strain_products(model, &motions.housing(model, all))?;
             Ok(of_housing + of_ring.beams + of_ring.springs)
         };
-        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
+        let (survey, motions, all) = Self::analysed(matrices, range, (mass, &rigid), &products, watch)?;
         watch.stage("analyse");
-        let shapes = modes.motions().housing(model, &all);
-        let of_ring = modes.motions().ring(&all);
-        let rigid_modes = modes.basis.rigid_modes;
-        let shares = EnergyShares::with_ring((mesh, model), ring, &shapes, &of_ring, rigid_modes)?;
-        let mechanisms = unless_too_many_bodies(Mechanisms::find_with_ring(mesh, model, tie, ring))?;
+        let (shapes, of_ring) = (motions.housing(model, &all), motions.ring(&all));
+        let (housing, rigid_modes) = (Some((mesh, model, &shapes)), survey.basis.rigid_modes);
         Ok(Self {
-            dof: model.dof() + ring.dof(),
-            free_dof: modes.free_dof(),
-            basis: modes.basis,
-            mass: Some(mass),
-            participation: Some(participation),
-            shares: Some(shares),
-            mechanisms,
+            shares: Some(EnergyShares::new(housing, Some((ring, &of_ring)), rigid_modes)?),
+            mechanisms: Mechanisms::find_in(mesh, model, &Bore::Ring(tie, ring))?,
             housing: Some(shapes),
             ring: Some(RingShapes::new(ring, frame, &of_ring)),
+            ..survey
         })
     }
 
@@ -149,33 +163,17 @@ impl ModalSurvey {
             let strain = ring.strain_products(all);
             Ok(strain.beams + strain.springs)
         };
-        let (modes, all, participation) = FullModes::analysed(matrices, range, &rigid, products, watch)?;
-        let shares = (!ring.springs.is_empty())
-            .then(|| EnergyShares::of_ring(ring, &all, modes.basis.rigid_modes))
-            .transpose()?;
+        let (survey, _, all) = Self::analysed(matrices, range, (mass, &rigid), &products, watch)?;
+        let of_ring = || EnergyShares::new(None, Some((ring, &all)), survey.basis.rigid_modes);
         Ok(Self {
-            dof: ring.dof(),
-            free_dof: modes.free_dof(),
-            basis: modes.basis,
-            mass: Some(mass),
-            participation: Some(participation),
-            shares,
+            shares: (!ring.springs.is_empty()).then(of_ring).transpose()?,
             mechanisms: Some(Mechanisms::of_ring(ring)),
-            housing: None,
             ring: Some(RingShapes::new(ring, &frame, &all)),
+            ..survey
         })
     }
 }
 
 fn centroid(mass: &MassProperties) -> [f64; 3] {
     mass.centroid().map(|component| component.unwrap_or(0.0))
-}
-
-/// A mesh in too many bodies is worth no error where only reasons were asked for.
-pub(crate) fn unless_too_many_bodies(found: Result<Mechanisms, ModalError>) -> Result<Option<Mechanisms>, ModalError> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(ModalError::TooManyBodies { .. }) => Ok(None),
-        Err(error) => Err(error),
-    }
 }

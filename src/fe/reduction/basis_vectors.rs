@@ -6,7 +6,7 @@
 //! Methods in Engineering 103 (2015) 79-93, fold it into the constraint modes instead, at no coordinate; that takes
 //! m^-1 k of the reduced structure, whose highest eigenvalues drown the correction where a ring of beams is attached.)
 
-use super::coupled_modes::{Attached, coupled_modes, interior_residuals};
+use super::coupled_modes::interior_residuals;
 use super::{InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::{EigenPairs, SymmetricSpectrum};
 
@@ -50,7 +50,8 @@ pub(super) fn filled(
     while basis.count() < count {
         let missing = count - basis.count();
         let spectrum = modes_of(&basis, missing)?;
-        let more = corrected(substructure, &basis, &spectrum, |elastic| (elastic..elastic + missing).collect())?;
+        let elastic = elastic(&basis, &spectrum);
+        let more = corrected(substructure, &basis, &spectrum, elastic..elastic + missing)?;
         if more.count() == basis.count() {
             break;
         }
@@ -87,29 +88,21 @@ pub(super) fn modes_to(
     }
 }
 
-/// A basis with residual vectors of modes of the coupled structure; `choose` gives their places from the spectrum and
-/// the place of the first that is not quasi-static.
-pub(super) fn with_residuals(
-    substructure: &Substructure,
-    basis: &InteriorBasis,
-    attached: Option<Attached<'_>>,
-    choose: impl FnOnce(&SymmetricSpectrum, usize) -> Vec<usize>,
-) -> Result<InteriorBasis, ReductionError> {
-    let spectrum = coupled_modes(substructure, basis, attached)?;
-    corrected(substructure, basis, &spectrum, |elastic| choose(&spectrum, elastic))
+/// How many modes of the coupled structure are quasi-static: those beyond are elastic.
+pub(super) fn elastic(basis: &InteriorBasis, spectrum: &SymmetricSpectrum) -> usize {
+    let limit = basis.quasi_static();
+    spectrum.values.partition_point(|&value| value <= limit)
 }
 
-fn corrected(
+/// A basis with residual vectors of those of the chosen modes of the coupled structure that there are.
+pub(super) fn corrected(
     substructure: &Substructure,
     basis: &InteriorBasis,
     spectrum: &SymmetricSpectrum,
-    choose: impl FnOnce(usize) -> Vec<usize>,
+    chosen: impl IntoIterator<Item = usize>,
 ) -> Result<InteriorBasis, ReductionError> {
-    let limit = basis.quasi_static();
-    let elastic = spectrum.values.partition_point(|&value| value <= limit);
-    let available = spectrum.values.len();
-    let mut chosen = choose(elastic);
-    chosen.retain(|&mode| mode < available && spectrum.values[mode].is_finite());
+    let mut chosen: Vec<usize> = chosen.into_iter().collect();
+    chosen.retain(|&mode| spectrum.values.get(mode).is_some_and(|value| value.is_finite()));
     if chosen.is_empty() {
         return Ok(basis.clone());
     }

@@ -13,8 +13,9 @@
 //! alone would hold no rigid motion, and the condensed housing would be tied to the ground.
 
 use super::coupled_modes::{Attached, interface_matrices};
+use super::substructure::normalised;
 use super::{ReductionError, Substructure};
-use crate::numerics::linalg::{DenseMatrix, symmetric_eigen, symmetric_generalised_eigen};
+use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -42,7 +43,8 @@ pub struct CharacteristicModes {
     pub(super) mass: DenseMatrix,
     /// k_bb + k_a [interface x interface], N/m.
     pub(super) stiffness: DenseMatrix,
-    rigid: usize,
+    /// How many of the first ones are rigid motions.
+    pub(super) rigid: usize,
 }
 
 /// Share of the interface's static flexibility that kept modes lack.
@@ -66,32 +68,22 @@ impl CharacteristicModes {
         rigid: &DenseMatrix,
     ) -> Result<Self, ReductionError> {
         let [stiffness, mass] = interface_matrices(substructure, attached);
-        let rigid = orthonormal(rigid, &mass)?;
+        let normal = normalised(&(rigid.transpose() * (&mass * rigid)), DEPENDENT)?;
+        let rigid = rigid * normal;
         let spectrum = symmetric_generalised_eigen(&without(&stiffness, &mass, &rigid), &mass)?;
         let count = rigid.ncols();
         // a motion without mass has an infinite value; it moves nothing of the interior
-        let finite = spectrum.values.partition_point(|value| value.is_finite());
-        let vectors = DenseMatrix::from_fn(rigid.nrows(), finite.max(count), |row, mode| match mode {
-            mode if mode < count => rigid[(row, mode)],
-            mode => spectrum.vectors[(row, mode)],
-        });
-        let values = (0..vectors.ncols())
-            .map(|mode| match mode {
-                mode if mode < count => 0.0,
-                mode => spectrum.values[mode],
-            })
-            .collect();
+        let finite = spectrum.values.partition_point(|value| value.is_finite()).max(count);
+        let vectors = faer::concat![[rigid, spectrum.vectors.subcols(count, finite - count)]];
+        let mut values = spectrum.values;
+        values.truncate(finite);
+        values[..count].fill(0.0);
         Ok(Self { values, vectors, mass, stiffness, rigid: count })
     }
 
     /// Number of modes.
     pub(crate) fn count(&self) -> usize {
         self.values.len()
-    }
-
-    /// How many of the first ones are rigid motions.
-    pub(crate) fn rigid(&self) -> usize {
-        self.rigid
     }
 
     /// Frequency of a mode, Hz; `None` beyond the last.
@@ -103,7 +95,7 @@ impl CharacteristicModes {
     /// How many modes a size keeps; all if it asks for more than there are.
     ///
     /// # Errors
-    /// [`ReductionError::FewInterfaceModes`] for fewer than the rigid motions, or none.
+    /// [`ReductionError::Refused`] for fewer than the rigid motions, or none.
     pub(crate) fn kept(&self, size: InterfaceSize) -> Result<usize, ReductionError> {
         let asked = match size {
             InterfaceSize::Count(count) => count.min(self.count()),
@@ -114,11 +106,10 @@ impl CharacteristicModes {
         };
         let least = self.rigid.max(1);
         if asked < least {
-            return Err(ReductionError::FewInterfaceModes {
-                found: asked,
-                least,
-                first_hz: self.frequency_hz(0).unwrap_or(f64::INFINITY),
-            });
+            let first_hz = self.frequency_hz(0).unwrap_or(f64::INFINITY);
+            return Err(ReductionError::Refused(format!(
+                "{asked} modes of the interface are kept, expected at least {least}: rigid motions that nothing holds, or else one (the first has {first_hz:.0} Hz)"
+            )));
         }
         Ok(asked)
     }
@@ -127,39 +118,21 @@ impl CharacteristicModes {
     /// taken out of all: `1 - sum_kept (r_j^2 / lambda) / sum_all (r_j^2 / lambda)`.
     pub(crate) fn lost_flexibility(&self, kept: usize) -> LostFlexibility {
         let interface = self.vectors.nrows();
-        let (mut of_kept, mut of_all) = (vec![0.0; interface], vec![0.0; interface]);
-        for mode in self.rigid..self.count() {
-            let value = self.values[mode];
-            if value <= 0.0 {
-                continue;
-            }
-            for (row, entry) in self.vectors.col_as_slice(mode).iter().enumerate() {
-                let flexibility = entry * entry / value;
-                of_all[row] += flexibility;
-                if mode < kept {
-                    of_kept[row] += flexibility;
-                }
-            }
-        }
-        let both = of_kept.iter().zip(&of_all);
-        let lost: Vec<f64> =
-            both.map(|(kept, all)| if *all > 0.0 { (1.0 - kept / all).max(0.0) } else { 0.0 }).collect();
+        let flexibility = |row: usize, end: usize| -> f64 {
+            let modes = (self.rigid..end).filter(|&mode| self.values[mode] > 0.0);
+            let part = |mode| self.vectors[(row, mode)] * self.vectors[(row, mode)] / self.values[mode];
+            modes.map(part).sum()
+        };
+        let lost = |row: usize| {
+            let all = flexibility(row, self.count());
+            if all > 0.0 { (1.0 - flexibility(row, kept) / all).max(0.0) } else { 0.0 }
+        };
+        let lost: Vec<f64> = (0..interface).map(lost).collect();
         LostFlexibility {
             largest: lost.iter().copied().fold(0.0, f64::max),
             mean: lost.iter().sum::<f64>() / interface.max(1) as f64,
         }
     }
-}
-
-/// A basis of the columns of `motions` [n x r] with `V^T M V = 1`.
-fn orthonormal(motions: &DenseMatrix, mass: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-    let gram = symmetric_eigen(&(motions.transpose() * (mass * motions)))?;
-    let longest = gram.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
-    let normal = DenseMatrix::from_fn(motions.ncols(), kept.len(), |row, column| {
-        gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
-    });
-    Ok(motions * normal)
 }
 
 /// `P^T K P` with `P = 1 - V V^T M`: the stiffness of motions that are orthogonal to V, none of V.
@@ -172,7 +145,5 @@ fn without(stiffness: &DenseMatrix, mass: &DenseMatrix, v: &DenseMatrix) -> Dens
     // K - (K V) (M V)^T - (M V) (K V)^T + (M V) (V^T K V) (M V)^T
     let one_side = &stiff - &moved * (own * faer::Scale(0.5));
     let product = &one_side * moved.transpose();
-    DenseMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |row, column| {
-        stiffness[(row, column)] - (product[(row, column)] + product[(column, row)])
-    })
+    stiffness - (&product + product.transpose())
 }

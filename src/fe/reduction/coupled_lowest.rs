@@ -13,6 +13,8 @@
 //! takes minutes there, each time that the basis changes. Rigid motions stand in the border, as the ground may hold what is
 //! attached.
 
+use super::coupled_modes::with_amplitudes;
+use super::substructure::symmetric;
 use super::{CharacteristicModes, InteriorBasis, ReductionError};
 use crate::numerics::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen};
 
@@ -54,7 +56,7 @@ struct Bordered {
 
 impl<'a> CoupledProblem<'a> {
     pub(super) fn new(interface: &'a CharacteristicModes) -> Self {
-        let rigid = interface.vectors.subcols(0, interface.rigid());
+        let rigid = interface.vectors.subcols(0, interface.rigid);
         let held = rigid.transpose() * &interface.stiffness * &interface.vectors;
         Self { interface, stiffness: held }
     }
@@ -64,58 +66,25 @@ impl<'a> CoupledProblem<'a> {
     /// # Errors
     /// What the dense solvers report.
     pub(super) fn lowest(&self, basis: &InteriorBasis, count: usize) -> Result<SymmetricSpectrum, ReductionError> {
-        let problem = self.bordered(basis);
-        let (inner, rigid) = (problem.kappa.len(), self.interface.rigid());
-        let found = problem.lowest(count, SHIFT * basis.lowest_value())?;
-        // back from modes of the interface to its coordinates
-        let wanted = found.values.len();
-        let amplitudes = DenseMatrix::from_fn(rigid + inner, wanted, |row, mode| {
-            let place = row.checked_sub(rigid).unwrap_or(inner + row);
-            found.vectors[(place, mode)]
-        });
-        let moved = &self.interface.vectors * amplitudes;
-        let vectors = DenseMatrix::from_fn(moved.nrows() + basis.count(), wanted, |row, mode| {
-            match row.checked_sub(moved.nrows()) {
-                None => moved[(row, mode)],
-                Some(q) => found.vectors[(inner + rigid + q, mode)],
-            }
-        });
-        Ok(SymmetricSpectrum { values: found.values, vectors })
-    }
-
-    fn bordered(&self, basis: &InteriorBasis) -> Bordered {
-        let rigid = self.interface.rigid();
+        let (rigid, q) = (self.interface.rigid, basis.count());
         let inner = self.interface.count() - rigid;
-        let driven = basis.participation() * &self.interface.vectors;
-        let border = rigid + basis.count();
-        let across = |of_rigid: &dyn Fn(usize, usize) -> f64, of_vector: &dyn Fn(usize, usize) -> f64| {
-            DenseMatrix::from_fn(border, inner, |row, column| match row.checked_sub(rigid) {
-                None => of_rigid(row, rigid + column),
-                Some(q) => of_vector(q, rigid + column),
-            })
-        };
-        let stiffness = DenseMatrix::from_fn(border, border, |row, column| {
-            match (row.checked_sub(rigid), column.checked_sub(rigid)) {
-                (None, None) => self.stiffness[(row, column)],
-                (Some(q), Some(p)) if q == p => basis.values()[q],
-                _ => 0.0,
-            }
-        });
-        let mass = DenseMatrix::from_fn(border, border, |row, column| {
-            match (row.checked_sub(rigid), column.checked_sub(rigid)) {
-                (Some(q), None) => driven[(q, column)],
-                (None, Some(q)) => driven[(q, row)],
-                _ => f64::from(u8::from(row == column)),
-            }
-        });
-        Bordered {
+        let driven = &basis.participation * &self.interface.vectors;
+        let unit = DenseMatrix::identity(rigid, rigid);
+        let own = [self.stiffness.subcols(0, rigid), unit.as_ref()];
+        let problem = Bordered {
             kappa: self.interface.values[rigid..].to_vec(),
             across: [
-                across(&|row, column| self.stiffness[(row, column)], &|_, _| 0.0),
-                across(&|_, _| 0.0, &|q, column| driven[(q, column)]),
+                faer::concat![[self.stiffness.subcols(rigid, inner)], [DenseMatrix::zeros(q, inner)]],
+                faer::concat![[DenseMatrix::zeros(rigid, inner)], [driven.subcols(rigid, inner)]],
             ],
-            border: [stiffness, mass],
-        }
+            border: with_amplitudes(own, basis, driven.subcols(0, rigid)),
+        };
+        let found = problem.lowest(count, SHIFT * basis.lowest_value())?;
+        // back from modes of the interface to its coordinates
+        let part = |first: usize, count: usize| found.vectors.subrows(first, count);
+        let moved = &self.interface.vectors * faer::concat![[part(inner, rigid)], [part(0, inner)]];
+        let vectors = faer::concat![[moved], [part(inner + rigid, q)]];
+        Ok(SymmetricSpectrum { values: found.values, vectors })
     }
 }
 
@@ -141,10 +110,8 @@ impl Bordered {
             let (inner, border) = self.split(&moved);
             let of_border = schur.solve(&(border - &scaled * &inner));
             let rest = inner - across.transpose() * &of_border;
-            let y = DenseMatrix::from_fn(order, x.ncols(), |row, column| match row.checked_sub(self.kappa.len()) {
-                None => scale[row] * rest[(row, column)],
-                Some(row) => of_border[(row, column)],
-            });
+            let rest = DenseMatrix::from_fn(rest.nrows(), rest.ncols(), |row, mode| scale[row] * rest[(row, mode)]);
+            let y = faer::concat![[rest], [of_border]];
             let [k, m] = [0, 1].map(|which| symmetric(&(y.transpose() * self.times(which, &y))));
             let normal = orthonormal(&m)?;
             let ritz = symmetric_eigen(&symmetric(&congruent(&k, &normal)))?;
@@ -191,13 +158,11 @@ impl Bordered {
         let (across, own) = (&self.across[which], &self.border[which]);
         let above = across.transpose() * &border;
         let below = across * &inner + own * &border;
-        DenseMatrix::from_fn(x.nrows(), x.ncols(), |row, column| match row.checked_sub(self.kappa.len()) {
-            None => {
-                let diagonal = if which == 0 { self.kappa[row] } else { 1.0 };
-                diagonal * inner[(row, column)] + above[(row, column)]
-            }
-            Some(row) => below[(row, column)],
-        })
+        let inner = DenseMatrix::from_fn(above.nrows(), above.ncols(), |row, column| {
+            let diagonal = if which == 0 { self.kappa[row] } else { 1.0 };
+            diagonal * inner[(row, column)] + above[(row, column)]
+        });
+        faer::concat![[inner], [below]]
     }
 
     fn split(&self, x: &DenseMatrix) -> (DenseMatrix, DenseMatrix) {
@@ -218,10 +183,6 @@ fn orthonormal(m: &DenseMatrix) -> Result<DenseMatrix, ReductionError> {
     Ok(DenseMatrix::from_fn(m.nrows(), kept.len(), |row, column| {
         gram.vectors[(row, kept[column])] / (gram.values[kept[column]].sqrt() * lengths[row])
     }))
-}
-
-fn symmetric(a: &DenseMatrix) -> DenseMatrix {
-    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| 0.5 * (a[(row, column)] + a[(column, row)]))
 }
 
 #[cfg(test)]

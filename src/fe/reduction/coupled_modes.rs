@@ -1,7 +1,9 @@
 //! Modes of a condensed housing with what is attached to its interface, and how far they miss their equations.
 
+use super::substructure::diagonal;
 use super::{InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, SymmetricSpectrum, symmetric_generalised_eigen};
+use faer::MatRef;
 
 /// What is attached to an interface: a bearing's ring with its springs.
 #[derive(Debug, Clone, Copy)]
@@ -14,13 +16,23 @@ pub struct Attached<'a> {
 
 /// k_bb and m_bb of a housing with what is attached [interface x interface].
 pub(super) fn interface_matrices(substructure: &Substructure, attached: Option<Attached<'_>>) -> [DenseMatrix; 2] {
-    let with = |own: &DenseMatrix, more: Option<&DenseMatrix>| match more {
-        Some(more) => own + more,
-        None => own.clone(),
-    };
+    let (k, m) = (substructure.stiffness(), &substructure.mass);
+    attached.map_or_else(|| [k.clone(), m.clone()], |part| [k + part.stiffness, m + part.mass])
+}
+
+/// Matrices k, m of an interface, on `c` coordinates [c x c], and a basis, whose amplitudes come after them; `driven` is how
+/// the coordinates' accelerations drive these [q x c].
+pub(super) fn with_amplitudes(
+    [k_cc, m_cc]: [MatRef<'_, f64>; 2],
+    basis: &InteriorBasis,
+    driven: MatRef<'_, f64>,
+) -> [DenseMatrix; 2] {
+    let q = basis.count();
+    let none = DenseMatrix::zeros(k_cc.nrows(), q);
+    let unit = DenseMatrix::identity(q, q);
     [
-        with(substructure.stiffness(), attached.map(|part| part.stiffness)),
-        with(substructure.mass(), attached.map(|part| part.mass)),
+        faer::concat![[k_cc, none], [none.transpose(), diagonal(basis.values())]],
+        faer::concat![[m_cc, driven.transpose()], [driven, unit]],
     ]
 }
 
@@ -30,26 +42,8 @@ pub(super) fn reduced_matrices(
     basis: &InteriorBasis,
     attached: Option<Attached<'_>>,
 ) -> [DenseMatrix; 2] {
-    let interface = substructure.interface_dof();
-    let order = interface + basis.count();
     let [k_bb, m_bb] = interface_matrices(substructure, attached);
-    let (values, m_qb) = (basis.values(), basis.participation());
-    let stiffness = DenseMatrix::from_fn(order, order, |row, column| {
-        match (row.checked_sub(interface), column.checked_sub(interface)) {
-            (None, None) => k_bb[(row, column)],
-            (Some(mode), Some(other)) if mode == other => values[mode],
-            _ => 0.0,
-        }
-    });
-    let mass = DenseMatrix::from_fn(order, order, |row, column| {
-        match (row.checked_sub(interface), column.checked_sub(interface)) {
-            (None, None) => m_bb[(row, column)],
-            (Some(mode), None) => m_qb[(mode, column)],
-            (None, Some(mode)) => m_qb[(mode, row)],
-            (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
-        }
-    });
-    [stiffness, mass]
+    with_amplitudes([k_bb.as_ref(), m_bb.as_ref()], basis, basis.participation.as_ref())
 }
 
 /// All modes of a condensed housing with what is attached to it.
@@ -72,7 +66,7 @@ pub(super) fn interior_inertia(
     let interface = substructure.interface_dof();
     let amplitudes = coordinates.subrows(interface, basis.count());
     substructure.follow(&coordinates.subrows(0, interface).to_owned())
-        + substructure.mass_times(&(basis.vectors() * amplitudes))
+        + substructure.interior.mass_times(&(&basis.vectors * amplitudes))
 }
 
 /// What the interior's equations lack, for modes `chosen` of `modes` [interior x chosen]:
@@ -93,7 +87,7 @@ pub(super) fn interior_residuals(
         DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| modes.vectors[(row, chosen[column])]);
     let mut residual = interior_inertia(substructure, basis, &coordinates);
     let amplitudes = coordinates.subrows(substructure.interface_dof(), basis.count());
-    let stiff = substructure.stiffness_times(&(basis.vectors() * amplitudes));
+    let stiff = substructure.interior.stiffness_times(&(&basis.vectors * amplitudes));
     for (column, &mode) in chosen.iter().enumerate() {
         let lambda = modes.values[mode];
         let stiff = stiff.col_as_slice(column);

@@ -10,7 +10,8 @@
 use super::basis_vectors::BasisChoice;
 use super::coupled_modes::reduced_matrices;
 use super::selection::choose_basis;
-use super::{Attached, ErrorEstimate, InteriorBasis, ReductionError, Substructure, Superelement};
+use super::substructure::rows_of;
+use super::{Attached, InteriorBasis, ReductionError, Substructure, Superelement};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
@@ -70,18 +71,11 @@ impl CraigBampton {
     /// Loads on the coordinates [order x k] of loads on the degrees of freedom of the housing [dof x k]. The weight of
     /// the mesh stays the weight of the mesh, whatever the basis keeps.
     pub(crate) fn project(&self, load: &DenseMatrix) -> DenseMatrix {
-        let partition = self.substructure.partition();
-        let pick =
-            |dofs: &[usize]| DenseMatrix::from_fn(dofs.len(), load.ncols(), |row, column| load[(dofs[row], column)]);
-        let (interior, driven) = (pick(&partition.interior), pick(&partition.driven));
-        let interface = transpose_times_dense(&partition.tie, &driven)
-            + self.substructure.constraint_modes().transpose() * &interior;
-        let modal = self.basis.vectors().transpose() * &interior;
-        let first = interface.nrows();
-        DenseMatrix::from_fn(self.superelement.order(), load.ncols(), |row, column| match row.checked_sub(first) {
-            None => interface[(row, column)],
-            Some(mode) => modal[(mode, column)],
-        })
+        let partition = &self.substructure.partition;
+        let (interior, driven) = (self.interior_of(load), rows_of(load, &partition.driven));
+        let interface =
+            transpose_times_dense(&partition.tie, &driven) + self.substructure.constraint_modes.transpose() * &interior;
+        faer::concat![[interface], [self.basis.vectors.transpose() * &interior]]
     }
 
     /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
@@ -92,27 +86,18 @@ impl CraigBampton {
             let width = BLOCK.min(order - first);
             let unit = DenseMatrix::from_fn(order, width, |row, column| f64::from(u8::from(row == first + column)));
             let moved = sparse_times_dense(matrix, &self.field(&unit, matrix.rows()));
-            let block = self.project(&moved);
-            for column in 0..width {
-                condensed.col_as_slice_mut(first + column).copy_from_slice(block.col_as_slice(column));
-            }
+            condensed.subcols_mut(first, width).copy_from(&self.project(&moved));
         }
         condensed
     }
 
-    /// The same housing with further vectors in its basis: the static response of the interior to loads
-    /// on the housing's degrees of freedom [dof x k], so that it is exact for them too. Structural damping is to be added
-    /// again.
-    ///
-    /// # Errors
-    /// As [`InteriorBasis::extended`].
-    pub(crate) fn with_loads(self, loads: &DenseMatrix, weight: &DenseMatrix) -> Result<Self, ReductionError> {
-        let interior = &self.substructure.partition().interior;
-        let inside = DenseMatrix::from_fn(interior.len(), loads.ncols(), |row, column| loads[(interior[row], column)]);
-        self.with_forces(inside, weight)
+    /// Rows of the interior [interior x k] of loads or motions over the housing's degrees of freedom [dof x k].
+    pub(crate) fn interior_of(&self, all: &DenseMatrix) -> DenseMatrix {
+        rows_of(all, &self.substructure.partition.interior)
     }
 
-    /// The same for forces on the interior [interior x k].
+    /// The same housing with further vectors in its basis: the static response to forces on the interior [interior x k], so that it
+    /// is exact for them too. Structural damping is to be added again.
     ///
     /// # Errors
     /// As [`InteriorBasis::extended`].
@@ -122,29 +107,13 @@ impl CraigBampton {
         Ok(Self::new(self.substructure, basis, weight))
     }
 
-    /// Estimated errors of the frequencies in a band, with what will be attached.
-    ///
-    /// # Errors
-    /// As [`ErrorEstimate::of`].
-    pub(crate) fn estimate(
-        &self,
-        attached: Option<Attached<'_>>,
-        band_hz: f64,
-    ) -> Result<ErrorEstimate, ReductionError> {
-        ErrorEstimate::of(&self.substructure, &self.basis, attached, band_hz)
-    }
-
     /// Data recovery: the row that gives a degree of freedom of the housing from the coordinates
     /// \[order\]; `None` for one that is fixed.
     pub(crate) fn recovery_row(&self, dof: usize) -> Option<Vec<f64>> {
-        let partition = self.substructure.partition();
-        let interface = self.superelement.interface_dof;
+        let partition = &self.substructure.partition;
         if let Ok(place) = partition.interior.binary_search(&dof) {
-            let psi = self.substructure.constraint_modes();
-            let q = self.basis.vectors();
-            let constraint = (0..interface).map(|column| psi[(place, column)]);
-            let modal = (0..q.ncols()).map(|mode| q[(place, mode)]);
-            return Some(constraint.chain(modal).collect());
+            let (psi, q) = (self.substructure.constraint_modes.row(place), self.basis.vectors.row(place));
+            return Some(psi.iter().chain(q.iter()).copied().collect());
         }
         let place = partition.driven.iter().position(|&b| b == dof)?;
         let mut row = vec![0.0; self.superelement.order()];
@@ -157,19 +126,17 @@ impl CraigBampton {
     /// Whole-field recovery: displacements over all degrees of freedom of the housing [dof x k] for coordinates
     /// [order x k]; fixed ones are zero.
     pub(crate) fn field(&self, coordinates: &DenseMatrix, dof: usize) -> DenseMatrix {
-        let partition = self.substructure.partition();
+        let partition = &self.substructure.partition;
         let interface = self.superelement.interface_dof;
         let boundary = coordinates.subrows(0, interface);
         let amplitudes = coordinates.subrows(interface, self.basis.count());
-        let interior = self.substructure.constraint_modes() * boundary + self.basis.vectors() * amplitudes;
+        let interior = &self.substructure.constraint_modes * boundary + &self.basis.vectors * amplitudes;
         let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
         let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
         for column in 0..coordinates.ncols() {
             let to = all.col_as_slice_mut(column);
-            for (&dof, &value) in partition.interior.iter().zip(interior.col_as_slice(column)) {
-                to[dof] = value;
-            }
-            for (&dof, &value) in partition.driven.iter().zip(driven.col_as_slice(column)) {
+            let inside = partition.interior.iter().zip(interior.col_as_slice(column));
+            for (&dof, &value) in inside.chain(partition.driven.iter().zip(driven.col_as_slice(column))) {
                 to[dof] = value;
             }
         }

@@ -29,40 +29,9 @@ pub enum ReductionError {
         /// Largest one accepted.
         limit: f64,
     },
-    /// Nothing left to reduce.
-    #[error(
-        "the interface takes every free displacement of the housing, so that nothing is left to condense: expected an interface of fewer nodes, or a finer mesh"
-    )]
-    NoInterior,
-    /// Nothing to attach it by.
-    #[error("the interface has no free degree of freedom: every one of its nodes is fixed or tied")]
-    NoInterface,
-    /// `auto` did not reach the target.
-    #[error(
-        "no basis of up to {vectors} vectors brings the estimated error in the band to {band_hz} Hz below {target}: {reached:.1e} was reached"
-    )]
-    TargetMissed {
-        /// Vectors of the last basis.
-        vectors: usize,
-        /// Top of the band, Hz.
-        band_hz: f64,
-        /// Error asked for.
-        target: f64,
-        /// Error of the last basis.
-        reached: f64,
-    },
-    /// Too few modes of an interface.
-    #[error(
-        "{found} modes of the interface are kept, expected at least {least}: rigid motions that nothing holds, or else one (the first has {first_hz:.0} Hz)"
-    )]
-    FewInterfaceModes {
-        /// How many are kept.
-        found: usize,
-        /// How many it takes.
-        least: usize,
-        /// Frequency of the first mode, Hz.
-        first_hz: f64,
-    },
+    /// A basis, an interface or a number of modes that does not exist, and why.
+    #[error("{0}")]
+    Refused(String),
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),

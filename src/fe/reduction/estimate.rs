@@ -109,33 +109,24 @@ impl ErrorEstimate {
         }
         Ok(estimate)
     }
-}
 
-impl ErrorEstimate {
-    /// The same of a model with further restraints, of which the squared frequencies `values` are known (1/s^2, ascending):
-    /// its frequencies, each with both errors, and what each rises by, relative.
-    pub(super) fn raised(&self, basis: &InteriorBasis, values: &[f64]) -> (Self, Vec<f64>) {
+    /// The same of a model with further restraints, of which the squared frequencies `values` are known (1/s^2, ascending), such
+    /// as those with a reduced interface: its frequencies, each with both errors, and what each rises by, relative. The rise is exact.
+    pub(crate) fn raised(&self, basis: &InteriorBasis, values: &[f64]) -> (Self, Vec<f64>) {
         let quasi_static = basis.quasi_static();
-        let rise = |(place, mode): (usize, &EstimatedMode)| {
-            let before = (TAU * mode.frequency_hz).powi(2);
-            match before > quasi_static {
-                true => fall(at(values, place), before),
-                false => 0.0,
-            }
-        };
-        let rises: Vec<f64> = self.modes.iter().enumerate().map(rise).collect();
         let top = (TAU * self.band_hz).powi(2);
-        let both = self.modes.iter().zip(&rises).enumerate();
-        let modes = both.map(|(place, (mode, rise))| EstimatedMode {
-            frequency_hz: at(values, place).abs().sqrt() / TAU,
-            relative_error: (1.0 + mode.relative_error) * (1.0 + rise) - 1.0,
-        });
-        let raised = Self {
-            modes: modes.collect(),
-            out_of_band: (0..self.modes.len()).filter(|&place| at(values, place) > top).count(),
-            ..*self
+        let raise = |(place, mode): (usize, &EstimatedMode)| {
+            let before = (TAU * mode.frequency_hz).powi(2);
+            let rise = if before > quasi_static { fall(at(values, place), before) } else { 0.0 };
+            let raised = EstimatedMode {
+                frequency_hz: at(values, place).abs().sqrt() / TAU,
+                relative_error: (1.0 + mode.relative_error) * (1.0 + rise) - 1.0,
+            };
+            (raised, rise)
         };
-        (raised, rises)
+        let (modes, rises) = self.modes.iter().enumerate().map(raise).unzip();
+        let out_of_band = (0..self.modes.len()).filter(|&place| at(values, place) > top).count();
+        (Self { modes, out_of_band, ..*self }, rises)
     }
 }
 
@@ -151,7 +142,7 @@ fn fall(before: f64, after: f64) -> f64 {
 
 /// What further rounds would add, relative to the last one: a geometric series.
 fn remainder(value: f64, basis: &InteriorBasis) -> f64 {
-    let ratio = (value / basis.complete_below()).powi(2).min(SLOWEST);
+    let ratio = (value / basis.complete_below).powi(2).min(SLOWEST);
     ratio / (1.0 - ratio)
 }
 

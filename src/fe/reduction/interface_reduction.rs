@@ -8,8 +8,7 @@
 //! carried, frequencies converge from above, k_qc stays zero; with all modes kept nothing changes. What is given up:
 //! static response of the interface is no longer exact, and a load on few of its coordinates meets too stiff an interface.
 
-use super::coupled_modes::Attached;
-use super::{CharacteristicModes, CraigBampton, ErrorEstimate, InterfaceSize, ReductionError, Superelement};
+use super::{Attached, CharacteristicModes, CraigBampton, InterfaceSize, ReductionError, Superelement};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 
 /// A superelement on characteristic constraint modes, with the way back to the interface.
@@ -17,14 +16,14 @@ use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eige
 pub struct InterfaceReduction {
     /// The reduced matrices; their interface coordinates are amplitudes of the modes.
     pub superelement: Superelement,
-    /// diag(R, 1) [order x reduced order].
+    /// diag(R, 1) [order x reduced order]: coordinates with the whole interface from the reduced ones.
     pub(super) transform: DenseMatrix,
     /// `(m_bb + m_a) R` [interface x kept], kg^(1/2).
     inertia: DenseMatrix,
     /// Squared frequencies of the kept modes, 1/s^2, ascending.
     values: Vec<f64>,
-    /// That of the first mode left out.
-    next: Option<f64>,
+    /// That of the first mode left out, 1/s^2; `None` if all are kept.
+    pub(crate) next: Option<f64>,
 }
 
 impl InterfaceReduction {
@@ -39,16 +38,14 @@ impl InterfaceReduction {
     ) -> Result<Self, ReductionError> {
         let whole = &condensed.superelement;
         let (interface, kept) = (whole.interface_dof, modes.kept(size)?);
-        let transform = DenseMatrix::from_fn(whole.order(), kept + whole.modal_dof(), |row, column| {
-            match (row.checked_sub(interface), column.checked_sub(kept)) {
-                (None, None) => modes.vectors[(row, column)],
-                (Some(mode), Some(other)) => f64::from(u8::from(mode == other)),
-                _ => 0.0,
-            }
-        });
+        let (modal, r) = (whole.modal_dof(), modes.vectors.subcols(0, kept));
+        let transform = faer::concat![
+            [r, DenseMatrix::zeros(interface, modal)],
+            [DenseMatrix::zeros(modal, kept), DenseMatrix::identity(modal, modal)],
+        ];
         let mut stiffness = congruent(&whole.stiffness, &transform);
         // rigid motions that nothing holds have no stiffness: what stands there is round-off of a sum of large terms
-        for rigid in 0..modes.rigid() {
+        for rigid in 0..modes.rigid {
             for other in 0..stiffness.ncols() {
                 stiffness[(rigid, other)] = 0.0;
                 stiffness[(other, rigid)] = 0.0;
@@ -62,7 +59,7 @@ impl InterfaceReduction {
                 structural: whole.structural.as_ref().map(|matrix| congruent(matrix, &transform)),
                 interface_dof: kept,
             },
-            inertia: &modes.mass * modes.vectors.subcols(0, kept),
+            inertia: &modes.mass * r,
             transform,
             values: modes.values[..kept].to_vec(),
             next: modes.values.get(kept).copied(),
@@ -79,22 +76,11 @@ impl InterfaceReduction {
         &self.values
     }
 
-    /// Squared frequency of the first mode left out, 1/s^2; `None` if all are kept.
-    pub(crate) fn next(&self) -> Option<f64> {
-        self.next
-    }
-
     /// The modes R [interface x kept], kg^(-1/2).
     pub fn modes(&self) -> DenseMatrix {
         let interface = self.inertia.nrows();
         let modes = self.transform.subrows(0, interface);
         modes.subcols(0, self.kept()).to_owned()
-    }
-
-    /// Coordinates [order x k] of the superelement with the whole interface for those of the reduced one
-    /// [reduced order x k].
-    pub(crate) fn expanded(&self, coordinates: &DenseMatrix) -> DenseMatrix {
-        &self.transform * coordinates
     }
 
     /// Rows over the coordinates [order x k], as columns, over the reduced ones [reduced order x k].
@@ -106,10 +92,7 @@ impl InterfaceReduction {
     /// its mass: `p = R^T (m_bb + m_a) d`, no amplitudes of the interior.
     pub(crate) fn nearest(&self, motions: &DenseMatrix) -> DenseMatrix {
         let amplitudes = self.inertia.transpose() * motions;
-        DenseMatrix::from_fn(self.superelement.order(), motions.ncols(), |row, column| match row < self.kept() {
-            true => amplitudes[(row, column)],
-            false => 0.0,
-        })
+        faer::concat![[amplitudes], [DenseMatrix::zeros(self.superelement.modal_dof(), motions.ncols())]]
     }
 
     /// Squared frequencies with what is attached, 1/s^2, ascending.
@@ -120,31 +103,12 @@ impl InterfaceReduction {
         let (mut k, mut m) = (self.superelement.stiffness.clone(), self.superelement.mass.clone());
         if let Some(part) = attached {
             let modes = self.modes();
-            let own = [congruent(part.stiffness, &modes), congruent(part.mass, &modes)];
-            for (whole, own) in [&mut k, &mut m].into_iter().zip(own) {
-                for column in 0..own.ncols() {
-                    for row in 0..own.nrows() {
-                        whole[(row, column)] += own[(row, column)];
-                    }
-                }
+            for (whole, part) in [(&mut k, part.stiffness), (&mut m, part.mass)] {
+                let mut interface = whole.submatrix_mut(0, 0, self.kept(), self.kept());
+                interface += congruent(part, &modes);
             }
         }
         Ok(symmetric_generalised_eigen(&k, &m)?.values)
-    }
-
-    /// Errors of the frequencies in the band with the reduced interface: those of `estimate`, which is of the whole interface,
-    /// and on top what the frequencies rise by, which comes beside. The rise is exact.
-    ///
-    /// # Errors
-    /// As [`coupled_values`](Self::coupled_values).
-    pub(crate) fn estimate(
-        &self,
-        condensed: &CraigBampton,
-        attached: Option<Attached<'_>>,
-        estimate: &ErrorEstimate,
-    ) -> Result<(ErrorEstimate, Vec<f64>), ReductionError> {
-        let values = self.coupled_values(attached)?;
-        Ok(estimate.raised(&condensed.basis, &values))
     }
 }
 

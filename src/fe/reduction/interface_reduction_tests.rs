@@ -1,7 +1,7 @@
 use super::*;
 use crate::fe::reduction::coupled_modes::coupled_modes;
 use crate::fe::reduction::samples::{every_third, grounded_rod, rod, train};
-use crate::fe::reduction::{BasisChoice, BasisSize, craig_bampton};
+use crate::fe::reduction::{BasisChoice, BasisSize, ErrorEstimate, craig_bampton};
 use crate::numerics::linalg::DenseCholesky;
 use std::f64::consts::TAU;
 
@@ -52,7 +52,7 @@ fn all_modes_kept_change_nothing() {
         let rigid = if held { none() } else { translation() };
         for attached in [None, with(&parts)] {
             let all = reduced(&condensed, attached, &rigid, 1000);
-            assert_eq!((all.kept(), all.next()), (INTERFACE, None));
+            assert_eq!((all.kept(), all.next), (INTERFACE, None));
             let found = all.coupled_values(attached).expect("definite");
             for (found, expected) in found.iter().zip(whole(&condensed, attached)) {
                 // the solver inverts with a shift of 1e-4 of the smallest k_ii / m_ii: the highest values keep eleven digits
@@ -89,9 +89,9 @@ fn errors_fall_with_every_mode_kept() {
 #[test]
 fn the_rise_of_an_estimate_is_that_of_the_frequencies() {
     let condensed = condensed(false);
-    let estimate = condensed.estimate(None, 0.08).expect("converges");
+    let estimate = ErrorEstimate::of(&condensed.substructure, &condensed.basis, None, 0.08).expect("converges");
     let few = reduced(&condensed, None, &translation(), 5);
-    let (raised, rises) = few.estimate(&condensed, None, &estimate).expect("definite");
+    let (raised, rises) = estimate.raised(&condensed.basis, &few.coupled_values(None).expect("definite"));
     let (old, new) = (whole(&condensed, None), few.coupled_values(None).expect("definite"));
     assert_eq!(raised.modes.len(), estimate.modes.len());
     assert!(raised.modes.len() > 5 && rises[0] == 0.0);
@@ -119,7 +119,7 @@ fn rigid_motions_survive() {
             assert!(values[0].abs() < 1e-12 * values[1], "{values:?}");
             let motion = translation();
             let nearest = few.nearest(&motion);
-            let back = few.expanded(&nearest);
+            let back = &few.transform * &nearest;
             // round-off of solutions with k_bb
             assert!((0..INTERFACE).all(|row| (back[(row, 0)] - 1.0).abs() < 1e-9));
             let mass = nearest.transpose() * &few.superelement.mass * &nearest;
@@ -135,7 +135,7 @@ fn rigid_motions_survive_a_ground_that_holds_what_is_attached() {
     let parts = train(INTERFACE, 5.0, 0.3, 10.0);
     let worst = |rigid: &DenseMatrix| {
         let few = reduced(&condensed, with(&parts), rigid, 6);
-        let back = few.expanded(&few.nearest(&translation()));
+        let back = &few.transform * &few.nearest(&translation());
         (0..INTERFACE).map(|row| (back[(row, 0)] - 1.0).abs()).fold(0.0, f64::max)
     };
     assert!(worst(&none()) > 1e-3);
@@ -196,7 +196,7 @@ fn a_frequency_keeps_the_modes_below_it() {
     let [below, above] = [3, 4].map(|mode| modes.frequency_hz(mode).expect("there"));
     let kept = modes.kept(InterfaceSize::UpTo(0.5 * (below + above)));
     assert_eq!(kept, Ok(4));
-    assert_eq!(modes.rigid(), 1);
+    assert_eq!(modes.rigid, 1);
 }
 
 #[test]
@@ -209,6 +209,5 @@ fn too_few_modes_are_named() {
     let two = DenseMatrix::from_fn(INTERFACE, 2, |row, motion| (row as f64).powi(motion as i32));
     let modes = CharacteristicModes::of(&condensed.substructure, None, &two).expect("finite");
     let error = modes.kept(InterfaceSize::Count(1)).expect_err("one of two");
-    let ReductionError::FewInterfaceModes { found, least, .. } = error else { panic!("{error}") };
-    assert_eq!((found, least), (1, 2));
+    assert!(error.to_string().starts_with("1 modes of the interface are kept, expected at least 2"), "{error}");
 }

@@ -10,6 +10,7 @@
 //!
 //! so that a superelement looks the same with or without them: K_bq = 0, M_qq = 1, static response exact.
 
+use super::substructure::{diagonal, normalised, symmetric};
 use super::{ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, EigenPairs, symmetric_eigen};
 
@@ -26,11 +27,15 @@ const QUASI_STATIC: f64 = 1e-10;
 /// Vectors of the interior with their Ritz values.
 #[derive(Debug, Clone)]
 pub struct InteriorBasis {
+    /// The vectors Q [interior x q].
     pub(super) vectors: DenseMatrix,
     pub(super) values: Vec<f64>,
-    participation: DenseMatrix,
-    residual_vectors: usize,
-    complete_below: f64,
+    /// `Q^T A` [q x interface]: how the interface's accelerations drive them, kg^(1/2).
+    pub(super) participation: DenseMatrix,
+    /// How many of the vectors are residual vectors.
+    pub(crate) residual_vectors: usize,
+    /// Eigenvalue of the lowest fixed-interface mode that is left out, 1/s^2; infinite if none is.
+    pub(crate) complete_below: f64,
 }
 
 impl InteriorBasis {
@@ -39,7 +44,7 @@ impl InteriorBasis {
         let count = count.min(pairs.values.len());
         let vectors = pairs.vectors.subcols(0, count).to_owned();
         Self {
-            participation: transposed(&substructure.follow_transposed(&vectors)),
+            participation: substructure.follow_transposed(&vectors).transpose().to_owned(),
             values: pairs.values[..count].to_vec(),
             vectors,
             residual_vectors: 0,
@@ -52,29 +57,9 @@ impl InteriorBasis {
         self.values.len()
     }
 
-    /// How many of them are residual vectors.
-    pub(crate) fn residual_vectors(&self) -> usize {
-        self.residual_vectors
-    }
-
     /// Ritz values `q_j^T K_ii q_j`, 1/s^2, ascending; those of a basis of modes are their squared frequencies.
     pub fn values(&self) -> &[f64] {
         &self.values
-    }
-
-    /// The vectors Q [interior x q].
-    pub(crate) fn vectors(&self) -> &DenseMatrix {
-        &self.vectors
-    }
-
-    /// `Q^T A` [q x interface]: how the interface's accelerations drive them, kg^(1/2).
-    pub(crate) fn participation(&self) -> &DenseMatrix {
-        &self.participation
-    }
-
-    /// Eigenvalue of the lowest fixed-interface mode that is left out, 1/s^2; infinite if none is.
-    pub(crate) fn complete_below(&self) -> f64 {
-        self.complete_below
     }
 
     /// Eigenvalue up to which a mode of the coupled structure is quasi-static, 1/s^2.
@@ -104,36 +89,23 @@ impl InteriorBasis {
 
     /// Of vectors `z` [interior x k] what is orthogonal to the basis, orthonormal.
     fn independent(&self, substructure: &Substructure, mut z: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-        let before = lengths(&substructure.mass_times(&z), &z);
-        let inside = self.vectors.transpose() * substructure.mass_times(&z);
+        let before = lengths(&substructure.interior.mass_times(&z), &z);
+        let inside = self.vectors.transpose() * substructure.interior.mass_times(&z);
         z -= &self.vectors * inside;
-        let after = lengths(&substructure.mass_times(&z), &z);
+        let after = lengths(&substructure.interior.mass_times(&z), &z);
         let new: Vec<usize> = (0..z.ncols()).filter(|&column| after[column] > CONTAINED * before[column]).collect();
         let z = DenseMatrix::from_fn(z.nrows(), new.len(), |row, column| z[(row, new[column])] / after[new[column]]);
-        let gram = symmetric_eigen(&(z.transpose() * substructure.mass_times(&z)))?;
-        let longest = gram.values.last().copied().unwrap_or(0.0);
-        let kept: Vec<usize> =
-            (0..gram.values.len()).filter(|&place| gram.values[place] > DEPENDENT * longest).collect();
-        let normal = DenseMatrix::from_fn(z.ncols(), kept.len(), |row, column| {
-            gram.vectors[(row, kept[column])] / gram.values[kept[column]].sqrt()
-        });
+        let normal = normalised(&(z.transpose() * substructure.interior.mass_times(&z)), DEPENDENT)?;
         Ok(z * normal)
     }
 
     /// The basis with orthonormal vectors that are orthogonal to it, turned to its Ritz vectors.
     fn joined(&self, substructure: &Substructure, z: &DenseMatrix) -> Result<Self, ReductionError> {
-        let (q, count) = (self.count(), self.count() + z.ncols());
-        let stiff = substructure.stiffness_times(z);
+        let q = self.count();
+        let stiff = substructure.interior.stiffness_times(z);
         let coupling = self.vectors.transpose() * &stiff;
         let own = z.transpose() * &stiff;
-        let stiffness =
-            DenseMatrix::from_fn(count, count, |row, column| match (row.checked_sub(q), column.checked_sub(q)) {
-                (None, None) if row == column => self.values[row],
-                (None, None) => 0.0,
-                (None, Some(new)) => coupling[(row, new)],
-                (Some(new), None) => coupling[(column, new)],
-                (Some(new), Some(other)) => 0.5 * (own[(new, other)] + own[(other, new)]),
-            });
+        let stiffness = faer::concat![[diagonal(&self.values), coupling], [coupling.transpose(), symmetric(&own)]];
         let ritz = symmetric_eigen(&stiffness)?;
         let (old, new) = (ritz.vectors.subrows(0, q), ritz.vectors.subrows(q, z.ncols()));
         let of_new = substructure.follow_transposed(z);
@@ -145,10 +117,6 @@ impl InteriorBasis {
             complete_below: self.complete_below,
         })
     }
-}
-
-fn transposed(a: &DenseMatrix) -> DenseMatrix {
-    a.transpose().to_owned()
 }
 
 /// Root of `x^T (M x)` of every column.

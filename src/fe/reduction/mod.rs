@@ -26,7 +26,7 @@ mod superelement;
 pub use basis_vectors::{BasisChoice, BasisSize};
 pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
 pub use checks::{Bound, Check, RigidMotions};
-pub(crate) use checks::{check_craig_bampton, check_interface_reduction, check_matrices};
+pub(crate) use checks::{check_craig_bampton, check_matrices};
 pub use coupled_modes::Attached;
 pub use craig_bampton::{CraigBampton, craig_bampton};
 pub use error::ReductionError;

@@ -10,9 +10,8 @@
 //! Moving with coordinates p, the interior needs the forces `w^2 B p - i S p`: its inertia, `B = [A, M_ii Q]`, and the losses
 //! of its material, S those of the structural stiffness.
 
-use super::coupled_modes::interior_inertia;
-use super::{CraigBampton, InteriorBasis, ReductionError, Substructure};
-use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense};
+use super::{InteriorBasis, ReductionError, Substructure};
+use crate::numerics::linalg::DenseMatrix;
 use faer::c64;
 
 /// Share of the first eigenvalue left out up to which the rest of the series is summed: nearer to it, or above, that sum
@@ -39,11 +38,17 @@ impl ResidualFlexibility {
         basis: &InteriorBasis,
         forces: DenseMatrix,
     ) -> Result<Self, ReductionError> {
-        let moved = left_out(substructure, basis, forces)?;
+        let mut carried = basis.vectors.transpose() * &forces;
+        for column in 0..carried.ncols() {
+            let entries = carried.col_as_slice_mut(column).iter_mut();
+            entries.zip(basis.values()).for_each(|(entry, value)| *entry /= value);
+        }
+        // W
+        let moved = substructure.solve_interior(forces)? - &basis.vectors * carried;
         Ok(Self {
-            flexibility: moved.transpose() * substructure.stiffness_times(&moved),
-            inertia: moved.transpose() * substructure.mass_times(&moved),
-            complete_below: basis.complete_below(),
+            flexibility: moved.transpose() * substructure.interior.stiffness_times(&moved),
+            inertia: moved.transpose() * substructure.interior.mass_times(&moved),
+            complete_below: basis.complete_below,
         })
     }
 
@@ -61,48 +66,10 @@ impl ResidualFlexibility {
         let further = squared / (1.0 - ratio);
         let mut sum = c64::new(0.0, 0.0);
         for (column, &load) in load.iter().enumerate() {
-            let pulled: c64 = sensor
-                .iter()
-                .enumerate()
-                .map(|(row, &sensor)| {
-                    let entry = (row, column);
-                    sensor * (self.flexibility[entry] + further * self.inertia[entry])
-                })
-                .sum();
+            let entry = |row: usize| self.flexibility[(row, column)] + further * self.inertia[(row, column)];
+            let pulled: c64 = sensor.iter().enumerate().map(|(row, &sensor)| sensor * entry(row)).sum();
             sum += pulled * load;
         }
         sum
-    }
-}
-
-/// W for forces in columns [interior x k].
-fn left_out(
-    substructure: &Substructure,
-    basis: &InteriorBasis,
-    forces: DenseMatrix,
-) -> Result<DenseMatrix, ReductionError> {
-    let mut carried = basis.vectors().transpose() * &forces;
-    for column in 0..carried.ncols() {
-        let values = carried.col_as_slice_mut(column).iter_mut();
-        for (entry, value) in values.zip(basis.values()) {
-            *entry /= value;
-        }
-    }
-    Ok(substructure.solve_interior(forces)? - basis.vectors() * carried)
-}
-
-impl CraigBampton {
-    /// `B p` for motions in columns [order x k]: what the interior needs for their inertia, per unit of squared frequency
-    /// [interior x k].
-    pub(crate) fn inertia_of(&self, motions: &DenseMatrix) -> DenseMatrix {
-        interior_inertia(&self.substructure, &self.basis, motions)
-    }
-
-    /// `S p` for motions in columns [order x k]: what a matrix over the housing's degrees of freedom takes of the interior
-    /// [interior x k].
-    pub(crate) fn force_of(&self, matrix: &SparseMatrix, motions: &DenseMatrix) -> DenseMatrix {
-        let whole = sparse_times_dense(matrix, &self.field(motions, matrix.rows()));
-        let interior = &self.substructure.partition().interior;
-        DenseMatrix::from_fn(interior.len(), whole.ncols(), |row, column| whole[(interior[row], column)])
     }
 }

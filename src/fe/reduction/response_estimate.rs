@@ -5,12 +5,13 @@
 //! so what it lacks itself counts, and the error is a product of two residuals (Becker and Rannacher, Acta Numerica 10
 //! (2001) 1-102): see [`ResidualFlexibility`]. Relative to the response where it is read, it is largest beside zeros.
 
+use super::coupled_modes::interior_inertia;
 use super::frf::{
     FrequencyResponse, FrfError, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem, direct_response,
 };
 use super::residual_flexibility::ResidualFlexibility;
 use super::{CraigBampton, ReductionError};
-use crate::numerics::linalg::{ComplexMatrix, DenseMatrix, SparseMatrix};
+use crate::numerics::linalg::{ComplexMatrix, DenseMatrix, SparseMatrix, sparse_times_dense};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -38,9 +39,12 @@ pub struct ResponseEstimate {
     /// Paths that carry nothing, [sensor x load]: the largest response at their ends, m/N; 0 for the others.
     closed: DenseMatrix,
     worst: Option<usize>,
-    /// The largest part of an error that more vectors take away.
-    lacking: f64,
-    forces: DenseMatrix,
+    /// The largest part of an error that more vectors take away: all but what ratios of modes do above the interior's complete ones.
+    pub(crate) lacking: f64,
+    /// What the interior needs beyond the reduced model where it lacks most [interior x k]: inertia, and losses if
+    /// there are any, of the responses to the load and to a unit force at the sensor. With its static response in the basis
+    /// the error there is squared away.
+    pub(crate) forces: DenseMatrix,
 }
 
 /// The damping of a case as far as the interior feels it.
@@ -71,8 +75,11 @@ impl ResponseEstimate {
         frequencies_hz: &[f64],
     ) -> Result<Self, ReductionError> {
         let ends = Ends::new(system, modes, paths, frequencies_hz)?;
-        let inertia = condensed.inertia_of(&ends.motions);
-        let losses = damping.structural.map(|matrix| condensed.force_of(matrix, &ends.motions));
+        let inertia = interior_inertia(&condensed.substructure, &condensed.basis, &ends.motions);
+        let loss = |matrix: &SparseMatrix| {
+            condensed.interior_of(&sparse_times_dense(matrix, &condensed.field(&ends.motions, matrix.rows())))
+        };
+        let losses = damping.structural.map(loss);
         let forces = beside(&inertia, losses.as_ref());
         let (substructure, basis) = (&condensed.substructure, &condensed.basis);
         let flexibility = ResidualFlexibility::new(substructure, basis, forces.clone())?;
@@ -91,7 +98,7 @@ impl ResponseEstimate {
         });
         let top = TAU * frequencies_hz.last().copied().unwrap_or(0.0);
         // modes that lie nearer to the band are the interior's own, or nearly so
-        let own = (RESONANT * top).powi(2).max(condensed.basis.complete_below());
+        let own = (RESONANT * top).powi(2).max(condensed.basis.complete_below);
         let (mut worst, mut lacking) = ((0.0, None), (0.0, None));
         let mut relative_errors = Vec::with_capacity(frequencies_hz.len());
         for (place, &hz) in frequencies_hz.iter().enumerate() {
@@ -109,9 +116,7 @@ impl ResponseEstimate {
                     let lacks = lacks.norm() / level;
                     let ratios = by_mode.as_ref().map_or(0.0, |all| all[(sensor, load)].norm());
                     let relative = lacks + ratios / level;
-                    if relative > largest {
-                        largest = relative;
-                    }
+                    largest = f64::max(largest, relative);
                     if relative > worst.0 {
                         worst = (relative, Some(place));
                     }
@@ -146,11 +151,6 @@ impl ResponseEstimate {
         Some((self.frequencies_hz[worst], self.relative_errors[worst]))
     }
 
-    /// The largest part of an error that more vectors take away: all but what ratios of modes do above the interior's complete ones.
-    pub(crate) fn lacking(&self) -> f64 {
-        self.lacking
-    }
-
     /// The largest response at the ends of a path, sensor and load, that carries nothing; `None` for one that does.
     pub(crate) fn closed(&self, path: (usize, usize)) -> Option<f64> {
         Some(self.closed[path]).filter(|ends| *ends > 0.0)
@@ -162,24 +162,11 @@ impl ResponseEstimate {
         let place = frequencies.map(|own| own.to_bits()).position(|own| own == hz.to_bits())?;
         self.relative_errors.get(place).copied()
     }
-
-    /// What the interior needs beyond the reduced model where it lacks most [interior x k]: inertia, and losses if
-    /// there are any, of the responses to the load and to a unit force at the sensor. With its static response in the basis
-    /// the error there is squared away.
-    pub(crate) fn forces(&self) -> &DenseMatrix {
-        &self.forces
-    }
 }
 
 /// Columns of one matrix, then those of another.
 fn beside(first: &DenseMatrix, second: Option<&DenseMatrix>) -> DenseMatrix {
-    let more = second.map_or(0, |second| second.ncols());
-    DenseMatrix::from_fn(first.nrows(), first.ncols() + more, |row, column| {
-        match (column.checked_sub(first.ncols()), second) {
-            (Some(column), Some(second)) => second[(row, column)],
-            _ => first[(row, column)],
-        }
-    })
+    second.map_or_else(|| first.clone(), |second| faer::concat![[first, second]])
 }
 
 /// Responses to forces at both ends of all paths: loads first, then sensors.
@@ -203,41 +190,28 @@ impl Ends {
         frequencies_hz: &[f64],
     ) -> Result<Self, FrfError> {
         let order = system.order();
-        let loads = paths.loads.ncols();
-        let forces =
-            DenseMatrix::from_fn(order, loads + paths.sensors.nrows(), |row, end| match end.checked_sub(loads) {
-                None => paths.loads[(row, end)],
-                Some(sensor) => paths.sensors[(sensor, row)],
-            });
+        let forces = faer::concat![[paths.loads, paths.sensors.transpose()]];
         let top = frequencies_hz.last().copied().unwrap_or(0.0);
-        let resonant = |hz: &f64| *hz <= RESONANT * top;
-        let modes = basis.frequencies_hz().partition_point(resonant);
+        let modes = basis.frequencies_hz().partition_point(|hz| *hz <= RESONANT * top);
         let superposition = |sensors: DenseMatrix, kept: usize| {
-            let loads = forces.clone();
-            let paths = FrfPaths { loads, sensors };
+            let paths = FrfPaths { loads: forces.clone(), sensors };
             ModalSuperposition::new(system, basis, &paths, kept, &ModalDamping::Uniform(0.0))
         };
-        let shapes = basis.shapes().subcols(0, modes);
+        let shapes = basis.shapes.subcols(0, modes);
         // Phi^T m picks the amplitudes of the modes
         let picked = (shapes.transpose() * system.mass()).to_owned();
         let amplitudes = superposition(picked.clone(), modes)?;
         let statics = superposition(DenseMatrix::identity(order, order), modes)?;
         let between = superposition(forces.transpose().to_owned(), basis.frequencies_hz().len())?;
         let response = |alone: &ModalSuperposition, sensors: DenseMatrix| {
-            if between.coupling() <= UNCOUPLED {
+            if between.coupling <= UNCOUPLED {
                 return alone.response(frequencies_hz);
             }
-            let loads = forces.clone();
-            direct_response(system, &FrfPaths { loads, sensors }, frequencies_hz)
+            direct_response(system, &FrfPaths { loads: forces.clone(), sensors }, frequencies_hz)
         };
         let receptance = response(&between, forces.transpose().to_owned())?;
         Ok(Self {
-            motions: DenseMatrix::from_fn(order, modes + forces.ncols(), |row, column| {
-                match column.checked_sub(modes) {
-                    None => shapes[(row, column)],
-                    Some(end) => statics.residual()[(row, end)],
-                }
-            }),
+            motions: faer::concat![[shapes, statics.residual]],
             modes,
             amplitudes: response(&amplitudes, picked)?,
             receptance: receptance.receptance().to_vec(),
@@ -253,7 +227,7 @@ impl Ends {
     fn amplitudes(&self, place: usize, end: usize) -> Vec<c64> {
         let of_modes = self.amplitudes.receptance()[place].col(end);
         let statics = (0..self.count()).map(|other| c64::new(f64::from(u8::from(other == end)), 0.0));
-        (0..self.modes).map(|mode| of_modes[mode]).chain(statics).collect()
+        of_modes.iter().copied().chain(statics).collect()
     }
 
     /// What an error is relative to; infinite where there is no path.

@@ -1,7 +1,7 @@
 //! Which vectors a basis has: fixed-interface modes by number, by frequency, or as few as an error allows; with
 //! residual vectors for the modes of the coupled structure if it is enhanced.
 
-use super::basis_vectors::{BasisChoice, BasisSize, filled, modes, modes_to, with_residuals};
+use super::basis_vectors::{BasisChoice, BasisSize, corrected, elastic, filled, modes, modes_to};
 use super::coupled_modes::{Attached, coupled_modes};
 use super::smallest_basis::smallest_basis;
 use super::{InteriorBasis, ReductionError, Substructure};
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Chooses a basis.
 ///
 /// # Errors
-/// [`ReductionError::TargetMissed`] for `Auto`; what the eigenvalue iteration reports.
+/// [`ReductionError::Refused`] for `Auto`; what the eigenvalue iteration reports.
 pub fn choose_basis(
     substructure: &Substructure,
     choice: BasisChoice,
@@ -20,17 +20,14 @@ pub fn choose_basis(
         BasisSize::Count(count) => {
             let count = count.min(substructure.interior_dof());
             let pairs = modes(substructure, count)?;
-            let basis = match choice.enhanced {
-                true => count - count / 2,
-                false => count,
-            };
-            let basis = InteriorBasis::of_modes(substructure, &pairs, basis);
+            let fixed_interface = if choice.enhanced { count - count / 2 } else { count };
+            let basis = InteriorBasis::of_modes(substructure, &pairs, fixed_interface);
             filled(substructure, basis, count, |basis, _| coupled_modes(substructure, basis, attached))
         }
-        BasisSize::UpTo(hz) => up_to(substructure, choice, hz, usize::MAX, attached),
+        BasisSize::UpTo(hz) => up_to(substructure, choice, (hz, usize::MAX), attached),
         BasisSize::AtMost(hz, numbers) => {
             let most = (numbers / substructure.interior_dof().max(1)).max(1);
-            up_to(substructure, choice, hz, most, attached)
+            up_to(substructure, choice, (hz, most), attached)
         }
         BasisSize::Auto(target) => smallest_basis(substructure, choice, target, attached),
     }
@@ -40,15 +37,13 @@ pub fn choose_basis(
 fn up_to(
     substructure: &Substructure,
     choice: BasisChoice,
-    hz: f64,
-    most: usize,
+    (hz, most): (f64, usize),
     attached: Option<Attached<'_>>,
 ) -> Result<InteriorBasis, ReductionError> {
     let band = (TAU * choice.band_hz).powi(2);
     let (pairs, count) = modes_to(substructure, (TAU * hz).powi(2), 0, most)?;
     let basis = InteriorBasis::of_modes(substructure, &pairs, count);
-    with_residuals(substructure, &basis, attached, |spectrum, elastic| {
-        let end = spectrum.values.partition_point(|&value| value <= band);
-        if choice.enhanced { (elastic..end).collect() } else { Vec::new() }
-    })
+    let spectrum = coupled_modes(substructure, &basis, attached)?;
+    let end = if choice.enhanced { spectrum.values.partition_point(|&value| value <= band) } else { 0 };
+    corrected(substructure, &basis, &spectrum, elastic(&basis, &spectrum)..end)
 }

@@ -3,6 +3,7 @@
 
 use super::basis_vectors::{filled, modes};
 use super::coupled_lowest::CoupledProblem;
+use super::coupled_modes::with_amplitudes;
 use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 use schemars::JsonSchema;
@@ -60,7 +61,16 @@ pub(crate) fn size_study(
     let of_whole = |basis: &InteriorBasis| -> Result<Option<f64>, ReductionError> {
         Ok(error(&whole.lowest(basis, full_hz.len())?.values))
     };
-    let on_modes = OnModes::new(interface, largest);
+    let first_modes = interface.vectors.subcols(0, largest.min(interface.count())).to_owned();
+    let stiffness = congruent(&interface.stiffness, &first_modes);
+    // squared frequencies on the first modes of the interface and a basis of the interior
+    let on_modes = |basis: &InteriorBasis, kept: usize| -> Result<Vec<f64>, ReductionError> {
+        let driven = &basis.participation * first_modes.subcols(0, kept);
+        let unit = DenseMatrix::identity(kept, kept);
+        let own = [stiffness.submatrix(0, 0, kept, kept), unit.as_ref()];
+        let [k, m] = with_amplitudes(own, basis, driven.as_ref());
+        Ok(symmetric_generalised_eigen(&k, &m)?.values)
+    };
     let mut bases = vec![InteriorBasis::of_modes(substructure, &pairs, 0)];
     let mut rows = Vec::new();
     for size in SIZES.into_iter().filter(|&size| size <= available) {
@@ -73,13 +83,13 @@ pub(crate) fn size_study(
             if kept > interface.count() {
                 continue;
             }
-            let found = error(&on_modes.values(basis, kept)?);
+            let found = error(&on_modes(basis, kept)?);
             if let Some(found) = found.filter(|found| best.is_none_or(|best| *found < best.error)) {
                 best = Some(ReducedSize {
                     error: found,
                     interface_modes: kept,
-                    fixed_interface_modes: basis.count() - basis.residual_vectors(),
-                    residual_vectors: basis.residual_vectors(),
+                    fixed_interface_modes: basis.count() - basis.residual_vectors,
+                    residual_vectors: basis.residual_vectors,
                 });
             }
         }
@@ -87,39 +97,6 @@ pub(crate) fn size_study(
         bases.extend([plain, enhanced]);
     }
     Ok(rows)
-}
-
-/// The first modes of an interface, and the stiffness and mass on them.
-struct OnModes {
-    modes: DenseMatrix,
-    stiffness: DenseMatrix,
-}
-
-impl OnModes {
-    fn new(interface: &CharacteristicModes, most: usize) -> Self {
-        let count = most.min(interface.count());
-        let modes = interface.vectors.subcols(0, count).to_owned();
-        Self { stiffness: congruent(&interface.stiffness, &modes), modes }
-    }
-
-    /// Squared frequencies on the first `kept` modes and a basis of the interior.
-    fn values(&self, basis: &InteriorBasis, kept: usize) -> Result<Vec<f64>, ReductionError> {
-        let order = kept + basis.count();
-        let driven = basis.participation() * self.modes.subcols(0, kept);
-        let k =
-            DenseMatrix::from_fn(order, order, |row, column| match (row.checked_sub(kept), column.checked_sub(kept)) {
-                (None, None) => self.stiffness[(row, column)],
-                (Some(mode), Some(other)) if mode == other => basis.values()[mode],
-                _ => 0.0,
-            });
-        let m =
-            DenseMatrix::from_fn(order, order, |row, column| match (row.checked_sub(kept), column.checked_sub(kept)) {
-                (Some(mode), None) => driven[(mode, column)],
-                (None, Some(mode)) => driven[(mode, row)],
-                _ => f64::from(u8::from(row == column)),
-            });
-        Ok(symmetric_generalised_eigen(&k, &m)?.values)
-    }
 }
 
 /// Largest relative error of the frequencies beyond the rigid ones.

@@ -1,6 +1,6 @@
 //! The smallest basis of which the estimated error in a band is below a target.
 
-use super::basis_vectors::{BasisChoice, modes, modes_to, with_residuals};
+use super::basis_vectors::{self, BasisChoice, modes, modes_to};
 use super::coupled_modes::{Attached, coupled_modes};
 use super::{ErrorEstimate, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::SymmetricSpectrum;
@@ -52,7 +52,10 @@ pub(super) fn smallest_basis(
             pairs = modes(substructure, 2 * count)?;
         }
     }
-    Err(ReductionError::TargetMissed { vectors: least, band_hz: choice.band_hz, target, reached })
+    Err(ReductionError::Refused(format!(
+        "no basis of up to {least} vectors brings the estimated error in the band to {} Hz below {target}: {reached:.1e} was reached",
+        choice.band_hz
+    )))
 }
 
 /// Number of modes, and the modes of the coupled structure that need a residual vector, for the smallest sum; `None`
@@ -67,22 +70,17 @@ fn smallest_size(
 ) -> Option<(usize, Vec<usize>)> {
     let quasi_static = largest.quasi_static();
     let too_large = |count: usize| -> Vec<usize> {
-        let modes = estimate.modes.iter().enumerate();
-        modes
-            .filter(|(place, mode)| {
-                // the error of a mode that moves may be zero now and grow
-                spectrum.values[*place] > quasi_static
-                    && mode.relative_error + growth(largest, spectrum, *place, count) > target
-            })
-            .map(|(place, _)| place)
-            .collect()
+        let is_too_large = |&place: &usize| {
+            // the error of a mode that moves may be zero now and grow
+            let error = estimate.modes[place].relative_error;
+            spectrum.values[place] > quasi_static && error + growth(largest, spectrum, place, count) > target
+        };
+        (0..estimate.modes.len()).filter(is_too_large).collect()
     };
-    let sizes = (least.min(largest.count())..=largest.count()).map(|count| (count, too_large(count)));
-    if enhanced {
-        sizes.min_by_key(|(count, residuals)| count + residuals.len())
-    } else {
-        let mut sizes = sizes;
-        sizes.find(|(_, residuals)| residuals.is_empty())
+    let mut sizes = (least.min(largest.count())..=largest.count()).map(|count| (count, too_large(count)));
+    match enhanced {
+        true => sizes.min_by_key(|(count, residuals)| count + residuals.len()),
+        false => sizes.find(|(_, residuals)| residuals.is_empty()),
     }
 }
 
@@ -95,7 +93,7 @@ fn smallest_size(
 /// over the modes left out, p_d = phi_d^T A, u_b the mode at the interface, `x^T m x = 1`. (From the dynamic stiffness
 /// of the interface, lambda^2 sum_d p_d p_d^T / (lambda_d - lambda), to first order.)
 fn growth(largest: &InteriorBasis, spectrum: &SymmetricSpectrum, mode: usize, count: usize) -> f64 {
-    let (lambda, p) = (spectrum.values[mode], largest.participation());
+    let (lambda, p) = (spectrum.values[mode], &largest.participation);
     let share = |left_out: usize| {
         let push: f64 = (0..p.ncols()).map(|column| p[(left_out, column)] * spectrum.vectors[(column, mode)]).sum();
         let distance = largest.values()[left_out] - lambda;
@@ -112,18 +110,19 @@ fn corrected(
     attached: Option<Attached<'_>>,
     (mut basis, mut residuals): (InteriorBasis, Vec<usize>),
 ) -> Result<(InteriorBasis, f64), ReductionError> {
-    for _ in 0..ENLARGEMENTS {
+    let mut rounds = 0;
+    loop {
         let before = basis.count();
-        basis = with_residuals(substructure, &basis, attached, |_, _| residuals)?;
+        let spectrum = coupled_modes(substructure, &basis, attached)?;
+        basis = basis_vectors::corrected(substructure, &basis, &spectrum, residuals)?;
         let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
         let error = estimate.largest();
-        let modes = estimate.modes.iter().enumerate();
-        residuals = modes.filter(|(_, mode)| mode.relative_error > target).map(|(place, _)| place).collect();
         let stuck = basis.count() == before && before > 0;
-        if error <= target || !choice.enhanced || stuck {
+        rounds += 1;
+        if error <= target || !choice.enhanced || stuck || rounds == ENLARGEMENTS {
             return Ok((basis, error));
         }
+        let modes = estimate.modes.iter().enumerate();
+        residuals = modes.filter(|(_, mode)| mode.relative_error > target).map(|(place, _)| place).collect();
     }
-    let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
-    Ok((basis, estimate.largest()))
 }

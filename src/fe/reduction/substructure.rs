@@ -16,8 +16,9 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
-    submatrix, transpose_times_dense,
+    submatrix, symmetric_eigen, transpose_times_dense,
 };
+use faer::{MatMut, MatRef};
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
 /// modes.
@@ -30,30 +31,38 @@ const LARGEST_CONTRACTION: f64 = 1e-4;
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
 pub struct Substructure {
-    partition: HousingPartition,
+    /// How the degrees of freedom were split.
+    pub(crate) partition: HousingPartition,
     factor: SparseCholesky,
-    interior: EigenProblem,
+    /// K_ii and M_ii.
+    pub(super) interior: EigenProblem,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
+    /// Constraint modes Psi [interior x interface].
     pub(super) constraint_modes: DenseMatrix,
     stiffness: DenseMatrix,
-    mass: DenseMatrix,
+    /// m_bb [interface x interface], kg.
+    pub(super) mass: DenseMatrix,
 }
 
 impl Substructure {
     /// Splits a housing and condenses it statically.
     ///
     /// # Errors
-    /// [`ReductionError::NoInterior`], [`ReductionError::NoInterface`], [`ReductionError::FloatingInterior`] if K_ii
+    /// [`ReductionError::Refused`] for no interior and for no interface, [`ReductionError::FloatingInterior`] if K_ii
     /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
     pub fn new(matrices: &SystemMatrices, partition: &HousingPartition) -> Result<Self, ReductionError> {
         let (k, m) = (&matrices.stiffness, &matrices.mass);
         let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
         if i.is_empty() {
-            return Err(ReductionError::NoInterior);
+            return Err(ReductionError::Refused(
+                "the interface takes every free displacement of the housing, so that nothing is left to condense: expected an interface of fewer nodes, or a finer mesh"
+                    .to_owned(),
+            ));
         }
         if tie.cols() == 0 {
-            return Err(ReductionError::NoInterface);
+            let what = "the interface has no free degree of freedom: every one of its nodes is fixed or tied";
+            return Err(ReductionError::Refused(what.to_owned()));
         }
         let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
         let dof = |row: usize| i.get(row).copied().unwrap_or(0);
@@ -98,28 +107,21 @@ impl Substructure {
             let mut modes = columns_of(stiffness_ib, first, width);
             modes *= faer::Scale(-1.0);
             self.factor.solve_columns(&mut modes)?;
-            for column in 0..width {
-                self.constraint_modes.col_as_slice_mut(first + column).copy_from_slice(modes.col_as_slice(column));
-            }
+            self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
             let k = transpose_times_dense(stiffness_ib, &modes);
-            add_block(&mut self.stiffness, first, &k);
-            let mut follow = self.mass_times(&modes);
+            add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
+            let mut follow = self.interior.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
             // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
             let known = self.constraint_modes.subcols(0, first + width);
             let mut m = known.transpose() * &follow;
             m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
-            add_block(&mut self.mass, first, &m);
-            add_mirrored(&mut self.mass, first, &m);
+            add_block(self.mass.submatrix_mut(0, first, first + width, width), m.as_ref());
+            add_block(self.mass.submatrix_mut(first, 0, width, first), m.subrows(0, first).transpose());
         }
-        symmetrise(&mut self.stiffness);
-        symmetrise(&mut self.mass);
+        self.stiffness = symmetric(&self.stiffness);
+        self.mass = symmetric(&self.mass);
         Ok(())
-    }
-
-    /// How the degrees of freedom were split.
-    pub(crate) fn partition(&self) -> &HousingPartition {
-        &self.partition
     }
 
     /// Number of interface coordinates.
@@ -132,19 +134,9 @@ impl Substructure {
         self.partition.interior.len()
     }
 
-    /// Constraint modes Psi [interior x interface].
-    pub(crate) fn constraint_modes(&self) -> &DenseMatrix {
-        &self.constraint_modes
-    }
-
     /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
     pub fn stiffness(&self) -> &DenseMatrix {
         &self.stiffness
-    }
-
-    /// m_bb [interface x interface], kg.
-    pub(crate) fn mass(&self) -> &DenseMatrix {
-        &self.mass
     }
 
     /// `K_ii^-1 R` for `R` [interior x k].
@@ -156,25 +148,15 @@ impl Substructure {
         Ok(r)
     }
 
-    /// `K_ii X` for `X` [interior x k].
-    pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.interior.stiffness_times(x)
-    }
-
-    /// `M_ii X` for `X` [interior x k].
-    pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.interior.mass_times(x)
-    }
-
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
     pub(crate) fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
         let interior = &self.constraint_modes * u;
-        self.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
+        self.interior.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
     }
 
     /// `A^T X` for `X` [interior x k].
     pub(crate) fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.constraint_modes.transpose() * self.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
+        self.constraint_modes.transpose() * self.interior.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
     }
 
     /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.
@@ -209,29 +191,33 @@ fn add_columns(to: &mut DenseMatrix, sparse: &SparseMatrix, first: usize) {
     }
 }
 
-fn add_block(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
-    for column in 0..block.ncols() {
-        for row in 0..block.nrows() {
-            matrix[(row, first + column)] += block[(row, column)];
-        }
-    }
+fn add_block(mut to: MatMut<'_, f64>, block: MatRef<'_, f64>) {
+    to += block;
 }
 
-/// Adds the rows of a block of columns above its diagonal block as columns.
-fn add_mirrored(matrix: &mut DenseMatrix, first: usize, block: &DenseMatrix) {
-    for column in 0..block.ncols() {
-        for row in 0..first {
-            matrix[(first + column, row)] += block[(row, column)];
-        }
-    }
+/// A square matrix with these values on its diagonal.
+pub(super) fn diagonal(values: &[f64]) -> DenseMatrix {
+    DenseMatrix::from_fn(values.len(), values.len(), |row, column| if row == column { values[row] } else { 0.0 })
 }
 
-fn symmetrise(matrix: &mut DenseMatrix) {
-    for column in 0..matrix.ncols() {
-        for row in 0..column {
-            let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
-            matrix[(row, column)] = mean;
-            matrix[(column, row)] = mean;
-        }
-    }
+/// Some rows of a matrix.
+pub(super) fn rows_of(a: &DenseMatrix, rows: &[usize]) -> DenseMatrix {
+    DenseMatrix::from_fn(rows.len(), a.ncols(), |row, column| a[(rows[row], column)])
+}
+
+/// Combinations V of vectors with the Gram matrix G [n x n], `V^T G V = 1` [n x kept]. Those of which the squared length is
+/// below `dependent` of the longest are left out.
+pub(super) fn normalised(gram: &DenseMatrix, dependent: f64) -> Result<DenseMatrix, ReductionError> {
+    let spectrum = symmetric_eigen(gram)?;
+    let longest = spectrum.values.last().copied().unwrap_or(0.0);
+    let values = spectrum.values.iter().enumerate();
+    let kept: Vec<usize> = values.filter(|(_, value)| **value > dependent * longest).map(|(place, _)| place).collect();
+    Ok(DenseMatrix::from_fn(gram.nrows(), kept.len(), |row, column| {
+        spectrum.vectors[(row, kept[column])] / spectrum.values[kept[column]].sqrt()
+    }))
+}
+
+/// `(A + A^T) / 2`.
+pub(super) fn symmetric(a: &DenseMatrix) -> DenseMatrix {
+    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| 0.5 * (a[(row, column)] + a[(column, row)]))
 }

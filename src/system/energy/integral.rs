@@ -16,7 +16,8 @@ const GREGORY: [f64; ENDS] = [1.0 / 2.0, -1.0 / 12.0, 1.0 / 24.0, -19.0 / 720.0]
 #[derive(Debug, Clone, Default)]
 pub(super) struct Integral {
     sums: [f64; FLOWS],
-    magnitude: f64,
+    /// Sum of all magnitudes.
+    pub magnitude: f64,
     first: Vec<[f64; FLOWS]>,
     /// Newest last.
     last: Vec<[f64; FLOWS]>,
@@ -45,11 +46,6 @@ impl Integral {
             let last: Vec<f64> = self.last.iter().rev().map(|values| values[flow]).collect();
             step * (self.sums[flow] - beyond(first) - beyond(last))
         })
-    }
-
-    /// Sum of all magnitudes.
-    pub(crate) fn magnitude(&self) -> f64 {
-        self.magnitude
     }
 
     pub(crate) fn remember(&self, snapshot: &mut Snapshot) {

@@ -110,7 +110,7 @@ impl EnergyMeter {
             modal_damping_j,
             contact_damping_j: contact - self.yielded,
             stored_j: system.stored_energy(&now) - self.start?,
-            exchanged_j: self.integral.magnitude() * self.step,
+            exchanged_j: self.integral.magnitude * self.step,
         })
     }
 

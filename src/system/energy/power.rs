@@ -74,7 +74,7 @@ impl Powers {
 
     fn inner(&mut self, system: &CoupledSystem, j: usize, rate: f64, motion: &Motion) {
         let (group, lane) = (&system.balls.groups[j / LANES], j % LANES);
-        if group.penetration[lane] <= -system.inner.rise() {
+        if group.inner.penetration[lane] <= -system.inner.rise {
             return;
         }
         let (gap, e) = (system.balls.inner_gap(j), system.balls.direction_of(j));
@@ -99,7 +99,7 @@ impl Powers {
         let (group, lane) = (&system.balls.groups[j / LANES], j % LANES);
         self.yielding[j] = [0.0; 2];
         let displaced = system.race_displacement(j);
-        if group.gap[lane] - displaced <= -system.outer.rise() {
+        if group.gap[lane] - displaced <= -system.outer.rise {
             return;
         }
         let amplitudes = &system.work.amplitudes;

@@ -1,8 +1,7 @@
 //! What a state stores.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::ode::Instant;
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 impl CoupledSystem {
     /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.
@@ -24,7 +23,7 @@ impl CoupledSystem {
     /// Elastic energy of a ball's contacts and of its share in the static residual, J.
     fn contact_energy(&self, t: f64, j: usize) -> f64 {
         let mut energy = 0.0;
-        if self.balls.get(j, |ball| &ball.penetration) > -self.inner.rise() {
+        if self.balls.get(j, |ball| &ball.inner.penetration) > -self.inner.rise {
             let shaft = self.setup.cage.shaft().motion(t);
             let gap = self.balls.inner_gap(j);
             let (damage, place) = self.inner_place(j, &gap, [0.0; 2], &shaft);
@@ -32,7 +31,7 @@ impl CoupledSystem {
         }
         let displaced = self.race_displacement(j);
         let overlap = self.balls.get(j, |ball| &ball.gap) - displaced;
-        if overlap > -self.outer.rise() {
+        if overlap > -self.outer.rise {
             let (damage, place) = self.outer_place(j, overlap);
             energy += self.outer.energy(damage, &place, 0.0).elastic;
             energy += 0.5 * displaced * self.balls.get(j, |ball| &ball.outer_radial);

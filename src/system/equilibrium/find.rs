@@ -4,8 +4,7 @@ use super::StaticCondition;
 use super::problem::Problem;
 use super::search::{Found, HELD};
 use crate::numerics::linalg::DenseMatrix;
-use crate::system::bearing_setup::{BearingSetup, Formulation};
-use crate::system::{Structure, SystemError};
+use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
 /// Displacement of the start to one side of the load, m: it decides between mirror images.
@@ -64,12 +63,11 @@ impl Equilibrium {
     /// Finds the stable equilibrium at which the shaft arrives when the load pushes it into the clearance.
     ///
     /// # Errors
-    /// [`SystemError::NotSupported`], [`SystemError::NoEquilibrium`],
-    /// [`SystemError::NothingHoldsTheShaft`].
+    /// [`SystemError::NoEquilibrium`]; [`SystemError::Refused`] for a structure or a shaft that nothing holds.
     pub fn find(structure: &Structure, setup: &BearingSetup, condition: StaticCondition) -> Result<Self, SystemError> {
         let (mut problem, loads) = Problem::new(structure, setup, condition)?;
         let start = start(setup, condition, 0.0)?;
-        let found = problem.descend(start)?;
+        let found = problem.search(start, true)?;
         Ok(problem.result(&found, &loads, structure))
     }
 
@@ -84,10 +82,10 @@ impl Equilibrium {
         condition: StaticCondition,
     ) -> Result<Vec<Self>, SystemError> {
         let (mut problem, loads) = Problem::new(structure, setup, condition)?;
-        let mut found = vec![problem.descend(start(setup, condition, 0.0)?)?];
+        let mut found = vec![problem.search(start(setup, condition, 0.0)?, true)?];
         for step in (1..=STARTS.0).flat_map(|step| [step, -step]) {
             let aside = start(setup, condition, f64::from(step) * STARTS.1)?;
-            if let Ok(other) = problem.descend(aside) {
+            if let Ok(other) = problem.search(aside, true) {
                 keep(&mut found, other);
             }
         }
@@ -100,7 +98,7 @@ impl Equilibrium {
         order.sort_by(|a, b| across(a).total_cmp(&across(b)));
         for pair in order.windows(2) {
             let between = (&found[pair[0]].z + &found[pair[1]].z) * 0.5;
-            if let Ok(saddle) = problem.settle(between) {
+            if let Ok(saddle) = problem.search(between, false) {
                 keep(&mut found, saddle);
             }
         }
@@ -118,7 +116,6 @@ impl Problem<'_> {
     /// The equilibrium that a search found; `loads` as [`Problem::new`] gives them.
     fn result(&self, found: &Found, loads: &DenseMatrix, structure: &Structure) -> Equilibrium {
         let Found { z, evaluation, .. } = found;
-
         let balls = self.angles.len();
         let structure_load: Vec<f64> = (0..structure.dof())
             .map(|row| {
@@ -133,7 +130,10 @@ impl Problem<'_> {
             .collect();
         let centre = match self.setup.formulation {
             Formulation::Consistent => [0.0; 2],
-            Formulation::Printed => self.mean_displacement(structure, &structure_load),
+            Formulation::Printed => {
+                let column = DenseMatrix::from_fn(structure.dof(), 1, |row, _| structure_load[row]);
+                structure.static_response(&column).map_or([0.0; 2], |response| structure.ring_mean(&response, 0))
+            }
         };
         Equilibrium {
             shaft: [z[0] + centre[0], z[1] + centre[1]],
@@ -148,27 +148,13 @@ impl Problem<'_> {
             structure_load,
             iterations: found.iterations,
             residual_n: evaluation.gradient.amax(),
-            least_curvature: found.least_curvature(),
+            least_curvature: found.least_curvature,
             directions_down: found.directions_down,
             shaft_stiffness: shaft_stiffness(&evaluation.hessian),
             centre,
             cage_speed: self.condition.cage_speed,
             shaft_angle: self.condition.shaft_angle,
         }
-    }
-
-    fn mean_displacement(&self, structure: &Structure, load: &[f64]) -> [f64; 2] {
-        let column = DenseMatrix::from_fn(load.len(), 1, |row, _| load[row]);
-        let nodes = structure.ring().nodes();
-        structure
-            .static_response(&column)
-            .map(|response| {
-                [0, 1].map(|component| {
-                    let sum: f64 = (0..nodes).map(|node| response[(3 * node + component, 0)]).sum();
-                    sum / nodes as f64
-                })
-            })
-            .unwrap_or([0.0; 2])
     }
 }
 
@@ -212,7 +198,9 @@ fn start(setup: &BearingSetup, condition: StaticCondition, angle: f64) -> Result
         z[0] = along[0] * depth - along[1] * ASIDE;
         z[1] = along[1] * depth + along[0] * ASIDE;
     } else if play >= 0.0 {
-        return Err(SystemError::NothingHoldsTheShaft);
+        return Err(SystemError::Refused(
+            "the shaft is not held in the loaded direction: without load on it, it can move in the clearance",
+        ));
     }
     Ok(z)
 }

@@ -2,10 +2,9 @@
 
 use super::condition::StaticCondition;
 use crate::numerics::linalg::DenseMatrix;
-use crate::system::bearing_setup::{BearingSetup, Formulation};
 use crate::system::race::RaceForce;
-use crate::system::resting::{RestingRaces, in_the_plane};
-use crate::system::{Structure, SystemError};
+use crate::system::resting::RestingRaces;
+use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
 /// One evaluation of the reduced potential.
@@ -88,7 +87,6 @@ impl<'a> Problem<'a> {
         let mut inner = vec![0.0; balls];
         for j in 0..balls {
             let (sin, cos) = self.angles[j].sin_cos();
-            let e = [cos, sin];
             let s = z[2 + j];
             let rho = self.races.inner_race.touching_radius + s;
             let weight = mass * (self.setup.gravity[0] * cos + self.setup.gravity[1] * sin);
@@ -98,22 +96,14 @@ impl<'a> Problem<'a> {
             for k in 0..balls {
                 hessian[(2 + j, 2 + k)] += stiffness[(j, k)];
             }
-            let gap = self.races.inner_race.gap(e, s, [z[0], z[1]]);
-            let force = self.races.inner_force(j, self.angles[j], &gap);
-            inner[j] = force.magnitude;
-            if force.magnitude > 0.0 {
-                // b = rho e - shaft over (x, y, s_j): along and across the normal
-                let n = gap.normal;
-                let along = [-n[0], -n[1], n[0] * e[0] + n[1] * e[1]];
-                let across = [n[1], -n[0], n[0] * e[1] - n[1] * e[0]];
-                let curvature = in_the_plane(&force, gap.distance);
+            let contact = self.races.inner_contact(j, self.angles[j], s, [z[0], z[1]]);
+            inner[j] = contact.magnitude;
+            if contact.magnitude > 0.0 {
                 let place = [0, 1, 2 + j];
                 for a in 0..3 {
-                    gradient[place[a]] += force.radial * along[a] + force.tangential * across[a];
+                    gradient[place[a]] += contact.slope[a];
                     for b in 0..3 {
-                        hessian[(place[a], place[b])] += curvature[0] * along[a] * along[b]
-                            + curvature[1] * (along[a] * across[b] + across[a] * along[b])
-                            + curvature[2] * across[a] * across[b];
+                        hessian[(place[a], place[b])] += contact.curvature[a][b];
                     }
                 }
             }
@@ -176,10 +166,8 @@ impl<'a> Problem<'a> {
     fn tangent(&self, forces: &[RaceForce]) -> DMatrix<f64> {
         let mut tangent = DMatrix::zeros(2 * forces.len(), 2 * forces.len());
         for (j, force) in forces.iter().enumerate() {
-            tangent[(2 * j, 2 * j)] = force.tangent[0];
-            tangent[(2 * j, 2 * j + 1)] = force.tangent[1];
-            tangent[(2 * j + 1, 2 * j)] = force.tangent[1];
-            tangent[(2 * j + 1, 2 * j + 1)] = force.tangent[2];
+            let [rr, rt, tt] = force.tangent;
+            tangent.view_mut((2 * j, 2 * j), (2, 2)).copy_from_slice(&[rr, rt, rt, tt]);
         }
         tangent
     }

@@ -37,92 +37,69 @@ pub(super) struct Found {
     pub z: DVector<f64>,
     pub evaluation: Evaluation,
     pub iterations: usize,
-    /// Curvatures of the potential, N/m.
-    pub curvatures: DVector<f64>,
-    /// How many of them make the potential fall.
+    /// Smallest curvature of the potential among directions that a contact holds, N/m.
+    pub least_curvature: f64,
+    /// Directions in which the potential falls.
     pub directions_down: usize,
 }
 
-impl Found {
-    fn new(z: DVector<f64>, evaluation: Evaluation, iterations: usize, eigen: &Eigen, falling: f64) -> Self {
-        let curvatures = eigen.eigenvalues.iter();
-        Self {
-            z,
-            evaluation,
-            iterations,
-            directions_down: curvatures.filter(|&&value| value < falling).count(),
-            curvatures: eigen.eigenvalues.clone(),
-        }
-    }
-
-    /// Smallest curvature among directions that a contact holds, N/m.
-    pub(super) fn least_curvature(&self) -> f64 {
-        let held = self.curvatures.iter().copied();
-        held.filter(|value| value.abs() > HELD).fold(f64::INFINITY, f64::min)
-    }
-}
-
 impl Problem<'_> {
-    /// Walks downhill from `z` to a minimum; where nothing is out of balance but a direction curves downwards, along it.
+    /// Walks downhill from `z` to a minimum, where nothing is out of balance but a direction curves downwards, along it; or, not
+    /// downhill, to the next point without slope, a saddle as well as a minimum.
     ///
     /// # Errors
     /// [`SystemError::NoEquilibrium`].
-    pub(super) fn descend(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
+    pub(super) fn search(&mut self, mut z: DVector<f64>, downhill: bool) -> Result<Found, SystemError> {
         let mut evaluation = self.evaluate(&z);
         let (mut iterations, mut before) = (0, f64::INFINITY);
         loop {
             let eigen = evaluation.hessian.clone().symmetric_eigen();
             let (softest, _) = eigen.eigenvalues.argmin();
-            let saddle = eigen.eigenvalues[softest] < self.falling();
+            let saddle = downhill && eigen.eigenvalues[softest] < self.falling();
             let balanced = self.balanced(&evaluation, before);
             before = evaluation.gradient.amax();
             if balanced && !saddle {
-                return Ok(Found::new(z, evaluation, iterations, &eigen, self.falling()));
+                let curvatures = || eigen.eigenvalues.iter().copied();
+                let held = curvatures().filter(|value| value.abs() > HELD);
+                return Ok(Found {
+                    least_curvature: held.fold(f64::INFINITY, f64::min),
+                    directions_down: curvatures().filter(|&value| value < self.falling()).count(),
+                    z,
+                    evaluation,
+                    iterations,
+                });
             }
-            go_on(&evaluation, iterations)?;
-            let step = if balanced {
-                eigen.eigenvectors.column(softest) * LONGEST_STEP
-            } else {
-                let most = match iterations < PATIENCE {
-                    true => [LONGEST_STEP; 2],
-                    false => FAR,
+            if iterations == MAX_ITERATIONS || !before.is_finite() {
+                return Err(SystemError::NoEquilibrium { iterations, residual_n: before });
+            }
+            evaluation = if downhill {
+                let most = if iterations < PATIENCE { [LONGEST_STEP; 2] } else { FAR };
+                let step = match balanced {
+                    true => eigen.eigenvectors.column(softest) * LONGEST_STEP,
+                    false => newton(&eigen, &evaluation.gradient, most, |curvature| curvature.abs().max(HELD)),
                 };
-                newton(&eigen, &evaluation.gradient, most, |curvature| curvature.abs().max(HELD))
+                self.walk(&mut z, step, &evaluation)
+            } else {
+                let used = |curvature: f64| curvature.abs().max(HELD).copysign(curvature);
+                let step = newton(&eigen, &evaluation.gradient, [LONGEST_STEP; 2], used);
+                self.settle(&mut z, step, evaluation)
             };
-            evaluation = self.walk(&mut z, step, &evaluation);
             iterations += 1;
         }
     }
 
-    /// Goes from `z` to the next point without slope, a saddle as well as a minimum.
-    ///
-    /// # Errors
-    /// [`SystemError::NoEquilibrium`].
-    pub(super) fn settle(&mut self, mut z: DVector<f64>) -> Result<Found, SystemError> {
-        let mut evaluation = self.evaluate(&z);
-        let (mut iterations, mut before) = (0, f64::INFINITY);
-        loop {
-            let eigen = evaluation.hessian.clone().symmetric_eigen();
-            if self.balanced(&evaluation, before) {
-                return Ok(Found::new(z, evaluation, iterations, &eigen, self.falling()));
+    /// Goes along `step`, shortened until the force out of balance falls, as it does at first along Newton's direction.
+    fn settle(&mut self, z: &mut DVector<f64>, mut step: DVector<f64>, mut evaluation: Evaluation) -> Evaluation {
+        let size = evaluation.gradient.norm();
+        for _ in 0..HALVINGS {
+            evaluation = self.evaluate(&(&*z + &step));
+            if evaluation.gradient.norm() < size {
+                break;
             }
-            go_on(&evaluation, iterations)?;
-            let mut step = newton(&eigen, &evaluation.gradient, [LONGEST_STEP; 2], |curvature| {
-                curvature.abs().max(HELD).copysign(curvature)
-            });
-            before = evaluation.gradient.amax();
-            let size = evaluation.gradient.norm();
-            for _ in 0..HALVINGS {
-                evaluation = self.evaluate(&(&z + &step));
-                // along Newton's direction the force out of balance falls at first
-                if evaluation.gradient.norm() < size {
-                    break;
-                }
-                step *= 0.5;
-            }
-            z += &step;
-            iterations += 1;
+            step *= 0.5;
         }
+        *z += &step;
+        evaluation
     }
 
     /// Curvature below which the potential falls, N/m: a hundredth of what a force on the shaft has without a contact, -F / chi.
@@ -155,14 +132,6 @@ impl Problem<'_> {
         *z += &step;
         self.evaluate(z)
     }
-}
-
-fn go_on(evaluation: &Evaluation, iterations: usize) -> Result<(), SystemError> {
-    let residual_n = evaluation.gradient.amax();
-    if iterations == MAX_ITERATIONS || !residual_n.is_finite() {
-        return Err(SystemError::NoEquilibrium { iterations, residual_n });
-    }
-    Ok(())
 }
 
 /// Newton's step with the curvatures as `used` makes them, at most so far (m) along directions that contacts hold, which is the

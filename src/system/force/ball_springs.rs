@@ -1,8 +1,7 @@
 //! The spring that a ball meets between its contacts.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::lanes::{self, LANES, together};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 use multiversion::multiversion;
 
 /// What [`own_springs_into`] says. Of a ball: the stiffness of both contacts over its mass, `3/2 F / delta` of each, the outer one
@@ -31,7 +30,7 @@ pub(super) fn find_own_springs(system: &CoupledSystem, springs: &mut [f64], size
         let stiffness = lanes::each(|l| {
             let outer = tangent(outer[l], gap[l] - displaced[l]);
             let outer = outer / (1.0 + own[l] * outer);
-            system.ball_mobility * (outer + tangent(inner[l], group.penetration[l]))
+            system.ball_mobility * (outer + tangent(inner[l], group.inner.penetration[l]))
         });
         lanes::put(&together(stiffness), springs);
         let both = lanes::each(|l| system.ball_mobility * (outer[l] + inner[l]));

@@ -1,12 +1,11 @@
 //! The force on modes, shaft and balls at a state.
 
-use super::super::bearing_setup::BallsInertia;
-use super::super::coupled::CoupledSystem;
 use super::ball_springs::find_own_springs;
 use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES};
 use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
+use crate::system::{BallsInertia, CoupledSystem};
 use multiversion::multiversion;
 
 impl SecondOrderSystem for CoupledSystem {
@@ -41,7 +40,10 @@ impl SecondOrderSystem for CoupledSystem {
     }
 
     fn events(&self) -> usize {
-        self.contact_events()
+        match self.setup.balls_inertia {
+            BallsInertia::Dynamic => 2 * self.balls.count,
+            BallsInertia::QuasiStatic => 0,
+        }
     }
 
     fn events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
@@ -55,20 +57,20 @@ impl SecondOrderSystem for CoupledSystem {
         // beyond half a ball radius neither Hertz theory nor the geometry holds
         let limit = 0.5 * self.setup.geometry.ball_radius();
         let positions = &y[self.modes..];
-        let name = |place: usize| match place {
-            0 => "shaft displacement x".to_owned(),
-            1 => "shaft displacement y".to_owned(),
-            ball => format!("radial displacement of ball {}", ball - 1),
-        };
         let beyond = |value: &f64| value.abs() > limit;
         // all at once, as in nearly every call none is
         if !positions.iter().fold(false, |any, value| any | beyond(value)) {
             return Ok(());
         }
-        match positions.iter().position(beyond) {
-            Some(place) => Err(Divergence::OutOfRange { what: name(place), value: positions[place], limit, unit: "m" }),
-            None => Ok(()),
-        }
+        let Some(place) = positions.iter().position(beyond) else {
+            return Ok(());
+        };
+        let what = match place {
+            0 => "shaft displacement x".to_owned(),
+            1 => "shaft displacement y".to_owned(),
+            ball => format!("radial displacement of ball {}", ball - 1),
+        };
+        Err(Divergence::OutOfRange { what, value: positions[place], limit, unit: "m" })
     }
 }
 
@@ -101,19 +103,19 @@ fn evaluate_sized<const B: usize, const M: usize>(
     let cage = system.setup.cage.rotation.at_from(&mut system.cursors[1], t);
     system.take::<B, M>(y, v);
     system.place_balls::<B>(&shaft, &cage);
-    system.approach_outer_race::<B, M>(&shaft, &cage);
+    system.approach_outer_race::<B, M>();
     let inertia = system.setup.balls_inertia;
     match (inertia, &system.residual) {
         (BallsInertia::QuasiStatic, _) => {
             let centre = [y[system.modes], y[system.modes + 1]];
             system.settle_balls(centre, &shaft, &cage);
         }
-        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual::<B>(&cage),
+        (BallsInertia::Dynamic, Some(_)) => system.outer_forces_with_residual::<B>(),
         (BallsInertia::Dynamic, None) => system.outer_forces::<B>(),
     }
     system.structure_force::<B, M>(g);
     let centre = system.centre_motion(y, v, g);
-    system.inner_forces::<B>(&centre, &shaft, &cage, y, v);
+    system.inner_forces::<B>(&centre, &shaft, y, v);
     system.shaft_force(t, &shaft, g);
     if inertia == BallsInertia::Dynamic {
         system.ball_forces::<B>(&centre, &cage, g);
@@ -140,7 +142,7 @@ impl CoupledSystem {
                 });
             }
         }
-        if self.outer.is_irregular() {
+        if self.outer.irregular {
             self.tangential_structure_force();
         }
         let forces = lanes::first::<M, _>(&self.work.modal_force);

@@ -8,20 +8,11 @@
 //! passes through zero there has an event where nothing happens. Balls without inertia have none: their forces follow from
 //! each other, and what begins and ends there is found with them.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use crate::numerics::lanes::LANES;
 use crate::numerics::lanes::scalar_product;
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 impl CoupledSystem {
-    /// How many events the contacts have.
-    pub(super) fn contact_events(&self) -> usize {
-        match self.setup.balls_inertia {
-            BallsInertia::Dynamic => 2 * self.balls.count,
-            BallsInertia::QuasiStatic => 0,
-        }
-    }
-
     /// Sets the overlaps at a state, m.
     pub(super) fn contact_events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
         if self.setup.balls_inertia == BallsInertia::QuasiStatic {
@@ -32,9 +23,9 @@ impl CoupledSystem {
         let cage = self.setup.cage.rotation.at_from(&mut self.cursors[1], t);
         self.take::<0, 0>(y, v);
         self.place_balls::<0>(&shaft, &cage);
-        self.approach_outer_race::<0, 0>(&shaft, &cage);
+        self.approach_outer_race::<0, 0>();
         if self.residual.is_some() {
-            self.outer_forces_with_residual::<0>(&cage);
+            self.outer_forces_with_residual::<0>();
         }
         let modes = self.modes;
         let centre = match self.setup.formulation {

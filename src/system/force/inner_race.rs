@@ -2,7 +2,7 @@
 
 use super::super::coupled::CoupledSystem;
 use super::super::inner::InnerGap;
-use super::super::race::{Damage, RaceForce, RacePlace};
+use super::super::race::{Damage, RacePlace};
 use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, positive};
@@ -14,21 +14,20 @@ impl CoupledSystem {
         &mut self,
         centre: &CentreMotion,
         shaft: &RotationState,
-        cage: &RotationState,
         y: &[f64],
         v: &[f64],
     ) {
         let modes = self.modes;
         let relative = [0, 1].map(|k| y[modes + k] - centre.position[k]);
         let velocity = [0, 1].map(|k| v[modes + k] - centre.velocity[k]);
-        let (law, rise) = (self.inner.plain(), self.inner.rise());
+        let (law, rise, speed) = (self.inner.plain, self.inner.rise, self.work.cage_speed);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let (s, [cos, sin]) = (&group.displacement, &group.direction);
             let oversize = &group.oversize;
             let bounds = self.inner_race.penetration_bounds([cos, sin], s, relative);
             let bounds = lanes::each(|l| bounds[l] + oversize[l]);
             if bounds.iter().all(|&bound| bound <= -rise) {
-                group.penetration = bounds;
+                group.inner.penetration = bounds;
                 group.inner_force = [0.0; LANES];
                 group.on_inner = [[0.0; LANES]; 2];
                 continue;
@@ -43,7 +42,7 @@ impl CoupledSystem {
             if law.damping > 0.0 {
                 let rate = &group.displacement_rate;
                 force = lanes::each(|l| {
-                    let turn = (self.inner_race.touching_radius + s[l]) * cage.speed;
+                    let turn = (self.inner_race.touching_radius + s[l]) * speed;
                     let moving = [
                         rate[l] * cos[l] - turn * sin[l] - velocity[0],
                         rate[l] * sin[l] + turn * cos[l] - velocity[1],
@@ -53,12 +52,10 @@ impl CoupledSystem {
                 });
             }
             group.on_inner = [lanes::each(|l| -force[l] * n_x[l]), lanes::each(|l| -force[l] * n_y[l])];
-            group.penetration = penetration;
-            group.inner_distance = gap.distance;
-            group.inner_normal = gap.normal;
+            group.inner = InnerGap { penetration, ..gap };
             group.inner_force = force;
         }
-        if self.inner.is_irregular() {
+        if self.inner.irregular {
             self.irregular_inner_forces(velocity, shaft);
         }
         let mut sums = [[0.0; LANES]; 2];
@@ -71,7 +68,7 @@ impl CoupledSystem {
 
     /// The same for balls near a race that carries waves or defects, or that may meet a ball's flat.
     fn irregular_inner_forces(&mut self, velocity: [f64; 2], shaft: &RotationState) {
-        let rise = self.inner.rise();
+        let rise = self.inner.rise;
         for j in 0..self.balls.count {
             let gap = self.balls.inner_gap(j);
             if gap.penetration <= -rise {
@@ -79,7 +76,8 @@ impl CoupledSystem {
             }
             let rate = self.balls.get(j, |ball| &ball.displacement_rate);
             let moving = self.velocity_on_inner(j, &gap, rate, velocity);
-            let force = self.irregular_inner_force(j, &gap, moving, shaft);
+            let (damage, place) = self.inner_place(j, &gap, moving, shaft);
+            let force = self.inner.force(damage, &place);
             let n = gap.normal;
             let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
             group.inner_force[lane] = force.magnitude;
@@ -101,18 +99,6 @@ impl CoupledSystem {
         let turn = self.radius(j) * self.work.cage_speed;
         let moving = [rate * e[0] - turn * e[1] - velocity[0], rate * e[1] + turn * e[0] - velocity[1]];
         [-(n[0] * moving[0] + n[1] * moving[1]), n[0] * moving[1] - n[1] * moving[0]]
-    }
-
-    /// Force of ball `j` on such a race, for velocities of the ball's centre towards the race's and across, m/s.
-    pub(super) fn irregular_inner_force(
-        &self,
-        j: usize,
-        gap: &InnerGap,
-        velocity: [f64; 2],
-        shaft: &RotationState,
-    ) -> RaceForce {
-        let (damage, place) = self.inner_place(j, gap, velocity, shaft);
-        self.inner.force(damage, &place)
     }
 
     /// What ball `j` feels at the inner race, and its place there, for velocities of the ball's centre towards the race's and
@@ -145,11 +131,7 @@ impl CoupledSystem {
         let turned = (e[0] * n[1] - e[1] * n[0]).atan2(e[0] * n[0] + e[1] * n[1]);
         let [spin, speed] = self.work.spin[j];
         let flat = flat.filter(|&flat| self.inner.feels(flat, spin - turned));
-        let damage = match (defect, flat) {
-            (Some(defect), _) => Damage::Race(defect),
-            (None, Some(flat)) => Damage::Flat(flat),
-            (None, None) => Damage::None,
-        };
+        let damage = Damage::of(defect, flat);
         place.angle = self.ball_angle(j) + turned - shaft.angle;
         place.spin = [spin - turned, speed];
         (damage, place)

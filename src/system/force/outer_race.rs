@@ -4,7 +4,6 @@ use super::super::bearing_setup::{BallsInertia, Formulation};
 use super::super::coupled::{CoupledSystem, Work};
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::super::raceway::{Place, RacewayTable};
-use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, positive};
 use std::f64::consts::TAU;
 
@@ -12,27 +11,21 @@ impl CoupledSystem {
     /// Finds the balls that touch the outer race or may be reached by it, what they may feel there, their displacements
     /// relative to the race and the rates of these.
     #[inline(always)]
-    pub(super) fn approach_outer_race<const B: usize, const M: usize>(
-        &mut self,
-        shaft: &RotationState,
-        cage: &RotationState,
-    ) {
+    pub(super) fn approach_outer_race<const B: usize, const M: usize>(&mut self) {
         self.find_gaps::<B, M>();
         if self.setup.contact_damping > 0.0 {
-            self.rates_towards_outer_race::<B, M>(cage);
+            self.rates_towards_outer_race::<B, M>();
         }
-        if self.outer.is_irregular() || self.inner.is_irregular() {
-            self.turn_flats(shaft, cage);
-        }
-        if self.outer.is_irregular() {
+        if self.outer.irregular {
             self.find_damage();
-            self.find_shifts(cage);
+            self.find_shifts();
         }
     }
 
     /// Finds the balls on waves or damage, and how far and how fast the race under them moves along increasing angle: with it they
     /// move along the profile.
-    fn find_shifts(&mut self, cage: &RotationState) {
+    fn find_shifts(&mut self) {
+        let scale = self.work.cage_speed / TAU;
         self.work.uneven.clear();
         if self.outer.is_wavy() {
             for j in 0..self.balls.count {
@@ -50,7 +43,7 @@ impl CoupledSystem {
             let row = &mut work.scratch_row;
             let shift = table.values_into(at, &work.amplitudes, row.iter_mut());
             let moved = lanes::dot(row.iter(), &work.velocities);
-            table.slopes_into(at, cage.speed / TAU, row);
+            table.slopes_into(at, scale, row);
             let carried = lanes::dot(row.iter(), &work.amplitudes);
             self.balls.set(j, |ball| &mut ball.shift, shift);
             self.balls.set(j, |ball| &mut ball.shift_rate, moved + carried);
@@ -67,7 +60,7 @@ impl CoupledSystem {
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
         let amplitudes = lanes::first::<M, _>(&self.work.amplitudes);
-        let (radial, stiffness) = (&self.radial, self.outer.plain().stiffness);
+        let (radial, stiffness) = (&self.radial, self.outer.plain.stiffness);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
@@ -137,7 +130,8 @@ impl CoupledSystem {
     /// with the part that comes from the ball moving along the deformed race. The static residual's part is added where it
     /// is known.
     #[inline(always)]
-    fn rates_towards_outer_race<const B: usize, const M: usize>(&mut self, cage: &RotationState) {
+    fn rates_towards_outer_race<const B: usize, const M: usize>(&mut self) {
+        let scale = self.work.cage_speed / TAU;
         let Work { amplitudes, velocities, scratch_row, .. } = &mut self.work;
         let amplitudes = lanes::first::<M, _>(amplitudes);
         let velocities = lanes::first::<M, _>(velocities);
@@ -150,7 +144,7 @@ impl CoupledSystem {
                 if group.gap[l] <= -self.reach {
                     continue;
                 }
-                self.radial.slopes_into(places.get(l), cage.speed / TAU, scratch_row);
+                self.radial.slopes_into(places.get(l), scale, scratch_row);
                 let rows = lanes::first::<M, _>(&group.rows).iter();
                 let rows = rows.map(|rows| &rows[l]);
                 let race = lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
@@ -168,7 +162,7 @@ impl CoupledSystem {
     /// Forces on a race that only the kept modes move, from those of plain contact without damping.
     #[inline(always)]
     pub(super) fn outer_forces<const B: usize>(&mut self) {
-        let damping = self.outer.plain().damping;
+        let damping = self.outer.plain.damping;
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             if damping > 0.0 {
                 let (force, rate) = (&group.outer_radial, &group.rate);

@@ -1,12 +1,11 @@
 //! Where everything is that a force depends on: coordinates side by side, the ring's centre, the balls and what they may feel.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use super::super::race::Damage;
 use super::super::raceway::reduced_turn;
 use super::super::turning::directions;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, scalar_product};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 /// Motion of the ring's mean centre, from which `printed` measures; at rest in `consistent`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,7 +21,7 @@ impl CoupledSystem {
     pub(super) fn take<const B: usize, const M: usize>(&mut self, y: &[f64], v: &[f64]) {
         let (modes, work) = (self.modes, &mut self.work);
         lanes::set(lanes::first_mut::<M, _>(&mut work.amplitudes), &y[..modes]);
-        let moving = self.setup.contact_damping > 0.0 || self.outer.is_irregular();
+        let moving = self.setup.contact_damping > 0.0 || self.outer.irregular;
         if moving {
             lanes::set(lanes::first_mut::<M, _>(&mut work.velocities), &v[..modes]);
         }
@@ -77,13 +76,23 @@ impl CoupledSystem {
         self.work.cage_angle = cage.angle;
         self.work.cage_speed = cage.speed;
         let turn = reduced_turn(self.setup.cage.ball_angle(cage.angle, 0));
-        let [[cos, sin], shaft] = directions([turn, reduced_turn(shaft.angle)]);
-        self.work.shaft_direction = shaft;
+        let [[cos, sin], direction] = directions([turn, reduced_turn(shaft.angle)]);
+        self.work.shaft_direction = direction;
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let [c, s] = &group.spacing;
             group.direction = [lanes::each(|l| cos * c[l] - sin * s[l]), lanes::each(|l| sin * c[l] + cos * s[l])];
             let place = lanes::each(|l| turn + group.spacing_turns[l]);
             group.turn = lanes::each(|l| if place[l] < 1.0 { place[l] } else { place[l] - 1.0 });
+        }
+        // and the balls' flats
+        if self.setup.flats.is_empty() {
+            return;
+        }
+        for j in 0..self.balls.count {
+            if let Some((_, angle)) = self.setup.spin(j, shaft.angle) {
+                let speed = cage.speed - self.setup.geometry.orders().ball_spin * shaft.speed;
+                self.work.spin[j] = [angle, speed];
+            }
         }
     }
 
@@ -131,20 +140,6 @@ impl CoupledSystem {
         if self.is_near(ball) && self.work.damage[ball] == Damage::None {
             self.work.damage[ball] = damage;
             self.work.damaged.push(ball);
-        }
-    }
-
-    /// Turns the balls' flats to where they are.
-    #[inline(always)]
-    pub(super) fn turn_flats(&mut self, shaft: &RotationState, cage: &RotationState) {
-        if self.setup.flats.is_empty() {
-            return;
-        }
-        for j in 0..self.balls.count {
-            if let Some((_, angle)) = self.setup.spin(j, shaft.angle) {
-                let speed = cage.speed - self.setup.geometry.orders().ball_spin * shaft.speed;
-                self.work.spin[j] = [angle, speed];
-            }
         }
     }
 }

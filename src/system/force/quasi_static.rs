@@ -67,7 +67,9 @@ impl CoupledSystem {
     /// With residual flexibility the balls are taken in turns until their forces do not change.
     pub(super) fn settle_balls(&mut self, centre: [f64; 2], shaft: &RotationState, cage: &RotationState) {
         let (mass, gravity) = (self.setup.geometry.ball_mass(), self.setup.gravity);
-        self.clear_outer_radial();
+        for group in &mut self.balls.groups {
+            group.outer_radial = [0.0; LANES];
+        }
         // displacements of the race, before they are overwritten by overlaps
         let sweeps = if self.residual.is_some() { MAX_SWEEPS } else { 1 };
         for j in 0..self.balls.count {
@@ -132,7 +134,7 @@ impl CoupledSystem {
     fn enclosed(&mut self, j: usize, seat: &Seat) -> [f64; 3] {
         let (inner, outer) = (self.setup.stiffness.inner(), self.setup.stiffness.outer());
         let under = |force: f64, stiffness: f64| (force / stiffness).cbrt().powi(2);
-        let touching = -self.outer.rise();
+        let touching = -self.outer.rise;
         let free = self.balance(j, seat, touching);
         if free.stands() {
             return [touching; 3];
@@ -190,10 +192,10 @@ impl CoupledSystem {
 
     /// Force of ball `j` at rest on the inner race.
     pub(super) fn inner_force_at(&self, j: usize, gap: &InnerGap, shaft: &RotationState) -> RaceForce {
-        if self.inner.is_irregular() {
-            self.irregular_inner_force(j, gap, [0.0; 2], shaft)
-        } else {
-            self.inner.plain_force(gap.penetration, 0.0)
+        if !self.inner.irregular {
+            return self.inner.plain_force(gap.penetration, 0.0);
         }
+        let (damage, place) = self.inner_place(j, gap, [0.0; 2], shaft);
+        self.inner.force(damage, &place)
     }
 }

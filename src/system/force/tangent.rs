@@ -22,13 +22,12 @@
 //! it the parts by u / rho and by the radial velocity over chi; of the static residual what one ball's force moves under the
 //! others; without the balls' inertia all but both contacts in series along one normal.
 
-use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceForce};
 use super::super::resting::in_the_plane;
 use crate::bearing::RotationState;
-use crate::numerics::lanes::LANES;
+use crate::numerics::lanes::{self, LANES, Lanes};
 use crate::numerics::ode::{Tangent, TangentTerm};
+use crate::system::{BallsInertia, CoupledSystem, Formulation};
 use std::f64::consts::TAU;
 
 /// Contact of a ball with the outer race.
@@ -96,9 +95,7 @@ impl CoupledSystem {
             let by = [[rt + across * sliding, tt], [mixed, across]];
             self.by_motion_on_outer(j, by, &mut term);
             self.find_row_across(j);
-            for i in 0..modes {
-                term.left[i] = self.scratch(i);
-            }
+            lanes::get(&self.work.scratch_row, &mut term.left[..modes]);
             self.follow_centre(&mut term);
         }
         let mut term = tangent.add();
@@ -129,29 +126,20 @@ impl CoupledSystem {
         term.velocity[ball] = rate;
         let scale = self.work.cage_speed / TAU;
         if rate != 0.0 {
-            let at = self.radial.locate(&self.balls.groups[j / LANES].turn);
-            let place = at.get(j % LANES);
+            let place = self.radial.locate(&self.balls.groups[j / LANES].turn).get(j % LANES);
             self.radial.slopes_into(place, scale, &mut self.work.scratch_row);
-            for i in 0..modes {
-                term.position[i] -= rate * self.scratch(i);
-            }
+            take(&mut term.position[..modes], rate, &self.work.scratch_row);
         }
         if along != 0.0 {
             self.find_row_across(j);
-            for i in 0..modes {
-                term.position[i] -= along * self.scratch(i);
-            }
+            take(&mut term.position[..modes], along, &self.work.scratch_row);
         }
         if rate_along != 0.0 && self.setup.formulation == Formulation::Consistent {
             self.find_row_across(j);
-            for i in 0..modes {
-                term.velocity[i] -= rate_along * self.scratch(i);
-            }
+            take(&mut term.velocity[..modes], rate_along, &self.work.scratch_row);
             let place = self.tangential_place(j);
             self.tangential.slopes_into(place, scale, &mut self.work.scratch_row);
-            for i in 0..modes {
-                term.position[i] -= rate_along * self.scratch(i);
-            }
+            take(&mut term.position[..modes], rate_along, &self.work.scratch_row);
         }
     }
 
@@ -178,29 +166,25 @@ impl CoupledSystem {
         let (along, aside) = (product(n, e), product(t, e));
         let (speed, carrier) = (self.work.cage_speed, place.carrier(damage));
         let (first, ball) = (self.modes, self.modes + 2 + j);
-        let mut term = tangent.add();
-        for k in 0..2 {
-            term.left[first + k] = self.shaft_mobility * n[k];
-            term.position[first + k] = -((rr - mixed * carrier) * n[k] + (rt + by_rate * turning) * t[k]);
-            term.velocity[first + k] = -(by_rate * n[k] + mixed * t[k]);
+        // along the normal and across it
+        let terms = [(n, along, [rr, rt], [by_rate, mixed]), (t, aside, [rt, tt], [mixed, by_across])];
+        for (direction, share, [by_along, by_aside], [rate_along, rate_aside]) in terms {
+            let mut term = tangent.add();
+            for k in 0..2 {
+                term.left[first + k] = self.shaft_mobility * direction[k];
+                term.position[first + k] =
+                    -((by_along - rate_aside * carrier) * n[k] + (by_aside + rate_along * turning) * t[k]);
+                term.velocity[first + k] = -(rate_along * n[k] + rate_aside * t[k]);
+            }
+            term.left[ball] = -self.ball_mobility * share;
+            // a ball farther out goes round faster: cage speed times e turned by a right angle
+            term.position[ball] = by_along * along
+                + by_aside * aside
+                + rate_along * (turning * aside - speed * aside)
+                + rate_aside * (speed - carrier) * along;
+            term.velocity[ball] = rate_along * along + rate_aside * aside;
+            self.follow_centre(&mut term);
         }
-        term.left[ball] = -self.ball_mobility * along;
-        // a ball farther out goes round faster: cage speed times e turned by a right angle
-        term.position[ball] =
-            rr * along + rt * aside + by_rate * (turning * aside - speed * aside) + mixed * (speed - carrier) * along;
-        term.velocity[ball] = by_rate * along + mixed * aside;
-        self.follow_centre(&mut term);
-        let mut term = tangent.add();
-        for k in 0..2 {
-            term.left[first + k] = self.shaft_mobility * t[k];
-            term.position[first + k] = -((rt - by_across * carrier) * n[k] + (tt + mixed * turning) * t[k]);
-            term.velocity[first + k] = -(mixed * n[k] + by_across * t[k]);
-        }
-        term.left[ball] = -self.ball_mobility * aside;
-        term.position[ball] =
-            rt * along + tt * aside + mixed * (turning * aside - speed * aside) + by_across * (speed - carrier) * along;
-        term.velocity[ball] = mixed * along + by_across * aside;
-        self.follow_centre(&mut term);
     }
 
     /// Both contacts of a ball without inertia.
@@ -287,9 +271,12 @@ impl CoupledSystem {
     fn radial_row(&self, j: usize, i: usize) -> f64 {
         self.balls.groups[j / LANES].rows[i / LANES][j % LANES][i % LANES]
     }
+}
 
-    fn scratch(&self, i: usize) -> f64 {
-        self.work.scratch_row[i / LANES][i % LANES]
+/// Takes `factor` times a row from as many entries as there are.
+fn take(from: &mut [f64], factor: f64, row: &[Lanes]) {
+    for (entry, value) in from.iter_mut().zip(row.as_flattened()) {
+        *entry -= factor * value;
     }
 }
 

@@ -1,7 +1,7 @@
 //! Outer contacts on a race that also gives way by the static residual of the modes left out.
 
+use super::super::balls::BallGroup;
 use super::super::coupled::CoupledSystem;
-use crate::bearing::RotationState;
 use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
@@ -31,9 +31,9 @@ impl CoupledSystem {
     /// Contact damping sees the rates on the moving race, `r = v - dG/dt F - G dF/dt` with `dF_j/dt = f'(gap) r_j` and, on waves
     /// and damage, what changes as the ball moves along: they are found in the first of the same sweeps.
     #[inline(always)]
-    pub(super) fn outer_forces_with_residual<const B: usize>(&mut self, cage: &RotationState) {
+    pub(super) fn outer_forces_with_residual<const B: usize>(&mut self) {
         let damped = self.setup.contact_damping > 0.0;
-        self.start_sweeps::<B>(cage);
+        self.start_sweeps::<B>();
         let mut done = false;
         for sweep in 0..SWEEPS {
             self.displace_race::<B>();
@@ -119,7 +119,7 @@ impl CoupledSystem {
             displaced += flexibility * other.outer_radial[lane];
             yielding += flexibility * (other.law[1][lane] * other.rate[lane] + other.growth[lane]);
         }
-        let plain = self.outer.plain();
+        let plain = self.outer.plain;
         let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
         let before = group.outer_radial[lane];
         group.displaced[lane] = displaced + own * before;
@@ -147,7 +147,7 @@ impl CoupledSystem {
 
     /// Forces on a race that gives way by each ball's own share alone, and the rates.
     #[inline(always)]
-    fn start_sweeps<const B: usize>(&mut self, cage: &RotationState) {
+    fn start_sweeps<const B: usize>(&mut self) {
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             group.displaced = [0.0; LANES];
             group.growth = [0.0; LANES];
@@ -164,14 +164,14 @@ impl CoupledSystem {
             group.outer_radial = each(|l| law[l] / (1.0 + own[l] * tangent[l]));
         }
         if self.setup.contact_damping > 0.0 {
-            self.rates_by_turning::<B>(cage);
+            self.rates_by_turning::<B>();
         }
     }
 
     /// What contact damping multiplies the forces with at the balls' rates.
     #[inline(always)]
     fn damping_factors<const B: usize>(&mut self) {
-        let damping = self.outer.plain().damping;
+        let damping = self.outer.plain.damping;
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             let rate = &group.rate;
             group.damping = each(|l| positive(1.0 + damping * rate[l]));
@@ -188,25 +188,18 @@ impl CoupledSystem {
             group.displaced = [0.0; LANES];
         }
         let groups = first_mut::<B, _>(&mut self.balls.groups);
-        for number in 0..groups.len() {
-            let forces = groups[number].outer_radial;
-            for (lane, force) in forces.into_iter().enumerate() {
-                if force == 0.0 {
-                    continue;
-                }
-                let column = coupling.column::<B>(number * LANES + lane);
-                for (group, column) in groups.iter_mut().zip(column) {
-                    let before = &group.displaced;
-                    group.displaced = each(|l| before[l] + column[l] * force);
-                }
-            }
-        }
+        add_columns(
+            groups,
+            |group| group.outer_radial,
+            |ball| coupling.column::<B>(ball),
+            |group| &mut group.displaced,
+        );
     }
 
     /// Forces at the displacements relative to the displaced race, and their derivatives by them.
     #[inline(always)]
     fn laws<const B: usize>(&mut self) {
-        let stiffness = self.outer.plain().stiffness;
+        let stiffness = self.outer.plain.stiffness;
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             let (gap, displaced, damping) = (&group.gap, &group.displaced, &group.damping);
             let overlap = each(|l| positive(gap[l] - displaced[l]));
@@ -234,16 +227,11 @@ impl CoupledSystem {
         self.balls.groups[group].growth[lane] = force.growth;
     }
 
-    pub(super) fn clear_outer_radial(&mut self) {
-        for group in &mut self.balls.groups {
-            group.outer_radial = [0.0; LANES];
-        }
-    }
-
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
     /// forces at the start of the sweeps; and what each ball's own force moves there.
     #[inline(always)]
-    fn rates_by_turning<const B: usize>(&mut self, cage: &RotationState) {
+    fn rates_by_turning<const B: usize>(&mut self) {
+        let speed = self.work.cage_speed;
         let Some(coupling) = &self.residual else {
             return;
         };
@@ -251,20 +239,8 @@ impl CoupledSystem {
         for group in &mut *groups {
             group.approach = group.rate;
         }
-        for number in 0..groups.len() {
-            let forces = groups[number].outer_radial;
-            for (lane, force) in forces.into_iter().enumerate() {
-                if force == 0.0 {
-                    continue;
-                }
-                let moving = cage.speed * force;
-                let slopes = coupling.slope_column::<B>(number * LANES + lane);
-                for (group, slopes) in groups.iter_mut().zip(slopes) {
-                    let rate = &group.approach;
-                    group.approach = each(|l| rate[l] - slopes[l] * moving);
-                }
-            }
-        }
+        let turning = |group: &BallGroup| each(|l| -(speed * group.outer_radial[l]));
+        add_columns(groups, turning, |ball| coupling.slope_column::<B>(ball), |group| &mut group.approach);
         for group in groups {
             let (approach, own, tangent) = (&group.approach, &group.own, &group.law[1]);
             let growth = &group.growth;
@@ -282,21 +258,11 @@ impl CoupledSystem {
         for group in &mut *groups {
             group.yielding = [0.0; LANES];
         }
-        for number in 0..groups.len() {
-            let (rate, tangent) = (&groups[number].rate, &groups[number].law[1]);
-            let growth = &groups[number].growth;
-            let growing = each(|l| tangent[l] * rate[l] + growth[l]);
-            for (lane, growing) in growing.into_iter().enumerate() {
-                if growing == 0.0 {
-                    continue;
-                }
-                let column = coupling.column::<B>(number * LANES + lane);
-                for (group, column) in groups.iter_mut().zip(column) {
-                    let before = &group.yielding;
-                    group.yielding = each(|l| before[l] + column[l] * growing);
-                }
-            }
-        }
+        let growing = |group: &BallGroup| {
+            let (rate, tangent, growth) = (&group.rate, &group.law[1], &group.growth);
+            each(|l| tangent[l] * rate[l] + growth[l])
+        };
+        add_columns(groups, growing, |ball| coupling.column::<B>(ball), |group| &mut group.yielding);
         for group in groups {
             let (before, own, tangent) = (&group.rate, &group.own, &group.law[1]);
             let (approach, yielding) = (&group.approach, &group.yielding);
@@ -316,6 +282,28 @@ impl CoupledSystem {
         let forces = self.balls.all(|ball| &ball.outer_radial).enumerate();
         let others = forces.filter(|&(k, _)| k != j);
         (coupling.between(j, j), others.map(|(k, force)| coupling.between(j, k) * force).sum())
+    }
+}
+
+/// Adds to something of each group the columns of all balls, each times a factor of its ball.
+#[inline(always)]
+fn add_columns<'c>(
+    groups: &mut [BallGroup],
+    factors: impl Fn(&BallGroup) -> Lanes,
+    column: impl Fn(usize) -> &'c [Lanes],
+    sum: impl Fn(&mut BallGroup) -> &mut Lanes,
+) {
+    for number in 0..groups.len() {
+        for (lane, factor) in factors(&groups[number]).into_iter().enumerate() {
+            if factor == 0.0 {
+                continue;
+            }
+            for (group, column) in groups.iter_mut().zip(column(number * LANES + lane)) {
+                let sum = sum(group);
+                let before = *sum;
+                *sum = each(|l| before[l] + column[l] * factor);
+            }
+        }
     }
 }
 

@@ -55,18 +55,34 @@ pub(in crate::system) enum Damage {
     Flat(usize),
 }
 
+impl Damage {
+    /// A defect of the race before a flat of the ball.
+    #[inline]
+    pub(in crate::system) fn of(defect: Option<usize>, flat: Option<usize>) -> Self {
+        match (defect, flat) {
+            (Some(defect), _) => Self::Race(defect),
+            (None, Some(flat)) => Self::Flat(flat),
+            (None, None) => Self::None,
+        }
+    }
+}
+
 /// One race of a bearing.
 #[derive(Debug, Clone)]
 pub(in crate::system) struct RaceContact {
     race: Race,
-    /// Outward on the outer race, inward on the inner one.
-    pub(super) sign: f64,
-    pub(super) plain: HertzContact,
+    /// +1 if a ball is pressed onto the race by moving outwards, -1 if inwards.
+    pub sign: f64,
+    /// Contact with the undamaged race.
+    pub plain: HertzContact,
     /// Distance from the race's centre at which a ball touches it, m.
     touching_radius: f64,
     waviness: Waviness,
-    rise: f64,
-    irregular: bool,
+    /// How far it rises towards the balls at most, m: a ball farther than this from touching the undamaged race touches
+    /// nothing.
+    pub rise: f64,
+    /// Whether a ball may meet anything but a plain circle.
+    pub irregular: bool,
     defects: Vec<DefectArc>,
     flats: Vec<BallFlat>,
 }
@@ -102,10 +118,7 @@ impl RaceContact {
             Race::Outer => (1.0, geometry.outer_race_radius() - geometry.ball_radius()),
             Race::Inner => (-1.0, geometry.effective_inner_race_radius() + geometry.ball_radius()),
         };
-        let own = || {
-            let defects = setup.race_defects.iter();
-            defects.filter(|defect| defect.race() == race)
-        };
+        let own = || setup.race_defects.iter().filter(|defect| defect.race() == race);
         let waviness = Waviness::of(race, &setup.waves);
         let arc = |defect: &RaceDefect| {
             let (sin, cos) = defect.angle().sin_cos();
@@ -134,44 +147,16 @@ impl RaceContact {
         self
     }
 
-    /// Whether a ball may meet anything but a plain circle.
-    #[inline(always)]
-    pub(crate) fn is_irregular(&self) -> bool {
-        self.irregular
-    }
-
     /// Whether the race has waves.
     #[inline]
     pub(crate) fn is_wavy(&self) -> bool {
         !self.waviness.is_empty()
     }
 
-    /// How far it rises towards the balls at most, m: a ball farther than this from touching the undamaged race touches
-    /// nothing.
-    pub(crate) fn rise(&self) -> f64 {
-        self.rise
-    }
-
-    /// Contact with the undamaged race.
-    #[inline(always)]
-    pub(crate) fn plain(&self) -> HertzContact {
-        self.plain
-    }
-
     /// Distance (m) of a ball's centre from the race's when it is pressed so far beyond touching it.
     #[inline]
     pub(crate) fn radius(&self, penetration: f64) -> f64 {
         self.touching_radius + self.sign * penetration
-    }
-
-    /// Penetration (m) of the undamaged race under a force (N).
-    pub(crate) fn usual_penetration(&self, force: f64) -> f64 {
-        (force / self.plain.stiffness).cbrt().powi(2)
-    }
-
-    /// +1 if a ball is pressed onto the race by moving outwards, -1 if inwards.
-    pub(crate) fn pressed_outward(&self) -> f64 {
-        self.sign
     }
 
     /// Number of the defect that a ball in direction `e` (unit vector in the race's frame) may feel.

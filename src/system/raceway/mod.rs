@@ -6,4 +6,5 @@
 mod polynomials;
 mod table;
 
-pub(super) use table::{Place, RacewayTable, lowest_bits, nearest_whole, reduced_turn};
+pub(super) use polynomials::Quintic;
+pub(super) use table::{Place, RacewayTable, lowest_bits, nearest_whole, reduced_turn, slope, value};

@@ -7,7 +7,7 @@ use crate::numerics::lanes::{LANES, Lanes, each};
 use std::f64::consts::PI;
 
 /// Coefficients of a polynomial in its local coordinate in [-1, 1], highest power first.
-pub(super) type Quintic = [Lanes; 6];
+pub(in crate::system) type Quintic = [Lanes; 6];
 
 /// Largest deviation from the interpolation, relative to the largest value of all modes.
 const ACCURACY: f64 = 1e-12;
@@ -105,34 +105,32 @@ impl ElementPolynomials {
 
     /// Largest deviation of the quintics, in the middle of pieces, relative to the largest value there.
     fn deviation_of_quintics(&self, cuts: usize) -> f64 {
-        let mut worst = Deviation::default();
+        let mut pairs = Vec::new();
         for element in 0..self.elements {
             for group in 0..self.modes.div_ceil(LANES) {
                 for cut in 0..cuts {
                     let middle = (2 * cut + 1) as f64 / cuts as f64 - 1.0;
                     let [exact, ..] = self.at(element, group, middle);
                     let [.., found] = self.quintic(element, group, cut, cuts);
-                    for (found, exact) in found.into_iter().zip(exact) {
-                        worst.take(found, exact);
-                    }
+                    pairs.extend(found.into_iter().zip(exact));
                 }
             }
         }
-        worst.relative()
+        relative_deviation(&pairs)
     }
 
     /// Deviation between the points, over all elements, relative to the largest value.
     fn deviation(&self, sample: &impl Fn(usize, f64) -> Vec<f64>) -> f64 {
-        let mut worst = Deviation::default();
+        let mut pairs = Vec::new();
         for element in 0..self.elements {
             for xi in [-1.0, -0.61, 0.13, 0.77, 1.0] {
                 for (mode, exact) in sample(element, xi).into_iter().enumerate() {
                     let [found, ..] = self.at(element, mode / LANES, xi);
-                    worst.take(found[mode % LANES], exact);
+                    pairs.push((found[mode % LANES], exact));
                 }
             }
         }
-        worst.relative()
+        relative_deviation(&pairs)
     }
 
     /// Into how many pieces elements must be cut for quintics to reproduce them.
@@ -157,22 +155,11 @@ impl ElementPolynomials {
     }
 }
 
-/// Largest deviation and largest value so far.
-#[derive(Debug, Clone, Copy, Default)]
-struct Deviation {
-    worst: f64,
-    largest: f64,
-}
-
-impl Deviation {
-    fn take(&mut self, found: f64, exact: f64) {
-        self.worst = self.worst.max((found - exact).abs());
-        self.largest = self.largest.max(exact.abs());
-    }
-
-    fn relative(self) -> f64 {
-        self.worst / self.largest.max(f64::MIN_POSITIVE)
-    }
+/// Largest deviation of values found from exact ones, relative to the largest of these.
+fn relative_deviation(pairs: &[(f64, f64)]) -> f64 {
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
+    let worst = most(&mut pairs.iter().map(|(found, exact)| found - exact));
+    worst / most(&mut pairs.iter().map(|(_, exact)| *exact)).max(f64::MIN_POSITIVE)
 }
 
 /// Power coefficients of the Chebyshev polynomials T_0 .. T_degree.

@@ -11,32 +11,28 @@ use std::f64::consts::PI;
 pub(in crate::system) struct RacewayTable {
     /// Pieces all round, as a number that places are multiplied with.
     pieces: f64,
-    /// Groups of modes: the length of a row.
-    groups: usize,
+    /// Groups of modes: the length of a row, at least one.
+    pub groups: usize,
     /// [piece][group of modes]
     quintics: Vec<Quintic>,
 }
 
 impl RacewayTable {
-    /// Table of `component(rows) . phi` for the given modes.
+    /// Table of `component(rows) . phi` for the lowest `kept` modes.
     pub(crate) fn new(
         ring: &Ring,
         modes: &StructureModes,
-        kept: &[usize],
+        kept: usize,
         component: impl Fn(&RingRows) -> [f64; 6],
     ) -> Self {
         let sample = |element: usize, xi: f64| -> Vec<f64> {
             let half = PI / ring.nodes() as f64;
             let rows = ring.rows_in_element(element, xi * half);
             let factors = component(&rows);
-            kept.iter()
-                .map(|&mode| {
-                    let shape = modes.shapes.col(mode);
-                    (0..6).map(|k| factors[k] * shape[rows.dofs[k]]).sum()
-                })
-                .collect()
+            let value = |mode: usize| -> f64 { (0..6).map(|k| factors[k] * modes.shapes[(rows.dofs[k], mode)]).sum() };
+            (0..kept).map(value).collect()
         };
-        Self::fit(ring.nodes(), kept.len(), &sample)
+        Self::fit(ring.nodes(), kept, &sample)
     }
 
     /// Table of the radial interpolation itself: six values over the polar components of an
@@ -53,16 +49,17 @@ impl RacewayTable {
         Self { pieces: (elements * cuts) as f64, groups: modes.div_ceil(LANES), quintics: polynomials.cut(cuts) }
     }
 
-    /// Groups of modes: the length of a row, at least one.
-    #[inline(always)]
-    pub(crate) fn groups(&self) -> usize {
-        self.groups
-    }
-
     /// Where places in turns, 0 <= turn < 1, lie.
     #[inline(always)]
     pub(crate) fn locate(&self, turns: &Lanes) -> Places {
-        Places::among(self.pieces, turns)
+        let (place, last) = (each(|l| turns[l] * self.pieces), self.pieces - 1.0);
+        let whole = each(|l| nearest_whole(place[l] - 0.5));
+        // also what is not a number gets a piece, and shows itself in the value
+        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
+        Places {
+            pieces: together(each(|l| piece[l] + WHOLE)),
+            xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)),
+        }
     }
 
     /// Values of all modes at a place into `out` \[groups\]; gives their sum with the `amplitudes` \[groups\].
@@ -112,13 +109,15 @@ impl RacewayTable {
     }
 }
 
+/// Values of quintics side by side at a place, -1 <= x <= 1.
 #[inline(always)]
-fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
+pub(in crate::system) fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
     each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
 }
 
+/// Their derivatives by the place.
 #[inline(always)]
-fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
+pub(in crate::system) fn slope([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
     each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
 }
 
@@ -138,16 +137,6 @@ pub(in crate::system) struct Places {
 }
 
 impl Places {
-    /// Places in turns, 0 <= turn <= 1, among so many equal pieces, at least one.
-    #[inline(always)]
-    pub(crate) fn among(pieces: f64, turns: &Lanes) -> Self {
-        let (place, last) = (each(|l| turns[l] * pieces), pieces - 1.0);
-        let whole = each(|l| nearest_whole(place[l] - 0.5));
-        // also what is not a number gets a piece, and shows itself in the value
-        let piece = each(|l| if whole[l] < last { whole[l] } else { last });
-        Self { pieces: together(each(|l| piece[l] + WHOLE)), xi: together(each(|l| 2.0 * (place[l] - piece[l]) - 1.0)) }
-    }
-
     #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Place {
         Place { piece: self.pieces[lane].to_bits() as u32 as usize, xi: self.xi[lane] }

@@ -4,6 +4,7 @@
 //! until quintics with the values and slopes of their ends and their middle reproduce them to [`ACCURACY`]; a stretch lasts
 //! many steps, and its quintics are made when it is entered.
 
+use super::super::raceway::{Quintic, slope, value};
 use super::{ResidualFlexibility, Touch};
 use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, together};
 use std::f64::consts::TAU;
@@ -15,9 +16,6 @@ const ACCURACY: f64 = 1e-8;
 /// Pieces at most into which a stretch between two element boundaries is cut.
 const MOST_CUTS: usize = 16;
 
-/// Coefficients of a quintic for balls side by side, highest power first, by the place in a stretch from -1 to 1.
-type Quintic = [Lanes; 6];
-
 /// Couplings of all balls at the last cage angle.
 ///
 /// Columns stand one behind the other, each of one group of lanes after the other: radial displacement of the balls for a
@@ -25,7 +23,7 @@ type Quintic = [Lanes; 6];
 /// force at the balls (m/N) follows in the quintics alone: it is asked for where it is recorded.
 #[derive(Debug, Clone)]
 pub(in super::super) struct Coupling {
-    residual: ResidualFlexibility,
+    pub(in super::super) residual: ResidualFlexibility,
     balls: usize,
     groups: usize,
     /// Stretches in a turn.
@@ -72,7 +70,7 @@ impl Coupling {
             coupling.stretches = cuts * between_elements;
         }
         coupling.residual.sensors = sensors;
-        let columns = columns + coupling.residual.sensors();
+        let columns = columns + coupling.residual.sensors.len() / coupling.residual.width;
         coupling.made = [(); 2].map(|()| blank(columns));
         coupling
     }
@@ -88,11 +86,7 @@ impl Coupling {
         }
         let x = 2.0 * (place - number as f64) - 1.0;
         self.at = (slot, x);
-        let weight = self.balls * self.groups..(self.balls + 1) * self.groups;
-        let quintics = &self.made[slot].quintics[weight.clone()];
-        for (value, quintic) in self.values[weight].iter_mut().zip(quintics) {
-            *value = together(value_of(quintic, x));
-        }
+        self.turn_column::<0>(self.balls, false);
     }
 
     /// Turns the column of ball `k` to the same angle, with its slopes if asked for.
@@ -102,15 +96,15 @@ impl Coupling {
         let range = k * self.groups..(k + 1) * self.groups;
         let quintics = first::<B, _>(&self.made[slot].quintics[range.clone()]);
         let values = first_mut::<B, _>(&mut self.values[range.clone()]);
-        for (value, quintic) in values.iter_mut().zip(quintics) {
-            *value = together(value_of(quintic, x));
+        for (out, quintic) in values.iter_mut().zip(quintics) {
+            *out = together(value(quintic, x));
         }
         if with_slopes {
             let scale = 2.0 * self.stretches as f64 / TAU;
             let slopes = first_mut::<B, _>(&mut self.slopes[range]);
-            for (slope, quintic) in slopes.iter_mut().zip(quintics) {
-                let slopes = slope_of(quintic, x);
-                *slope = together(each(|l| scale * slopes[l]));
+            for (out, quintic) in slopes.iter_mut().zip(quintics) {
+                let slopes = slope(quintic, x);
+                *out = together(each(|l| scale * slopes[l]));
             }
         }
     }
@@ -145,7 +139,7 @@ impl Coupling {
         let (slot, x) = self.at;
         let first = (self.balls + 1 + sensor) * self.groups;
         let quintics = &self.made[slot].quintics[first..first + self.groups];
-        let row = quintics.iter().flat_map(|quintic| value_of(quintic, x));
+        let row = quintics.iter().flat_map(|quintic| value(quintic, x));
         row.zip(forces).map(|(row, force)| row * force).sum()
     }
 
@@ -157,7 +151,7 @@ impl Coupling {
             let quintics = &self.made[slot].quintics[k * self.groups..(k + 1) * self.groups];
             let mut sum = 0.0;
             for (group, quintic) in quintics.iter().enumerate() {
-                let slopes = slope_of(quintic, x);
+                let slopes = slope(quintic, x);
                 for (lane, slope) in slopes.into_iter().enumerate() {
                     let ball = group * LANES + lane;
                     if ball < self.balls {
@@ -175,11 +169,6 @@ impl Coupling {
             }
         }
         2.0 * self.stretches as f64 / TAU * sum
-    }
-
-    /// A bound of the displacement under the weight along the raceway, m.
-    pub(crate) fn weight_bound(&self) -> f64 {
-        self.residual.weight_bound()
     }
 
     /// Makes the quintics of a stretch: even and odd powers apart.
@@ -250,7 +239,7 @@ impl Coupling {
             let quintics = &self.made[0].quintics;
             self.each_entry(&[self.touches(number, 0.5)], |place, lane, [[exact, _]]| {
                 if place < balls {
-                    let found = value_of(&quintics[place], 0.5)[lane];
+                    let found = value(&quintics[place], 0.5)[lane];
                     worst = worst.max((found - exact).abs());
                     largest = largest.max(exact.abs());
                 }
@@ -258,16 +247,6 @@ impl Coupling {
         }
         worst / largest.max(f64::MIN_POSITIVE)
     }
-}
-
-#[inline(always)]
-fn value_of([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
-    each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
-}
-
-#[inline(always)]
-fn slope_of([a, b, c, d, e, _]: &Quintic, x: f64) -> Lanes {
-    each(|l| (((5.0 * a[l] * x + 4.0 * b[l]) * x + 3.0 * c[l]) * x + 2.0 * d[l]) * x + e[l])
 }
 
 fn least_common_multiple(a: usize, b: usize) -> usize {
@@ -287,8 +266,7 @@ mod tests {
     fn quintics_are_the_interpolation_and_do_not_depend_on_the_way() {
         let structure = structure();
         let modes = structure.modes().unwrap();
-        let kept: Vec<usize> = (0..10).collect();
-        let residual = ResidualFlexibility::new(&structure, &modes, &kept).unwrap();
+        let residual = ResidualFlexibility::new(&structure, &modes, 10).unwrap();
         let balls = 7;
         let mut coupling = Coupling::new(residual.clone(), balls);
         let exact = |turn: f64| -> Vec<Touch> {

@@ -9,9 +9,8 @@
 
 mod coupling;
 
-use super::SystemError;
 use super::raceway::RacewayTable;
-use super::structure::{Structure, StructureModes};
+use super::{Structure, StructureModes, SystemError};
 use crate::fe::model::Ring;
 use crate::numerics::lanes::{LANES, Lanes};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, TripletBuilder, sparse_times_dense};
@@ -51,15 +50,15 @@ struct Touch {
 
 impl ResidualFlexibility {
     /// # Errors
-    /// [`SystemError::NotSupported`] if the structure is free.
-    pub(super) fn new(structure: &Structure, modes: &StructureModes, kept: &[usize]) -> Result<Self, SystemError> {
+    /// [`SystemError::Refused`] if the structure is free.
+    pub(super) fn new(structure: &Structure, modes: &StructureModes, kept: usize) -> Result<Self, SystemError> {
         let (dof, ring) = (structure.dof(), structure.ring());
         let ring_dof = ring.dof();
         let loads = DenseMatrix::from_fn(dof, ring_dof + 1, |i, j| {
             if j == ring_dof { structure.gravity()[i] } else { f64::from(u8::from(i == j)) }
         });
         let mut response = structure.static_response(&loads)?;
-        for &mode in kept {
+        for mode in 0..kept {
             let shape = modes.shapes.col(mode);
             let softness = 1.0 / modes.squared_frequencies[mode];
             let pull = modes.participation(mode, structure.gravity());
@@ -92,11 +91,6 @@ impl ResidualFlexibility {
             weight,
             sensors: by_rows(sensor_rows.as_ref()),
         })
-    }
-
-    /// Number of sensors.
-    fn sensors(&self) -> usize {
-        self.sensors.len() / self.width
     }
 
     /// A place in an element, `inside` from 0 to 1.

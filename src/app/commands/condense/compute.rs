@@ -5,10 +5,10 @@ use crate::app::error::ComputeError;
 use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
 use crate::app::scene::{AssembledHousing, Boundary, CondensedHousing, doubts};
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::modal::{FullModes, Mechanisms, ModeRange, unless_too_many_bodies};
+use crate::fe::modal::{Bore, FullModes, Mechanisms, ModeRange};
 use crate::fe::reduction::{
-    CharacteristicModes, Check, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility, SizeErrors,
-    Superelement, check_craig_bampton, check_interface_reduction, size_study,
+    CharacteristicModes, Check, CraigBampton, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility,
+    SizeErrors, Superelement, check_craig_bampton, size_study,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::EigenProblem;
@@ -56,7 +56,7 @@ impl ReducedInterface {
         };
         let reduction = InterfaceReduction::new(&stage.condensed, modes, size)?;
         let attached = stage.boundary.attached();
-        let (estimate, rises) = reduction.estimate(&stage.condensed, attached, estimate)?;
+        let (estimate, rises) = estimate.raised(&stage.condensed.basis, &reduction.coupled_values(attached)?);
         let lost = modes.lost_flexibility(reduction.kept());
         let reduced = Self { reduction, rises, lost };
         Ok(Some((reduced, estimate)))
@@ -127,7 +127,8 @@ pub fn compute_condense(
     let stage = CondensedHousing::build(case, watch)?.ok_or(ComputeError::NothingToCondense)?;
     watch.stage("estimate");
     let band_hz = stage.choice.band_hz;
-    let mut estimate = stage.condensed.estimate(stage.boundary.attached(), band_hz)?;
+    let CraigBampton { substructure, basis, .. } = &stage.condensed;
+    let mut estimate = ErrorEstimate::of(substructure, basis, stage.boundary.attached(), band_hz)?;
     let matrices = stage.matrices();
     let (mut modes, mut interface) = (None, None);
     if comparison == Comparison::Full || case.condense.interface_modes != InterfaceModes::None {
@@ -140,12 +141,8 @@ pub fn compute_condense(
     }
     watch.stage("check");
     let rigid = stage.rigid_motions();
-    let mut checks = match &interface {
-        Some(ReducedInterface { reduction, .. }) => {
-            check_interface_reduction(&stage.condensed, reduction, &matrices, &rigid, band_hz)?
-        }
-        None => check_craig_bampton(&stage.condensed, &matrices, &rigid, band_hz)?,
-    };
+    let reduction = interface.as_ref().map(|interface| &interface.reduction);
+    let mut checks = check_craig_bampton(&stage.condensed, reduction, &matrices, &rigid, band_hz)?;
     name_mechanisms(&mut checks, &stage.housing, &stage.boundary)?;
     checks.push(estimated_error(&estimate, case.target()));
     let (mut full, mut price) = (None, None);
@@ -193,7 +190,7 @@ fn compare(
     watch: &impl Watch,
 ) -> Result<FullComparison, ComputeError> {
     let extent = ModeRange::Count(estimate.modes.len().max(1));
-    let modes = FullModes::of(stage.full_matrices(), extent, watch)?;
+    let modes = FullModes::of(stage.full_matrices(), extent, None, watch)?;
     let rigid = modes.basis.rigid_modes;
     let full = &modes.basis.frequencies_hz;
     let errors = estimate.modes.iter().zip(full).enumerate();
@@ -214,7 +211,7 @@ fn compare(
 /// Fixed-interface frequencies of a factorisation of its own.
 fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
     let basis = &stage.condensed.basis;
-    let kept = basis.values().partition_point(|&value| value < basis.complete_below());
+    let kept = basis.values().partition_point(|&value| value < basis.complete_below);
     let matrices = stage.matrices();
     let interior = &stage.boundary.partition().interior;
     let difference = match kept {
@@ -226,7 +223,7 @@ fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
             both.map(|(full, reduced)| ((reduced / full).sqrt() - 1.0).abs()).fold(0.0, f64::max)
         }
     };
-    let top = basis.complete_below().sqrt() / TAU;
+    let top = basis.complete_below.sqrt() / TAU;
     Ok(Check::at_most(
         "fixed-interface frequencies",
         format!("largest relative difference from the full model of the {kept} below {top:.0} Hz"),
@@ -265,12 +262,9 @@ fn name_mechanisms(checks: &mut [Check], housing: &AssembledHousing, boundary: &
     let Some(held) = checks.iter_mut().find(|check| check.name == "held" && !check.ok()) else {
         return Ok(());
     };
-    let (mesh, model) = (&housing.mesh, &housing.model);
-    let found = match boundary.ring() {
-        Some((ring, tie)) => Mechanisms::find_with_ring(mesh, model, tie, ring),
-        None => Mechanisms::find(mesh, model),
-    };
-    for sentence in unless_too_many_bodies(found)?.map_or(Vec::new(), |found| found.sentences()) {
+    let bore = boundary.ring().map_or(Bore::Empty, |(ring, tie)| Bore::Ring(tie, ring));
+    let found = Mechanisms::find_in(&housing.mesh, &housing.model, &bore)?;
+    for sentence in found.map_or(Vec::new(), |found| found.sentences()) {
         held.what = format!("{}; {sentence}", held.what);
     }
     Ok(())

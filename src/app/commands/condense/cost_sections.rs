@@ -9,7 +9,7 @@ use crate::report::{Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot,
 pub(crate) fn reduced_interface(result: &CondenseResult, interface: &ReducedInterface) -> Section {
     let reduction = &interface.reduction;
     let whole = result.stage.condensed.superelement.interface_dof;
-    let next = match reduction.next() {
+    let next = match reduction.next {
         Some(value) => format!("the first one left out has {} Hz", significant(hz(value), 6)),
         None => "none is left out".to_owned(),
     };

@@ -102,8 +102,8 @@ fn what(result: &CondenseResult) -> Section {
         Fact::new("Interface", interface),
         Fact::new("Interface coordinates", element.interface_dof.to_string()),
         Fact::new("Interior degrees of freedom", stage.condensed.substructure.interior_dof().to_string()),
-        Fact::new("Fixed-interface modes", (basis.count() - basis.residual_vectors()).to_string()).note(size),
-        Fact::new("Residual vectors", basis.residual_vectors().to_string())
+        Fact::new("Fixed-interface modes", (basis.count() - basis.residual_vectors).to_string()).note(size),
+        Fact::new("Residual vectors", basis.residual_vectors.to_string())
             .note("static response of the interior to what a mode of the coupled structure lacks"),
     ];
     if let Boundary::Nodes(nodes) = &stage.boundary
@@ -184,7 +184,7 @@ fn vectors(result: &CondenseResult) -> Section {
     Section::new("What the interior may do")
         .table(Table::new("Vectors of the interior", columns).rows(rows).footnote(format!(
         "Below {} Hz these are the fixed-interface modes, all of them; above, combinations with the residual vectors.",
-        significant(basis.complete_below().sqrt() / TAU, 6)
+        significant(basis.complete_below.sqrt() / TAU, 6)
     )))
 }
 

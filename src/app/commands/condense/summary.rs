@@ -109,14 +109,14 @@ impl CondenseResult {
     pub(crate) fn summary(&self) -> CondenseSummary<'_> {
         let (condensed, estimate) = (&self.stage.condensed, &self.estimate);
         let (basis, modes) = (&condensed.basis, estimate.modes.iter());
-        let (complete, full) = (basis.complete_below(), self.full.as_ref());
+        let (complete, full) = (basis.complete_below, self.full.as_ref());
         CondenseSummary {
             interface_dof: condensed.superelement.interface_dof,
             coordinates: self.superelement().order(),
             interface_reduction: self.interface.as_ref().map(InterfaceSummary::of),
             interior_dof: condensed.substructure.interior_dof(),
-            fixed_interface_modes: basis.count() - basis.residual_vectors(),
-            residual_vectors: basis.residual_vectors(),
+            fixed_interface_modes: basis.count() - basis.residual_vectors,
+            residual_vectors: basis.residual_vectors,
             interior_frequencies_hz: basis.values().iter().copied().map(hz).collect(),
             complete_below_hz: complete.is_finite().then(|| hz(complete)),
             band_hz: estimate.band_hz,
@@ -145,7 +145,7 @@ impl<'a> InterfaceSummary<'a> {
         Self {
             modes: reduction.kept(),
             frequencies_hz: reduction.values().iter().copied().map(hz).collect(),
-            first_left_out_hz: reduction.next().map(hz),
+            first_left_out_hz: reduction.next.map(hz),
             relative_rise: &interface.rises,
             static_flexibility_lost: interface.lost,
         }

@@ -161,8 +161,8 @@ impl<'c> ReducedPaths<'c> {
             watch.stage("basis for the responses");
             for _ in 0..ENLARGEMENTS {
                 match (reduced.housing, &reduced.estimate) {
-                    (FrfHousing::Mesh(stage), Some(estimate)) if estimate.lacking() > MARGIN * target => {
-                        let stage = stage.with_forces(estimate.forces().clone())?;
+                    (FrfHousing::Mesh(stage), Some(estimate)) if estimate.lacking > MARGIN * target => {
+                        let stage = stage.with_forces(estimate.forces.clone())?;
                         reduced = Self::of(case, frf, meshed(stage), band_hz)?;
                     }
                     (housing, _) => {
@@ -211,7 +211,7 @@ impl<'c> ReducedPaths<'c> {
     /// # Errors
     /// [`ComputeError::Frf`].
     pub(crate) fn response(&self, frequencies_hz: &[f64]) -> Result<FrequencyResponse, ComputeError> {
-        Ok(if self.superposition.coupling() <= UNCOUPLED {
+        Ok(if self.superposition.coupling <= UNCOUPLED {
             self.superposition.response(frequencies_hz)?
         } else {
             direct_response(&self.system, &self.paths, frequencies_hz)?

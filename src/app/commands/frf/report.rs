@@ -57,12 +57,12 @@ fn model(result: &FrfResult) -> Section {
     let of_housing = match &result.housing {
         FrfHousing::Mesh(stage) => {
             let (substructure, basis) = (&stage.condensed.substructure, &stage.condensed.basis);
-            let modes = basis.count() - basis.residual_vectors();
+            let modes = basis.count() - basis.residual_vectors;
             vec![
                 Fact::new("Interior degrees of freedom", substructure.interior_dof().to_string()),
                 coordinates,
                 Fact::new("Fixed-interface modes", modes.to_string()),
-                Fact::new("Residual vectors", basis.residual_vectors().to_string()).note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
+                Fact::new("Residual vectors", basis.residual_vectors.to_string()).note("static responses to every force and to a force at every sensor, and what their responses lacked where the estimated error was largest"),
             ]
         }
         FrfHousing::File(imported) => vec![

@@ -164,7 +164,7 @@ impl<'c> ComparedFile<'c> {
     ) -> Result<FileComparison, ComputeError> {
         let (asked, check) = (self.asked, survey.basis.count_check);
         let covered = [check.above_hz.unwrap_or(0.0), check.below_hz];
-        let own = &Side { set: survey.own_modes(housing).set(), covers_hz: covered };
+        let own = &Side { set: survey.mode_set(housing), covers_hz: covered };
         let there = placed(&asked.file, &self.modes, housing.map(|(mesh, _)| mesh))?;
         let compared = |source| ComputeError::Compared { file: asked.file.clone(), source: Box::new(source) };
         let mut options = ComparisonOptions::default();

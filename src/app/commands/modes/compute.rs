@@ -154,7 +154,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         watch.fraction(index as f64 / cases.len() as f64);
         let set = case.modes.variants[index].set.clone();
         if let Some(built) = CoupledStructure::build(&variant.case, &Unwatched)? {
-            let full = FullModes::of(built.full_matrices(), variant.case.modes.extent, &Unwatched)?;
+            let full = FullModes::of(built.full_matrices(), variant.case.modes.extent, None, &Unwatched)?;
             variants.push(reading(&variant.case, &built, &full.basis, variant.what.clone(), set)?);
         }
     }

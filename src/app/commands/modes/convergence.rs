@@ -103,11 +103,10 @@ pub(crate) fn mesh_convergence(
     housing: Option<(&Mesh, &HousingModel)>,
     watch: &impl Watch,
 ) -> Result<Option<MeshConvergence>, ComputeError> {
-    let own = survey.own_modes(housing);
-    if own.housing.is_none() {
+    if housing.is_none() || survey.housing.is_none() {
         return Ok(None);
     }
-    let own = own.set();
+    let own = survey.mode_set(housing);
     let own_modes = own.frequencies_hz.len();
     let mut found = vec![OnLevel {
         free_dof: survey.free_dof,

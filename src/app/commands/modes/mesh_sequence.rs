@@ -159,11 +159,12 @@ fn on_mesh(case: &Case, path: PathBuf) -> Case {
 /// [`ComputeError`] of mesh, model and eigenvalues.
 pub(crate) fn modes_on_mesh(case: &Case, path: PathBuf, extent: ModeRange) -> Result<(ModeSet, usize), ComputeError> {
     let (bodies, matrices) = Bodies::assemble(&on_mesh(case, path), &Unwatched)?;
-    let modes = match extent {
+    let extent = match extent {
         // a coarse mesh may have fewer
-        ModeRange::Count(count) | ModeRange::AtMost(count) => FullModes::lowest(matrices, count, &Unwatched),
-        other => FullModes::of(matrices, other, &Unwatched),
-    }?;
+        ModeRange::Count(count) => ModeRange::AtMost(count),
+        other => other,
+    };
+    let modes = FullModes::of(matrices, extent, None, &Unwatched)?;
     Ok((bodies.mode_set(&modes), modes.free_dof()))
 }
 

@@ -277,7 +277,7 @@ impl<R: Recording> Stepping<R> {
                 };
             }
             self.recorder.confirm();
-            if self.recorder.confirmed() >= BLOCK {
+            if self.recorder.confirmed >= BLOCK {
                 self.append_confirmed()?;
             }
             let done = integration.intervals;

@@ -12,9 +12,11 @@ use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
 use crate::app::scene::housing::description;
 use crate::app::scene::ring::{ring, ring_and_tie};
-use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
+use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{ComparisonOptions, FullModes, ModalComparison, ModeSet, Partner, partners, strain_products};
+use crate::fe::modal::{
+    ComparisonOptions, FullModes, ModalComparison, ModeRange, ModeSet, Partner, partners, strain_products,
+};
 use crate::fe::model::{
     Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule, PlaneModel, Ring,
     SpringStiffness, SupportShare,
@@ -126,17 +128,17 @@ pub(crate) fn compared(
     let (with_body, meshed) = joined(description, asked_tie, housing, &body, &ring)?;
     let sought = count + RIGID + MORE[0].max(count / MORE[1]);
     let matrices = CoupledMatrices::new(&housing.matrices, &tie, &ring);
-    let mut beams = FullModes::lowest(matrices, sought, watch)?;
-    beams.sharpen(|motions, all| {
+    let mut beams = FullModes::of(matrices, ModeRange::AtMost(sought), None, watch)?;
+    beams.sharpen(&|motions, all| {
         let of_ring = ring.strain_products(&motions.ring(all));
         let of_housing = strain_products(&housing.model, &motions.housing(&housing.model, all))?;
         Ok(of_housing + of_ring.beams + of_ring.springs)
     })?;
     let solid = modes_of(&with_body, sought, watch)?;
     // the housing's own nodes come first in both, and the ring's after them
-    let of_housing = beams.motions().housing(&housing.model, &beams.over_all_rows());
-    let of_ring = beams.motions().ring(&beams.over_all_rows());
-    let of_solid = solid.motions().housing(&with_body, &solid.over_all_rows());
+    let of_housing = beams.motions.housing(&housing.model, &beams.over_all_rows());
+    let of_ring = beams.motions.ring(&beams.over_all_rows());
+    let of_solid = solid.motions.housing(&with_body, &solid.over_all_rows());
     let nodes = housing.mesh.nodes.len();
     let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
     let frame = housing.model.frame();
@@ -213,9 +215,8 @@ pub(crate) fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
 /// The lowest modes of a model of continuum elements.
 pub(crate) fn modes_of(model: &HousingModel, sought: usize, watch: &impl Watch) -> Result<FullModes, ComputeError> {
     let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
-    let mut modes = FullModes::lowest(matrices, sought, watch)?;
-    modes
-        .sharpen(|motions: &CoupledMotions, all: &DenseMatrix| strain_products(model, &motions.housing(model, all)))?;
+    let mut modes = FullModes::of(matrices, ModeRange::AtMost(sought), None, watch)?;
+    modes.sharpen(&|motions, all| strain_products(model, &motions.housing(model, all)))?;
     Ok(modes)
 }
 
@@ -233,8 +234,8 @@ pub(crate) fn ring_alone(
     let free = case::Ring { supports: Vec::new(), ..asked.clone() };
     let beams = ring(case, &free, in_space)?;
     let sought = count + RIGID + MORE[0].max(count / MORE[1]);
-    let mut of_beams = FullModes::lowest(CoupledMatrices::of_ring(&beams), sought, watch)?;
-    of_beams.sharpen(|_, all| {
+    let mut of_beams = FullModes::of(CoupledMatrices::of_ring(&beams), ModeRange::AtMost(sought), None, watch)?;
+    of_beams.sharpen(&|_, all| {
         let strain = beams.strain_products(all);
         Ok(strain.beams + strain.springs)
     })?;
@@ -259,7 +260,7 @@ pub(crate) fn ring_alone(
         },
     )?;
     let solid = modes_of(&model, sought, watch)?;
-    let moved = solid.motions().housing(&model, &solid.over_all_rows());
+    let moved = solid.motions.housing(&model, &solid.over_all_rows());
     let points = Points::new(&meshed, section_nodes(&meshed));
     let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
     let sets = [points.set(&of_beams, on_beams), points.set(&solid, points.shapes(&moved, dimension))];

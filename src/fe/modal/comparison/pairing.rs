@@ -1,6 +1,6 @@
 //! Pairs of modes, or of clusters of them, that belong together.
 
-use super::super::ModalError;
+use super::super::error::{ModalError, check_value};
 use super::assignment::assignment;
 use super::points::{ModeSet, PointMatch, matched_points};
 use super::subspace::{basis, clusters, joined, mac, squared_cosines};
@@ -64,8 +64,8 @@ impl ModalComparison {
     /// Sources: Allemang and Brown (1982) for MAC, Bjorck and Golub (1973) for the principal angles.
     ///
     /// # Errors
-    /// [`ModalError::Shape`], [`ModalError::NotFinite`] for lists that do not fit or values that are no numbers,
-    /// [`ModalError::Option`], [`ModalError::TooFewPoints`] for fewer than three common points.
+    /// [`ModalError::Shape`] for lists that do not fit, [`ModalError::Invalid`] for values that are no numbers and options,
+    /// [`ModalError::TooFewPoints`] for fewer than three common points.
     pub fn new(first: &ModeSet, second: &ModeSet, options: ComparisonOptions) -> Result<Self, ModalError> {
         first.check()?;
         second.check()?;
@@ -74,8 +74,13 @@ impl ModalComparison {
         let points = matched_points(first, second, tolerance)?;
         let here = Side::new(first, &points, 0);
         let there = Side::new(second, &points, 1);
-        let mac = DenseMatrix::from_fn(here.modes(), there.modes(), |a, b| mac(here.column(a), there.column(b)));
-        let [own, other] = common_clusters(&here, &there, options);
+        let mac = DenseMatrix::from_fn(here.shapes.ncols(), there.shapes.ncols(), |a, b| {
+            mac(here.shapes.col_as_slice(a), there.shapes.col_as_slice(b))
+        });
+        // what is one cluster on one side and several on the other is joined there
+        let [own, other] = [&here, &there].map(|side| clusters(side.frequencies_hz, options.cluster_gap));
+        let other = join_like(&there, other, &here, &own, options.least_mac);
+        let own = join_like(&here, own, &there, &other, options.least_mac);
         let [own_bases, other_bases] = [(&here, &own), (&there, &other)].map(|(side, clusters)| {
             let of = |cluster: &Vec<usize>| basis(&side.shapes, cluster);
             clusters.iter().map(of).collect::<Vec<_>>()
@@ -117,13 +122,13 @@ impl ModalComparison {
 
 impl ComparisonOptions {
     fn check(&self) -> Result<(), ModalError> {
-        let within = |name, found: f64| match (0.0..=1.0).contains(&found) {
-            true => Ok(()),
-            false => Err(ModalError::Option { name, expected: "0 to 1", found }),
-        };
-        within("point_tolerance", self.point_tolerance)?;
-        within("cluster_gap", self.cluster_gap)?;
-        within("least_mac", self.least_mac)
+        let options = [
+            ("point_tolerance", self.point_tolerance),
+            ("cluster_gap", self.cluster_gap),
+            ("least_mac", self.least_mac),
+        ];
+        let check = |(name, found)| check_value(name, "0 to 1", found, (0.0..=1.0).contains(&found));
+        options.into_iter().try_for_each(check)
     }
 }
 
@@ -142,26 +147,10 @@ impl<'s> Side<'s> {
         Self { frequencies_hz: &set.frequencies_hz, shapes }
     }
 
-    fn modes(&self) -> usize {
-        self.shapes.ncols()
-    }
-
-    fn column(&self, mode: usize) -> &[f64] {
-        self.shapes.col_as_slice(mode)
-    }
-
     fn mean(&self, modes: &[usize]) -> f64 {
         let sum: f64 = modes.iter().map(|&mode| self.frequencies_hz[mode]).sum();
         sum / modes.len().max(1) as f64
     }
-}
-
-/// Clusters of both sides; what is one cluster on one side and several on the other is joined there.
-fn common_clusters(here: &Side, there: &Side, options: ComparisonOptions) -> [Vec<Vec<usize>>; 2] {
-    let [own, other] = [here, there].map(|side| clusters(side.frequencies_hz, options.cluster_gap));
-    let other = join_like(there, other, here, &own, options.least_mac);
-    let own = join_like(here, own, there, &other, options.least_mac);
-    [own, other]
 }
 
 /// Joins clusters of `side` that lie in one cluster of the other: by at least `least` in every direction.
@@ -188,8 +177,5 @@ fn join_like(side: &Side, clusters: Vec<Vec<usize>>, to: &Side, among: &[Vec<usi
 /// Sum of the squared cosines, which counts modes explained; nothing if one direction of the smaller space is not in
 /// the other.
 fn worth(squares: &[f64], least: f64) -> f64 {
-    match squares.last() {
-        Some(smallest) if *smallest >= least => squares.iter().sum(),
-        _ => 0.0,
-    }
+    squares.last().filter(|smallest| **smallest >= least).map_or(0.0, |_| squares.iter().sum())
 }

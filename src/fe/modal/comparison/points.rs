@@ -1,7 +1,6 @@
 //! Modes at points, and which points of two sets are one.
 
-use super::super::ModalError;
-use super::super::error::{check_count, check_finite};
+use super::super::error::{ModalError, check_count, check_finite, check_value};
 use crate::numerics::linalg::DenseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -58,9 +57,8 @@ impl ModeSet {
         }
         check_finite("coordinate", self.points.as_flattened())?;
         check_finite("frequency", &self.frequencies_hz)?;
-        if let Some(&found) = self.frequencies_hz.iter().find(|f| **f < 0.0) {
-            return Err(ModalError::Option { name: "frequency", expected: "zero or more", found });
-        }
+        let mut frequencies = self.frequencies_hz.iter();
+        frequencies.try_for_each(|&hz| check_value("frequency", "zero or more", hz, hz >= 0.0))?;
         (0..count).try_for_each(|mode| check_finite("displacement", self.shapes.col(mode).iter()))
     }
 
@@ -109,19 +107,18 @@ pub(super) fn matched_points(first: &ModeSet, second: &ModeSet, tolerance: f64) 
 }
 
 fn distance(first: &ModeSet, second: &ModeSet, [a, b]: [usize; 2]) -> f64 {
-    let (a, b) = (first.points[a], second.points[b]);
+    apart(&first.points[a], &second.points[b])
+}
+
+fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
 fn tagged_pairs(first: &ModeSet, second: &ModeSet) -> Option<Vec<[usize; 2]>> {
     let (own, other) = (first.node_tags.as_ref()?, second.node_tags.as_ref()?);
     // of a tag that occurs twice the first place counts, on both sides
-    let places = |tags: &[u64]| {
-        let mut places = HashMap::new();
-        for (place, &tag) in tags.iter().enumerate() {
-            places.entry(tag).or_insert(place);
-        }
-        places
+    let places = |tags: &[u64]| -> HashMap<u64, usize> {
+        tags.iter().enumerate().rev().map(|(place, &tag)| (tag, place)).collect()
     };
     let (own_places, other_places) = (places(own), places(other));
     let pairs = own.iter().enumerate().filter_map(|(place, tag)| {
@@ -158,8 +155,7 @@ fn nearest(points: &[[f64; 3]], among: &[[f64; 3]], tolerance: f64) -> Vec<Optio
             let [x, y, z] = [place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1];
             let neighbour = [i.saturating_add(x), j.saturating_add(y), k.saturating_add(z)];
             for &index in grid.get(&neighbour).into_iter().flatten() {
-                let other = among[index];
-                let apart = (point[0] - other[0]).hypot(point[1] - other[1]).hypot(point[2] - other[2]);
+                let apart = apart(point, &among[index]);
                 let nearer = best.is_none_or(|(least, first)| apart < least || (apart <= least && index < first));
                 if apart <= tolerance && nearer {
                     best = Some((apart, index));

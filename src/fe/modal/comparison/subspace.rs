@@ -37,10 +37,7 @@ pub(super) fn basis(shapes: &DenseMatrix, columns: &[usize]) -> DMatrix<f64> {
     let largest = svd.singular_values.iter().fold(0.0_f64, |m, s| m.max(*s));
     let keep = |k: &usize| svd.singular_values[*k] > RANK * largest;
     let kept: Vec<usize> = (0..svd.singular_values.len()).filter(keep).collect();
-    match svd.u {
-        Some(u) => u.select_columns(&kept),
-        None => DMatrix::zeros(shapes.nrows(), 0),
-    }
+    svd.u.map_or_else(|| DMatrix::zeros(shapes.nrows(), 0), |u| u.select_columns(&kept))
 }
 
 /// Squared cosines of the principal angles between two spaces given by orthonormal bases, descending; as many as

@@ -1,7 +1,6 @@
 //! Richardson's extrapolation with the grid convergence index as uncertainty.
 
-use super::super::ModalError;
-use super::super::error::{check_count, check_finite};
+use super::super::error::{ModalError, check_count, check_finite, check_value};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -101,8 +100,8 @@ impl Convergence {
 /// Oberkampf and Roy (2010), chapter 8; Eca and Hoekstra (2014) for the fit.
 ///
 /// # Errors
-/// [`ModalError::TooFewMeshes`], [`ModalError::SameSize`], [`ModalError::Shape`] for another number of values,
-/// [`ModalError::NotFinite`], [`ModalError::Option`] for a size or an order that is not positive.
+/// [`ModalError::Shape`] for another number of values, [`ModalError::Invalid`] for fewer than two meshes, two of one size, values
+/// that are not finite, and a size or an order that is not positive.
 pub fn richardson(levels: &MeshLevels, values: &[f64]) -> Result<Convergence, ModalError> {
     let order = levels.finest_first()?;
     check_count("values of a sequence of meshes", order.len(), values.len())?;
@@ -123,21 +122,23 @@ impl MeshLevels {
 
     /// The meshes by size, finest first.
     fn finest_first(&self) -> Result<Vec<usize>, ModalError> {
-        let positive = |name, found: f64| match found > 0.0 && found.is_finite() {
-            true => Ok(()),
-            false => Err(ModalError::Option { name, expected: "a positive number", found }),
-        };
+        let positive =
+            |name, found: f64| check_value(name, "a positive number", found, found > 0.0 && found.is_finite());
         positive("formal order", self.formal_order)?;
         self.sizes.iter().try_for_each(|&size| positive("mesh size", size))?;
         if self.sizes.len() < 2 {
-            return Err(ModalError::TooFewMeshes { found: self.sizes.len() });
+            let found = self.sizes.len();
+            let what = format!("{found} meshes: an estimate of the discretisation error needs at least 2");
+            return Err(ModalError::Invalid(what));
         }
         let mut order: Vec<usize> = (0..self.sizes.len()).collect();
         order.sort_by(|&a, &b| self.sizes[a].total_cmp(&self.sizes[b]));
         for pair in order.windows(2) {
             let [finer, coarser] = [self.sizes[pair[0]], self.sizes[pair[1]]];
             if coarser < LEAST_RATIO * finer {
-                return Err(ModalError::SameSize { finer, coarser });
+                let what =
+                    format!("two meshes have sizes {finer:e} and {coarser:e}: expected them to differ by 1 % at least");
+                return Err(ModalError::Invalid(what));
             }
         }
         Ok(order)
@@ -183,10 +184,7 @@ impl Sequence<'_> {
             }),
             (h, f) => law_past_many(h, f),
         };
-        match law {
-            None => self.without_limit(Behaviour::Diverging, high - low),
-            Some(law) => self.by_law(law),
-        }
+        law.map_or_else(|| self.without_limit(Behaviour::Diverging, high - low), |law| self.by_law(law))
     }
 
     fn by_law(&self, law: Law) -> Convergence {

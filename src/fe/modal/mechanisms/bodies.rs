@@ -5,15 +5,14 @@ use crate::fe::model::{HousingModel, Ring};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-const NO_BODY: u32 = u32::MAX;
-
 /// Which body each element and node belongs to.
 pub(super) struct BodyMap {
     /// Body of each element.
-    pub of_element: Vec<u32>,
+    pub of_element: Vec<usize>,
     /// Place and size of each body.
     pub extents: Vec<Extent>,
-    first: Vec<u32>,
+    /// First body of each node; `None` for a node that no element uses.
+    first: Vec<Option<usize>>,
     /// Bodies after the first of the nodes that several share.
     pub shared: BTreeMap<usize, Vec<usize>>,
     /// The ring in the bore; it has no nodes here.
@@ -33,24 +32,22 @@ pub(super) struct Extent {
 impl BodyMap {
     pub(super) fn new(model: &HousingModel) -> Self {
         let of_element = joined_through_faces(model);
-        let count = of_element.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut first = vec![NO_BODY; model.coordinates.len()];
+        let count = of_element.iter().max().map_or(0, |last| last + 1);
+        let mut first = vec![None; model.coordinates.len()];
         let mut shared: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         let mut extents = vec![Extent { elements: 0, centre: [0.0; 3], radius: 0.0 }; count];
         for (element, &body) in model.elements.iter().zip(&of_element) {
             let nodes = model.elements.nodes(element);
-            let extent = &mut extents[body as usize];
+            let extent = &mut extents[body];
             extent.elements += 1;
             for &node in nodes {
                 for (sum, x) in extent.centre.iter_mut().zip(model.coordinates[node]) {
                     *sum += x / nodes.len() as f64;
                 }
-                if first[node] == NO_BODY {
-                    first[node] = body;
-                } else if first[node] != body {
+                if *first[node].get_or_insert(body) != body {
                     let others = shared.entry(node).or_default();
-                    if !others.contains(&(body as usize)) {
-                        others.push(body as usize);
+                    if !others.contains(&body) {
+                        others.push(body);
                     }
                 }
             }
@@ -59,7 +56,7 @@ impl BodyMap {
             extent.centre = extent.centre.map(|sum| sum / extent.elements.max(1) as f64);
         }
         for (element, &body) in model.elements.iter().zip(&of_element) {
-            let extent = &mut extents[body as usize];
+            let extent = &mut extents[body];
             for &node in model.elements.nodes(element) {
                 extent.radius = extent.radius.max(apart(extent.centre, model.coordinates[node]));
             }
@@ -79,8 +76,7 @@ impl BodyMap {
 
     /// A body that the node belongs to; `None` for a node that no element uses.
     pub(super) fn of_node(&self, node: usize) -> Option<usize> {
-        let body = *self.first.get(node)?;
-        (body != NO_BODY).then_some(body as usize)
+        *self.first.get(node)?
     }
 }
 
@@ -89,7 +85,7 @@ pub(super) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Body of each element, numbered as met. A mesh has fewer than 2^32 - 1 nodes and elements, which the reader sees to.
-fn joined_through_faces(model: &HousingModel) -> Vec<u32> {
+fn joined_through_faces(model: &HousingModel) -> Vec<usize> {
     let elements = model.elements.list.par_iter();
     let faces = sorted_faces(elements.map(|element| (element.kind, model.elements.nodes(element))));
     let mut sets = Sets::new(model.elements.len());
@@ -98,16 +94,13 @@ fn joined_through_faces(model: &HousingModel) -> Vec<u32> {
             sets.join(pair[0].1 as usize, pair[1].1 as usize);
         }
     }
-    let mut number = vec![NO_BODY; model.elements.len()];
-    let mut count = 0;
+    let mut numbers = vec![None; model.elements.len()];
+    let mut count = 0..;
     (0..model.elements.len())
-        .map(|element| {
-            let root = sets.root(element);
-            if number[root] == NO_BODY {
-                number[root] = count;
-                count += 1;
-            }
-            number[root]
+        .filter_map(|element| {
+            let number = &mut numbers[sets.root(element)];
+            *number = number.or_else(|| count.next());
+            *number
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use super::super::ModalError;
 use super::super::membership::Membership;
 use super::super::motions::{rigid_component, rigid_count};
-use super::bodies::BodyMap;
+use super::bodies::{BodyMap, Extent, apart};
 use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
 use crate::fe::mesh::{Mesh, Sets};
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 const MOST_BODIES: usize = 200;
 
 /// What is in the bore, or at another interface.
-enum Bore<'m> {
+pub(crate) enum Bore<'m> {
     Empty,
     Ring(&'m RingTie, &'m Ring),
     /// Displacements are held there, in the axes that the matrix turns to the mesh's.
@@ -96,32 +96,17 @@ impl Mechanisms {
         Self::of_bodies(mesh, model, &Bore::Empty)
     }
 
-    /// The same of a housing with the ring in its bore: the ring is one more body, joined by the tie.
+    /// The same with something in the bore. A ring is one more body, joined by the tie; where displacements are held besides the
+    /// supports, what can still move makes the stiffness of the others singular. `None` for too many bodies: that is worth no
+    /// error where only reasons were asked for.
     ///
     /// # Errors
-    /// As [`Mechanisms::find`].
-    pub(crate) fn find_with_ring(
-        mesh: &Mesh,
-        model: &HousingModel,
-        tie: &RingTie,
-        ring: &Ring,
-    ) -> Result<Self, ModalError> {
-        Self::of_bodies(mesh, model, &Bore::Ring(tie, ring))
-    }
-
-    /// The same of a housing of which some displacements are held besides its supports: what can still move makes the
-    /// stiffness of the others singular. `rotation` turns the displacements to the mesh's axes if they are not along
-    /// them.
-    ///
-    /// # Errors
-    /// As [`Mechanisms::find`].
-    pub(crate) fn find_with_held(
-        mesh: &Mesh,
-        model: &HousingModel,
-        dofs: &[usize],
-        rotation: Option<&SparseMatrix>,
-    ) -> Result<Self, ModalError> {
-        Self::of_bodies(mesh, model, &Bore::Held(dofs, rotation))
+    /// [`ModalError::Shape`] for another mesh than the model's.
+    pub(crate) fn find_in(mesh: &Mesh, model: &HousingModel, bore: &Bore<'_>) -> Result<Option<Self>, ModalError> {
+        match Self::of_bodies(mesh, model, bore) {
+            Err(ModalError::TooManyBodies { .. }) => Ok(None),
+            found => found.map(Some),
+        }
     }
 
     /// The motions of a ring alone that its springs leave, in its own axes.
@@ -168,9 +153,9 @@ impl Mechanisms {
         let full = rigid_count(model.dimension);
         let mut pieces = Vec::new();
         for members in pieces_of(&map, &constraints) {
-            let rows = Assembled::new(&members, &constraints, full);
-            let all = full * members.len() - rank(&rows.rows);
-            let rigid = full - rank(&rows.moved_as_one(&map, model.dimension));
+            let rows = assembled(&members, &constraints, full);
+            let all = full * members.len() - rank(&rows);
+            let rigid = full - rank(&moved_as_one(&rows, &members, &map, model.dimension));
             pieces.push(Piece {
                 elements: members.iter().map(|&body| map.extents[body].elements).sum(),
                 bodies: members,
@@ -233,24 +218,21 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
     let mut parts = vec![BTreeSet::new(); map.extents.len()];
     let mut groups = vec![BTreeSet::new(); map.extents.len()];
     for (number, (element, &body)) in model.elements.iter().zip(&map.of_element).enumerate() {
-        parts[body as usize].insert(element.part);
-        groups[body as usize].extend(membership.of(number).iter().copied());
+        parts[body].insert(element.part);
+        groups[body].extend(membership.of(number));
     }
     let names = |list: &[String], chosen: &BTreeSet<usize>| -> Vec<String> {
         chosen.iter().filter_map(|&place| list.get(place).cloned()).collect()
     };
-    let bodies = map.extents.iter().zip(parts.iter().zip(&groups));
-    Ok(bodies
-        .enumerate()
-        .map(|(number, (extent, (parts, groups)))| Body {
-            is_ring: map.ring == Some(number),
-            parts: names(&model.part_groups(), parts),
-            groups: names(&membership.names, groups),
-            elements: extent.elements,
-            centroid: extent.centre,
-            piece: 0,
-        })
-        .collect())
+    let described = map.extents.iter().enumerate().map(|(number, extent)| Body {
+        is_ring: map.ring == Some(number),
+        parts: names(&model.part_groups(), &parts[number]),
+        groups: names(&membership.names, &groups[number]),
+        elements: extent.elements,
+        centroid: extent.centre,
+        piece: 0,
+    });
+    Ok(described.collect())
 }
 
 /// Sets of joined bodies; the largest body of each first, the ring last.
@@ -273,55 +255,44 @@ fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
     members
 }
 
-/// The constraints of one piece over the motions of its bodies.
-struct Assembled<'p> {
-    members: &'p [usize],
-    full: usize,
-    rows: Vec<Vec<f64>>,
+/// The constraints of one piece over the motions of its bodies, `full` each.
+fn assembled(members: &[usize], constraints: &AllConstraints, full: usize) -> Vec<Vec<f64>> {
+    let mut rows = Vec::new();
+    for (between, own) in &constraints.between {
+        let place = |body: &usize| members.iter().position(|member| member == body);
+        let Some(places) = between.bodies.iter().map(place).collect::<Option<Vec<_>>>() else {
+            continue; // another piece
+        };
+        rows.extend(own.scaled_rows().map(|row| {
+            let mut wide = vec![0.0; full * members.len()];
+            for (part, place) in row.chunks_exact(full).zip(&places) {
+                wide[full * place..][..full].copy_from_slice(part);
+            }
+            wide
+        }));
+    }
+    rows
 }
 
-impl<'p> Assembled<'p> {
-    fn new(members: &'p [usize], constraints: &AllConstraints, full: usize) -> Self {
-        let mut rows = Vec::new();
-        for (between, own) in &constraints.between {
-            let place = |body: &usize| members.iter().position(|member| member == body);
-            let places: Vec<usize> = between.bodies.iter().filter_map(place).collect();
-            if places.len() < between.bodies.len() {
-                continue; // another piece
-            }
-            for row in own.scaled_rows() {
-                let mut wide = vec![0.0; full * members.len()];
-                for (part, place) in row.chunks_exact(full).zip(&places) {
-                    wide[full * place..][..full].copy_from_slice(part);
-                }
-                rows.push(wide);
-            }
-        }
-        Self { members, full, rows }
-    }
-
-    /// The constraints on the motions of all bodies as one.
-    fn moved_as_one(&self, map: &BodyMap, d: usize) -> Vec<Vec<f64>> {
-        let extent = |&body: &usize| map.extents[body];
-        let Some(first) = self.members.first().map(extent) else {
-            return Vec::new();
-        };
-        let reach = |body: &usize| super::bodies::apart(first.centre, extent(body).centre) + extent(body).radius;
-        let size = self.members.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
-        let as_one = |row: &Vec<f64>, motion: usize| -> f64 {
-            let parts = row.chunks_exact(self.full).zip(self.members);
-            let moved = parts.map(|(part, body)| {
-                let own = extent(body);
-                let arm = [0, 1, 2].map(|axis| (own.centre[axis] - first.centre[axis]) / size);
-                let along: f64 = (0..d).map(|i| part[i] * rigid_component(d, arm, i, motion)).sum();
-                let turn = if motion < d { 0.0 } else { part[motion] * own.radius / size };
-                along + turn
-            });
-            moved.sum()
-        };
-        let one = |row| (0..self.full).map(|motion| as_one(row, motion)).collect();
-        self.rows.iter().map(one).collect()
-    }
+/// The constraints of a piece on the motions of all its bodies as one.
+fn moved_as_one(rows: &[Vec<f64>], members: &[usize], map: &BodyMap, d: usize) -> Vec<Vec<f64>> {
+    let full = rigid_count(d);
+    let extents: Vec<Extent> = members.iter().map(|&body| map.extents[body]).collect();
+    let Some(&Extent { centre, .. }) = extents.first() else {
+        return Vec::new();
+    };
+    let reach = |own: &Extent| apart(centre, own.centre) + own.radius;
+    let size = extents.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
+    let as_one = |row: &Vec<f64>, motion: usize| -> f64 {
+        let moved = row.chunks_exact(full).zip(&extents).map(|(part, own)| {
+            let arm = [0, 1, 2].map(|axis| (own.centre[axis] - centre[axis]) / size);
+            let along: f64 = (0..d).map(|i| part[i] * rigid_component(d, arm, i, motion)).sum();
+            let turn = if motion < d { 0.0 } else { part[motion] * own.radius / size };
+            along + turn
+        });
+        moved.sum()
+    };
+    rows.iter().map(|row| (0..full).map(|motion| as_one(row, motion)).collect()).collect()
 }
 
 /// A joint that lets its bodies move.
@@ -329,10 +300,7 @@ fn joint(between: &Between, own: &Constraints, model: &HousingModel, full: usize
     let rows: Vec<Vec<f64>> = own.scaled_rows().collect();
     let free = full * between.bodies.len() - rank(&rows);
     let motions = free.saturating_sub(full);
-    let link = |&link: &usize| {
-        let link = model.description.links.get(link)?;
-        Some(format!("{} - {}", link.between[0], link.between[1]))
-    };
+    let link = |&link: &usize| Some(model.description.links.get(link)?.between.join(" - "));
     let tags = own.shared_nodes.iter().filter_map(|&node| model.node_tags.get(node).copied());
     (motions > 0).then(|| Joint {
         bodies: between.bodies.clone(),

@@ -11,8 +11,8 @@ mod count;
 mod rows;
 mod sentences;
 
-pub(crate) use count::pieces_at;
 pub use count::{Body, Joint, Mechanisms, Piece};
+pub(crate) use count::{Bore, pieces_at};
 
 #[cfg(test)]
 mod ring_tests;

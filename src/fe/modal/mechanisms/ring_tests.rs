@@ -34,8 +34,8 @@ fn find(dimension: usize, apart: bool, fit: Fit, ring: Ring, feet: bool) -> Mech
         ..description(&cells, &parts, 1.0)
     };
     let solved = ringed(&cells.mesh, description, ring, fit, 20);
-    let found = Mechanisms::find_with_ring(&cells.mesh, &solved.model, &solved.tie, &solved.ring);
-    let found = found.expect("few bodies");
+    let bore = Bore::Ring(&solved.tie, &solved.ring);
+    let found = Mechanisms::find_in(&cells.mesh, &solved.model, &bore).expect("its own mesh").expect("few bodies");
     assert_eq!(found.total(), solved.basis.rigid_modes, "{found:?}");
     found
 }

@@ -10,6 +10,7 @@ use crate::fe::model::{HousingModel, NodalSource, Ring, RingFrame, RingTie};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter::once;
 
 /// Singular values below this count as zero: nodes of a hinge that are out of line by less than a millionth of the
 /// body. Coordinates have 1e-16 of its place, the least joint of a mesh is one element, 1e-3 of it.
@@ -36,8 +37,13 @@ pub(super) struct Constraints {
     pub tied: bool,
 }
 
-/// A row: factors of the motions of each body.
-type Row = BTreeMap<usize, [f64; 6]>;
+/// A term of a constraint: the factor of a displacement component of a node, as a node of a body.
+struct Term {
+    body: usize,
+    node: usize,
+    component: usize,
+    factor: f64,
+}
 
 /// All constraints of a housing.
 pub(super) struct AllConstraints<'m> {
@@ -56,67 +62,74 @@ impl<'m> AllConstraints<'m> {
         all
     }
 
-    /// Adds `factor` times a displacement component of a node, as a node of `body`.
-    fn displacement(&self, row: &mut Row, body: usize, node: usize, component: usize, factor: f64) {
-        let extent = self.bodies.extents[body];
-        let size = if extent.radius > 0.0 { extent.radius } else { 1.0 };
-        let at = self.model.coordinates[node];
-        let arm = [0, 1, 2].map(|axis| (at[axis] - extent.centre[axis]) / size);
-        let d = self.model.dimension;
-        let own = row.entry(body).or_default();
-        for (motion, entry) in own.iter_mut().enumerate().take(rigid_count(d)) {
-            *entry += factor * rigid_component(d, arm, component, motion);
-        }
-    }
-
     /// The ring: every driven displacement of the bore follows it, and its springs hold it.
     pub(super) fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
         let Some(number) = self.bodies.ring else {
             return;
         };
         for &dof in &tie.partition().driven {
-            let mut row = Row::new();
-            let node = dof / self.model.dimension;
-            let Some(body) = self.bodies.of_node(node) else {
+            let Some(body) = self.bodies.of_node(dof / self.model.dimension) else {
                 continue;
             };
-            self.driven(&mut row, body, dof, tie.rotation(), 1.0);
-            self.driven(&mut row, number, dof, tie.rotation(), -1.0);
-            if let Some(constraints) = self.add(&row, false) {
+            let moved = self.driven(body, dof, tie.rotation(), 1.0);
+            let follows = self.driven(number, dof, tie.rotation(), -1.0);
+            if let Some(constraints) = self.add(moved.chain(follows), false) {
                 constraints.tied = true;
             }
         }
         for own in ring_spring_rows(ring, &self.model.frame) {
-            self.add(&Row::from([(number, own)]), true);
+            self.add_row(&BTreeMap::from([(number, own)]), true);
         }
     }
 
     /// Holds displacements, which `rotation` turns to the mesh's axes if they are not along them.
     pub(super) fn hold(&mut self, dofs: &[usize], rotation: Option<&SparseMatrix>) {
         for &dof in dofs {
-            let mut row = Row::new();
             if let Some(body) = self.bodies.of_node(dof / self.model.dimension) {
-                self.driven(&mut row, body, dof, rotation, 1.0);
-                self.add(&row, true);
+                self.add(self.driven(body, dof, rotation, 1.0), true);
             }
         }
     }
 
-    /// Adds `factor` times a displacement in the axes that `rotation` turns to the mesh's, as one of `body`.
-    fn driven(&self, row: &mut Row, body: usize, dof: usize, rotation: Option<&SparseMatrix>, factor: f64) {
+    /// `factor` times a displacement in the axes that `rotation` turns to the mesh's, as one of `body`.
+    fn driven<'r>(
+        &self,
+        body: usize,
+        dof: usize,
+        rotation: Option<&'r SparseMatrix>,
+        factor: f64,
+    ) -> impl Iterator<Item = Term> + use<'r> {
         let d = self.model.dimension;
-        let (node, component) = (dof / d, dof % d);
-        for i in 0..d {
+        let node = dof / d;
+        (0..d).map(move |component| {
             let along = match rotation {
                 // u' = rotation^T u
-                Some(rotation) => rotation.get(d * node + i, dof).copied().unwrap_or(0.0),
-                None => f64::from(u8::from(i == component)),
+                Some(rotation) => rotation.get(d * node + component, dof).copied().unwrap_or(0.0),
+                None => f64::from(u8::from(component == dof % d)),
             };
-            self.displacement(row, body, node, i, factor * along);
-        }
+            Term { body, node, component, factor: factor * along }
+        })
     }
 
-    fn add(&mut self, row: &Row, ground: bool) -> Option<&mut Constraints> {
+    /// Adds the constraint that the sum of some terms vanishes.
+    fn add(&mut self, terms: impl IntoIterator<Item = Term>, ground: bool) -> Option<&mut Constraints> {
+        let d = self.model.dimension;
+        let mut row: BTreeMap<usize, [f64; 6]> = BTreeMap::new();
+        for Term { body, node, component, factor } in terms {
+            let extent = self.bodies.extents[body];
+            let size = if extent.radius > 0.0 { extent.radius } else { 1.0 };
+            let at = self.model.coordinates[node];
+            let arm = [0, 1, 2].map(|axis| (at[axis] - extent.centre[axis]) / size);
+            let own = row.entry(body).or_default();
+            for (motion, entry) in own.iter_mut().enumerate().take(rigid_count(d)) {
+                *entry += factor * rigid_component(d, arm, component, motion);
+            }
+        }
+        self.add_row(&row, ground)
+    }
+
+    /// Adds a constraint by the factors of the motions of each body.
+    fn add_row(&mut self, row: &BTreeMap<usize, [f64; 6]>, ground: bool) -> Option<&mut Constraints> {
         let motions = rigid_count(self.model.dimension);
         let key = Between { bodies: row.keys().copied().collect(), ground };
         // what only joins a body to itself, a link within it, says nothing
@@ -124,8 +137,7 @@ impl<'m> AllConstraints<'m> {
             return None;
         }
         let constraints = self.between.entry(key).or_default();
-        let flat = row.values().flat_map(|own| own[..motions].iter().copied());
-        constraints.push(flat.collect());
+        constraints.push(row.values().flat_map(|own| &own[..motions]).copied().collect());
         Some(constraints)
     }
 
@@ -138,10 +150,8 @@ impl<'m> AllConstraints<'m> {
             };
             for &other in others {
                 for component in 0..self.model.dimension {
-                    let mut row = Row::new();
-                    self.displacement(&mut row, first, node, component, 1.0);
-                    self.displacement(&mut row, other, node, component, -1.0);
-                    if let Some(constraints) = self.add(&row, false) {
+                    let term = |body, factor| Term { body, node, component, factor };
+                    if let Some(constraints) = self.add([term(first, 1.0), term(other, -1.0)], false) {
                         constraints.shared_nodes.insert(node);
                     }
                 }
@@ -155,34 +165,26 @@ impl<'m> AllConstraints<'m> {
             let Some(body) = self.bodies.of_node(node) else {
                 continue;
             };
-            for (component, _) in fixed.iter().enumerate().filter(|fixed| fixed.1.is_some()) {
-                if component < model.dimension {
-                    let mut row = Row::new();
-                    self.displacement(&mut row, body, node, component, 1.0);
-                    self.add(&row, true);
-                }
+            for (component, _) in fixed.iter().enumerate().take(model.dimension).filter(|fixed| fixed.1.is_some()) {
+                self.add([Term { body, node, component, factor: 1.0 }], true);
             }
         }
     }
 
     fn tied_nodes(&mut self) {
-        let model = self.model;
+        let (model, bodies) = (self.model, self.bodies);
         for (&node, tied) in &model.tied {
-            let Some(body) = self.bodies.of_node(node) else {
+            let Some(body) = bodies.of_node(node) else {
                 continue;
             };
             for i in 0..model.dimension {
-                let mut row = Row::new();
-                self.displacement(&mut row, body, node, i, 1.0);
-                for (&leader, follow) in tied.foot.nodes.iter().zip(&tied.foot.follow) {
-                    let Some(other) = self.bodies.of_node(leader) else {
-                        continue;
-                    };
-                    for j in 0..model.dimension {
-                        self.displacement(&mut row, other, leader, j, -follow[(i, j)]);
-                    }
-                }
-                if let Some(constraints) = self.add(&row, false) {
+                let leaders = tied.foot.nodes.iter().zip(&tied.foot.follow).flat_map(|(&node, follow)| {
+                    let body = bodies.of_node(node).into_iter();
+                    let term = move |body, component| Term { body, node, component, factor: -follow[(i, component)] };
+                    body.flat_map(move |body| (0..model.dimension).map(move |component| term(body, component)))
+                });
+                let own = Term { body, node, component: i, factor: 1.0 };
+                if let Some(constraints) = self.add(once(own).chain(leaders), false) {
                     constraints.tied = true;
                 }
             }
@@ -190,25 +192,21 @@ impl<'m> AllConstraints<'m> {
     }
 
     fn springs(&mut self) {
-        let (model, d) = (self.model, self.model.dimension);
+        let (model, bodies, d) = (self.model, self.bodies, self.model.dimension);
         for spring in &model.springs {
             for SpringRow { factors, .. } in spring_rows(&spring.matrix) {
-                let mut row = Row::new();
-                for (place, &factor) in factors.iter().enumerate() {
-                    let node = spring.nodes.get(place / d).copied();
-                    let body = node.and_then(|node| self.bodies.of_node(node));
-                    if let (Some(node), Some(body)) = (node, body) {
-                        self.displacement(&mut row, body, node, place % d, factor);
-                    }
-                }
+                let terms = factors.iter().enumerate().filter_map(|(place, &factor)| {
+                    let node = *spring.nodes.get(place / d)?;
+                    Some(Term { body: bodies.of_node(node)?, node, component: place % d, factor })
+                });
                 match spring.source {
                     NodalSource::Link(link) => {
-                        if let Some(constraints) = self.add(&row, false) {
+                        if let Some(constraints) = self.add(terms, false) {
                             constraints.links.insert(link);
                         }
                     }
                     _ => {
-                        self.add(&row, true);
+                        self.add(terms, true);
                     }
                 }
             }
@@ -222,18 +220,10 @@ impl Constraints {
         self.rows.push(row);
         self.count += 1;
         if self.rows.len() > 8 * columns {
-            self.compress();
+            // as many rows as columns with the same null space and the same singular values
+            let r = DMatrix::from_fn(self.rows.len(), columns, |i, j| self.rows[i][j]).qr().r();
+            self.rows = r.row_iter().map(|row| row.iter().copied().collect()).collect();
         }
-    }
-
-    /// As many rows as columns with the same null space and the same singular values.
-    fn compress(&mut self) {
-        let Some(columns) = self.rows.first().map(Vec::len) else {
-            return;
-        };
-        let stacked = DMatrix::from_fn(self.rows.len(), columns, |i, j| self.rows[i][j]);
-        let r = stacked.qr().r();
-        self.rows = r.row_iter().map(|row| row.iter().copied().collect()).collect();
     }
 
     /// The rows over the root of their number, so that a large joint does not drown a small one.
@@ -248,12 +238,13 @@ pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> 
     let motions = ring_motions(ring, frame, frame.centre());
     let translations = if ring.is_in_space() { 3 } else { 2 };
     let of_spring = ring.springs.iter().map(|spring| {
-        let mut row = [0.0; 6];
-        for (motion, entry) in row.iter_mut().enumerate().take(motions.ncols()) {
+        std::array::from_fn(|motion| {
+            if motion >= motions.ncols() {
+                return 0.0;
+            }
             let turn = if motion < translations { 1.0 } else { ring.section().radius };
-            *entry = spring.stretch(motions.col_as_slice(motion)) / turn;
-        }
-        row
+            spring.stretch(motions.col_as_slice(motion)) / turn
+        })
     });
     of_spring.collect()
 }

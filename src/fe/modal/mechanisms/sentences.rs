@@ -19,10 +19,8 @@ impl Mechanisms {
                     found.push(format!("{what} is not connected: {}", counted(piece.rigid, "extra rigid mode")));
                 }
             } else if piece.rigid > 0 {
-                found.push(format!(
-                    "{what} is held, but can still move: {}",
-                    counted(piece.rigid, "motion without stiffness")
-                ));
+                let motions = if piece.rigid == 1 { "motion" } else { "motions" };
+                found.push(format!("{what} is held, but can still move: {} {motions} without stiffness", piece.rigid));
             }
             if piece.internal > 0 {
                 found.extend(self.joint_sentences(number, piece.internal));
@@ -39,17 +37,10 @@ impl Mechanisms {
         let joints: Vec<&Joint> = self.joints.iter().filter(own).collect();
         let alone: usize = joints.iter().map(|joint| joint.motions).sum();
         let each = alone == internal;
-        let mut found: Vec<String> = joints
-            .iter()
-            .map(|joint| {
-                let count = if each {
-                    counted(joint.motions, "mechanism")
-                } else {
-                    format!("{} by itself", counted(joint.motions, "mechanism"))
-                };
-                format!("{}: {count}", self.joined(joint))
-            })
-            .collect();
+        let by_itself = if each { "" } else { " by itself" };
+        let sentence =
+            |joint: &&Joint| format!("{}: {}{by_itself}", self.joined(joint), counted(joint.motions, "mechanism"));
+        let mut found: Vec<String> = joints.iter().map(sentence).collect();
         if !each {
             found.push(format!("these joints together leave {}", counted(internal, "mechanism")));
         }
@@ -87,7 +78,8 @@ impl Mechanisms {
         };
         let others = match piece.bodies.len() {
             0 | 1 => String::new(),
-            count => format!(" with {}", bodies(count - 1)),
+            2 => " with 1 body more".to_owned(),
+            count => format!(" with {} bodies more", count - 1),
         };
         if body.is_ring {
             return format!("the ring{others}");
@@ -130,31 +122,15 @@ fn quoted(names: &[String]) -> String {
 }
 
 fn counted(count: usize, what: &str) -> String {
-    match (count, what.strip_prefix("motion ")) {
-        (1, _) => format!("1 {what}"),
-        (_, Some(rest)) => format!("{count} motions {rest}"),
-        _ => format!("{count} {what}s"),
-    }
-}
-
-fn bodies(count: usize) -> String {
-    match count {
-        1 => "1 body more".to_owned(),
-        _ => format!("{count} bodies more"),
-    }
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
 }
 
 /// Digits in groups of three.
 fn grouped(number: usize) -> String {
     let digits = number.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
+    let groups = digits.as_bytes().rchunks(3).rev();
+    groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

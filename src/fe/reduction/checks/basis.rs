@@ -1,6 +1,7 @@
 //! Constraint modes and interior vectors against the matrices that they were computed from.
 
-use super::matrices::largest;
+use super::super::substructure::rows_of;
+use super::matrices::{largest, pairs};
 use super::{Check, CraigBampton};
 use crate::fe::assembly::SystemMatrices;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense};
@@ -21,16 +22,15 @@ const TRIALS: usize = 3;
 
 pub(super) fn checks(condensed: &CraigBampton, matrices: &SystemMatrices, band_hz: f64) -> Vec<Check> {
     let substructure = &condensed.substructure;
-    let q = condensed.basis.vectors();
-    let values = condensed.basis.values();
-    let (moved, stiff) = (substructure.mass_times(q), substructure.stiffness_times(q));
+    let (q, values) = (&condensed.basis.vectors, condensed.basis.values());
+    let (moved, stiff) = (substructure.interior.mass_times(q), substructure.interior.stiffness_times(q));
     let gram = q.transpose() * &moved;
     let energy = q.transpose() * &stiff;
-    let pairs = || (0..q.ncols()).flat_map(|column| (0..q.ncols()).map(move |row| (row, column)));
+    let pairs = || pairs(q.ncols());
     let unit = |row: usize, column: usize| f64::from(u8::from(row == column));
     let coupling = coupling(condensed, matrices);
     let [interior, reaction] = statics(condensed, matrices);
-    let complete = condensed.basis.complete_below().sqrt() / TAU;
+    let complete = condensed.basis.complete_below.sqrt() / TAU;
     vec![
         Check::at_most(
             "vectors orthonormal",
@@ -79,14 +79,14 @@ pub(super) fn checks(condensed: &CraigBampton, matrices: &SystemMatrices, band_h
 /// `Q^T (K_ii Psi + K_ib T)` in units of the energies of both.
 fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
     let substructure = &condensed.substructure;
-    let partition = substructure.partition();
-    let (q, values) = (condensed.basis.vectors(), condensed.basis.values());
+    let partition = &substructure.partition;
+    let (q, values) = (&condensed.basis.vectors, condensed.basis.values());
     if q.ncols() == 0 {
         return 0.0;
     }
     let k_ib = submatrix(&matrices.stiffness, &partition.interior, &partition.driven);
-    let stiff = substructure.stiffness_times(q);
-    let product = stiff.transpose() * substructure.constraint_modes()
+    let stiff = substructure.interior.stiffness_times(q);
+    let product = stiff.transpose() * &substructure.constraint_modes
         + transpose_times_dense(&partition.tie, &transpose_times_dense(&k_ib, q)).transpose();
     let k_bb = &condensed.superelement.stiffness;
     let typical = (0..substructure.interface_dof()).map(|row| k_bb[(row, row)]);
@@ -101,26 +101,21 @@ fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
 /// Residual of the interior and of the reaction for some interface motions, by the full matrices.
 fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
     let substructure = &condensed.substructure;
-    let partition = substructure.partition();
+    let partition = &substructure.partition;
     let interface = substructure.interface_dof();
     let u = DenseMatrix::from_fn(interface, TRIALS, |row, column| {
         // irrational steps: no motion is a pattern of the interface
         ((row + 1) as f64 * (1.0 + column as f64 * 0.414_213_562)).sin()
     });
-    let coordinates = DenseMatrix::from_fn(condensed.superelement.order(), TRIALS, |row, column| {
-        if row < interface { u[(row, column)] } else { 0.0 }
-    });
+    let coordinates = faer::concat![[u], [DenseMatrix::zeros(condensed.basis.count(), TRIALS)]];
     let k: &SparseMatrix = &matrices.stiffness;
     let x = condensed.field(&coordinates, k.rows());
     let force = sparse_times_dense(k, &x);
-    let pick = |dofs: &[usize], from: &DenseMatrix| {
-        DenseMatrix::from_fn(dofs.len(), TRIALS, |row, column| from[(dofs[row], column)])
-    };
-    let driven = pick(&partition.driven, &x);
+    let driven = rows_of(&x, &partition.driven);
     let k_ib = submatrix(k, &partition.interior, &partition.driven);
     let pulled = sparse_times_dense(&k_ib, &driven);
-    let residual = pick(&partition.interior, &force);
-    let reaction = transpose_times_dense(&partition.tie, &pick(&partition.driven, &force));
+    let residual = condensed.interior_of(&force);
+    let reaction = transpose_times_dense(&partition.tie, &rows_of(&force, &partition.driven));
     let expected = condensed.superelement.stiffness.subrows(0, interface) * &coordinates;
     // the reaction of a free body may be zero; that of its interface alone is not
     let k_bb = submatrix(k, &partition.driven, &partition.driven);

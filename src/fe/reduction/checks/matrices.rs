@@ -36,8 +36,7 @@ pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, Reduc
     let modal = b..n;
     let coupling = modal.clone().flat_map(|q| (0..b).map(move |row| (row, q)));
     let coupling = largest(coupling.map(|(row, q)| k[(row, q)] / root(k, row, q)));
-    let unit = modal.clone().flat_map(|q| modal.clone().map(move |p| (p, q)));
-    let unit = largest(unit.map(|(p, q)| m[(p, q)] - f64::from(u8::from(p == q))));
+    let unit = largest(pairs(n - b).map(|(p, q)| m[(b + p, b + q)] - f64::from(u8::from(p == q))));
     let diagonal = modal.clone().flat_map(|q| (b..q).map(move |p| (p, q)));
     let diagonal = largest(diagonal.map(|(p, q)| k[(p, q)] / root(k, p, q)));
     Ok(vec![
@@ -79,6 +78,11 @@ pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, Reduc
 fn root(a: &DenseMatrix, row: usize, column: usize) -> f64 {
     let product = (a[(row, row)] * a[(column, column)]).abs().sqrt();
     if product > 0.0 { product } else { 1.0 }
+}
+
+/// Places of a square matrix, column by column.
+pub(super) fn pairs(order: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..order).flat_map(move |column| (0..order).map(move |row| (row, column)))
 }
 
 /// Largest magnitude; not a number if one of them is none.

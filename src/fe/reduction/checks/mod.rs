@@ -8,7 +8,7 @@ mod rigid;
 mod verdict;
 
 use super::{CraigBampton, InterfaceReduction, ReductionError, Superelement};
-pub(crate) use condensed::{check_craig_bampton, check_interface_reduction};
+pub(crate) use condensed::check_craig_bampton;
 pub(crate) use matrices::check_matrices;
 pub use rigid::RigidMotions;
 pub use verdict::{Bound, Check};

@@ -1,6 +1,7 @@
 //! Rigid-body motions of a superelement, and its mass properties, against those of the mesh.
 
-use super::matrices::largest;
+use super::super::substructure::symmetric;
+use super::matrices::{largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;
 use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
@@ -56,19 +57,20 @@ impl RigidMotions {
         }
         let interface = &self.interface * &free;
         let housing = self.moving(condensed) * &free;
-        let order = condensed.superelement.order();
-        let whole = DenseMatrix::from_fn(order, interface.ncols(), |row, column| {
-            if row < interface.nrows() { interface[(row, column)] } else { 0.0 }
-        });
+        let whole = faer::concat![[interface], [DenseMatrix::zeros(condensed.basis.count(), interface.ncols())]];
         // round-off of k is that of the large terms that it was summed from, on the interface itself
         let scale = magnitude(&whole, &condensed.superelement.stiffness);
-        let own = reduction.map(|reduced| reduced.nearest(&interface));
-        let carried = own.as_ref().zip(reduction);
-        let field = condensed
-            .field(&carried.map_or_else(|| whole.clone(), |(own, reduced)| reduced.expanded(own)), housing.nrows());
-        let coordinates = own.unwrap_or(whole);
+        let (coordinates, on_interface) = match reduction {
+            Some(reduced) => {
+                let nearest = reduced.nearest(&interface);
+                let expanded = &reduced.transform * &nearest;
+                (nearest, expanded)
+            }
+            None => (whole.clone(), whole),
+        };
+        let field = condensed.field(&on_interface, housing.nrows());
         let (k, m) = (&element.stiffness, &element.mass);
-        let partition = condensed.substructure.partition();
+        let partition = &condensed.substructure.partition;
         let dofs = || partition.interior.iter().chain(&partition.driven);
         let difference = largest(dofs().flat_map(|&dof| {
             let (field, housing) = (&field, &housing);
@@ -77,10 +79,6 @@ impl RigidMotions {
         let energy = coordinates.transpose() * (k * &coordinates);
         let reduced = coordinates.transpose() * (m * &coordinates);
         let full = housing.transpose() * sparse_times_dense(&matrices.mass, &housing);
-        let pairs = || {
-            let n = full.ncols();
-            (0..n).flat_map(move |column| (0..n).map(move |row| (row, column)))
-        };
         checks.extend([
             Check::at_most(
                 "rigid motions carried",
@@ -97,7 +95,7 @@ impl RigidMotions {
             Check::at_most(
                 "mass properties",
                 "largest difference of the rigid-body mass matrix from the mesh's, relative to both diagonals",
-                largest(pairs().map(|(row, column)| {
+                largest(pairs(full.ncols()).map(|(row, column)| {
                     (reduced[(row, column)] - full[(row, column)]) / (full[(row, row)] * full[(column, column)]).sqrt()
                 })),
                 PROPERTIES,
@@ -108,7 +106,7 @@ impl RigidMotions {
 
     /// The motions over what is not fixed [dof x r].
     fn moving(&self, condensed: &CraigBampton) -> DenseMatrix {
-        let partition = condensed.substructure.partition();
+        let partition = &condensed.substructure.partition;
         let mut moving = DenseMatrix::zeros(self.housing.nrows(), self.housing.ncols());
         for &dof in partition.interior.iter().chain(&partition.driven) {
             for motion in 0..moving.ncols() {
@@ -129,9 +127,9 @@ impl RigidMotions {
                 sparse_magnitude(&column, matrices).max(f64::MIN_POSITIVE).sqrt()
             })
             .collect();
-        let scaled = DenseMatrix::from_fn(count, count, |row, column| {
-            0.5 * (energy[(row, column)] + energy[(column, row)]) / (scale[row] * scale[column])
-        });
+        let energy = symmetric(&energy);
+        let scaled =
+            DenseMatrix::from_fn(count, count, |row, column| energy[(row, column)] / (scale[row] * scale[column]));
         let spectrum = symmetric_eigen(&scaled)?;
         let free = spectrum.values.partition_point(|&value| value <= FREE);
         Ok(DenseMatrix::from_fn(count, free, |row, column| spectrum.vectors[(row, column)] / scale[row]))
@@ -141,15 +139,12 @@ impl RigidMotions {
     /// M_ii r` (Bessel), of every unit motion.
     fn effective_mass(&self, condensed: &CraigBampton) -> Option<Check> {
         let substructure = &condensed.substructure;
-        let interior = &substructure.partition().interior;
         if condensed.basis.count() == 0 {
             return None;
         }
-        let motions = DenseMatrix::from_fn(interior.len(), self.housing.ncols(), |row, motion| {
-            self.housing[(interior[row], motion)]
-        });
-        let moved = substructure.mass_times(&motions);
-        let factors = condensed.basis.vectors().transpose() * &moved;
+        let motions = condensed.interior_of(&self.housing);
+        let moved = substructure.interior.mass_times(&motions);
+        let factors = condensed.basis.vectors.transpose() * &moved;
         let shares: Vec<f64> = (0..motions.ncols())
             .map(|motion| {
                 let kept: f64 = (0..factors.nrows()).map(|q| factors[(q, motion)].powi(2)).sum();
@@ -178,49 +173,38 @@ fn zero_modes(condensed: &CraigBampton, element: &Superelement, expected: usize)
         .map_or(vec![f64::NAN; expected + 1], |modes| modes.values);
     let at = |place: usize| values.get(place).copied().unwrap_or(f64::INFINITY);
     let elastic = at(expected);
-    match expected.checked_sub(1) {
-        Some(_) => {
-            let rigid = largest((0..expected).map(at));
-            Check::at_most(
-                "rigid modes",
-                format!("frequency of the {expected} rigid modes / first elastic frequency"),
-                if elastic > 0.0 { (rigid / elastic).sqrt() } else { f64::INFINITY },
-                RIGID,
-            )
-        }
-        None => {
-            let fixed = condensed.basis.values().first().copied();
-            let fixed = fixed.unwrap_or(condensed.basis.complete_below());
-            Check::at_least(
-                "held",
-                "lowest frequency / first fixed-interface frequency; below the limit the housing is a mechanism",
-                if elastic > 0.0 { (elastic / fixed).sqrt() } else { 0.0 },
-                HELD,
-            )
-        }
+    if expected > 0 {
+        let rigid = largest((0..expected).map(at));
+        return Check::at_most(
+            "rigid modes",
+            format!("frequency of the {expected} rigid modes / first elastic frequency"),
+            if elastic > 0.0 { (rigid / elastic).sqrt() } else { f64::INFINITY },
+            RIGID,
+        );
     }
+    let fixed = condensed.basis.values().first().copied().unwrap_or(condensed.basis.complete_below);
+    Check::at_least(
+        "held",
+        "lowest frequency / first fixed-interface frequency; below the limit the housing is a mechanism",
+        if elastic > 0.0 { (elastic / fixed).sqrt() } else { 0.0 },
+        HELD,
+    )
 }
 
 /// Largest `|x|^T |A| |x|` of the columns.
 fn magnitude(x: &DenseMatrix, a: &DenseMatrix) -> f64 {
-    let n = a.nrows();
-    largest((0..x.ncols()).map(|motion| {
-        (0..n)
-            .flat_map(|column| (0..n).map(move |row| (row, column)))
-            .map(|(row, column)| (x[(row, motion)] * a[(row, column)] * x[(column, motion)]).abs())
-            .sum()
-    }))
-    .max(f64::MIN_POSITIVE)
+    let of = |motion: usize| -> f64 {
+        let terms = pairs(a.nrows());
+        terms.map(|(row, column)| (x[(row, motion)] * a[(row, column)] * x[(column, motion)]).abs()).sum()
+    };
+    largest((0..x.ncols()).map(of)).max(f64::MIN_POSITIVE)
 }
 
 /// `|x|^T |K| |x|`.
 fn sparse_magnitude(x: &DenseMatrix, matrices: &SystemMatrices) -> f64 {
     let x = x.col_as_slice(0);
-    let columns = matrices.stiffness.outer_iterator().enumerate();
-    columns
-        .map(|(column, entries)| -> f64 {
-            let of_column = entries.iter().map(|(row, value)| (x[row] * value).abs());
-            of_column.sum::<f64>() * x[column].abs()
-        })
-        .sum()
+    let of_column = |(column, entries): (usize, sprs::CsVecView<'_, f64>)| {
+        entries.iter().map(|(row, value)| (x[row] * value).abs()).sum::<f64>() * x[column].abs()
+    };
+    matrices.stiffness.outer_iterator().enumerate().map(of_column).sum()
 }

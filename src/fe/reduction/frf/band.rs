@@ -1,7 +1,6 @@
 //! Means over a band, and variants ranked by them.
 
-use super::FrfError;
-use super::error::check_frequencies;
+use super::error::{FrfError, check_frequencies};
 use super::system::same;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,10 +19,7 @@ impl Window {
     pub(super) fn new(frequencies_hz: &[f64], band_hz: [f64; 2]) -> Result<Self, FrfError> {
         let [low, high] = check_band(band_hz)?;
         check_frequencies(frequencies_hz)?;
-        let (first, last) = match (frequencies_hz.first(), frequencies_hz.last()) {
-            (Some(&first), Some(&last)) => (first, last),
-            _ => (f64::NAN, f64::NAN),
-        };
+        let [first, last] = [frequencies_hz.first(), frequencies_hz.last()].map(|hz| hz.copied().unwrap_or(f64::NAN));
         if !(first <= low && high <= last) {
             return Err(FrfError(format!(
                 "the band {low} Hz to {high} Hz is not covered by the response, which goes from {first} Hz to {last} Hz"

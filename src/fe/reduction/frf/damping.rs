@@ -1,7 +1,6 @@
 //! Damping given mode by mode.
 
-use super::FrfError;
-use super::error::{check_frequencies, wrong_coefficient};
+use super::error::{FrfError, check_coefficients, check_frequencies};
 use super::system::same;
 use std::f64::consts::TAU;
 
@@ -34,37 +33,25 @@ impl ModalDamping {
         let of_ratio = |ratio: f64, omega: f64| 2.0 * ratio * omega;
         match self {
             Self::Uniform(ratio) => {
-                check_ratio(*ratio)?;
-                Ok(omegas.iter().map(|&w| of_ratio(*ratio, w)).collect())
+                let ratio = checked(*ratio)?;
+                Ok(omegas.iter().map(|&w| of_ratio(ratio, w)).collect())
             }
             Self::Rayleigh { alpha, beta } => {
-                for (name, value) in [("alpha", *alpha), ("beta", *beta)] {
-                    if !(value >= 0.0 && value.is_finite()) {
-                        return Err(wrong_coefficient(name, value));
-                    }
-                }
+                check_coefficients(&[("alpha", *alpha), ("beta", *beta)])?;
                 Ok(omegas.iter().map(|w| alpha + beta * w * w).collect())
             }
             Self::Each(ratios) => {
                 same("number of damping ratios", omegas.len(), ratios.len())?;
-                let pairs = ratios.iter().zip(omegas);
-                pairs
-                    .map(|(&ratio, &omega)| {
-                        check_ratio(ratio)?;
-                        Ok(of_ratio(ratio, omega))
-                    })
-                    .collect()
+                ratios.iter().zip(omegas).map(|(&ratio, &omega)| Ok(of_ratio(checked(ratio)?, omega))).collect()
             }
             Self::Points(points) => {
                 let frequencies: Vec<f64> = points.iter().map(|point| point.0).collect();
                 check_frequencies(&frequencies)?;
-                for &(_, ratio) in points {
-                    check_ratio(ratio)?;
-                }
-                let at = |omega: f64| interpolated(points, omega / TAU);
+                points.iter().try_for_each(|&(_, ratio)| checked(ratio).map(drop))?;
+                let at = |&omega: &f64| Some(of_ratio(interpolated(points, omega / TAU)?, omega));
                 omegas
                     .iter()
-                    .map(|&omega| at(omega).map(|ratio| of_ratio(ratio, omega)))
+                    .map(at)
                     .collect::<Option<_>>()
                     .ok_or_else(|| FrfError("damping ratios over frequency need at least one point".to_owned()))
             }
@@ -72,18 +59,16 @@ impl ModalDamping {
     }
 }
 
-fn check_ratio(ratio: f64) -> Result<(), FrfError> {
+fn checked(ratio: f64) -> Result<f64, FrfError> {
     if (0.0..1.0).contains(&ratio) {
-        return Ok(());
+        return Ok(ratio);
     }
     Err(FrfError(format!("a damping ratio must be zero or more and below 1, found {ratio}")))
 }
 
 fn interpolated(points: &[(f64, f64)], hz: f64) -> Option<f64> {
     let above = points.partition_point(|point| point.0 <= hz);
-    let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
-        return None;
-    };
+    let (first, last) = (points.first()?, points.last()?);
     Some(match (above.checked_sub(1), points.get(above)) {
         (None, _) => first.1,
         (_, None) => last.1,

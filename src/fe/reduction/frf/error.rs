@@ -20,9 +20,14 @@ pub(super) fn wrong_frequency(hz: f64) -> FrfError {
     FrfError(format!("a frequency must be zero or more and finite, found {hz} Hz"))
 }
 
-/// A damping coefficient that drives, or is no number.
-pub(super) fn wrong_coefficient(name: &str, value: f64) -> FrfError {
-    FrfError(format!("the damping coefficient {name} must be zero or more and finite, found {value}"))
+/// Damping coefficients that are zero or more and finite, by their names.
+pub(super) fn check_coefficients(coefficients: &[(&str, f64)]) -> Result<(), FrfError> {
+    match coefficients.iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())) {
+        Some((name, value)) => {
+            Err(FrfError(format!("the damping coefficient {name} must be zero or more and finite, found {value}")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// A resonance without damping at this frequency.

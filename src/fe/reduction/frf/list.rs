@@ -1,8 +1,7 @@
 //! Frequencies at which a response is worth computing.
 
-use super::FrfError;
 use super::band::check_band;
-use super::error::{wrong_coefficient, wrong_frequency};
+use super::error::{FrfError, check_coefficients, wrong_frequency};
 
 /// A resonance to be resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,9 +66,7 @@ fn around(grid: &FrequencyGrid, resonance: &Resonance) -> Result<Vec<f64>, FrfEr
     if !(centre >= 0.0 && centre.is_finite()) {
         return Err(wrong_frequency(centre));
     }
-    if !(ratio >= 0.0 && ratio.is_finite()) {
-        return Err(wrong_coefficient("ratio", ratio));
-    }
+    check_coefficients(&[("ratio", ratio)])?;
     let step = 2.0 * ratio * centre / grid.points_a_bandwidth as f64;
     if step <= SAME * centre {
         return Ok(Vec::new());

@@ -26,8 +26,8 @@ pub struct ModalBasis {
     squared: Vec<f64>,
     omegas: Vec<f64>,
     frequencies_hz: Vec<f64>,
-    /// [n x modes], `phi^T m phi = 1`.
-    shapes: DenseMatrix,
+    /// Mode shapes [n x modes], `phi^T m phi = 1`.
+    pub(in crate::fe::reduction) shapes: DenseMatrix,
     /// Whether some motion has no mass.
     has_massless: bool,
 }
@@ -36,7 +36,7 @@ pub struct ModalBasis {
 #[derive(Debug, Clone)]
 pub struct ModalSuperposition {
     squared: Vec<f64>,
-    omegas: Vec<f64>,
+    pub(super) omegas: Vec<f64>,
     /// c_r, 1/s.
     rates: Vec<f64>,
     /// s_r, 1/s^2.
@@ -45,9 +45,11 @@ pub struct ModalSuperposition {
     seen: DenseMatrix,
     /// `phi_r^T f` [modes x p].
     driven: DenseMatrix,
-    /// R [s x p], m/N.
-    residual: DenseMatrix,
-    coupling: f64,
+    /// R, statics of the modes left out [s x p], m/N.
+    pub(in crate::fe::reduction) residual: DenseMatrix,
+    /// Largest `|c_rs| / sqrt(c_rr c_ss)` between kept modes, of viscous or structural damping: what the sum of modes
+    /// neglects. Round-off for proportional damping; at most 1 for a damping matrix that is positive semidefinite.
+    pub(crate) coupling: f64,
 }
 
 impl ModalBasis {
@@ -72,11 +74,6 @@ impl ModalBasis {
     /// Natural frequencies, ascending, Hz; rigid modes within round-off of zero.
     pub fn frequencies_hz(&self) -> &[f64] {
         &self.frequencies_hz
-    }
-
-    /// Mode shapes [n x modes], `phi^T m phi = 1`.
-    pub(crate) fn shapes(&self) -> &DenseMatrix {
-        &self.shapes
     }
 
     /// Viscous matrix `c = m Phi diag(2 zeta_r w_r) Phi^T m` [n x n] of modal damping, for the direct response. Motions
@@ -154,28 +151,12 @@ impl ModalSuperposition {
         self.squared.len()
     }
 
-    /// Natural frequency of a mode, Hz.
-    pub(super) fn frequency_hz(&self, mode: usize) -> f64 {
-        self.omegas[mode] / TAU
-    }
-
     /// Damping of a mode as a ratio of viscous damping at its own frequency, `(w_r c_r + s_r) / (2 w_r^2)`; none for a
     /// rigid mode.
     pub(crate) fn ratio(&self, mode: usize) -> Option<f64> {
         let omega = *self.omegas.get(mode)?;
         let loss = omega * self.rates[mode] + self.losses[mode];
         (omega > 0.0).then(|| loss / (2.0 * omega * omega))
-    }
-
-    /// Largest `|c_rs| / sqrt(c_rr c_ss)` between kept modes, of viscous or structural damping: what the sum of modes
-    /// neglects. Round-off for proportional damping; at most 1 for a damping matrix that is positive semidefinite.
-    pub(crate) fn coupling(&self) -> f64 {
-        self.coupling
-    }
-
-    /// Statics of the modes left out [s x p], m/N.
-    pub(crate) fn residual(&self) -> &DenseMatrix {
-        &self.residual
     }
 
     /// What damping does at a frequency (Hz) to the contributions of the modes above a squared angular frequency (1/s^2),
@@ -250,20 +231,17 @@ impl ModalSuperposition {
     /// `1 / (w_r^2 - w^2 + i (w c_r + s_r))` of each mode, s^2.
     fn amplitudes(&self, hz: f64) -> Result<Vec<c64>, FrfError> {
         let omega = TAU * hz;
+        // the highest squared frequency, beside which a rigid one is round-off
+        let elastic = self.squared.last().map_or(0.0, |last| last.abs());
         let of = |mode: usize| {
             let loss = omega * self.rates[mode] + self.losses[mode];
             let stiffness = c64::new(self.squared[mode] - omega * omega, loss);
             // an undamped mode is known to round-off of its own frequency; a rigid one of that of the first elastic ones
             let certain = f64::EPSILON / LARGEST_UNCERTAINTY * self.squared[mode].abs();
-            let rigid = omega == 0.0 && self.squared[mode] <= RIGID * self.elastic();
+            let rigid = omega == 0.0 && self.squared[mode] <= RIGID * elastic;
             if stiffness.norm() <= certain || rigid { Err(unbounded(hz)) } else { Ok(1.0 / stiffness) }
         };
         (0..self.modes()).map(of).collect()
-    }
-
-    /// The highest squared frequency, beside which a rigid one is round-off.
-    fn elastic(&self) -> f64 {
-        self.squared.last().map_or(0.0, |last| last.abs())
     }
 }
 
@@ -307,14 +285,10 @@ fn massless_statics(
 }
 
 fn largest_coupling(modal: &DenseMatrix) -> f64 {
-    let mut largest = 0.0_f64;
-    for column in 0..modal.ncols() {
-        for row in 0..column {
-            let size = (modal[(row, row)] * modal[(column, column)]).abs().sqrt();
-            if size > 0.0 {
-                largest = largest.max(modal[(row, column)].abs() / size);
-            }
-        }
-    }
-    largest
+    let pairs = (0..modal.ncols()).flat_map(|column| (0..column).map(move |row| (row, column)));
+    let couplings = pairs.map(|(row, column)| {
+        let size = (modal[(row, row)] * modal[(column, column)]).abs().sqrt();
+        if size > 0.0 { modal[(row, column)].abs() / size } else { 0.0 }
+    });
+    couplings.fold(0.0, f64::max)
 }

@@ -92,13 +92,10 @@ impl FrequencyResponse {
         let mut differences = DenseMatrix::zeros(sensors, loads);
         for sensor in 0..sensors {
             for load in 0..loads {
-                let (mut largest, mut difference) = (0.0_f64, 0.0_f64);
                 let own = self.path(sensor, load, FrfQuantity::Receptance)?;
                 let reference = other.path(sensor, load, FrfQuantity::Receptance)?;
-                for (a, b) in own.iter().zip(&reference) {
-                    largest = largest.max(b.norm());
-                    difference = difference.max((a - b).norm());
-                }
+                let difference = own.iter().zip(&reference).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+                let largest = reference.iter().map(|b| b.norm()).fold(0.0, f64::max);
                 differences[(sensor, load)] = if difference == 0.0 { 0.0 } else { difference / largest };
             }
         }

@@ -5,6 +5,7 @@ use super::{FrfError, ModalSuperposition};
 use faer::c64;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// What one mode carries of a path in a band.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -62,7 +63,7 @@ impl ModalSuperposition {
         let mut modes: Vec<ModeShare> = (0..count)
             .map(|mode| ModeShare {
                 mode,
-                frequency_hz: self.frequency_hz(mode),
+                frequency_hz: self.omegas[mode] / TAU,
                 ratio: self.ratio(mode),
                 share: share(mode),
                 alone: relative(window.integral(|place| part(mode, place).norm_sqr())),

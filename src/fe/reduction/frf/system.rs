@@ -40,10 +40,7 @@ impl ReducedSystem {
     /// [`FrfError`].
     pub fn with_viscous(mut self, viscous: DenseMatrix) -> Result<Self, FrfError> {
         square("viscous damping", &viscous, self.order())?;
-        self.viscous = Some(match self.viscous {
-            Some(before) => before + viscous,
-            None => viscous,
-        });
+        self.viscous = sum(self.viscous, viscous);
         Ok(self)
     }
 
@@ -53,10 +50,7 @@ impl ReducedSystem {
     /// [`FrfError`].
     pub fn with_structural(mut self, structural: DenseMatrix) -> Result<Self, FrfError> {
         square("structural damping", &structural, self.order())?;
-        self.structural = Some(match self.structural {
-            Some(before) => before + structural,
-            None => structural,
-        });
+        self.structural = sum(self.structural, structural);
         Ok(self)
     }
 
@@ -65,11 +59,7 @@ impl ReducedSystem {
     /// # Errors
     /// [`FrfError`].
     pub fn with_rayleigh(self, alpha: f64, beta: f64) -> Result<Self, FrfError> {
-        for (name, value) in [("alpha", alpha), ("beta", beta)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(super::error::wrong_coefficient(name, value));
-            }
-        }
+        super::error::check_coefficients(&[("alpha", alpha), ("beta", beta)])?;
         let damping = &self.mass * Scale(alpha) + &self.stiffness * Scale(beta);
         self.with_viscous(damping)
     }
@@ -103,6 +93,13 @@ impl ReducedSystem {
     pub(super) fn check(&self, paths: &FrfPaths) -> Result<(), FrfError> {
         same("rows of the loads", self.order(), paths.loads.nrows())?;
         same("columns of the sensors", self.order(), paths.sensors.ncols())
+    }
+}
+
+fn sum(before: Option<DenseMatrix>, more: DenseMatrix) -> Option<DenseMatrix> {
+    match before {
+        Some(before) => Some(before + more),
+        None => Some(more),
     }
 }
 
