@@ -1,6 +1,6 @@
 //! What a command needs of a case, and a case that has what a simulation needs.
 
-use super::error::{CaseError, Place};
+use super::error::CaseError;
 use super::{Bearing, Case, Interface, Linearise, Ring, Shaft, Speed, Transient};
 
 /// What a case is to be used for.
@@ -45,10 +45,10 @@ struct Need<'c> {
 impl Need<'_> {
     /// The part of this name, if it is there.
     fn of<T>(self, table: &'static str, part: Option<T>) -> Result<T, CaseError> {
-        part.ok_or_else(|| CaseError::MissingTable {
-            place: Place::File { path: self.case.source.path.clone() },
-            table,
-            needed_by: self.by,
+        part.ok_or_else(|| {
+            let what = format!("{} needs {table}, which the case file lacks", self.by);
+            let help = format!("add {table} to the case file");
+            CaseError::at(self.case.source.path.display(), what).with_help(Some(help))
         })
     }
 
@@ -62,7 +62,7 @@ impl Case {
     /// Checks that the case has the tables that a purpose needs.
     ///
     /// # Errors
-    /// [`CaseError::MissingTable`] with the first table that it lacks.
+    /// [`CaseError`] with the first table that it lacks.
     pub fn ready_for(&self, purpose: Purpose) -> Result<(), CaseError> {
         let need = |by| Need { case: self, by };
         let interface = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some())
@@ -97,7 +97,7 @@ impl Case {
     /// Returns the parts that `run` needs.
     ///
     /// # Errors
-    /// [`CaseError::MissingTable`] with the first table that the case lacks.
+    /// [`CaseError`] with the first table that the case lacks.
     pub fn for_run(&self) -> Result<RunCase<'_>, CaseError> {
         self.simulated("`run`")
     }

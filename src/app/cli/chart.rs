@@ -56,7 +56,7 @@ pub(super) fn chart(
     let mut lines = summary(&result);
     if let Some(stability) = &stability {
         let head = result_head("chart", progress, wall_s, None);
-        let record = result_of_case(head, case, &files.meshes, stability.summary());
+        let record = result_of_case(head, case, &files.meshes, stability);
         written.extend(write_stability(&folder, stability, &record)?);
         lines = format!("{lines}\n{}", stability_lines(stability));
         shown.stability = Some(record);

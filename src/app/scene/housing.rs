@@ -48,7 +48,7 @@ impl AssembledHousing {
     /// # Errors
     /// As [`AssembledHousing::build`].
     pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        let nothing = || case.broken(Rule::nothing_to_model().at("housing"));
+        let nothing = || case.broken(&Rule::nothing_to_model().at("housing"));
         Self::build(case, watch)?.ok_or_else(|| nothing().into())
     }
 }

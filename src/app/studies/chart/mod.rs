@@ -35,10 +35,7 @@ pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
 pub(crate) use report::chart_report;
-pub use stability::{
-    Condition, ConditionStability, ConditionSummary, MethodStability, Stability, StabilityModel, StabilitySummary,
-    StepRecord, Window,
-};
+pub use stability::{Condition, ConditionSummary, MethodStability, Stability, StabilityModel, StepRecord, Window};
 pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure};

@@ -1,7 +1,7 @@
 //! What `chart.json` says.
 
 use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, StabilitySummary,
+    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability,
     StartReference,
 };
 use crate::app::case::Case;
@@ -17,7 +17,7 @@ pub struct ChartResult<'a> {
     pub chart: CaseResult<'a, ChartSummary<'a>>,
     /// `stability.json`, where the map was computed too; not in `chart.json`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stability: Option<CaseResult<'a, StabilitySummary<'a>>>,
+    pub stability: Option<CaseResult<'a, &'a Stability>>,
 }
 
 /// Speed against accuracy.
