@@ -50,6 +50,16 @@ pub(super) fn table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
     T::json_schema(generator)
 }
 
+/// A value of one of these forms, for `read_as`.
+pub(super) fn forms(forms: Vec<Schema>) -> impl FnOnce(&mut SchemaGenerator) -> Schema {
+    move |_| any_of(&forms)
+}
+
+/// A value of one of these forms, or a table.
+pub(super) fn or_table<T: JsonSchema>(forms: Vec<Schema>) -> impl FnOnce(&mut SchemaGenerator) -> Schema {
+    move |generator| any_of(&[forms, vec![table::<T>(generator)]].concat())
+}
+
 /// A value of any of these forms.
 pub(super) fn any_of(forms: &[Schema]) -> Schema {
     json_schema!({ "anyOf": forms })

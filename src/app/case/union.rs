@@ -7,11 +7,18 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-/// A type that is made of its form in the file.
-pub(super) trait ReadAs<Form>: Sized {
-    /// Makes it, or refuses the form: another kind of value, keys that exclude each other or need another.
-    fn read_as<E: de::Error>(form: Form) -> Result<Self, E>;
+/// The error of a table that lacks a key which its other keys need.
+pub(super) fn missing<E: de::Error>(key: &'static str) -> E {
+    E::missing_field(key)
 }
+
+/// The keys of a form by their names, and whether each is given.
+macro_rules! given {
+    ($form:ident: $($key:ident),+) => {
+        [$((stringify!($key), $form.$key.is_some())),+]
+    };
+}
+pub(super) use given;
 
 /// The error for another kind of value, or a combination of keys that excludes itself.
 pub(super) fn mismatch<E: de::Error>(found: impl AsRef<str>, expected: &'static str) -> E {
@@ -39,14 +46,15 @@ pub(super) fn none_beside<E: de::Error>(keys: &[(&str, bool)], other: &str, expe
     }
 }
 
-/// Reads a type by way of the type that mirrors its form in the file ([`ReadAs`]): what serde derives for flattened and
-/// untagged types loses the place of an error, the path of its key and the names that are valid there. The type's schema is that of the form, or
-/// what the function returns for a form whose type does not say it.
+/// Reads a type by way of the type that mirrors its form in the file: what serde derives for flattened and untagged types loses the
+/// place of an error, the path of its key and the names that are valid there. The function makes the value, or refuses the form: another
+/// kind of value, keys that exclude each other or need another. The type's schema is that of the form, or what the third argument
+/// returns for a form whose type does not say it.
 macro_rules! read_as {
-    ($type:ty, $form:ty) => {
-        crate::app::case::union::read_as!($type, $form, crate::app::case::schema::table::<$form>);
+    ($type:ty, $form:ty, |$value:ident| $read:expr) => {
+        crate::app::case::union::read_as!($type, $form, crate::app::case::schema::table::<$form>, |$value| $read);
     };
-    ($type:ty, $form:ty, $schema:expr) => {
+    ($type:ty, $form:ty, $schema:expr, |$value:ident| $read:expr) => {
         impl schemars::JsonSchema for $type {
             fn schema_name() -> std::borrow::Cow<'static, str> {
                 stringify!($type).into()
@@ -59,8 +67,8 @@ macro_rules! read_as {
 
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                let form = <$form as serde::Deserialize>::deserialize(from)?;
-                crate::app::case::union::ReadAs::read_as(form)
+                let $value = <$form as serde::Deserialize>::deserialize(from)?;
+                $read
             }
         }
     };
@@ -69,8 +77,8 @@ pub(super) use read_as;
 
 /// Reads and writes a type by way of its form: as [`read_as`], and `From<Type>`.
 macro_rules! written_as {
-    ($type:ty, $form:ty $(, $schema:expr)?) => {
-        crate::app::case::union::read_as!($type, $form $(, $schema)?);
+    ($type:ty, $form:ty, $($read:tt)+) => {
+        crate::app::case::union::read_as!($type, $form, $($read)+);
 
         impl serde::Serialize for $type {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
