@@ -40,7 +40,7 @@ pub(crate) use stability::{compute_stability, resonance_plot, stability_map, sta
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure};
 pub use summary::{
-    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, ModelStatisticsSummary, OmissionSummary,
-    OverAllStarts, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
+    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, OmissionSummary, OverAllStarts,
+    PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
 };
 pub use trace::{Failure, FailureKind, Trace};

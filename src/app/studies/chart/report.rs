@@ -238,8 +238,11 @@ fn statistics_section(chart: &Chart) -> Section {
     ));
     for of in &chart.statistics {
         section = match &of.figures {
-            Ok(figures) => section.table(figures_table(named(chart, of.point), figures)),
-            Err(reason) => section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point))),
+            Some(figures) => section.table(figures_table(named(chart, of.point), figures)),
+            None => {
+                let reason = of.reason.as_deref().unwrap_or_default();
+                section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point)))
+            }
         };
     }
     section

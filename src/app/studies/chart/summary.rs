@@ -1,9 +1,6 @@
 //! What `chart.json` says.
 
-use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability,
-    StartReference,
-};
+use super::{Chart, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability, StartReference};
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
 use schemars::JsonSchema;
@@ -189,18 +186,7 @@ pub struct StatisticsSummary<'a> {
     /// Length of the runs, s.
     pub seconds: f64,
     /// By model.
-    pub models: Vec<ModelStatisticsSummary<'a>>,
-}
-
-/// Statistics of a model against those of the reference.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct ModelStatisticsSummary<'a> {
-    /// Index from 0 of its point.
-    pub point: usize,
-    /// The figures; `None` where there are none.
-    pub figures: Option<&'a [ComparedFigure]>,
-    /// Why there are none.
-    pub reason: Option<&'a str>,
+    pub models: &'a [ModelStatistics],
 }
 
 impl Chart {
@@ -251,10 +237,7 @@ impl Chart {
             chosen: self.chosen,
             source: self.source,
             over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
-            statistics: StatisticsSummary {
-                seconds: settings.statistics_s,
-                models: self.statistics.iter().map(ModelStatisticsSummary::of).collect(),
-            },
+            statistics: StatisticsSummary { seconds: settings.statistics_s, models: &self.statistics },
         }
     }
 
@@ -267,13 +250,6 @@ impl Chart {
             below_floor: self.below_floor(point),
             error: ErrorSummary::of(&point.error),
         }
-    }
-}
-
-impl<'a> ModelStatisticsSummary<'a> {
-    fn of(of: &'a ModelStatistics) -> Self {
-        let figures = of.figures.as_deref();
-        Self { point: of.point, figures: figures.ok(), reason: figures.err().map(String::as_str) }
     }
 }
 
