@@ -2,7 +2,7 @@
 
 use super::candidates::{Parameter, model_name};
 use super::starts::{Ready, Systems};
-use super::trace::{Failure, FailureKind, Trace, simulate};
+use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
 use crate::app::scene::{RunModel, Scene};
@@ -167,8 +167,8 @@ impl Comparison<'_> {
 
     /// Relative differences from the reference over a start's horizon and parts of it.
     fn error_of(self, system: &Ready, model: &RunModel, start: &StartReference) -> Result<StartErrors, Failure> {
-        let (system, state) = system.at(&start.start);
-        let trace = Trace::simulate(system, state, model, self.settings, start.horizon_s)?;
+        let run = system.simulate(&start.start, model, self.settings.simulated(start.horizon_s), None)?;
+        let trace = Trace::of_run(&run, self.settings)?;
         let over = |span_s: f64| {
             let error = trace.error(&start.trace, 0.0, span_s);
             error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
@@ -248,8 +248,7 @@ fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
 /// Wall time of one run over its simulated time; `None` for a point without an error.
 fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
     point.error.as_ref().ok()?;
-    let (system, state) = systems.of(&point.model).ok()?.at(&start.start);
-    let simulation = simulate(system, state, &point.model, span).ok()?;
+    let simulation = systems.of(&point.model).ok()?.simulate(&start.start, &point.model, span, None).ok()?;
     Some(simulation.stepping_s / simulation.simulated_s)
 }
 

@@ -2,7 +2,9 @@
 //! and small random changes of their states.
 
 use super::Settings;
-use super::trace::Failure;
+use super::trace::{Failure, FailureKind};
+use crate::app::case;
+use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::State;
@@ -116,10 +118,26 @@ impl<'a> Ready<'a> {
         Self { scene, system }
     }
 
-    /// The system, and its state at rest at a start.
-    pub(super) fn at(&self, start: &Start) -> (CoupledSystem, State) {
-        let state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
-        (self.system.clone(), state)
+    /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
+    ///
+    /// # Errors
+    /// [`Failure`] also for one that ended before its time.
+    pub(super) fn simulate(
+        &self,
+        start: &Start,
+        model: &RunModel,
+        span: Span,
+        perturbed: Option<case::Ensemble>,
+    ) -> Result<Simulation, Failure> {
+        let mut state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
+        if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
+            perturb(&mut state, perturbation, seed, start.number);
+        }
+        let simulation = Simulation::from_state(self.system.clone(), state, model, span, |_| ())?;
+        match simulation.end {
+            RunEnd::Complete => Ok(simulation),
+            RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
+        }
     }
 }
 

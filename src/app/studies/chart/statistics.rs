@@ -1,7 +1,7 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
-use super::starts::{Ready, perturb};
-use super::trace::{Failure, simulate};
+use super::starts::Ready;
+use super::trace::Failure;
 use super::{Settings, Start};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
@@ -136,14 +136,11 @@ pub(super) fn ensemble(
     analysis: &FigureSettings,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<Figure>>, Failure> {
-    let runs: Vec<Result<Vec<Figure>, Failure>> = starts
+    let runs: Vec<_> = starts
         .par_iter()
         .map(|start| {
-            let (system, mut state) = system.at(start);
-            let ensemble = settings.ensemble;
-            perturb(&mut state, ensemble.perturbation, ensemble.seed, start.number);
             let span = settings.simulated(settings.statistics_s);
-            let simulation = simulate(system, state, model, span)?;
+            let simulation = system.simulate(start, model, span, Some(settings.ensemble))?;
             let signal = simulation.signal(0)?;
             let signal = crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;
