@@ -206,16 +206,15 @@ fn in_plane(spot: Spot<'_>, [x, y, across]: [f64; 3]) -> Result<[f64; 3], Comput
 fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f64)]) -> Result<(), ComputeError> {
     let model = &housing.model;
     let d = model.dimension();
-    let mut holder = None;
-    for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
-        match model.fixed[dof / d][dof % d] {
-            Some(support) => holder = Some(&model.supports[support].group),
-            None => return Ok(()),
-        }
-    }
-    match holder {
+    let moving = entries.iter().filter(|(_, factor)| factor.abs() > NOTHING);
+    // none of a row of which anything is free
+    let holders: Option<Vec<usize>> = moving.map(|&(dof, _)| model.fixed[dof / d][dof % d]).collect();
+    match holders.and_then(|holders| holders.last().copied()) {
         None => Ok(()),
-        Some(support) => Err(ComputeError::SensorHeld { name: spot.to_string(), support: support.clone() }),
+        Some(support) => {
+            let support = model.supports[support].group.clone();
+            Err(ComputeError::SensorHeld { name: spot.to_string(), support })
+        }
     }
 }
 

@@ -1,13 +1,13 @@
 //! Materials, housing and ring.
 
 use super::super::path::quoted;
-use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring, RingSupport};
+use super::super::{self as case, Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
 use super::range::{
     ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count, direction,
     each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule};
-use crate::fe::material::{MaterialError, RadiusRule};
+use crate::fe::material::{MaterialError, OrthotropicMaterial, RadiusRule};
 use crate::fe::model::{Connection, Fit, SpringStiffness};
 
 pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
@@ -29,7 +29,10 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
                 }
                 direction(at("x_axis"), material.x_axis)?;
                 direction(at("y_axis"), material.y_axis)?;
-                stable(material).map_err(|error| {
+                let case::OrthotropicMaterial { young, poisson, shear, x_axis, y_axis, .. } = *material;
+                // the density has its own rule
+                let stable = OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis);
+                stable.map_err(|error| {
                     let key = match error {
                         MaterialError::ParallelAxes { .. } => "y_axis",
                         _ => "poisson",
@@ -42,14 +45,6 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
         DENSITY.check(at("density"), material.density())?;
         LOSS_FACTOR.check(at("loss_factor"), material.loss_factor())?;
     }
-    Ok(())
-}
-
-/// Constants that make a material together.
-fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
-    let OrthotropicMaterial { young, poisson, shear, x_axis, y_axis, .. } = *given;
-    // the density has its own rule
-    crate::fe::material::OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis)?;
     Ok(())
 }
 

@@ -89,11 +89,12 @@ pub(crate) fn compute_chart(
         let run = RunCase { transient, ..run };
         Ok(ModelChoice::of_case(run, &scene)?.model)
     };
-    let automatic = chosen(&automatic(asked, case::Method::Auto))?;
-    let source = chosen(&automatic_source(asked))?;
+    // as it is used there: all displacements, its own step
+    let source = case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) };
+    let wanted = [chosen(&automatic(asked, case::Method::Auto))?, chosen(&source)?];
     watch.stage("points");
     let comparison = Comparison { scene: &scene, reference: &reference, settings: &settings };
-    let (mut points, places) = candidates(comparison, [automatic, source], watch);
+    let (mut points, places) = candidates(comparison, wanted, watch);
     let [chosen, source] = places;
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
@@ -124,11 +125,6 @@ pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::
         spectral_radius: None,
         ..asked.clone()
     }
-}
-
-/// The source paper's method as it is used there: all displacements, its own step.
-fn automatic_source(asked: &case::Transient) -> case::Transient {
-    case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) }
 }
 
 /// All points, and the places of the two that must be there.

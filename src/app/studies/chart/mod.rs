@@ -27,6 +27,7 @@ mod summary;
 mod trace;
 
 pub use candidates::Parameter;
+pub(crate) use candidates::model_name;
 pub(crate) use compute::compute_chart;
 pub use compute::{Chart, ModelStatistics};
 pub use effort::{Effort, Settings};

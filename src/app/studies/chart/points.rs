@@ -1,6 +1,5 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
-use super::candidates::{Parameter, model_name};
 use super::starts::{Ready, Systems};
 use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
@@ -66,21 +65,6 @@ pub struct Point {
 }
 
 impl Point {
-    /// The method's name.
-    pub(crate) fn method(&self) -> &'static str {
-        self.model.method.name()
-    }
-
-    /// The model in words.
-    pub(crate) fn model_name(&self) -> String {
-        model_name(&self.model)
-    }
-
-    /// Its step or tolerance.
-    pub(crate) fn parameter(&self) -> Parameter {
-        Parameter::of(&self.model)
-    }
-
     /// Cost and mean error of a point that has both.
     pub(crate) fn measured(&self) -> Option<(f64, f64)> {
         Some((self.wall_s?, self.error.as_ref().ok()?.mean))

@@ -87,11 +87,8 @@ impl Estimate {
 ///
 /// # Errors
 /// [`SignalError`] for a filter that does not fit the sampling.
-pub(crate) fn figures(
-    signal: &TimeSeries,
-    band_hz: [f64; 2],
-    high_pass_hz: Option<f64>,
-) -> Result<Vec<Figure>, SignalError> {
+fn figures(signal: &TimeSeries, settings: FigureSettings) -> Result<Vec<Figure>, SignalError> {
+    let FigureSettings { band_hz, high_pass_hz } = settings;
     let figure = |name: &str, unit, value| Figure { name: name.to_owned(), unit, value };
     let settings = EnvelopeAnalysis { high_pass_hz, ..EnvelopeAnalysis::default() };
     let envelope = settings.envelope(signal)?;
@@ -145,7 +142,7 @@ pub(super) fn ensemble(
             let signal = crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;
             let signal = signal.window(signal.start_s(), end).map_err(ComputeError::from)?;
-            let figures = figures(&signal, analysis.band_hz, analysis.high_pass_hz);
+            let figures = figures(&signal, *analysis);
             done();
             Ok(figures.map_err(ComputeError::from)?)
         })
@@ -234,7 +231,7 @@ mod tests {
     fn figures_of_a_tone() {
         let values = (0..20_000).map(|k| 4.0 * (TAU * 8e3 * f64::from(k) * 5e-6).sin());
         let signal = TimeSeries::new(0.0, 5e-6, "m/s^2", values.collect()).unwrap();
-        let found = figures(&signal, [0.0, 40e3], Some(5e3)).unwrap();
+        let found = figures(&signal, FigureSettings { band_hz: [0.0, 40e3], high_pass_hz: Some(5e3) }).unwrap();
         let of = |name: &str| {
             let figure = found.iter().find(|figure| figure.name == name);
             figure.unwrap_or_else(|| panic!("{name}: {found:?}")).value

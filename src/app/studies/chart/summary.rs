@@ -1,6 +1,8 @@
 //! What `chart.json` says.
 
-use super::{Chart, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability, StartReference};
+use super::{
+    Chart, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability, StartReference, model_name,
+};
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
 use schemars::JsonSchema;
@@ -227,9 +229,9 @@ impl Chart {
                 .omissions()
                 .map(|(point, failure)| OmissionSummary {
                     point,
-                    method: self.points[point].method(),
-                    model: self.points[point].model_name(),
-                    parameter: self.points[point].parameter(),
+                    method: self.points[point].model.method.name(),
+                    model: model_name(&self.points[point].model),
+                    parameter: Parameter::of(&self.points[point].model),
                     kind: failure.kind.name(),
                     reason: &failure.reason,
                 })
@@ -243,9 +245,9 @@ impl Chart {
 
     fn point<'a>(&self, point: &'a Point) -> PointSummary<'a> {
         PointSummary {
-            method: point.method(),
-            model: point.model_name(),
-            parameter: point.parameter(),
+            method: point.model.method.name(),
+            model: model_name(&point.model),
+            parameter: Parameter::of(&point.model),
             wall_s: point.wall_s,
             below_floor: self.below_floor(point),
             error: ErrorSummary::of(&point.error),
