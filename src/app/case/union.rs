@@ -176,8 +176,9 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for LooseVisitor<T> {
 #[derive(Debug, serde::Deserialize)]
 pub(super) struct NoTable {}
 
-/// A number, or three for the directions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+// A number, or three for the directions; what a key says of it is in the schema, not this.
+#[derive(Debug, Clone, Copy, PartialEq, schemars::JsonSchema)]
+#[schemars(inline, untagged)]
 pub(super) enum OneOrThree {
     One(f64),
     Three([f64; 3]),
@@ -218,20 +219,5 @@ impl<'de> Visitor<'de> for OneOrThreeVisitor {
         <[f64; 3]>::try_from(numbers)
             .map(OneOrThree::Three)
             .map_err(|numbers| de::Error::invalid_length(numbers.len(), &self))
-    }
-}
-
-impl schemars::JsonSchema for OneOrThree {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "OneOrThree".into()
-    }
-
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let three = generator.subschema_for::<[f64; 3]>();
-        super::schema::any_of(&[super::schema::number(), three])
     }
 }
