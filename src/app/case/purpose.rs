@@ -58,7 +58,7 @@ impl Case {
                 ("`condense`", vec![("[housing]", self.housing.is_some()), (table, interface)])
             }
             Purpose::Frf => {
-                let damped = self.damping.is_some() || self.has_loss_factor();
+                let damped = self.damping.is_some() || self.lossy_part().is_some();
                 let needs = vec![
                     ("[housing]", self.housing.is_some()),
                     ("[frf]", self.frf.is_some()),
@@ -118,12 +118,12 @@ impl Case {
         Ok((ring, bearing, shaft))
     }
 
-    /// Whether a part of the housing is of a material with a loss factor.
-    fn has_loss_factor(&self) -> bool {
+    /// The first part of the housing whose material has a loss factor: the material's name, and its loss factor.
+    pub(crate) fn lossy_part(&self) -> Option<(&str, f64)> {
         let mut parts = self.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
-        parts.any(|part| {
-            let material = self.material(&part.material);
-            material.is_some_and(|material| material.loss_factor() > 0.0)
+        parts.find_map(|part| {
+            let loss_factor = self.material(&part.material)?.loss_factor();
+            (loss_factor > 0.0).then_some((part.material.as_str(), loss_factor))
         })
     }
 }

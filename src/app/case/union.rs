@@ -5,7 +5,6 @@ use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Unexpected, Visitor};
-use serde::ser::{Serialize, Serializer};
 
 /// The error of a table that lacks a key which its other keys need.
 pub(super) fn missing<E: de::Error>(key: &'static str) -> E {
@@ -90,7 +89,8 @@ macro_rules! written_as {
 pub(super) use written_as;
 
 /// A value whose kind decides what it means; `T` is the table's type.
-#[derive(Debug)]
+#[derive(Debug, serde::Serialize)]
+#[serde(untagged)]
 pub(super) enum Loose<T> {
     Word(String),
     Whole(usize),
@@ -118,17 +118,6 @@ impl<T> Loose<T> {
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Loose<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(LooseVisitor(PhantomData))
-    }
-}
-
-impl<T: Serialize> Serialize for Loose<T> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Word(word) | Self::Other(word) => to.serialize_str(word),
-            Self::Whole(number) => number.serialize(to),
-            Self::Number(number) => to.serialize_f64(*number),
-            Self::Table(table) => table.serialize(to),
-        }
     }
 }
 

@@ -120,15 +120,12 @@ impl Place {
         match self {
             Self::Ring(_) => self.on_ring(condensed.superelement.order()),
             Self::Housing(entries) => {
-                let mut row = vec![0.0; condensed.superelement.order()];
-                for &(dof, factor) in entries {
+                let parts = entries.iter().flat_map(|&(dof, factor)| {
                     // a fixed degree of freedom does not move: no row
-                    let parts = condensed.recovery_row(dof).into_iter().flatten();
-                    for (place, part) in parts.enumerate() {
-                        row[place] += factor * part;
-                    }
-                }
-                row
+                    let row = condensed.recovery_row(dof).into_iter().flatten();
+                    row.enumerate().map(move |(place, part)| (place, factor * part))
+                });
+                row(condensed.superelement.order(), parts)
             }
         }
     }
@@ -136,7 +133,7 @@ impl Place {
     /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
     pub(crate) fn on_housing(&self, dof: usize) -> Vec<f64> {
         match self {
-            Self::Housing(entries) => row(dof, entries),
+            Self::Housing(entries) => row(dof, entries.iter().copied()),
             Self::Ring(_) => vec![0.0; dof],
         }
     }
@@ -174,16 +171,16 @@ impl Place {
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
     pub(crate) fn on_ring(&self, order: usize) -> Vec<f64> {
         match self {
-            Self::Ring(entries) => row(order, entries),
+            Self::Ring(entries) => row(order, entries.iter().copied()),
             Self::Housing(_) => vec![0.0; order],
         }
     }
 }
 
 /// Sums of pairs (place, factor) over so many places.
-fn row(length: usize, entries: &[(usize, f64)]) -> Vec<f64> {
+fn row(length: usize, entries: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
     let mut row = vec![0.0; length];
-    for &(place, factor) in entries {
+    for (place, factor) in entries {
         row[place] += factor;
     }
     row

@@ -16,8 +16,8 @@ use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ComparisonOptions, FullModes, ModalComparison, ModeSet, Partner, partners, strain_products};
 use crate::fe::model::{
-    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule, PlaneModel, Ring,
-    SpringStiffness, SupportShare,
+    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, ModelError, OverlapRule,
+    PlaneModel, Ring, SpringStiffness, SupportShare,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
@@ -202,11 +202,13 @@ impl<W: Watch> Tied<'_, W> {
                 Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
             }
         };
+        // the housing itself is sound: what is wrong now is the ring's joint
+        let joint = |error: ModelError| NoTiePrice::Joint { message: error.to_string() };
         // the rectangle may reach into the housing by a small part of its height
         description.overlap = OverlapRule::Allow;
         description.links.push(Link { between: [meshed.outer_face.clone(), self.tie.group.clone()], connection });
-        let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(Stop::of_joint)?;
-        with_body.attach_ring_springs(&meshed, ring).map_err(Stop::of_joint)?;
+        let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(joint)?;
+        with_body.attach_ring_springs(&meshed, ring).map_err(joint)?;
         affordable(with_body.free_dofs().len())?;
         Ok((with_body, meshed))
     }

@@ -201,8 +201,7 @@ fn statistics(
         ensemble(system, &starts, model, settings, &analysis, done)
     };
     let [_, beside] = models(settings, 0);
-    let measured_by =
-        scene.system(&beside).map_err(Failure::from).and_then(|system| run(&Ready::new(scene, system), &beside));
+    let measured_by = Ready::of(scene, &beside).map_err(Failure::from).and_then(|system| run(&system, &beside));
     let mut systems = Systems::new(scene);
     let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
         let by = measured_by.as_ref().map_err(Clone::clone)?;

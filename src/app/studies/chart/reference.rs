@@ -68,7 +68,7 @@ impl Reference {
         done: impl Fn() + Sync,
     ) -> Result<Self, ComputeError> {
         let [by, _] = models(settings, 0);
-        let system = Ready::new(scene, scene.system(&by)?);
+        let system = Ready::of(scene, &by)?;
         let found = starts.starts.par_iter().map(|start| {
             let found = of_start(&system, start, settings);
             done();

@@ -113,9 +113,12 @@ pub(super) struct Systems<'a> {
 }
 
 impl<'a> Ready<'a> {
-    /// A system that is at hand.
-    pub(super) fn new(scene: &'a Scene, system: CoupledSystem) -> Self {
-        Self { scene, system }
+    /// The system of a model.
+    ///
+    /// # Errors
+    /// [`ComputeError`] for a model that does not fit the scene.
+    pub(super) fn of(scene: &'a Scene, model: &RunModel) -> Result<Self, ComputeError> {
+        Ok(Self { scene, system: scene.system(model)? })
     }
 
     /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
@@ -152,20 +155,12 @@ impl<'a> Systems<'a> {
     /// # Errors
     /// [`Failure`] for a model that does not fit the scene.
     pub(super) fn of(&mut self, model: &RunModel) -> Result<&Ready<'a>, Failure> {
-        let same = |other: &RunModel| {
-            let method = (model.method, model.step);
-            RunModel { method: method.0, step: method.1, ..*other } == *model
-        };
+        let same = |other: &RunModel| RunModel { method: model.method, step: model.step, ..*other } == *model;
         let known = self.built.iter().position(|(other, _)| same(other));
-        let place = match known {
-            Some(place) => place,
-            None => {
-                let system = self.scene.system(model)?;
-                self.built.push((*model, Ready::new(self.scene, system)));
-                self.built.len() - 1
-            }
-        };
-        Ok(&self.built[place].1)
+        if known.is_none() {
+            self.built.push((*model, Ready::of(self.scene, model)?));
+        }
+        Ok(&self.built[known.unwrap_or(self.built.len() - 1)].1)
     }
 }
 

@@ -128,7 +128,12 @@ pub(super) fn on_grid(
     for &step_s in grid {
         let predicted = predict(linearised, step_s);
         let (unstable, why) = measurement.unstable(method, step_s);
-        let measured = measured_state(unstable, predicted);
+        // a run tells that something grows, the prediction whether it is a mode in resonance
+        let measured = match predicted {
+            _ if !unstable => StepState::Stable,
+            StepState::Resonant => StepState::Resonant,
+            _ => StepState::Unstable,
+        };
         if measured == StepState::Unstable && failure.is_none() {
             failure = why;
         }
@@ -169,15 +174,6 @@ pub(super) fn on_grid(
         phases_at_multiples_of_pi: phases.len(),
         steps,
         note,
-    }
-}
-
-/// A run tells that something grows, the prediction whether it is a mode in resonance.
-fn measured_state(unstable: bool, predicted: StepState) -> StepState {
-    match (unstable, predicted) {
-        (false, _) => StepState::Stable,
-        (true, StepState::Resonant) => StepState::Resonant,
-        (true, _) => StepState::Unstable,
     }
 }
 
