@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::check::BrokenRule;
 use super::error::CaseError;
 use super::fault::Fault;
 use super::path::parse_path;
@@ -47,11 +46,6 @@ impl<'a> Document<'a> {
     pub(super) fn place(&self, key: &str) -> String {
         let steps = parse_path(key).unwrap_or_default();
         self.marked(self.root.nearest_mark(&steps))
-    }
-
-    /// Says where the case breaks a rule.
-    pub(super) fn broken(&self, broken: &BrokenRule) -> CaseError {
-        CaseError::broken(self.place(&broken.key), broken)
     }
 
     fn marked(&self, mark: Option<Mark>) -> String {

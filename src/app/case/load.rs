@@ -54,7 +54,7 @@ impl Case {
                 *path = folder.join(&path);
             }
         }
-        case.validate().map_err(|broken| document.broken(&broken))?;
+        case.validate().map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
         case.source = source;
         if case.title.is_empty() {
             case.title = case.name();

@@ -68,22 +68,17 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
 /// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
 #[must_use]
 pub(crate) fn split_argument(argument: &str) -> Option<(&str, &str)> {
-    let at = equals_sign(argument)?;
-    Some((argument[..at].trim(), argument[at + 1..].trim()))
-}
-
-/// Returns the offset of the first `=` outside quotes.
-fn equals_sign(argument: &str) -> Option<usize> {
     let mut quote = None;
-    for (at, letter) in argument.char_indices() {
+    let at = argument.char_indices().find_map(|(at, letter)| {
         match (quote, letter) {
             (None, '=') => return Some(at),
             (None, '"' | '\'') => quote = Some(letter),
             (Some(open), _) if open == letter => quote = None,
             _ => {}
         }
-    }
-    None
+        None
+    })?;
+    Some((argument[..at].trim(), argument[at + 1..].trim()))
 }
 
 /// Reads TOML; a text without quotes, brackets or braces that is not TOML stands for itself.

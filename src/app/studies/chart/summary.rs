@@ -197,6 +197,14 @@ impl Chart {
         let (reference, settings) = (&self.reference, &self.settings);
         let starts = reference.starts.iter();
         let [chosen, source] = &self.over_all_starts;
+        let point = |point: &'a Point| PointSummary {
+            method: point.model.method.name(),
+            model: model_name(&point.model),
+            parameter: Parameter::of(&point.model),
+            wall_s: point.wall_s,
+            below_floor: self.below_floor(point),
+            error: ErrorSummary::of(&point.error),
+        };
         ChartSummary {
             scene: &case.title,
             warnings: &self.scene.doubts,
@@ -223,7 +231,7 @@ impl Chart {
             horizon_s: reference.mean_horizon_s(),
             least_horizon_s: reference.least_horizon_s(),
             growth_rate_per_s: reference.growth_rate_per_s(),
-            points: self.points.iter().map(|point| self.point(point)).collect(),
+            points: self.points.iter().map(point).collect(),
             front: &self.front,
             omissions: self
                 .omissions()
@@ -240,17 +248,6 @@ impl Chart {
             source: self.source,
             over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
             statistics: StatisticsSummary { seconds: settings.statistics_s, models: &self.statistics },
-        }
-    }
-
-    fn point<'a>(&self, point: &'a Point) -> PointSummary<'a> {
-        PointSummary {
-            method: point.model.method.name(),
-            model: model_name(&point.model),
-            parameter: Parameter::of(&point.model),
-            wall_s: point.wall_s,
-            below_floor: self.below_floor(point),
-            error: ErrorSummary::of(&point.error),
         }
     }
 }
