@@ -8,7 +8,7 @@ use super::check::{BrokenRule, groups_of, known_isotropic, known_material};
 use super::document::{Document, Source};
 use super::error::{CaseError, one_of};
 use super::nearest::names_help;
-use super::{Case, Defect, HousingSource, IsotropicMaterial, Material, material};
+use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material};
 
 /// A variant of a case, read.
 #[derive(Debug, Clone)]
@@ -48,7 +48,9 @@ impl Case {
     fn without_variants(source: Source) -> Result<Self, CaseError> {
         let document = Document::read(&source)?;
         let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
-        material::add_built_in(&mut case.materials);
+        for (name, material) in BUILT_IN_MATERIALS {
+            case.materials.entry(name.to_owned()).or_insert(material);
+        }
         if let Some(folder) = source.path.parent() {
             for path in case.paths_mut() {
                 *path = folder.join(&path);

@@ -1,7 +1,5 @@
 //! Materials by name.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -156,10 +154,3 @@ pub const BUILT_IN_MATERIALS: [(&str, Material); 3] = [
     ("bearing steel", Material::new(206e9, 0.3, 7850.0)),
     ("aluminium", Material::new(70e9, 0.33, 2700.0)),
 ];
-
-/// Adds the built-in materials that the case file does not give itself.
-pub(super) fn add_built_in(materials: &mut BTreeMap<String, Material>) {
-    for (name, material) in BUILT_IN_MATERIALS {
-        materials.entry(name.to_owned()).or_insert(material);
-    }
-}

@@ -107,11 +107,7 @@ pub(super) fn repeated(name: &str) -> Rule {
 }
 
 /// The material of a name.
-pub(in crate::app::case) fn known_material<'c>(
-    case: &'c Case,
-    key: impl Into<String>,
-    name: &str,
-) -> Result<&'c Material, BrokenRule> {
+pub(crate) fn known_material<'c>(case: &'c Case, key: &str, name: &str) -> Result<&'c Material, BrokenRule> {
     case.material(name).ok_or_else(|| {
         let names: Vec<&str> = case.materials.keys().map(String::as_str).collect();
         Rule::new(format!("no material is called \"{name}\"")).with_help(names_help(name, &names, "materials")).at(key)
@@ -127,13 +123,8 @@ pub(super) fn known_sensor(case: &Case, key: impl Into<String>, name: &str) -> R
 }
 
 /// A material that rings and contacts can be made of.
-pub(in crate::app::case) fn known_isotropic<'c>(
-    case: &'c Case,
-    key: impl Into<String>,
-    name: &str,
-) -> Result<&'c IsotropicMaterial, BrokenRule> {
-    let key = key.into();
-    match known_material(case, key.as_str(), name)? {
+pub(crate) fn known_isotropic<'c>(case: &'c Case, key: &str, name: &str) -> Result<&'c IsotropicMaterial, BrokenRule> {
+    match known_material(case, key, name)? {
         Material::Isotropic(material) if material.loss_factor > 0.0 => Err(Rule::new(format!(
             "\"{name}\" has a loss factor, expected a material without: structural damping is for parts of the housing"
         ))

@@ -55,8 +55,7 @@ pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     ABOVE_ZERO.check("housing.plane.thickness", housing.plane.map(|plane| plane.thickness))?;
     not_empty("housing.parts", housing.parts.len(), "at least one part")?;
     for (index, part) in housing.parts.iter().enumerate() {
-        let key = format!("housing.parts[{index}].material");
-        known_material(case, key, &part.material)?;
+        known_material(case, &format!("housing.parts[{index}].material"), &part.material)?;
     }
     let groups = housing.parts.iter().map(|part| part.group.as_str());
     each_once(groups, |index| format!("housing.parts[{index}].group"))?;
@@ -137,7 +136,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     not_empty("ring.sections", ring.sections.len(), "at least one section")?;
     for (index, section) in ring.sections.iter().enumerate() {
         let at = |key: &str| format!("ring.sections[{index}].{key}");
-        known_isotropic(case, at("material"), &section.material)?;
+        known_isotropic(case, &at("material"), &section.material)?;
         ABOVE_ZERO.check(at("area"), section.area)?;
         ABOVE_ZERO.check(at("inertia"), section.inertia)?;
         ABOVE_ZERO.check(at("axial_inertia"), section.axial_inertia)?;
