@@ -140,32 +140,24 @@ impl Place {
 
     /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
     pub(crate) fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
-        let mut row = vec![0.0; matrices.mass.rows()];
         let ring = boundary.ring();
-        let first = row.len() - ring.map_or(0, |(ring, _)| ring.dof());
+        let length = matrices.mass.rows();
+        let first = length - ring.map_or(0, |(ring, _)| ring.dof());
+        let partition = boundary.partition();
+        let of_housing = |&(dof, factor): &(usize, f64)| {
+            let driven = ring.and_then(|_| partition.driven.iter().position(|&at| at == dof));
+            let Some(place) = driven else {
+                return vec![(dof, factor)];
+            };
+            let columns = partition.tie.outer_iterator().enumerate();
+            columns
+                .map(|(column, entries)| (first + column, factor * entries.get(place).copied().unwrap_or(0.0)))
+                .collect()
+        };
         match self {
-            Self::Ring(entries) => {
-                for &(dof, factor) in entries {
-                    row[first + dof] += factor;
-                }
-            }
-            Self::Housing(entries) => {
-                let partition = boundary.partition();
-                for &(dof, factor) in entries {
-                    let driven = partition.driven.iter().position(|&at| at == dof);
-                    match (ring, driven) {
-                        (Some(_), Some(place)) => {
-                            for (column, entries) in partition.tie.outer_iterator().enumerate() {
-                                let share = entries.get(place).copied().unwrap_or(0.0);
-                                row[first + column] += factor * share;
-                            }
-                        }
-                        _ => row[dof] += factor,
-                    }
-                }
-            }
+            Self::Ring(entries) => row(length, entries.iter().map(|&(dof, factor)| (first + dof, factor))),
+            Self::Housing(entries) => row(length, entries.iter().flat_map(of_housing)),
         }
-        row
     }
 
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
