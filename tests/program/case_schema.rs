@@ -288,12 +288,12 @@ fn keys_of_the_schema_are_those_of_the_reader() {
         // an array may have to have several items before its first is looked at
         let text = written(&below, "1");
         let known = match read(&text, &[]) {
-            Err(CaseError::UnknownKey { keys, .. }) => keys.valid,
+            Err(error) if error.to_string().contains(": unknown key `") => error.valid,
             Err(other) if path.last().is_some_and(|step| step == "[]") => {
                 // two items: damping.ratios
                 let twice = text.replace("[{ unheard_of = 1 }]", "[{ unheard_of = 1 }, { unheard_of = 1 }]");
                 match read(&twice, &[]) {
-                    Err(CaseError::UnknownKey { keys, .. }) => keys.valid,
+                    Err(error) if error.to_string().contains(": unknown key `") => error.valid,
                     _ => panic!("{text}: {other}"),
                 }
             }

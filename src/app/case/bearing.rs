@@ -1,13 +1,12 @@
 //! `[bearing]`: balls, races and contacts.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::defect::Defect;
-use super::schema::{any_of, table, text, together, words};
+use super::schema::{or_table, text, together, words};
 use super::slip::Slip;
-use super::union::{Loose, ReadAs, read_as, written_as};
+use super::union::{Loose, read_as, written_as};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
@@ -133,19 +132,13 @@ struct InnerAndOuter<T> {
     outer: T,
 }
 
-written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, |generator| {
-    any_of(&[text(), table::<InnerAndOuter<String>>(generator)])
-});
-
-impl ReadAs<Loose<InnerAndOuter<String>>> for RaceMaterial {
-    fn read_as<E: Error>(form: Loose<InnerAndOuter<String>>) -> Result<Self, E> {
-        match form {
-            Loose::Word(name) => Ok(Self { inner: name.clone(), outer: name }),
-            Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
-            other => Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }")),
-        }
+written_as!(RaceMaterial, Loose<InnerAndOuter<String>>, or_table::<InnerAndOuter<String>>(vec![text()]), |form| {
+    match form {
+        Loose::Word(name) => Ok(Self { inner: name.clone(), outer: name }),
+        Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self { inner, outer }),
+        other => Err(other.mismatch(&[], "a material's name, or { inner = NAME, outer = NAME }")),
     }
-}
+});
 
 impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
     fn from(races: RaceMaterial) -> Self {
@@ -171,16 +164,15 @@ pub enum ContactStiffness {
     },
 }
 
-read_as!(ContactStiffness, Loose<InnerAndOuter<f64>>, |generator| {
-    any_of(&[words(&["hertz"]), table::<InnerAndOuter<f64>>(generator)])
-});
-
-impl ReadAs<Loose<InnerAndOuter<f64>>> for ContactStiffness {
-    fn read_as<E: Error>(form: Loose<InnerAndOuter<f64>>) -> Result<Self, E> {
+read_as!(
+    ContactStiffness,
+    Loose<InnerAndOuter<f64>>,
+    or_table::<InnerAndOuter<f64>>(vec![words(&["hertz"])]),
+    |form| {
         match form {
             Loose::Word(word) if word == "hertz" => Ok(Self::Hertz),
             Loose::Table(InnerAndOuter { inner, outer }) => Ok(Self::Given { inner, outer }),
             other => Err(other.mismatch(&["hertz"], "\"hertz\", or { inner = NUMBER, outer = NUMBER }")),
         }
     }
-}
+);

@@ -1,11 +1,10 @@
 //! `[condense]`: what a condensed housing is attached by, and how many vectors a reduction keeps.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
-use super::schema::{any_of, one_of, table, whole, words};
-use super::union::{Loose, ReadAs, exactly_one, read_as};
+use super::schema::{one_of, or_table, whole, words};
+use super::union::{Loose, exactly_one, read_as};
 
 /// How the housing is condensed onto the ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,20 +54,16 @@ struct InterfaceForm {
     nodes: Option<Vec<u64>>,
 }
 
-read_as!(Interface, Loose<InterfaceForm>, |generator| any_of(&[words(&["ring"]), table::<InterfaceForm>(generator),]));
-
-impl ReadAs<Loose<InterfaceForm>> for Interface {
-    fn read_as<E: Error>(form: Loose<InterfaceForm>) -> Result<Self, E> {
-        const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
-        match form {
-            Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-            Loose::Table(InterfaceForm { group, nodes }) => {
-                exactly_one([group.map(Self::Group), nodes.map(Self::Nodes)], "one of `group`, `nodes`")
-            }
-            other => Err(other.mismatch(&["ring"], FORMS)),
+read_as!(Interface, Loose<InterfaceForm>, or_table::<InterfaceForm>(vec![words(&["ring"])]), |form| {
+    const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
+    match form {
+        Loose::Word(word) if word == "ring" => Ok(Self::Ring),
+        Loose::Table(InterfaceForm { group, nodes }) => {
+            exactly_one([group.map(Self::Group), nodes.map(Self::Nodes)], "one of `group`, `nodes`")
         }
+        other => Err(other.mismatch(&["ring"], FORMS)),
     }
-}
+});
 
 /// How many characteristic constraint modes replace the coordinates of an interface.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -84,22 +79,12 @@ pub enum InterfaceModes {
     Count(usize),
 }
 
-read_as!(InterfaceModes, Loose<UpToForm>, |generator| any_of(&[
-    words(&["none"]),
-    whole(),
-    table::<UpToForm>(generator),
-]));
-
-impl ReadAs<Loose<UpToForm>> for InterfaceModes {
-    fn read_as<E: Error>(form: Loose<UpToForm>) -> Result<Self, E> {
-        match form {
-            Loose::Word(word) if word == "none" => Ok(Self::None),
-            Loose::Whole(count) => Ok(Self::Count(count)),
-            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch(&["none"], "\"none\", a whole number or { up_to_hz = NUMBER }")),
-        }
-    }
-}
+read_as!(InterfaceModes, Loose<UpToForm>, or_table::<UpToForm>(vec![words(&["none"]), whole()]), |form| match form {
+    Loose::Word(word) if word == "none" => Ok(Self::None),
+    Loose::Whole(count) => Ok(Self::Count(count)),
+    Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
+    other => Err(other.mismatch(&["none"], "\"none\", a whole number or { up_to_hz = NUMBER }")),
+});
 
 /// How many fixed-interface modes are kept.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -122,19 +107,14 @@ struct UpToForm {
     up_to_hz: f64,
 }
 
-read_as!(FixedInterfaceModes, Loose<UpToForm>, |generator| any_of(&[
-    words(&["auto"]),
-    whole(),
-    table::<UpToForm>(generator),
-]));
-
-impl ReadAs<Loose<UpToForm>> for FixedInterfaceModes {
-    fn read_as<E: Error>(form: Loose<UpToForm>) -> Result<Self, E> {
-        match form {
-            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Whole(count) => Ok(Self::Count(count)),
-            Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
-            other => Err(other.mismatch(&["auto"], "\"auto\", a whole number or { up_to_hz = NUMBER }")),
-        }
+read_as!(
+    FixedInterfaceModes,
+    Loose<UpToForm>,
+    or_table::<UpToForm>(vec![words(&["auto"]), whole()]),
+    |form| match form {
+        Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+        Loose::Whole(count) => Ok(Self::Count(count)),
+        Loose::Table(UpToForm { up_to_hz }) => Ok(Self::UpToHz(up_to_hz)),
+        other => Err(other.mismatch(&["auto"], "\"auto\", a whole number or { up_to_hz = NUMBER }")),
     }
-}
+);

@@ -4,12 +4,10 @@ use std::collections::btree_map;
 use std::slice;
 
 use serde::de::value::StrDeserializer;
-use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer, MapAccess, SeqAccess, VariantAccess, Visitor,
-};
+use serde::de::{DeserializeSeed, Deserializer, Expected, MapAccess, SeqAccess, Visitor};
 
 use super::error::one_of;
-use super::fault::{Fault, owned};
+use super::fault::Fault;
 use super::path::Step;
 use super::tree::{Node, Value};
 
@@ -70,8 +68,10 @@ impl<'de> Deserializer<'de> for &Node {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         match &self.value {
-            Value::Text(text) => visitor.visit_enum(Word(text)).map_err(|fault| fault.at(self.mark)),
-            _ => Err(self.wrong_kind(&one_of(&owned(variants)).as_str())),
+            Value::Text(text) => {
+                visitor.visit_enum(StrDeserializer::<Fault>::new(text)).map_err(|fault| fault.at(self.mark))
+            }
+            _ => Err(self.wrong_kind(&one_of(variants).as_str())),
         }
     }
 
@@ -112,8 +112,9 @@ impl<'de> MapAccess<'de> for Entries<'_> {
         let Some((key, node)) = self.current else {
             return Ok(None);
         };
-        let text: StrDeserializer<'_, Fault> = key.as_str().into_deserializer();
-        seed.deserialize(text).map(Some).map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
+        seed.deserialize(StrDeserializer::<Fault>::new(key))
+            .map(Some)
+            .map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
     }
 
     fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Fault> {
@@ -121,38 +122,5 @@ impl<'de> MapAccess<'de> for Entries<'_> {
             return Err(Fault::wrong("no key".to_owned(), &"a key before a value"));
         };
         seed.deserialize(node).map_err(|fault| fault.at(node.mark).under(Step::Key(key.clone())))
-    }
-}
-
-/// A text that stands for a variant without data.
-struct Word<'a>(&'a str);
-
-impl<'de> EnumAccess<'de> for Word<'_> {
-    type Error = Fault;
-    type Variant = Self;
-
-    fn variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<(T::Value, Self), Fault> {
-        let text: StrDeserializer<'_, Fault> = self.0.into_deserializer();
-        Ok((seed.deserialize(text)?, self))
-    }
-}
-
-impl<'de> VariantAccess<'de> for Word<'_> {
-    type Error = Fault;
-
-    fn unit_variant(self) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, _seed: T) -> Result<T::Value, Fault> {
-        Err(Fault::wrong(format!("\"{}\"", self.0), &"a table"))
-    }
-
-    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Fault> {
-        Err(Fault::wrong(format!("\"{}\"", self.0), &visitor))
-    }
-
-    fn struct_variant<V: Visitor<'de>>(self, _fields: &'static [&'static str], visitor: V) -> Result<V::Value, Fault> {
-        Err(Fault::wrong(format!("\"{}\"", self.0), &visitor))
     }
 }

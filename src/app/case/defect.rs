@@ -7,8 +7,8 @@ use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::schema::{any_of, one_of, table, words};
-use super::union::{Loose, ReadAs, mismatch, none_beside, read_as};
+use super::schema::{one_of, or_table, words};
+use super::union::{Loose, given, mismatch, missing, none_beside, read_as};
 use crate::bearing::Race;
 use crate::bearing::defect::CurvatureReading;
 
@@ -125,21 +125,12 @@ enum Profile {
 const IN_PLANE: &str = "in-plane";
 const SURFACE: &str = "surface";
 
-read_as!(Profile, Loose<ProfileFile>, |generator| any_of(&[
-    words(&[IN_PLANE, SURFACE]),
-    table::<ProfileFile>(generator),
-]));
-
-impl ReadAs<Loose<ProfileFile>> for Profile {
-    fn read_as<E: Error>(form: Loose<ProfileFile>) -> Result<Self, E> {
-        match form {
-            Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
-            Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
-            Loose::Table(file) => Ok(Self::File(file)),
-            other => Err(other.mismatch(&[IN_PLANE, SURFACE], "\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
-        }
-    }
-}
+read_as!(Profile, Loose<ProfileFile>, or_table::<ProfileFile>(vec![words(&[IN_PLANE, SURFACE])]), |form| match form {
+    Loose::Word(word) if word == IN_PLANE => Ok(Self::Dent(DentProfile::InPlane)),
+    Loose::Word(word) if word == SURFACE => Ok(Self::Dent(DentProfile::Surface)),
+    Loose::Table(file) => Ok(Self::File(file)),
+    other => Err(other.mismatch(&[IN_PLANE, SURFACE], "\"in-plane\", \"surface\", or { csv = \"FILE\" }")),
+});
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -169,8 +160,6 @@ struct DefectForm {
     flat_radius: Option<f64>,
 }
 
-read_as!(Defect, DefectForm);
-
 /// Dent, measured profile or flat, each with its keys.
 fn kinds() -> Value {
     let race = json!({ "enum": ["inner", "outer"] });
@@ -199,52 +188,44 @@ fn kinds() -> Value {
 /// A choice of this program: the source paper's dents and flats end at an edge.
 const RIM_RADIUS: f64 = 0.05e-3;
 
-impl ReadAs<DefectForm> for Defect {
-    fn read_as<E: Error>(form: DefectForm) -> Result<Self, E> {
-        let on = match form.on {
-            Place::Inner => Race::Inner,
-            Place::Outer => Race::Outer,
-            Place::Ball => return flat(form).map(Self::Flat),
-        };
-        const RACE: &str = "keys of a race's defect";
-        let of_flat = [("ball", form.ball.is_some()), ("flat_radius", form.flat_radius.is_some())];
-        none_beside(&of_flat, "a race", RACE)?;
-        let angle_deg = form.angle_deg.ok_or_else(|| E::missing_field("angle_deg"))?;
-        let profile = match &form.profile {
-            None => DentProfile::default(),
-            Some(Profile::Dent(profile)) => *profile,
-            Some(Profile::File(file)) => {
-                let of_dent = [
-                    ("length", form.length.is_some()),
-                    ("width", form.width.is_some()),
-                    ("depth", form.depth.is_some()),
-                    ("rim_radius", form.rim_radius.is_some()),
-                    ("curvature", form.curvature.is_some()),
-                ];
-                none_beside(&of_dent, "a file", "the profile in the file alone")?;
-                return Ok(Self::Measured(MeasuredDefect { on, angle_deg, profile: file.clone() }));
-            }
-        };
-        const WIDTH: &str = "the dent's extent across the race as `width`, or profile = \"in-plane\"";
-        if profile == DentProfile::Surface && form.width.is_none() {
-            return Err(mismatch("profile = \"surface\" without `width`", WIDTH));
+read_as!(Defect, DefectForm, |form| {
+    let on = match form.on {
+        Place::Inner => Race::Inner,
+        Place::Outer => Race::Outer,
+        Place::Ball => return flat(form).map(Self::Flat),
+    };
+    const RACE: &str = "keys of a race's defect";
+    let of_flat = given!(form: ball, flat_radius);
+    none_beside(&of_flat, "a race", RACE)?;
+    let angle_deg = form.angle_deg.ok_or_else(|| missing("angle_deg"))?;
+    let profile = match &form.profile {
+        None => DentProfile::default(),
+        Some(Profile::Dent(profile)) => *profile,
+        Some(Profile::File(file)) => {
+            let of_dent = given!(form: length, width, depth, rim_radius, curvature);
+            none_beside(&of_dent, "a file", "the profile in the file alone")?;
+            return Ok(Self::Measured(MeasuredDefect { on, angle_deg, profile: file.clone() }));
         }
-        Ok(Self::Dent(DentDefect {
-            on,
-            angle_deg,
-            length: form.length.ok_or_else(|| E::missing_field("length"))?,
-            width: form.width,
-            depth: form.depth.ok_or_else(|| E::missing_field("depth"))?,
-            profile,
-            rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
-            curvature: form.curvature.unwrap_or_default(),
-        }))
+    };
+    const WIDTH: &str = "the dent's extent across the race as `width`, or profile = \"in-plane\"";
+    if profile == DentProfile::Surface && form.width.is_none() {
+        return Err(mismatch("profile = \"surface\" without `width`", WIDTH));
     }
-}
+    Ok(Self::Dent(DentDefect {
+        on,
+        angle_deg,
+        length: form.length.ok_or_else(|| missing("length"))?,
+        width: form.width,
+        depth: form.depth.ok_or_else(|| missing("depth"))?,
+        profile,
+        rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
+        curvature: form.curvature.unwrap_or_default(),
+    }))
+});
 
 fn flat<E: Error>(form: DefectForm) -> Result<FlatDefect, E> {
     const BALL: &str = "keys of a ball's flat";
-    none_beside(&[("length", form.length.is_some()), ("width", form.width.is_some())], "a ball", BALL)?;
+    none_beside(&given!(form: length, width), "a ball", BALL)?;
     match form.profile {
         Some(Profile::File(_)) => {
             return Err(mismatch("a measured `profile` beside a ball", BALL));

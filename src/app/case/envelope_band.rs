@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use super::schema::{any_of, words};
 
@@ -56,16 +56,12 @@ impl<'de> Visitor<'de> for BandVisitor {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
         let mut edges = Vec::new();
-        while let Some(edge) = items.next_element::<f64>()? {
+        while let Some(edge) = items.next_element()? {
             edges.push(edge);
         }
-        match edges[..] {
-            [from, to] => Ok(EnvelopeBand::Between([from, to])),
-            _ => {
-                let found = format!("an array of {}", edges.len());
-                Err(de::Error::invalid_value(Unexpected::Other(&found), &self))
-            }
-        }
+        <[f64; 2]>::try_from(edges)
+            .map(EnvelopeBand::Between)
+            .map_err(|edges| de::Error::invalid_length(edges.len(), &self))
     }
 }
 

@@ -4,34 +4,29 @@ use std::fmt;
 
 use serde::de::{self, Expected, Unexpected};
 
-use super::path::Step;
+use super::error::one_of;
+use super::nearest::names_help;
+use super::path::{Step, format_path};
 use super::tree::Mark;
 
 /// What does not fit, and where on the way down from the root.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Fault {
     /// From the value up to the root.
     upward: Vec<Step>,
     pub(super) mark: Option<Mark>,
-    pub(super) kind: FaultKind,
-}
-
-/// What does not fit.
-#[derive(Debug)]
-pub(super) enum FaultKind {
-    UnknownKey { found: String, valid: Vec<String> },
-    UnknownName { found: String, valid: Vec<String> },
-    MissingKey { key: String },
-    Wrong { found: String, expected: String },
+    /// What is said before the key's path.
+    pub(super) before: &'static str,
+    /// What is said after it.
+    pub(super) after: String,
+    pub(super) help: Option<String>,
+    /// The keys or names that are valid in the place of an unknown one.
+    pub(super) valid: &'static [&'static str],
 }
 
 impl Fault {
-    fn new(kind: FaultKind) -> Self {
-        Self { upward: Vec::new(), mark: None, kind }
-    }
-
     pub(super) fn wrong(found: String, expected: &dyn Expected) -> Self {
-        Self::new(FaultKind::Wrong { found, expected: plain(&expected.to_string()) })
+        Self { after: format!(": found {found}, expected {}", plain(&expected.to_string())), ..Self::default() }
     }
 
     /// Notes the place, unless a deeper one is known.
@@ -45,9 +40,10 @@ impl Fault {
         self
     }
 
-    /// Returns the steps from the root down.
-    pub(super) fn steps(&self) -> Vec<Step> {
-        self.upward.iter().rev().cloned().collect()
+    /// Returns the path from the root down.
+    pub(super) fn key(&self) -> String {
+        let steps: Vec<Step> = self.upward.iter().rev().cloned().collect();
+        format_path(&steps)
     }
 }
 
@@ -80,13 +76,9 @@ fn describe(found: &Unexpected<'_>) -> String {
     }
 }
 
-pub(super) fn owned(names: &[&str]) -> Vec<String> {
-    names.iter().map(|&name| name.to_owned()).collect()
-}
-
 impl fmt::Display for Fault {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{:?}", self.kind)
+        write!(formatter, "{}`{}`{}", self.before, self.key(), self.after)
     }
 }
 
@@ -94,7 +86,7 @@ impl std::error::Error for Fault {}
 
 impl de::Error for Fault {
     fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::new(FaultKind::Wrong { found: message.to_string(), expected: "a value of this key".to_owned() })
+        Self::wrong(message.to_string(), &"a value of this key")
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
@@ -110,14 +102,15 @@ impl de::Error for Fault {
     }
 
     fn unknown_variant(found: &str, valid: &'static [&'static str]) -> Self {
-        Self::new(FaultKind::UnknownName { found: found.to_owned(), valid: owned(valid) })
+        let after = format!(" is \"{found}\", expected {}", one_of(valid));
+        Self { after, help: Some(names_help(found, valid, "names")), valid, ..Self::default() }
     }
 
     fn unknown_field(found: &str, valid: &'static [&'static str]) -> Self {
-        Self::new(FaultKind::UnknownKey { found: found.to_owned(), valid: owned(valid) })
+        Self { before: "unknown key ", help: Some(names_help(found, valid, "keys")), valid, ..Self::default() }
     }
 
     fn missing_field(key: &'static str) -> Self {
-        Self::new(FaultKind::MissingKey { key: key.to_owned() })
+        Self { after: format!(" lacks the required key `{key}`"), ..Self::default() }
     }
 }

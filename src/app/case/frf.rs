@@ -1,13 +1,12 @@
 //! `[frf]`: transfer paths from where forces act to sensors.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::modes::Variant;
 use super::schema::one_of;
 use super::sensor::SensorSpot;
-use super::union::{ReadAs, exactly_one, read_as};
+use super::union::{exactly_one, read_as};
 
 /// Transfer paths: from every force to every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,25 +60,21 @@ struct PushForm {
     direction: [f64; 3],
 }
 
-read_as!(Push, PushForm);
-
-impl ReadAs<PushForm> for Push {
-    fn read_as<E: Error>(form: PushForm) -> Result<Self, E> {
-        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
-        let spots = [
-            form.group.map(SensorSpot::Group),
-            form.ring_deg.map(SensorSpot::RingDeg),
-            form.node.map(SensorSpot::Node),
-            form.point.map(SensorSpot::Point),
-        ];
-        let spot = exactly_one(spots, ONE)?;
-        let name = form.name.unwrap_or_else(|| match &spot {
-            SensorSpot::Group(group) => group.clone(),
-            SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
-            SensorSpot::Node(tag) => format!("node {tag}"),
-            SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
-            SensorSpot::Recovered(row) => row.clone(),
-        });
-        Ok(Self { name, spot, direction: form.direction })
-    }
-}
+read_as!(Push, PushForm, |form| {
+    const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`";
+    let spots = [
+        form.group.map(SensorSpot::Group),
+        form.ring_deg.map(SensorSpot::RingDeg),
+        form.node.map(SensorSpot::Node),
+        form.point.map(SensorSpot::Point),
+    ];
+    let spot = exactly_one(spots, ONE)?;
+    let name = form.name.unwrap_or_else(|| match &spot {
+        SensorSpot::Group(group) => group.clone(),
+        SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
+        SensorSpot::Node(tag) => format!("node {tag}"),
+        SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
+        SensorSpot::Recovered(row) => row.clone(),
+    });
+    Ok(Self { name, spot, direction: form.direction })
+});

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use crate::fe::element::continuum::Formulation;
@@ -12,7 +11,7 @@ use crate::numerics::units::LengthUnit;
 
 use super::schema::{one_of, together};
 use super::spring::{Spring, SpringKeys};
-use super::union::{ReadAs, exactly_one, mismatch, written_as};
+use super::union::{exactly_one, mismatch, written_as};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -106,25 +105,21 @@ struct SupportForm {
     per: Option<SupportShare>,
 }
 
-written_as!(Support, SupportForm);
-
-impl ReadAs<SupportForm> for Support {
-    fn read_as<E: Error>(form: SupportForm) -> Result<Self, E> {
-        const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
-        let per = form.per.unwrap_or_default();
-        let holds = [
-            form.fixed.map(Hold::Fixed),
-            form.spring.map(|spring| Hold::Spring(spring.into(), per)),
-            form.radial.map(|radial| Hold::Spring(SpringStiffness::Radial(radial), per)),
-        ];
-        match exactly_one(holds, ONE)? {
-            Hold::Fixed(_) if form.per.is_some() => {
-                Err(mismatch("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
-            }
-            hold => Ok(Self { group: form.group, hold }),
+written_as!(Support, SupportForm, |form| {
+    const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
+    let per = form.per.unwrap_or_default();
+    let holds = [
+        form.fixed.map(Hold::Fixed),
+        form.spring.map(|spring| Hold::Spring(spring.into(), per)),
+        form.radial.map(|radial| Hold::Spring(SpringStiffness::Radial(radial), per)),
+    ];
+    match exactly_one(holds, ONE)? {
+        Hold::Fixed(_) if form.per.is_some() => {
+            Err(mismatch("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
         }
+        hold => Ok(Self { group: form.group, hold }),
     }
-}
+});
 
 impl From<Support> for SupportForm {
     fn from(support: Support) -> Self {

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::union::{ReadAs, none_beside, read_as};
+use super::union::{given, missing, none_beside, read_as};
 use super::{Case, Housing, Part, Support};
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass};
@@ -96,42 +95,28 @@ struct SourceForm {
     overlap: Option<OverlapRule>,
 }
 
-read_as!(HousingSource, SourceForm);
-
-impl ReadAs<SourceForm> for HousingSource {
-    fn read_as<E: Error>(form: SourceForm) -> Result<Self, E> {
-        if let Some(path) = form.superelement {
-            let of_mesh = [
-                ("mesh", form.mesh.is_some()),
-                ("length_unit", form.length_unit.is_some()),
-                ("plane", form.plane.is_some()),
-                ("integration", form.integration.is_some()),
-                ("linear", form.linear.is_some()),
-                ("parts", form.parts.is_some()),
-                ("supports", form.supports.is_some()),
-                ("masses", form.masses.is_some()),
-                ("links", form.links.is_some()),
-                ("overlap", form.overlap.is_some()),
-            ];
-            none_beside(&of_mesh, "`superelement`", "`superelement` alone, or `mesh` with its keys")?;
-            return Ok(Self::Superelement(path));
-        }
-        Ok(Self::Mesh(Box::new(Housing {
-            mesh: form.mesh.ok_or_else(|| E::missing_field("mesh"))?,
-            length_unit: form.length_unit.ok_or_else(|| E::missing_field("length_unit"))?,
-            plane: form.plane,
-            formulation: Formulation {
-                integration: form.integration.unwrap_or_default(),
-                linear: form.linear.unwrap_or_default(),
-            },
-            parts: form.parts.ok_or_else(|| E::missing_field("parts"))?,
-            supports: form.supports.unwrap_or_default(),
-            masses: form.masses.unwrap_or_default(),
-            links: form.links.unwrap_or_default(),
-            overlap: form.overlap.unwrap_or_default(),
-        })))
+read_as!(HousingSource, SourceForm, |form| {
+    if let Some(path) = form.superelement {
+        let of_mesh =
+            given!(form: mesh, length_unit, plane, integration, linear, parts, supports, masses, links, overlap);
+        none_beside(&of_mesh, "`superelement`", "`superelement` alone, or `mesh` with its keys")?;
+        return Ok(Self::Superelement(path));
     }
-}
+    Ok(Self::Mesh(Box::new(Housing {
+        mesh: form.mesh.ok_or_else(|| missing("mesh"))?,
+        length_unit: form.length_unit.ok_or_else(|| missing("length_unit"))?,
+        plane: form.plane,
+        formulation: Formulation {
+            integration: form.integration.unwrap_or_default(),
+            linear: form.linear.unwrap_or_default(),
+        },
+        parts: form.parts.ok_or_else(|| missing("parts"))?,
+        supports: form.supports.unwrap_or_default(),
+        masses: form.masses.unwrap_or_default(),
+        links: form.links.unwrap_or_default(),
+        overlap: form.overlap.unwrap_or_default(),
+    })))
+});
 
 #[cfg(test)]
 mod tests {

@@ -6,9 +6,9 @@ use serde::Deserialize;
 
 use super::check::{BrokenRule, groups_of, known_isotropic, known_material};
 use super::document::{Document, Source};
-use super::error::{CaseError, Place};
-use super::nearest::Choices;
-use super::{Case, Defect, HousingSource, IsotropicMaterial, Material, material};
+use super::error::{CaseError, one_of};
+use super::nearest::names_help;
+use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material};
 
 /// A variant of a case, read.
 #[derive(Debug, Clone)]
@@ -29,7 +29,8 @@ impl Case {
     /// breaks a rule of `Case::validate`; the same for any of its variants.
     pub fn load(path: impl AsRef<Path>, set: &[String]) -> Result<Self, CaseError> {
         let path = path.as_ref();
-        let text = crate::files::read_text(path).map_err(|source| CaseError::Read { path: path.to_owned(), source })?;
+        let text = crate::files::read_text(path)
+            .map_err(|source| CaseError::new(format!("cannot read the case file {}: {source}", path.display())))?;
         Self::from_source(Source { path: path.to_owned(), text, set: set.to_vec() })
     }
 
@@ -47,13 +48,15 @@ impl Case {
     fn without_variants(source: Source) -> Result<Self, CaseError> {
         let document = Document::read(&source)?;
         let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
-        material::add_built_in(&mut case.materials);
+        for (name, material) in BUILT_IN_MATERIALS {
+            case.materials.entry(name.to_owned()).or_insert(material);
+        }
         if let Some(folder) = source.path.parent() {
             for path in case.paths_mut() {
                 *path = folder.join(&path);
             }
         }
-        case.validate().map_err(|broken| document.broken(broken))?;
+        case.validate().map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
         case.source = source;
         if case.title.is_empty() {
             case.title = case.name();
@@ -77,7 +80,7 @@ impl Case {
     /// keys set.
     ///
     /// # Errors
-    /// [`CaseError::Variant`] when one of them is not a valid case. A case from [`Case::load`] has valid ones only.
+    /// [`CaseError`] when one of them is not a valid case. A case from [`Case::load`] has valid ones only.
     pub fn variants(&self) -> Result<Vec<VariantCase>, CaseError> {
         self.read_variants(&self.modes.variants, "modes.variants")
     }
@@ -103,37 +106,35 @@ impl Case {
                     }
                     Ok(VariantCase { what: variant.what.clone(), case })
                 }
-                Err(error) => Err(CaseError::Variant {
-                    place: self.place(&format!("{key}[{index}]")),
-                    what: variant.what.clone(),
-                    source: Box::new(error),
-                }),
+                Err(error) => {
+                    let place = self.place(&format!("{key}[{index}]"));
+                    let what = format!("variant \"{}\": {error}", variant.what);
+                    Err(CaseError::at(place, what).with_help(error.help()))
+                }
             }
         };
         variants.iter().enumerate().map(read).collect()
     }
 
     /// Returns where a key was written: file and line, or `--set` argument.
-    #[must_use]
-    pub(crate) fn place(&self, key: &str) -> Place {
+    fn place(&self, key: &str) -> String {
         match Document::read(&self.source) {
             Ok(document) => document.place(key),
-            Err(_) => Place::File { path: self.source.path.clone() },
+            Err(_) => self.source.path.display().to_string(),
         }
     }
 
     /// Says where the case breaks a rule.
-    pub(crate) fn broken(&self, BrokenRule { key, rule }: BrokenRule) -> CaseError {
-        let place = self.place(&key);
-        CaseError::Rule { place, key, rule }
+    pub(crate) fn broken(&self, broken: &BrokenRule) -> CaseError {
+        CaseError::broken(self.place(&broken.key), broken)
     }
 
     /// Returns the material that a key names.
     ///
     /// # Errors
-    /// [`CaseError::Rule`] for a name that no material has, of a case that was changed after it was checked.
+    /// [`CaseError`] for a name that no material has, of a case that was changed after it was checked.
     pub(crate) fn known_material(&self, key: &str, name: &str) -> Result<&Material, CaseError> {
-        known_material(self, key, name).map_err(|broken| self.broken(broken))
+        known_material(self, key, name).map_err(|broken| self.broken(&broken))
     }
 
     /// Returns the material of a ring or a contact that a key names.
@@ -141,23 +142,23 @@ impl Case {
     /// # Errors
     /// As [`Case::known_material`], and for a material that is not isotropic or has a loss factor.
     pub(crate) fn isotropic(&self, key: &str, name: &str) -> Result<&IsotropicMaterial, CaseError> {
-        known_isotropic(self, key, name).map_err(|broken| self.broken(broken))
+        known_isotropic(self, key, name).map_err(|broken| self.broken(&broken))
     }
 
     /// Checks that the mesh has every physical group that the case names.
     ///
     /// # Errors
-    /// [`CaseError::UnknownName`] with the first that it lacks and the nearest that it has.
+    /// [`CaseError`] with the first that it lacks and the nearest that it has.
     pub fn check_groups(&self, groups: &[String]) -> Result<(), CaseError> {
         let missing = |(_, name): &(String, &str)| !groups.iter().any(|group| group == name);
         match groups_of(self).into_iter().find(missing) {
             None => Ok(()),
-            Some((key, found)) => Err(CaseError::UnknownName {
-                place: self.place(&key),
-                key,
-                names: Box::new(Choices::new(found, groups.to_vec())),
-                found: found.to_owned(),
-            }),
+            Some((key, found)) => {
+                let valid: Vec<&str> = groups.iter().map(String::as_str).collect();
+                let what = format!("`{key}` is \"{found}\", expected {}", one_of(&valid));
+                let help = names_help(found, &valid, "names");
+                Err(CaseError::at(self.place(&key), what).with_help(Some(help)).with_valid(&valid))
+            }
         }
     }
 }

@@ -1,14 +1,11 @@
 //! Materials by name.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::schema::one_of;
-use super::union::{OneOrThree, ReadAs, mismatch, read_as};
+use super::union::{OneOrThree, mismatch, read_as};
 
 /// An elastic material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -104,8 +101,6 @@ struct MaterialForm {
     y_axis: Option<[f64; 3]>,
 }
 
-read_as!(Material, MaterialForm);
-
 /// Isotropic or orthotropic, never half of each.
 fn either() -> Value {
     json!([
@@ -120,37 +115,33 @@ fn either() -> Value {
     ])
 }
 
-impl ReadAs<MaterialForm> for Material {
-    fn read_as<E: Error>(form: MaterialForm) -> Result<Self, E> {
-        const FORMS: &str = "one number each for `young` and `poisson` (isotropic), or three each and `shear` \
-            (orthotropic: young = [x, y, z], poisson and shear = [xy, yz, xz])";
-        let loss_factor = form.loss_factor.unwrap_or(0.0);
-        match (form.young, form.poisson, form.shear) {
-            (OneOrThree::One(young), OneOrThree::One(poisson), None) => {
-                if form.x_axis.is_some() || form.y_axis.is_some() {
-                    return Err(mismatch("axes of an isotropic material", FORMS));
-                }
-                Ok(Self::Isotropic(IsotropicMaterial { young, poisson, density: form.density, loss_factor }))
+read_as!(Material, MaterialForm, |form| {
+    const FORMS: &str = "one number each for `young` and `poisson` (isotropic), or three each and `shear` \
+        (orthotropic: young = [x, y, z], poisson and shear = [xy, yz, xz])";
+    let loss_factor = form.loss_factor.unwrap_or(0.0);
+    match (form.young, form.poisson, form.shear) {
+        (OneOrThree::One(young), OneOrThree::One(poisson), None) => {
+            if form.x_axis.is_some() || form.y_axis.is_some() {
+                return Err(mismatch("axes of an isotropic material", FORMS));
             }
-            (OneOrThree::Three(young), OneOrThree::Three(poisson), Some(shear)) => {
-                Ok(Self::Orthotropic(OrthotropicMaterial {
-                    young,
-                    poisson,
-                    shear,
-                    density: form.density,
-                    loss_factor,
-                    x_axis: form.x_axis.unwrap_or([1.0, 0.0, 0.0]),
-                    y_axis: form.y_axis.unwrap_or([0.0, 1.0, 0.0]),
-                }))
-            }
-            (OneOrThree::One(_), OneOrThree::One(_), Some(_)) => {
-                Err(mismatch("`shear` of an isotropic material", FORMS))
-            }
-            (OneOrThree::Three(_), OneOrThree::Three(_), None) => Err(mismatch("no `shear`", FORMS)),
-            _ => Err(mismatch("one number and three", FORMS)),
+            Ok(Self::Isotropic(IsotropicMaterial { young, poisson, density: form.density, loss_factor }))
         }
+        (OneOrThree::Three(young), OneOrThree::Three(poisson), Some(shear)) => {
+            Ok(Self::Orthotropic(OrthotropicMaterial {
+                young,
+                poisson,
+                shear,
+                density: form.density,
+                loss_factor,
+                x_axis: form.x_axis.unwrap_or([1.0, 0.0, 0.0]),
+                y_axis: form.y_axis.unwrap_or([0.0, 1.0, 0.0]),
+            }))
+        }
+        (OneOrThree::One(_), OneOrThree::One(_), Some(_)) => Err(mismatch("`shear` of an isotropic material", FORMS)),
+        (OneOrThree::Three(_), OneOrThree::Three(_), None) => Err(mismatch("no `shear`", FORMS)),
+        _ => Err(mismatch("one number and three", FORMS)),
     }
-}
+});
 
 /// The materials that a case may name without giving them: common values for a low-alloy steel, a through-hardened
 /// bearing steel (both with the modulus at which the source paper's contact stiffness is computed) and a wrought
@@ -163,10 +154,3 @@ pub const BUILT_IN_MATERIALS: [(&str, Material); 3] = [
     ("bearing steel", Material::new(206e9, 0.3, 7850.0)),
     ("aluminium", Material::new(70e9, 0.33, 2700.0)),
 ];
-
-/// Adds the built-in materials that the case file does not give itself.
-pub(super) fn add_built_in(materials: &mut BTreeMap<String, Material>) {
-    for (name, material) in BUILT_IN_MATERIALS {
-        materials.entry(name.to_owned()).or_insert(material);
-    }
-}

@@ -3,12 +3,11 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::schema::together;
-use super::union::{ReadAs, mismatch, read_as};
+use super::union::{mismatch, read_as};
 use crate::fe::modal::ModeRange;
 
 /// What the `modes` command computes and checks.
@@ -113,33 +112,29 @@ struct ModesForm {
     ball_pass: bool,
 }
 
-read_as!(Modes, ModesForm);
-
-impl ReadAs<ModesForm> for Modes {
-    fn read_as<E: Error>(form: ModesForm) -> Result<Self, E> {
-        let extent = match (form.count, form.up_to_hz, form.band_hz) {
-            // the default, written down, is the default
-            (Some(DEFAULT_COUNT), None, None) => ModeRange::AtMost(DEFAULT_COUNT),
-            (Some(count), None, None) => ModeRange::Count(count),
-            (None, Some(limit), None) => ModeRange::UpToHz(limit),
-            (None, None, Some(band)) => ModeRange::BandHz(band),
-            (None, None, None) => Self::default().extent,
-            _ => {
-                let expected = "one of `count`, `up_to_hz`, `band_hz`";
-                return Err(mismatch("several", expected));
-            }
-        };
-        Ok(Self {
-            extent,
-            expected: form.expected,
-            linearise: form.linearise,
-            variants: form.variants,
-            compare: form.compare,
-            convergence: form.convergence,
-            ball_pass: form.ball_pass,
-        })
-    }
-}
+read_as!(Modes, ModesForm, |form| {
+    let extent = match (form.count, form.up_to_hz, form.band_hz) {
+        // the default, written down, is the default
+        (Some(DEFAULT_COUNT), None, None) => ModeRange::AtMost(DEFAULT_COUNT),
+        (Some(count), None, None) => ModeRange::Count(count),
+        (None, Some(limit), None) => ModeRange::UpToHz(limit),
+        (None, None, Some(band)) => ModeRange::BandHz(band),
+        (None, None, None) => Self::default().extent,
+        _ => {
+            let expected = "one of `count`, `up_to_hz`, `band_hz`";
+            return Err(mismatch("several", expected));
+        }
+    };
+    Ok(Self {
+        extent,
+        expected: form.expected,
+        linearise: form.linearise,
+        variants: form.variants,
+        compare: form.compare,
+        convergence: form.convergence,
+        ball_pass: form.ball_pass,
+    })
+});
 
 /// Modes of another program, or measured ones, that this case must have too.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,12 +1,11 @@
 //! `[shaft]`, `[damping]`, `[speed]`: what moves and what slows it.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::schema::one_of;
-use super::union::{ReadAs, mismatch, read_as};
+use super::union::{mismatch, read_as};
 use crate::bearing::SpeedKnot;
 
 /// The rigid shaft with the inner ring. x to the right, y up.
@@ -62,19 +61,15 @@ struct LoadForm {
     profile: Option<Vec<LoadPoint>>,
 }
 
-read_as!(Load, LoadForm);
-
-impl ReadAs<LoadForm> for Load {
-    fn read_as<E: Error>(form: LoadForm) -> Result<Self, E> {
-        const ONE: &str = "`force` = [x, y], or `profile` = [{ time, force }, ...]";
-        match (form.force, form.profile) {
-            (Some(force), None) => Ok(Self::Constant(force)),
-            (None, Some(points)) => Ok(Self::Profile(points)),
-            (None, None) => Err(mismatch("neither", ONE)),
-            (Some(_), Some(_)) => Err(mismatch("both", ONE)),
-        }
+read_as!(Load, LoadForm, |form| {
+    const ONE: &str = "`force` = [x, y], or `profile` = [{ time, force }, ...]";
+    match (form.force, form.profile) {
+        (Some(force), None) => Ok(Self::Constant(force)),
+        (None, Some(points)) => Ok(Self::Profile(points)),
+        (None, None) => Err(mismatch("neither", ONE)),
+        (Some(_), Some(_)) => Err(mismatch("both", ONE)),
     }
-}
+});
 
 /// Damping of housing and ring.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -122,22 +117,18 @@ struct DampingForm {
     modal: Option<f64>,
 }
 
-read_as!(Damping, DampingForm);
-
-impl ReadAs<DampingForm> for Damping {
-    fn read_as<E: Error>(form: DampingForm) -> Result<Self, E> {
-        const ONE: &str = "exactly one of `ratios`, `alpha` with `beta`, `modal`";
-        match (form.ratios, (form.alpha, form.beta), form.modal) {
-            (Some(ratios), (None, None), None) => Ok(Self::Ratios(ratios)),
-            (None, (None, None), Some(ratio)) => Ok(Self::Modal(ratio)),
-            (None, (Some(alpha), Some(beta)), None) => Ok(Self::Rayleigh { alpha, beta }),
-            (None, (Some(_), None), None) => Err(mismatch("`alpha` without `beta`", ONE)),
-            (None, (None, Some(_)), None) => Err(mismatch("`beta` without `alpha`", ONE)),
-            (None, (None, None), None) => Err(mismatch("none of them", ONE)),
-            _ => Err(mismatch("several", ONE)),
-        }
+read_as!(Damping, DampingForm, |form| {
+    const ONE: &str = "exactly one of `ratios`, `alpha` with `beta`, `modal`";
+    match (form.ratios, (form.alpha, form.beta), form.modal) {
+        (Some(ratios), (None, None), None) => Ok(Self::Ratios(ratios)),
+        (None, (None, None), Some(ratio)) => Ok(Self::Modal(ratio)),
+        (None, (Some(alpha), Some(beta)), None) => Ok(Self::Rayleigh { alpha, beta }),
+        (None, (Some(_), None), None) => Err(mismatch("`alpha` without `beta`", ONE)),
+        (None, (None, Some(_)), None) => Err(mismatch("`beta` without `alpha`", ONE)),
+        (None, (None, None), None) => Err(mismatch("none of them", ONE)),
+        _ => Err(mismatch("several", ONE)),
     }
-}
+});
 
 /// Shaft speed over time: straight lines between points, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

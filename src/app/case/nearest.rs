@@ -1,30 +1,14 @@
 //! The names that are valid somewhere, and the one nearest to a misspelt one.
 
-/// The names that are valid somewhere.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Choices {
-    /// The one nearest in spelling to what was found, if any is near.
-    pub nearest: Option<String>,
-    /// All of them.
-    pub valid: Vec<String>,
-}
-
-impl Choices {
-    /// Collects the valid names and picks the one nearest to what was found.
-    pub(super) fn new(found: &str, valid: Vec<String>) -> Self {
-        Self { nearest: nearest(found, valid.iter().map(String::as_str)), valid }
-    }
-
-    /// "did you mean `x`? keys here: a, b", without the question when nothing is near.
-    pub(super) fn help(&self, what: &str) -> String {
-        let list = match self.valid.as_slice() {
-            [] => format!("there are no {what} here"),
-            valid => format!("{what} here: {}", valid.join(", ")),
-        };
-        match &self.nearest {
-            Some(name) => format!("did you mean `{name}`? {list}"),
-            None => list,
-        }
+/// "did you mean `x`? keys here: a, b", without the question when nothing is near; `what` is their kind in the plural.
+pub(super) fn names_help(found: &str, valid: &[&str], what: &str) -> String {
+    let list = match valid {
+        [] => format!("there are no {what} here"),
+        valid => format!("{what} here: {}", valid.join(", ")),
+    };
+    match nearest(found, valid.iter().copied()) {
+        Some(name) => format!("did you mean `{name}`? {list}"),
+        None => list,
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a command needs of a case, and a case that has what a simulation needs.
 
-use super::error::{CaseError, Place};
+use super::error::CaseError;
 use super::{Bearing, Case, Interface, Linearise, Ring, Shaft, Speed, Transient};
 
 /// What a case is to be used for.
@@ -35,69 +35,56 @@ pub struct RunCase<'c> {
     pub transient: &'c Transient,
 }
 
-/// Why a table is needed: the case, and the computation or key that needs it.
-#[derive(Clone, Copy)]
-struct Need<'c> {
-    case: &'c Case,
-    by: &'static str,
-}
-
-impl Need<'_> {
-    /// The part of this name, if it is there.
-    fn of<T>(self, table: &'static str, part: Option<T>) -> Result<T, CaseError> {
-        part.ok_or_else(|| CaseError::MissingTable {
-            place: Place::File { path: self.case.source.path.clone() },
-            table,
-            needed_by: self.by,
-        })
-    }
-
-    /// Something that is there or not.
-    fn that(self, table: &'static str, present: bool) -> Result<(), CaseError> {
-        self.of(table, present.then_some(()))
-    }
-}
-
 impl Case {
     /// Checks that the case has the tables that a purpose needs.
     ///
     /// # Errors
-    /// [`CaseError::MissingTable`] with the first table that it lacks.
+    /// [`CaseError`] with the first table that it lacks.
     pub fn ready_for(&self, purpose: Purpose) -> Result<(), CaseError> {
-        let need = |by| Need { case: self, by };
         let interface = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some())
             || self.superelement().is_some()
             || self.condense.interface != Interface::Ring;
-        match purpose {
-            Purpose::Run => self.for_run().map(|_| ()),
-            Purpose::Chart => self.for_chart().map(|_| ()),
-            Purpose::Modes => match self.modes.linearise {
-                Linearise::None => Ok(()),
-                Linearise::Static => self.at_rest(need("`modes.linearise = \"static\"`")).map(|_| ()),
-            },
+        let (by, needs) = match purpose {
+            Purpose::Run => return self.for_run().map(|_| ()),
+            Purpose::Chart => return self.for_chart().map(|_| ()),
+            Purpose::Modes => {
+                return match self.modes.linearise {
+                    Linearise::None => Ok(()),
+                    Linearise::Static => self.at_rest("`modes.linearise = \"static\"`").map(|_| ()),
+                };
+            }
             Purpose::Condense => {
-                let need = need("`condense`");
-                need.that("[housing]", self.housing.is_some())?;
                 let table = "ring.tie, or condense.interface = { group = \"NAME\" }";
-                need.that(table, interface)
+                ("`condense`", vec![("[housing]", self.housing.is_some()), (table, interface)])
             }
             Purpose::Frf => {
-                let need = need("`frf`");
-                need.that("[housing]", self.housing.is_some())?;
-                need.that("[frf]", self.frf.is_some())?;
-                need.that("[[sensors]]", !self.sensors.is_empty())?;
-                let damped = self.damping.is_some() || self.has_loss_factor();
-                need.that("[damping], or loss_factor of a material", damped)?;
-                let table = "ring.tie, or condense.interface = { nodes = [TAGS] }";
-                need.that(table, interface)
+                let damped = self.damping.is_some() || self.lossy_part().is_some();
+                let needs = vec![
+                    ("[housing]", self.housing.is_some()),
+                    ("[frf]", self.frf.is_some()),
+                    ("[[sensors]]", !self.sensors.is_empty()),
+                    ("[damping], or loss_factor of a material", damped),
+                    ("ring.tie, or condense.interface = { nodes = [TAGS] }", interface),
+                ];
+                ("`frf`", needs)
             }
-        }
+        };
+        needs.into_iter().try_for_each(|(table, present)| self.needed(by, table, present.then_some(())))
+    }
+
+    /// A part of the case that something needs, named as in the file.
+    fn needed<T>(&self, by: &str, table: &str, part: Option<T>) -> Result<T, CaseError> {
+        part.ok_or_else(|| {
+            let what = format!("{by} needs {table}, which the case file lacks");
+            let help = format!("add {table} to the case file");
+            CaseError::at(self.source.path.display(), what).with_help(Some(help))
+        })
     }
 
     /// Returns the parts that `run` needs.
     ///
     /// # Errors
-    /// [`CaseError::MissingTable`] with the first table that the case lacks.
+    /// [`CaseError`] with the first table that the case lacks.
     pub fn for_run(&self) -> Result<RunCase<'_>, CaseError> {
         self.simulated("`run`")
     }
@@ -110,34 +97,33 @@ impl Case {
         self.simulated("`chart`")
     }
 
-    fn simulated(&self, by: &'static str) -> Result<RunCase<'_>, CaseError> {
-        let need = Need { case: self, by };
-        let (ring, bearing, shaft) = self.at_rest(need)?;
-        let speed = need.of("[speed]", self.speed.as_ref())?;
-        let transient = need.of("[transient]", self.transient.as_ref())?;
-        need.that("[[sensors]]", !self.sensors.is_empty())?;
+    fn simulated(&self, by: &str) -> Result<RunCase<'_>, CaseError> {
+        let (ring, bearing, shaft) = self.at_rest(by)?;
+        let speed = self.needed(by, "[speed]", self.speed.as_ref())?;
+        let transient = self.needed(by, "[transient]", self.transient.as_ref())?;
+        self.needed(by, "[[sensors]]", self.sensors.first())?;
         Ok(RunCase { case: self, ring, bearing, shaft, speed, transient })
     }
 
     /// What an equilibrium under the load needs.
-    fn at_rest(&self, need: Need<'_>) -> Result<(&Ring, &Bearing, &Shaft), CaseError> {
-        let ring = need.of("[ring]", self.ring.as_ref())?;
-        let bearing = need.of("[bearing]", self.bearing.as_ref())?;
-        let shaft = need.of("[shaft]", self.shaft.as_ref())?;
+    fn at_rest(&self, by: &str) -> Result<(&Ring, &Bearing, &Shaft), CaseError> {
+        let ring = self.needed(by, "[ring]", self.ring.as_ref())?;
+        let bearing = self.needed(by, "[bearing]", self.bearing.as_ref())?;
+        let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;
         let held = !ring.supports.is_empty()
             || (self.meshed_housing()).is_some_and(|housing| !housing.supports.is_empty())
             // what holds it is in its stiffness
             || self.superelement().is_some();
-        need.that("a support in [housing] or [ring]", held)?;
+        self.needed(by, "a support in [housing] or [ring]", held.then_some(()))?;
         Ok((ring, bearing, shaft))
     }
 
-    /// Whether a part of the housing is of a material with a loss factor.
-    fn has_loss_factor(&self) -> bool {
+    /// The first part of the housing whose material has a loss factor: the material's name, and its loss factor.
+    pub(crate) fn lossy_part(&self) -> Option<(&str, f64)> {
         let mut parts = self.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
-        parts.any(|part| {
-            let material = self.material(&part.material);
-            material.is_some_and(|material| material.loss_factor() > 0.0)
+        parts.find_map(|part| {
+            let loss_factor = self.material(&part.material)?.loss_factor();
+            (loss_factor > 0.0).then_some((part.material.as_str(), loss_factor))
         })
     }
 }

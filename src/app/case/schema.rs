@@ -50,6 +50,16 @@ pub(super) fn table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
     T::json_schema(generator)
 }
 
+/// A value of one of these forms, for `read_as`.
+pub(super) fn forms(forms: Vec<Schema>) -> impl FnOnce(&mut SchemaGenerator) -> Schema {
+    move |_| any_of(&forms)
+}
+
+/// A value of one of these forms, or a table.
+pub(super) fn or_table<T: JsonSchema>(forms: Vec<Schema>) -> impl FnOnce(&mut SchemaGenerator) -> Schema {
+    move |generator| any_of(&[forms, vec![table::<T>(generator)]].concat())
+}
+
 /// A value of any of these forms.
 pub(super) fn any_of(forms: &[Schema]) -> Schema {
     json_schema!({ "anyOf": forms })
@@ -68,34 +78,24 @@ pub(super) fn together(keys: &[&str]) -> Value {
 /// TOML has no null, and descriptions are in words.
 fn tidy(value: &mut Value) {
     in_words(value, "absent");
-    without_nulls(value);
+    in_each(value, &without_null);
 }
 
 /// `format` names types of Rust, and descriptions are written for readers of the library, where `none` is `None`.
 pub(in crate::app) fn in_words(value: &mut Value, none: &str) {
+    in_each(value, &|schema| plain(schema, none));
+}
+
+/// Changes every object in a value, from the outside in.
+fn in_each(value: &mut Value, change: &impl Fn(&mut Map<String, Value>)) {
     match value {
-        Value::Array(items) => items.iter_mut().for_each(|item| in_words(item, none)),
+        Value::Array(items) => items.iter_mut().for_each(|item| in_each(item, change)),
         Value::Object(schema) => {
-            plain(schema, none);
-            schema.values_mut().for_each(|part| in_words(part, none));
+            change(schema);
+            schema.values_mut().for_each(|part| in_each(part, change));
         }
         _ => {}
     }
-}
-
-fn without_nulls(value: &mut Value) {
-    match value {
-        Value::Array(items) => items.iter_mut().for_each(without_nulls),
-        Value::Object(schema) => {
-            without_null(schema);
-            schema.values_mut().for_each(without_nulls);
-        }
-        _ => {}
-    }
-}
-
-fn is_null(schema: &Value) -> bool {
-    schema.get("type").is_some_and(|kind| kind == "null")
 }
 
 /// `Option` is a key that may be absent.
@@ -113,7 +113,7 @@ fn without_null(schema: &mut Map<String, Value>) {
     let Some(Value::Array(forms)) = schema.get_mut("anyOf") else {
         return;
     };
-    forms.retain(|form| !is_null(form));
+    forms.retain(|form| form.get("type").is_none_or(|kind| kind != "null"));
     if forms.len() == 1
         && let Some(Value::Array(forms)) = schema.remove("anyOf")
     {
@@ -121,21 +121,16 @@ fn without_null(schema: &mut Map<String, Value>) {
     }
 }
 
-/// The schema of a key named `format` is an object, the keyword's value a string: only the keyword goes.
+/// Without links and line ends, `none` in the place of `None`. The schema of a key named `format` is an object, the keyword's value
+/// a string: only the keyword goes.
 fn plain(schema: &mut Map<String, Value>, none: &str) {
     if schema.get("format").is_some_and(Value::is_string) {
         schema.remove("format");
     }
     if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = plain_words(text, none);
+        let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        *text = joined.replace("[`", "`").replace("`]", "`").replace("`None`", none);
     }
-}
-
-/// Without links and line ends; `none` in the place of `None`.
-fn plain_words(text: &str, none: &str) -> String {
-    let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let unlinked = joined.replace("[`", "`").replace("`]", "`");
-    unlinked.replace("`None`", none)
 }
 
 #[cfg(test)]

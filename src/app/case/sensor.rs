@@ -1,11 +1,10 @@
 //! `[[sensors]]`: where acceleration is recorded.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{ReadAs, exactly_one, mismatch, read_as};
+use super::union::{exactly_one, mismatch, missing, read_as};
 
 /// An accelerometer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -67,28 +66,24 @@ struct SensorForm {
     direction: Option<[f64; 3]>,
 }
 
-read_as!(Sensor, SensorForm);
-
-impl ReadAs<SensorForm> for Sensor {
-    fn read_as<E: Error>(form: SensorForm) -> Result<Self, E> {
-        const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
-        let spots = [
-            form.group.map(SensorSpot::Group),
-            form.ring_deg.map(SensorSpot::RingDeg),
-            form.node.map(SensorSpot::Node),
-            form.point.map(SensorSpot::Point),
-            form.recovered.map(SensorSpot::Recovered),
-        ];
-        let spot = exactly_one(spots, ONE)?;
-        let direction = match (&spot, form.direction) {
-            (SensorSpot::Recovered(_), None) => [0.0; 3],
-            (SensorSpot::Recovered(_), Some(_)) => {
-                let expected = "`recovered` alone: its row has a direction";
-                return Err(mismatch("`direction` beside `recovered`", expected));
-            }
-            (_, Some(direction)) => direction,
-            (_, None) => return Err(E::missing_field("direction")),
-        };
-        Ok(Self { name: form.name, spot, direction })
-    }
-}
+read_as!(Sensor, SensorForm, |form| {
+    const ONE: &str = "exactly one of `group`, `ring_deg`, `node`, `point`, `recovered`";
+    let spots = [
+        form.group.map(SensorSpot::Group),
+        form.ring_deg.map(SensorSpot::RingDeg),
+        form.node.map(SensorSpot::Node),
+        form.point.map(SensorSpot::Point),
+        form.recovered.map(SensorSpot::Recovered),
+    ];
+    let spot = exactly_one(spots, ONE)?;
+    let direction = match (&spot, form.direction) {
+        (SensorSpot::Recovered(_), None) => [0.0; 3],
+        (SensorSpot::Recovered(_), Some(_)) => {
+            let expected = "`recovered` alone: its row has a direction";
+            return Err(mismatch("`direction` beside `recovered`", expected));
+        }
+        (_, Some(direction)) => direction,
+        (_, None) => return Err(missing("direction")),
+    };
+    Ok(Self { name: form.name, spot, direction })
+});

@@ -2,66 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use thiserror::Error;
-
+use super::check::Rule;
 use super::path::{Step, format_path, parse_path};
 use super::tree::{Mark, Node, Value};
 
-/// Why a `KEY=VALUE` argument cannot be applied.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum SetProblem {
-    /// There is no `=` in it.
-    #[error("found no `=`, expected KEY=VALUE")]
-    NoEquals,
-    /// The part before `=` is not a key path.
-    #[error("found the key path `{found}`, expected names joined by dots, e.g. `bearing.defects[0].depth`")]
-    Key {
-        /// The key path as written.
-        found: String,
-    },
-    /// The part after `=` is neither TOML nor a bare word.
-    #[error("found the value `{found}`, expected a TOML value or a bare word: {message}")]
-    Value {
-        /// The value as written.
-        found: String,
-        /// The parser's reason.
-        message: String,
-    },
-    /// The path goes on below something that has no parts.
-    #[error("`{key}` is {found}, it has no keys of its own")]
-    NotATable {
-        /// The path up to that something.
-        key: String,
-        /// What stands there.
-        found: String,
-    },
-    /// A position beyond an array's end, or in something that is no array.
-    #[error("found position {index} of `{key}`, expected one below {length}")]
-    Position {
-        /// The path of the array.
-        key: String,
-        /// The position asked for, from 0.
-        index: usize,
-        /// How many items there are; 0 also when there is no such array.
-        length: usize,
-    },
-}
-
-impl SetProblem {
-    /// Returns what to write instead.
-    #[must_use]
-    pub(crate) fn help(&self) -> &'static str {
-        match self {
-            Self::NoEquals | Self::Key { .. } => {
-                "for example: --set bearing.formulation=printed, or --set 'bearing.defects[0].depth=2e-5'"
-            }
-            Self::Value { .. } => "quote it twice: --set 'title=\"with {braces}\"'",
-            Self::NotATable { .. } => "set that key itself",
-            Self::Position { .. } => "positions count from 0; to add an item set the whole array: --set 'KEY=[...]'",
-        }
-    }
-}
+/// What to write where an argument has no key that can be read.
+const EXAMPLES: &str = "for example: --set bearing.formulation=printed, or --set 'bearing.defects[0].depth=2e-5'";
 
 /// Changes `root` as the argument says; what is set carries `mark`.
 ///
@@ -69,10 +15,14 @@ impl SetProblem {
 /// is reached by `[0]` or `.0`.
 ///
 /// # Errors
-/// [`SetProblem`] when the argument is malformed or leads through a value without parts.
-pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), SetProblem> {
-    let (key, value) = split_argument(argument).ok_or(SetProblem::NoEquals)?;
-    let steps = parse_path(key).ok_or_else(|| SetProblem::Key { found: key.to_owned() })?;
+/// A [`Rule`] when the argument is malformed or leads through a value without parts.
+pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), Rule> {
+    let (key, value) =
+        split_argument(argument).ok_or_else(|| Rule::found("no `=`", "KEY=VALUE").with_help(EXAMPLES))?;
+    let steps = parse_path(key).ok_or_else(|| {
+        let expected = "names joined by dots, e.g. `bearing.defects[0].depth`";
+        Rule::found(format!("the key path `{key}`"), expected).with_help(EXAMPLES)
+    })?;
     let value = read_value(value, mark)?;
     let mut node = root;
     for (depth, step) in steps.iter().enumerate() {
@@ -118,39 +68,42 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
 /// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
 #[must_use]
 pub(crate) fn split_argument(argument: &str) -> Option<(&str, &str)> {
-    let at = equals_sign(argument)?;
-    Some((argument[..at].trim(), argument[at + 1..].trim()))
-}
-
-/// Returns the offset of the first `=` outside quotes.
-fn equals_sign(argument: &str) -> Option<usize> {
     let mut quote = None;
-    for (at, letter) in argument.char_indices() {
+    let at = argument.char_indices().find_map(|(at, letter)| {
         match (quote, letter) {
             (None, '=') => return Some(at),
             (None, '"' | '\'') => quote = Some(letter),
             (Some(open), _) if open == letter => quote = None,
             _ => {}
         }
-    }
-    None
+        None
+    })?;
+    Some((argument[..at].trim(), argument[at + 1..].trim()))
 }
 
 /// Reads TOML; a text without quotes, brackets or braces that is not TOML stands for itself.
-fn read_value(text: &str, mark: Mark) -> Result<Node, SetProblem> {
+fn read_value(text: &str, mark: Mark) -> Result<Node, Rule> {
     let fault = match Node::read_value(text, mark) {
         Ok(node) => return Ok(node),
         Err(fault) => fault,
     };
     if text.is_empty() || text.contains(['"', '\'', '[', ']', '{', '}', '\n']) {
-        return Err(SetProblem::Value { found: text.to_owned(), message: fault.message });
+        let expected = format!("a TOML value or a bare word: {}", fault.message);
+        return Err(Rule::found(format!("the value `{text}`"), &expected)
+            .with_help("quote it twice: --set 'title=\"with {braces}\"'"));
     }
     Ok(Node { mark, value: Value::Text(text.to_owned()) })
 }
 
-fn descend<'a>(node: &'a mut Node, above: &[Step], step: &Step, mark: Mark) -> Result<&'a mut Node, SetProblem> {
+fn descend<'a>(node: &'a mut Node, above: &[Step], step: &Step, mark: Mark) -> Result<&'a mut Node, Rule> {
     let found = node.describe();
-    let beyond = |index, length| SetProblem::Position { key: format_path(above), index, length };
+    let key = format_path(above);
+    let beyond = |index: usize, length: usize| {
+        Rule::found(format!("position {index} of `{key}`"), &format!("one below {length}"))
+            .with_help("positions count from 0; to add an item set the whole array: --set 'KEY=[...]'")
+    };
+    let no_table =
+        || Rule::new(format!("`{key}` is {found}, it has no keys of its own")).with_help("set that key itself");
     match (&mut node.value, step) {
         (Value::Table(entries), Step::Key(key)) => {
             Ok(entries.entry(key.clone()).or_insert_with(|| Node { mark, value: Value::Table(BTreeMap::new()) }))
@@ -163,11 +116,11 @@ fn descend<'a>(node: &'a mut Node, above: &[Step], step: &Step, mark: Mark) -> R
             let length = items.len();
             match index {
                 Some(index) => items.get_mut(index).ok_or_else(|| beyond(index, length)),
-                None => Err(SetProblem::NotATable { key: format_path(above), found }),
+                None => Err(no_table()),
             }
         }
         (_, Step::Index(index)) => Err(beyond(*index, 0)),
-        (_, Step::Key(_)) => Err(SetProblem::NotATable { key: format_path(above), found }),
+        (_, Step::Key(_)) => Err(no_table()),
     }
 }
 

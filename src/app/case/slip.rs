@@ -1,12 +1,11 @@
 //! Slip of the cage: a number, or a table over time or speed.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::schema::{any_of, number, table};
-use super::union::{Loose, ReadAs, mismatch, written_as};
+use super::schema::{number, or_table};
+use super::union::{Loose, mismatch, written_as};
 
 /// Share of the cage's rolling speed that is lost, >= 0 and < 1; straight lines between points, constant beyond them.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,8 +45,6 @@ struct SlipPoint {
     slip: f64,
 }
 
-written_as!(Slip, Loose<SlipForm>, |generator| any_of(&[number(), table::<SlipForm>(generator)]));
-
 /// Every point over time, or every point over speed.
 fn one_axis() -> Value {
     let over = |key, other| {
@@ -57,37 +54,35 @@ fn one_axis() -> Value {
     json!([over("time", "hz"), over("hz", "time")])
 }
 
-impl ReadAs<Loose<SlipForm>> for Slip {
-    fn read_as<E: Error>(form: Loose<SlipForm>) -> Result<Self, E> {
-        let form = match form {
-            Loose::Number(slip) => return Ok(Self::Constant(slip)),
-            Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
-            Loose::Table(form) => form,
-            other => {
-                return Err(other.mismatch(&[], "a number, or { profile = [{ time or hz, slip }, ...] }"));
-            }
-        };
-        let points = form.profile.iter();
-        let over_time = points.clone().map(|point| match (point.time, point.hz) {
-            (Some(time), None) => Some((time, point.slip)),
-            _ => None,
-        });
-        if let Some(points) = over_time.collect() {
-            return Ok(Self::OverTime(points));
+written_as!(Slip, Loose<SlipForm>, or_table::<SlipForm>(vec![number()]), |form| {
+    let form = match form {
+        Loose::Number(slip) => return Ok(Self::Constant(slip)),
+        Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
+        Loose::Table(form) => form,
+        other => {
+            return Err(other.mismatch(&[], "a number, or { profile = [{ time or hz, slip }, ...] }"));
         }
-        let over_speed = points.map(|point| match (point.time, point.hz) {
-            (None, Some(hz)) => Some((hz, point.slip)),
-            _ => None,
-        });
-        if let Some(points) = over_speed.collect() {
-            return Ok(Self::OverSpeed(points));
-        }
-        Err(mismatch(
-            "points with neither, both, or now the one and now the other",
-            "`time` in every point, or `hz` in every point",
-        ))
+    };
+    let points = form.profile.iter();
+    let over_time = points.clone().map(|point| match (point.time, point.hz) {
+        (Some(time), None) => Some((time, point.slip)),
+        _ => None,
+    });
+    if let Some(points) = over_time.collect() {
+        return Ok(Self::OverTime(points));
     }
-}
+    let over_speed = points.map(|point| match (point.time, point.hz) {
+        (None, Some(hz)) => Some((hz, point.slip)),
+        _ => None,
+    });
+    if let Some(points) = over_speed.collect() {
+        return Ok(Self::OverSpeed(points));
+    }
+    Err(mismatch(
+        "points with neither, both, or now the one and now the other",
+        "`time` in every point, or `hz` in every point",
+    ))
+});
 
 impl From<Slip> for Loose<SlipForm> {
     fn from(slip: Slip) -> Self {

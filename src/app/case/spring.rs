@@ -1,11 +1,10 @@
 //! Springs of a support or a link, and links between groups of a housing, as the case file gives them.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, together};
-use super::union::{ReadAs, exactly_one, mismatch, written_as};
+use super::union::{exactly_one, mismatch, written_as};
 use crate::fe::model::{Connection, Link, SpringStiffness, SupportShare};
 
 /// Spring stiffnesses along the axes in N/m, each >= 0 and at least one > 0.
@@ -66,26 +65,22 @@ struct LinkForm {
     per: Option<SupportShare>,
 }
 
-written_as!(Link, LinkForm);
-
-impl ReadAs<LinkForm> for Link {
-    fn read_as<E: Error>(form: LinkForm) -> Result<Self, E> {
-        const ONE: &str = "exactly one of `spring`, `radial`, `tie = true`";
-        let per = form.per.unwrap_or_default();
-        let connections = [
-            form.spring.map(|spring| Connection::Spring(spring.into(), per)),
-            form.radial.map(|radial| Connection::Spring(SpringStiffness::Radial(radial), per)),
-            form.tie.map(|_| Connection::Tie),
-        ];
-        match exactly_one(connections, ONE)? {
-            Connection::Tie if form.tie == Some(false) => Err(mismatch("`tie = false`", ONE)),
-            Connection::Tie if form.per.is_some() => {
-                Err(mismatch("`per` beside `tie`", "`per` beside `spring` or `radial` only"))
-            }
-            connection => Ok(Self { between: form.between, connection }),
+written_as!(Link, LinkForm, |form| {
+    const ONE: &str = "exactly one of `spring`, `radial`, `tie = true`";
+    let per = form.per.unwrap_or_default();
+    let connections = [
+        form.spring.map(|spring| Connection::Spring(spring.into(), per)),
+        form.radial.map(|radial| Connection::Spring(SpringStiffness::Radial(radial), per)),
+        form.tie.map(|_| Connection::Tie),
+    ];
+    match exactly_one(connections, ONE)? {
+        Connection::Tie if form.tie == Some(false) => Err(mismatch("`tie = false`", ONE)),
+        Connection::Tie if form.per.is_some() => {
+            Err(mismatch("`per` beside `tie`", "`per` beside `spring` or `radial` only"))
         }
+        connection => Ok(Self { between: form.between, connection }),
     }
-}
+});
 
 impl From<Link> for LinkForm {
     fn from(link: Link) -> Self {

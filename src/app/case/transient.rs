@@ -1,12 +1,11 @@
 //! `[accuracy]`, `[transient]` and `[analysis]`: what is simulated, how finely, and what is made of the signals.
 
 use schemars::JsonSchema;
-use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use super::EnvelopeBand;
-use super::schema::{any_of, number, together, whole, words};
-use super::union::{Loose, NoTable, ReadAs, read_as};
+use super::schema::{forms, number, together, whole, words};
+use super::union::{Loose, NoTable, read_as};
 use crate::numerics::series::TimeWindow;
 
 /// What the signals must be good for.
@@ -115,19 +114,13 @@ pub enum StepLength {
     Seconds(f64),
 }
 
-read_as!(StepLength, Loose<NoTable>, |_| any_of(&[words(&["auto"]), number()]));
-
-impl ReadAs<Loose<NoTable>> for StepLength {
-    fn read_as<E: Error>(form: Loose<NoTable>) -> Result<Self, E> {
-        match form {
-            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
-            // Steps of whole seconds are far below 2^53.
-            Loose::Whole(seconds) => Ok(Self::Seconds(seconds as f64)),
-            other => Err(other.mismatch(&["auto"], "\"auto\" or a number")),
-        }
-    }
-}
+read_as!(StepLength, Loose<NoTable>, forms(vec![words(&["auto"]), number()]), |form| match form {
+    Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+    Loose::Number(seconds) => Ok(Self::Seconds(seconds)),
+    // Steps of whole seconds are far below 2^53.
+    Loose::Whole(seconds) => Ok(Self::Seconds(seconds as f64)),
+    other => Err(other.mismatch(&["auto"], "\"auto\" or a number")),
+});
 
 /// Which coupled modes of ring and housing are kept in the simulation.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -143,18 +136,12 @@ pub enum ModesKept {
     Count(usize),
 }
 
-read_as!(ModesKept, Loose<NoTable>, |_| any_of(&[words(&["auto", "all"]), whole()]));
-
-impl ReadAs<Loose<NoTable>> for ModesKept {
-    fn read_as<E: Error>(form: Loose<NoTable>) -> Result<Self, E> {
-        match form {
-            Loose::Word(word) if word == "auto" => Ok(Self::Auto),
-            Loose::Word(word) if word == "all" => Ok(Self::All),
-            Loose::Whole(count) => Ok(Self::Count(count)),
-            other => Err(other.mismatch(&["auto", "all"], "\"auto\", \"all\" or a whole number")),
-        }
-    }
-}
+read_as!(ModesKept, Loose<NoTable>, forms(vec![words(&["auto", "all"]), whole()]), |form| match form {
+    Loose::Word(word) if word == "auto" => Ok(Self::Auto),
+    Loose::Word(word) if word == "all" => Ok(Self::All),
+    Loose::Whole(count) => Ok(Self::Count(count)),
+    other => Err(other.mismatch(&["auto", "all"], "\"auto\", \"all\" or a whole number")),
+});
 
 /// What is made of the signals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -47,27 +47,16 @@ pub(super) struct SyntaxFault {
 impl Node {
     /// Reads a whole case file.
     pub(super) fn read(text: &str) -> Result<Self, SyntaxFault> {
-        let lines = Lines::of(text);
+        let lines = Lines::of(text, None);
         let table = DeTable::parse(text).map_err(|error| lines.fault(&error))?;
         Ok(Self { mark: Mark::Line(1), value: lines.table(table.get_ref())? })
     }
 
     /// Reads one TOML value given as an argument; every part of it carries `mark`.
     pub(super) fn read_value(text: &str, mark: Mark) -> Result<Self, SyntaxFault> {
-        let lines = Lines::of(text);
+        let lines = Lines::of(text, Some(mark));
         let value = DeValue::parse(text).map_err(|error| lines.fault(&error))?;
-        let mut node = Self { mark, value: lines.value(value.get_ref(), 1)? };
-        node.remark(mark);
-        Ok(node)
-    }
-
-    fn remark(&mut self, mark: Mark) {
-        self.mark = mark;
-        match &mut self.value {
-            Value::List(items) => items.iter_mut().for_each(|item| item.remark(mark)),
-            Value::Table(entries) => entries.values_mut().for_each(|entry| entry.remark(mark)),
-            _ => {}
-        }
+        Ok(Self { mark, value: lines.value(value.get_ref(), 1)? })
     }
 
     /// Returns the node one step down, if it is there.
@@ -105,15 +94,16 @@ impl Node {
     }
 }
 
-/// Offsets at which lines start, to turn a span into a line number.
+/// Offsets at which lines start, to turn a span into a line number; the mark of all nodes where it is not their line.
 struct Lines {
     starts: Vec<usize>,
+    mark: Option<Mark>,
 }
 
 impl Lines {
-    fn of(text: &str) -> Self {
+    fn of(text: &str, mark: Option<Mark>) -> Self {
         let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Self { starts }
+        Self { starts, mark }
     }
 
     fn line(&self, span: &Range<usize>) -> usize {
@@ -128,7 +118,7 @@ impl Lines {
     }
 
     fn node(&self, value: &Spanned<DeValue<'_>>, line: usize) -> Result<Node, SyntaxFault> {
-        Ok(Node { mark: Mark::Line(line), value: self.value(value.get_ref(), line)? })
+        Ok(Node { mark: self.mark.unwrap_or(Mark::Line(line)), value: self.value(value.get_ref(), line)? })
     }
 
     fn table(&self, table: &DeTable<'_>) -> Result<Value, SyntaxFault> {

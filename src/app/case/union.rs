@@ -5,13 +5,19 @@ use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Unexpected, Visitor};
-use serde::ser::{Serialize, Serializer};
 
-/// A type that is made of its form in the file.
-pub(super) trait ReadAs<Form>: Sized {
-    /// Makes it, or refuses the form: another kind of value, keys that exclude each other or need another.
-    fn read_as<E: de::Error>(form: Form) -> Result<Self, E>;
+/// The error of a table that lacks a key which its other keys need.
+pub(super) fn missing<E: de::Error>(key: &'static str) -> E {
+    E::missing_field(key)
 }
+
+/// The keys of a form by their names, and whether each is given.
+macro_rules! given {
+    ($form:ident: $($key:ident),+) => {
+        [$((stringify!($key), $form.$key.is_some())),+]
+    };
+}
+pub(super) use given;
 
 /// The error for another kind of value, or a combination of keys that excludes itself.
 pub(super) fn mismatch<E: de::Error>(found: impl AsRef<str>, expected: &'static str) -> E {
@@ -39,14 +45,15 @@ pub(super) fn none_beside<E: de::Error>(keys: &[(&str, bool)], other: &str, expe
     }
 }
 
-/// Reads a type by way of the type that mirrors its form in the file ([`ReadAs`]): what serde derives for flattened and
-/// untagged types loses the place of an error, the path of its key and the names that are valid there. The type's schema is that of the form, or
-/// what the function returns for a form whose type does not say it.
+/// Reads a type by way of the type that mirrors its form in the file: what serde derives for flattened and untagged types loses the
+/// place of an error, the path of its key and the names that are valid there. The function makes the value, or refuses the form: another
+/// kind of value, keys that exclude each other or need another. The type's schema is that of the form, or what the third argument
+/// returns for a form whose type does not say it.
 macro_rules! read_as {
-    ($type:ty, $form:ty) => {
-        crate::app::case::union::read_as!($type, $form, crate::app::case::schema::table::<$form>);
+    ($type:ty, $form:ty, |$value:ident| $read:expr) => {
+        crate::app::case::union::read_as!($type, $form, crate::app::case::schema::table::<$form>, |$value| $read);
     };
-    ($type:ty, $form:ty, $schema:expr) => {
+    ($type:ty, $form:ty, $schema:expr, |$value:ident| $read:expr) => {
         impl schemars::JsonSchema for $type {
             fn schema_name() -> std::borrow::Cow<'static, str> {
                 stringify!($type).into()
@@ -59,8 +66,8 @@ macro_rules! read_as {
 
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                let form = <$form as serde::Deserialize>::deserialize(from)?;
-                crate::app::case::union::ReadAs::read_as(form)
+                let $value = <$form as serde::Deserialize>::deserialize(from)?;
+                $read
             }
         }
     };
@@ -69,8 +76,8 @@ pub(super) use read_as;
 
 /// Reads and writes a type by way of its form: as [`read_as`], and `From<Type>`.
 macro_rules! written_as {
-    ($type:ty, $form:ty $(, $schema:expr)?) => {
-        crate::app::case::union::read_as!($type, $form $(, $schema)?);
+    ($type:ty, $form:ty, $($read:tt)+) => {
+        crate::app::case::union::read_as!($type, $form, $($read)+);
 
         impl serde::Serialize for $type {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -82,7 +89,8 @@ macro_rules! written_as {
 pub(super) use written_as;
 
 /// A value whose kind decides what it means; `T` is the table's type.
-#[derive(Debug)]
+#[derive(Debug, serde::Serialize)]
+#[serde(untagged)]
 pub(super) enum Loose<T> {
     Word(String),
     Whole(usize),
@@ -110,17 +118,6 @@ impl<T> Loose<T> {
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Loose<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(LooseVisitor(PhantomData))
-    }
-}
-
-impl<T: Serialize> Serialize for Loose<T> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Word(word) | Self::Other(word) => to.serialize_str(word),
-            Self::Whole(number) => number.serialize(to),
-            Self::Number(number) => to.serialize_f64(*number),
-            Self::Table(table) => table.serialize(to),
-        }
     }
 }
 
@@ -168,8 +165,9 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for LooseVisitor<T> {
 #[derive(Debug, serde::Deserialize)]
 pub(super) struct NoTable {}
 
-/// A number, or three for the directions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+// A number, or three for the directions; what a key says of it is in the schema, not this.
+#[derive(Debug, Clone, Copy, PartialEq, schemars::JsonSchema)]
+#[schemars(inline, untagged)]
 pub(super) enum OneOrThree {
     One(f64),
     Three([f64; 3]),
@@ -210,20 +208,5 @@ impl<'de> Visitor<'de> for OneOrThreeVisitor {
         <[f64; 3]>::try_from(numbers)
             .map(OneOrThree::Three)
             .map_err(|numbers| de::Error::invalid_length(numbers.len(), &self))
-    }
-}
-
-impl schemars::JsonSchema for OneOrThree {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "OneOrThree".into()
-    }
-
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let three = generator.subschema_for::<[f64; 3]>();
-        super::schema::any_of(&[super::schema::number(), three])
     }
 }

@@ -9,7 +9,7 @@ use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::studies::chart::{
     Chart, ChartResult, Condition, Effort, Parameter, Point, chart_report, compute_chart, compute_stability,
-    stability_section, work_precision,
+    model_name, stability_section, work_precision,
 };
 use crate::report::significant;
 
@@ -56,7 +56,7 @@ pub(super) fn chart(
     let mut lines = summary(&result);
     if let Some(stability) = &stability {
         let head = result_head("chart", progress, wall_s, None);
-        let record = result_of_case(head, case, &files.meshes, stability.summary());
+        let record = result_of_case(head, case, &files.meshes, stability);
         written.extend(write_stability(&folder, stability, &record)?);
         lines = format!("{lines}\n{}", stability_lines(stability));
         shown.stability = Some(record);
@@ -132,7 +132,7 @@ fn summary(result: &Chart) -> String {
 }
 
 fn line(point: &Point) -> String {
-    let parameter = match point.parameter() {
+    let parameter = match Parameter::of(&point.model) {
         Parameter::StepS(step) => format!("step_s {}", significant(step, 3)),
         Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 3)),
     };
@@ -141,7 +141,7 @@ fn line(point: &Point) -> String {
         Err(failure) => failure.reason.clone(),
     };
     let wall = point.wall_s.map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
-    format!("  {wall} s/s  {}, {}, {parameter}: {error}", point.method(), point.model_name())
+    format!("  {wall} s/s  {}, {}, {parameter}: {error}", point.model.method.name(), model_name(&point.model))
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ use crate::app::commands::init::{CatalogueResult, DraftResult};
 use crate::app::commands::modes::ModesSummary;
 use crate::app::commands::result::CaseResult;
 use crate::app::commands::run::{ExplainSummary, RunSummary};
-use crate::app::studies::chart::{ChartResult, StabilitySummary};
+use crate::app::studies::chart::{ChartResult, Stability};
 use crate::app::studies::sweep::{ScriptsSummary, SweepSummary, TaskSummary};
 use crate::app::verification::VerifyResult;
 
@@ -57,7 +57,7 @@ impl ResultOf {
             Self::Run => of::<Either<CaseResult<'_, RunSummary<'_>>, ExplainSummary<'_>>>(self),
             Self::Analyze => of::<Either<AnalysisResult, SurveyResult>>(self),
             Self::Chart => of::<ChartResult<'_>>(self),
-            Self::Stability => of::<CaseResult<'_, StabilitySummary<'_>>>(self),
+            Self::Stability => of::<CaseResult<'_, Stability>>(self),
             Self::Sweep => {
                 of::<Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>>(self)
             }

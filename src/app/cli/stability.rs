@@ -9,7 +9,7 @@ use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{
-    Condition, Effort, Stability, StabilitySummary, compute_stability, resonance_plot, stability_map, stability_report,
+    Condition, Effort, Stability, compute_stability, resonance_plot, stability_map, stability_report,
 };
 use crate::report::significant;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(super) fn alone(
     let report = stability_report(case, &stability, command);
     let files = ReportFiles::write(&folder, "stability", case, report, progress)?;
     let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("chart", case, progress, wall_s, &files, stability.summary());
+    let record = case_result("chart", case, progress, wall_s, &files, &stability);
     let written = write_stability(&folder, &stability, &record)?;
     Ok(Outcome {
         summary: stability_lines(&stability),
@@ -52,7 +52,7 @@ pub(super) fn alone(
 pub(super) fn write_stability(
     folder: &OutputFolder,
     stability: &Stability,
-    record: &CaseResult<'_, StabilitySummary<'_>>,
+    record: &CaseResult<'_, &Stability>,
 ) -> Result<Vec<PathBuf>, CliError> {
     let map = stability_map(stability).to_svg().map_err(ComputeError::from)?;
     let map = folder.write("stability.svg", map.as_bytes())?;
@@ -68,11 +68,11 @@ pub(super) fn stability_lines(stability: &Stability) -> String {
     let micro =
         |step: Option<f64>| step.map_or_else(|| "–".to_owned(), |step| format!("{} µs", significant(1e6 * step, 3)));
     let given = stability.conditions.first();
-    let methods = given.and_then(|of| of.methods.as_ref().ok());
+    let methods = given.and_then(|of| of.methods.as_ref());
     for of in methods.into_iter().flatten().filter(|of| !of.steps.is_empty()) {
         let conditions = stability.conditions.iter();
         let measured = conditions.filter_map(|condition| {
-            let all = condition.methods.as_ref().ok()?;
+            let all = condition.methods.as_ref()?;
             all.iter().find(|other| other.method == of.method)?.measured_limit_s
         });
         let (low, high) =

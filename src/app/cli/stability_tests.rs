@@ -37,7 +37,7 @@ fn a_map_has_its_files_and_limits() {
     ];
     let map = compute_stability(run, &scene, asked, Effort::Quick, &Unwatched).unwrap();
     let head = result_head("chart", &Progress::new(Visibility::Hidden), 0.0, None);
-    let record = result_of_case(head, &case, &[], map.summary());
+    let record = result_of_case(head, &case, &[], &map);
     write_stability(&OutputFolder::at(&out), &map, &record).unwrap();
     let json = serde_json::to_value(&record).unwrap();
     let conditions = json["conditions"].as_array().unwrap();

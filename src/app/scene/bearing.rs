@@ -1,6 +1,6 @@
 //! The bearing of a case.
 
-use super::bearing_defects::{Defects, defects, waves};
+use super::bearing_defects::{defects, waves};
 use super::bearing_motion::{shaft, slip, speed};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
@@ -32,7 +32,7 @@ pub(crate) fn setup_of(
             ContactStiffness::given(inner, outer).map_err(ComputeError::bearing("bearing.stiffness: "))?
         }
     };
-    let Defects { race_defects, flats } = defects(&asked.defects, &geometry, stiffness)?;
+    let (race_defects, flats) = defects(&asked.defects, &geometry, stiffness)?;
     Ok(BearingSetup {
         cage: Cage::new(&geometry, speed(case)?, slip(&asked.slip)?, asked.first_ball_deg.to_radians())
             .map_err(ComputeError::bearing("bearing: "))?,

@@ -7,13 +7,7 @@ use crate::bearing::{BearingGeometry, ContactStiffness, Wave};
 use crate::system::FlatOnBall;
 use std::path::Path;
 
-/// Defects of races and balls.
-pub(crate) struct Defects {
-    pub race_defects: Vec<RaceDefect>,
-    pub flats: Vec<FlatOnBall>,
-}
-
-/// Solves every defect of the case; reads the profiles that are in files.
+/// Solves every defect of the case, of races and of balls; reads the profiles that are in files.
 ///
 /// # Errors
 /// [`ComputeError`] naming the defect.
@@ -21,7 +15,7 @@ pub(crate) fn defects(
     asked: &[Defect],
     geometry: &BearingGeometry,
     stiffness: ContactStiffness,
-) -> Result<Defects, ComputeError> {
+) -> Result<(Vec<RaceDefect>, Vec<FlatOnBall>), ComputeError> {
     let mut race_defects: Vec<(usize, RaceDefect)> = Vec::new();
     let mut flats = Vec::new();
     for (index, defect) in asked.iter().enumerate() {
@@ -67,7 +61,7 @@ pub(crate) fn defects(
         }
     }
     check_apart(&race_defects)?;
-    Ok(Defects { race_defects: race_defects.into_iter().map(|(_, defect)| defect).collect(), flats })
+    Ok((race_defects.into_iter().map(|(_, defect)| defect).collect(), flats))
 }
 
 /// Waves of the races.

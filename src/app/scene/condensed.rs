@@ -70,8 +70,7 @@ impl CondensedHousing {
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
             (Interface::Nodes(tags), _) => {
-                let nodes = nodes_of(&housing, tags)?;
-                Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
+                Boundary::Nodes(NodeInterface::new(&housing.model, &nodes_of(&housing, tags)?))
             }
         };
         if let Boundary::Nodes(nodes) = &boundary

@@ -32,15 +32,12 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
 /// # Errors
 /// [`ComputeError::StructuralDamping`].
 pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), ComputeError> {
-    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
-    for part in parts {
-        let loss_factor = case.material(&part.material).map_or(0.0, case::Material::loss_factor);
-        if loss_factor > 0.0 {
-            let material = part.material.clone();
-            return Err(ComputeError::StructuralDamping { material, loss_factor });
+    match case.lossy_part() {
+        None => Ok(()),
+        Some((material, loss_factor)) => {
+            Err(ComputeError::StructuralDamping { material: material.to_owned(), loss_factor })
         }
     }
-    Ok(())
 }
 
 /// The same damping for frequency responses.

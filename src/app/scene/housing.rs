@@ -3,7 +3,7 @@
 use crate::app::case::{self, Case, Hold, Housing, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
+use crate::fe::material::{ElasticMaterial, Material, OrthotropicMaterial};
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare,
@@ -48,7 +48,7 @@ impl AssembledHousing {
     /// # Errors
     /// As [`AssembledHousing::build`].
     pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        let nothing = || case.broken(Rule::nothing_to_model().at("housing"));
+        let nothing = || case.broken(&Rule::nothing_to_model().at("housing"));
         Self::build(case, watch)?.ok_or_else(|| nothing().into())
     }
 }
@@ -87,32 +87,24 @@ fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
 /// # Errors
 /// [`ComputeError::Material`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
 pub(crate) fn material(case: &Case, key: &str, name: &str) -> Result<Material, ComputeError> {
-    checked(name, case.isotropic(key, name)?)
-}
-
-fn checked(name: &str, given: &IsotropicMaterial) -> Result<Material, ComputeError> {
-    Material::new(given.young, given.poisson, given.density).map_err(|source| named(name, source))
+    let IsotropicMaterial { young, poisson, density, .. } = *case.isotropic(key, name)?;
+    Material::new(young, poisson, density).map_err(|source| ComputeError::Material { name: name.to_owned(), source })
 }
 
 fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
-    match case.known_material("housing.parts", name)? {
+    let material = match *case.known_material("housing.parts", name)? {
         case::Material::Orthotropic(given) => {
-            let case::OrthotropicMaterial { young, poisson, shear, density, loss_factor, x_axis, y_axis } = *given;
+            let case::OrthotropicMaterial { young, poisson, shear, density, loss_factor, x_axis, y_axis } = given;
             OrthotropicMaterial::new(young, poisson, shear, density, x_axis, y_axis)
                 .and_then(|material| material.with_loss_factor(loss_factor))
                 .map(ElasticMaterial::Orthotropic)
-                .map_err(|source| named(name, source))
         }
-        case::Material::Isotropic(given) => checked(name, given)?
-            .with_loss_factor(given.loss_factor)
-            .map(ElasticMaterial::from)
-            .map_err(|source| named(name, source)),
-    }
-}
-
-fn named(name: &str, source: MaterialError) -> ComputeError {
-    let name = name.to_owned();
-    ComputeError::Material { name, source }
+        case::Material::Isotropic(IsotropicMaterial { young, poisson, density, loss_factor }) => {
+            let material = Material::new(young, poisson, density);
+            material.and_then(|material| material.with_loss_factor(loss_factor)).map(ElasticMaterial::from)
+        }
+    };
+    material.map_err(|source| ComputeError::Material { name: name.to_owned(), source })
 }
 
 fn support(support: &case::Support) -> HousingSupport {

@@ -207,16 +207,6 @@ fn refused<'a>(path: &Path, what: impl Display, help: impl Into<Option<&'a str>>
     }
 }
 
-/// The error of another number of interface coordinates than the ring's.
-fn wrong_count(path: &Path, nodes: usize, found: usize) -> ComputeError {
-    let what = format!(
-        "expected {} interface coordinates for ring.nodes = {nodes} (x, y, about_z of each) or {} (in a solid housing then z, about_x, about_y of each), found {found}",
-        3 * nodes,
-        6 * nodes
-    );
-    refused(path, what, ORDER)
-}
-
 /// The highest of some frequencies (Hz) that lies within [`CLOSE`] of the next lower one; the lowest where none does, zero without any.
 fn last_mode_hz(modal_hz: &[f64]) -> f64 {
     let mut sorted = modal_hz.to_vec();
@@ -229,7 +219,6 @@ fn last_mode_hz(modal_hz: &[f64]) -> f64 {
 /// A file's content, its interface as long as that of a ring of so many nodes.
 fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ComputeError> {
     let unreadable = |error: FormatError| refused(path, error, None);
-    let fits = |count: usize| count == 3 * nodes || count == 6 * nodes;
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let (record, found) = match ending.to_str() {
         Some("npz") => {
@@ -251,10 +240,14 @@ fn record(path: &Path, nodes: usize) -> Result<SuperelementRecord, ComputeError>
         }
         _ => return Err(refused(path, "expected a file that ends in .npz or .op4", None)),
     };
-    match fits(record.interface.len()) {
-        true => Ok(record),
-        false => Err(wrong_count(path, nodes, found)),
+    let [plane, solid] = [3 * nodes, 6 * nodes];
+    if [plane, solid].contains(&record.interface.len()) {
+        return Ok(record);
     }
+    let what = format!(
+        "expected {plane} interface coordinates for ring.nodes = {nodes} (x, y, about_z of each) or {solid} (in a solid housing then z, about_x, about_y of each), found {found}"
+    );
+    Err(refused(path, what, ORDER))
 }
 
 /// Whether a file says what its interface coordinates are.

@@ -120,15 +120,12 @@ impl Place {
         match self {
             Self::Ring(_) => self.on_ring(condensed.superelement.order()),
             Self::Housing(entries) => {
-                let mut row = vec![0.0; condensed.superelement.order()];
-                for &(dof, factor) in entries {
+                let parts = entries.iter().flat_map(|&(dof, factor)| {
                     // a fixed degree of freedom does not move: no row
-                    let parts = condensed.recovery_row(dof).into_iter().flatten();
-                    for (place, part) in parts.enumerate() {
-                        row[place] += factor * part;
-                    }
-                }
-                row
+                    let row = condensed.recovery_row(dof).into_iter().flatten();
+                    row.enumerate().map(move |(place, part)| (place, factor * part))
+                });
+                row(condensed.superelement.order(), parts)
             }
         }
     }
@@ -136,54 +133,46 @@ impl Place {
     /// The row over the housing's degrees of freedom \[dof\]; zero for a place on the ring.
     pub(crate) fn on_housing(&self, dof: usize) -> Vec<f64> {
         match self {
-            Self::Housing(entries) => row(dof, entries),
+            Self::Housing(entries) => row(dof, entries.iter().copied()),
             Self::Ring(_) => vec![0.0; dof],
         }
     }
 
     /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
     pub(crate) fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
-        let mut row = vec![0.0; matrices.mass.rows()];
         let ring = boundary.ring();
-        let first = row.len() - ring.map_or(0, |(ring, _)| ring.dof());
+        let length = matrices.mass.rows();
+        let first = length - ring.map_or(0, |(ring, _)| ring.dof());
+        let partition = boundary.partition();
+        let of_housing = |&(dof, factor): &(usize, f64)| {
+            let driven = ring.and_then(|_| partition.driven.iter().position(|&at| at == dof));
+            let Some(place) = driven else {
+                return vec![(dof, factor)];
+            };
+            let columns = partition.tie.outer_iterator().enumerate();
+            columns
+                .map(|(column, entries)| (first + column, factor * entries.get(place).copied().unwrap_or(0.0)))
+                .collect()
+        };
         match self {
-            Self::Ring(entries) => {
-                for &(dof, factor) in entries {
-                    row[first + dof] += factor;
-                }
-            }
-            Self::Housing(entries) => {
-                let partition = boundary.partition();
-                for &(dof, factor) in entries {
-                    let driven = partition.driven.iter().position(|&at| at == dof);
-                    match (ring, driven) {
-                        (Some(_), Some(place)) => {
-                            for (column, entries) in partition.tie.outer_iterator().enumerate() {
-                                let share = entries.get(place).copied().unwrap_or(0.0);
-                                row[first + column] += factor * share;
-                            }
-                        }
-                        _ => row[dof] += factor,
-                    }
-                }
-            }
+            Self::Ring(entries) => row(length, entries.iter().map(|&(dof, factor)| (first + dof, factor))),
+            Self::Housing(entries) => row(length, entries.iter().flat_map(of_housing)),
         }
-        row
     }
 
     /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
     pub(crate) fn on_ring(&self, order: usize) -> Vec<f64> {
         match self {
-            Self::Ring(entries) => row(order, entries),
+            Self::Ring(entries) => row(order, entries.iter().copied()),
             Self::Housing(_) => vec![0.0; order],
         }
     }
 }
 
 /// Sums of pairs (place, factor) over so many places.
-fn row(length: usize, entries: &[(usize, f64)]) -> Vec<f64> {
+fn row(length: usize, entries: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
     let mut row = vec![0.0; length];
-    for &(place, factor) in entries {
+    for (place, factor) in entries {
         row[place] += factor;
     }
     row
@@ -206,16 +195,15 @@ fn in_plane(spot: Spot<'_>, [x, y, across]: [f64; 3]) -> Result<[f64; 3], Comput
 fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f64)]) -> Result<(), ComputeError> {
     let model = &housing.model;
     let d = model.dimension();
-    let mut holder = None;
-    for &(dof, _) in entries.iter().filter(|(_, factor)| factor.abs() > NOTHING) {
-        match model.fixed[dof / d][dof % d] {
-            Some(support) => holder = Some(&model.description.supports[support].group),
-            None => return Ok(()),
-        }
-    }
-    match holder {
+    let moving = entries.iter().filter(|(_, factor)| factor.abs() > NOTHING);
+    // none of a row of which anything is free
+    let holders: Option<Vec<usize>> = moving.map(|&(dof, _)| model.fixed[dof / d][dof % d]).collect();
+    match holders.and_then(|holders| holders.last().copied()) {
         None => Ok(()),
-        Some(support) => Err(ComputeError::SensorHeld { name: spot.to_string(), support: support.clone() }),
+        Some(support) => {
+            let support = model.description.supports[support].group.clone();
+            Err(ComputeError::SensorHeld { name: spot.to_string(), support })
+        }
     }
 }
 

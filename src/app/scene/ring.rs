@@ -62,11 +62,8 @@ pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ri
     if !asked.rotary_inertia {
         section = section.without_rotary_inertia();
     }
-    let mut ring = if in_space {
-        Ring::in_space(asked.nodes, section, asked.element)?
-    } else {
-        Ring::new(asked.nodes, section, asked.element)?
-    };
+    let new = if in_space { Ring::in_space } else { Ring::new };
+    let mut ring = new(asked.nodes, section, asked.element)?;
     for support in &asked.supports {
         ring.add_support(&RingSupport {
             from: support.from_deg.to_radians(),

@@ -28,15 +28,18 @@ pub(super) fn beams() -> Result<SectionResult, VerificationError> {
 /// A ring of so many elements, of radius 1 m, 0.1 m wide and 1 / slenderness thick.
 pub(super) fn ring(elements: usize, slenderness: f64) -> Result<Ring, VerificationError> {
     let thickness = 1.0 / slenderness;
-    let layer = RingLayer {
-        material: Material::new(2e11, 0.3, 7800.0)?,
-        area: 0.1 * thickness,
-        inertia: 0.1 * thickness.powi(3) / 12.0,
-        axial_inertia: None,
-        torsion: None,
-        radius: 1.0,
-        shear_coefficient: 5.0 / 6.0,
-    };
+    let section = [0.1 * thickness, 0.1 * thickness.powi(3) / 12.0, 1.0];
+    ring_of(elements, Material::new(2e11, 0.3, 7800.0)?, section)
+}
+
+/// A ring of so many elements of a rectangular section: its area (m^2), second moment of area (m^4) and radius (m).
+pub(super) fn ring_of(
+    elements: usize,
+    material: Material,
+    [area, inertia, radius]: [f64; 3],
+) -> Result<Ring, VerificationError> {
+    let (axial_inertia, torsion, shear_coefficient) = (None, None, 5.0 / 6.0);
+    let layer = RingLayer { material, area, inertia, axial_inertia, torsion, radius, shear_coefficient };
     let section = BeamSection::combine(&[layer], Bond::Slip(RadiusRule::Own))?;
     Ok(Ring::new(elements, section, RingInterpolation::ExactArc)?)
 }

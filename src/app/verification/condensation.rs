@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use super::beams::ring_of;
 use super::section::{Check, Kind, SectionResult, VerificationError};
 use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::element::continuum::PlaneAssumption;
-use crate::fe::element::curved_beam::RingInterpolation;
-use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
+use crate::fe::material::Material;
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
     Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingTie,
@@ -55,17 +55,7 @@ impl Housing {
             ..HousingDescription::default()
         };
         let model = HousingModel::new(&mesh, description)?;
-        let layer = RingLayer {
-            material: Material::new(206e9, 0.3, 7850.0)?,
-            area: 5.37e-6,
-            inertia: 8.88e-13,
-            axial_inertia: None,
-            torsion: None,
-            radius: 5.314e-3,
-            shear_coefficient: 5.0 / 6.0,
-        };
-        let section = BeamSection::combine(&[layer], Bond::Slip(RadiusRule::Own))?;
-        let ring = Ring::new(72, section, RingInterpolation::ExactArc)?;
+        let ring = ring_of(72, Material::new(206e9, 0.3, 7850.0)?, [5.37e-6, 8.88e-13, 5.314e-3])?;
         let tie = RingTie::new(&mesh, &model, "bore", &ring, RADII[0], Fit::Bonded)?;
         let matrices = SystemMatrices::assemble(&model)?.for_tie(&tie);
         Ok(Self { model, ring, tie, matrices })

@@ -205,9 +205,9 @@ fn attached(model: &HousingModel, matrices: &[NodalMatrix], shapes: &DenseMatrix
         }
     }
     let name = |source: &NodalSource| match *source {
-        NodalSource::Support(index) => model.supports.get(index).map(|support| support.group.clone()),
-        NodalSource::Link(index) => model.links.get(index).map(|link| link.between.join(" - ")),
-        NodalSource::Mass(index) => model.point_masses.get(index).map(|mass| mass.group.clone()),
+        NodalSource::Support(index) => model.description.supports.get(index).map(|support| support.group.clone()),
+        NodalSource::Link(index) => model.description.links.get(index).map(|link| link.between.join(" - ")),
+        NodalSource::Mass(index) => model.description.masses.get(index).map(|mass| mass.group.clone()),
     };
     (sources.iter().map(|source| name(source).unwrap_or_default()).collect(), sums)
 }

@@ -6,32 +6,29 @@ use super::super::{
     Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Section, Slip,
 };
 use super::range::{
-    above, above_zero, below, count, degrees, kept, known_isotropic, needs, not_beside, not_empty, ratio, repeated,
-    zero_or_more,
+    ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, needs, not_beside, not_empty,
+    repeated,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
-pub(super) fn bearing(case: &Case) -> Result<(), BrokenRule> {
-    let Some(bearing) = &case.bearing else {
-        return Ok(());
-    };
+pub(super) fn bearing(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     needs("bearing", "[ring]", case.ring.is_some())?;
     count("bearing.balls", bearing.balls, 3..=40, "3 to 40 balls")?;
     ball(case, bearing)?;
     races(case, bearing)?;
     room(bearing)?;
-    degrees("bearing.first_ball_deg", bearing.first_ball_deg)?;
-    zero_or_more("bearing.contact_damping", bearing.contact_damping)?;
+    DEGREES.check("bearing.first_ball_deg", bearing.first_ball_deg)?;
+    ZERO_OR_MORE.check("bearing.contact_damping", bearing.contact_damping)?;
     if bearing.balls_inertia == Some(BallsInertia::QuasiStatic) {
         let other = "bearing.balls_inertia = \"quasi-static\"";
         not_beside("bearing.contact_damping", other, bearing.contact_damping > 0.0)?;
         not_beside("bearing.formulation", other, bearing.formulation == Formulation::Printed)?;
     }
     if let ContactStiffness::Given { inner, outer } = bearing.stiffness {
-        above_zero("bearing.stiffness.inner", inner)?;
-        above_zero("bearing.stiffness.outer", outer)?;
+        ABOVE_ZERO.check("bearing.stiffness.inner", inner)?;
+        ABOVE_ZERO.check("bearing.stiffness.outer", outer)?;
     }
     irregular(bearing)?;
     slip(&bearing.slip)
@@ -42,8 +39,8 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
     for (index, wave) in bearing.waviness.iter().enumerate() {
         let at = |key: &str| format!("bearing.waviness[{index}].{key}");
         count(at("order"), wave.order as usize, 1.., "at least 1")?;
-        degrees(at("phase_deg"), wave.phase_deg)?;
-        zero_or_more(at("amplitude"), wave.amplitude)?;
+        DEGREES.check(at("phase_deg"), wave.phase_deg)?;
+        ZERO_OR_MORE.check(at("amplitude"), wave.amplitude)?;
         below(at("amplitude"), wave.amplitude, "a tenth of the ball's radius", 0.1 * bearing.ball_radius)?;
     }
     let differences = &bearing.ball_radius_differences;
@@ -62,7 +59,7 @@ fn irregular(bearing: &Bearing) -> Result<(), BrokenRule> {
 
 fn slip(slip: &Slip) -> Result<(), BrokenRule> {
     let (name, points) = match slip {
-        Slip::Constant(slip) => return ratio("bearing.slip", *slip),
+        Slip::Constant(slip) => return RATIO.check("bearing.slip", *slip),
         Slip::OverTime(points) => ("time", points),
         Slip::OverSpeed(points) => ("hz", points),
     };
@@ -70,9 +67,9 @@ fn slip(slip: &Slip) -> Result<(), BrokenRule> {
     not_empty(key, points.len(), "at least one point")?;
     for (index, &(place, slip)) in points.iter().enumerate() {
         if name == "hz" {
-            zero_or_more(format!("{key}[{index}].hz"), place)?;
+            ZERO_OR_MORE.check(format!("{key}[{index}].hz"), place)?;
         }
-        ratio(format!("{key}[{index}].slip"), slip)?;
+        RATIO.check(format!("{key}[{index}].slip"), slip)?;
     }
     for (index, pair) in points.windows(2).enumerate() {
         let key = format!("{key}[{}].{name}", index + 1);
@@ -82,9 +79,9 @@ fn slip(slip: &Slip) -> Result<(), BrokenRule> {
 }
 
 fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
-    above_zero("bearing.ball_radius", bearing.ball_radius)?;
-    above_zero("bearing.ball_mass", bearing.ball_mass)?;
-    above_zero("bearing.density", bearing.density)?;
+    ABOVE_ZERO.check("bearing.ball_radius", bearing.ball_radius)?;
+    ABOVE_ZERO.check("bearing.ball_mass", bearing.ball_mass)?;
+    ABOVE_ZERO.check("bearing.density", bearing.density)?;
     not_beside("bearing.ball_mass", "bearing.density", bearing.ball_mass.is_some() && bearing.density.is_some())?;
     known_isotropic(case, "bearing.ball_material", &bearing.ball_material)?;
     Ok(())
@@ -95,7 +92,7 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     known_isotropic(case, "bearing.race_material", &races.inner)?;
     known_isotropic(case, "bearing.race_material", &races.outer)?;
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
-    above_zero("bearing.inner_race_radius", inner)?;
+    ABOVE_ZERO.check("bearing.inner_race_radius", inner)?;
     above("bearing.outer_race_radius", bearing.outer_race_radius, "`bearing.inner_race_radius`", inner)?;
     if let Some(face) = outer_face(case) {
         below(
@@ -149,17 +146,14 @@ fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
     })
 }
 
-pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
-    let Some(bearing) = &case.bearing else {
-        return Ok(());
-    };
+pub(super) fn defects(bearing: &Bearing) -> Result<(), BrokenRule> {
     let mut with_flat = Vec::new();
     for (index, defect) in bearing.defects.iter().enumerate() {
         let at = |key: &str| format!("bearing.defects[{index}].{key}");
         let (Defect::Dent(DentDefect { angle_deg, .. })
         | Defect::Measured(MeasuredDefect { angle_deg, .. })
         | Defect::Flat(FlatDefect { angle_deg, .. })) = defect;
-        degrees(at("angle_deg"), *angle_deg)?;
+        DEGREES.check(at("angle_deg"), *angle_deg)?;
         match defect {
             Defect::Dent(dent) => dent_rules(bearing, dent, at)?,
             // what is in the file is checked when it is read
@@ -176,10 +170,10 @@ pub(super) fn defects(case: &Case) -> Result<(), BrokenRule> {
 }
 
 fn dent_rules(bearing: &Bearing, dent: &DentDefect, at: impl Fn(&str) -> String) -> Result<(), BrokenRule> {
-    above_zero(at("length"), dent.length)?;
-    above_zero(at("depth"), dent.depth)?;
-    above_zero(at("rim_radius"), dent.rim_radius)?;
-    above_zero(at("width"), dent.width)?;
+    ABOVE_ZERO.check(at("length"), dent.length)?;
+    ABOVE_ZERO.check(at("depth"), dent.depth)?;
+    ABOVE_ZERO.check(at("rim_radius"), dent.rim_radius)?;
+    ABOVE_ZERO.check(at("width"), dent.width)?;
     if let (Some(width), DentProfile::Surface) = (dent.width, dent.profile) {
         // every groove is wider than the ball
         below(at("width"), width, "twice `bearing.ball_radius`", 2.0 * bearing.ball_radius)?;
@@ -197,7 +191,7 @@ fn flat_rules(bearing: &Bearing, flat: &FlatDefect, at: impl Fn(&str) -> String)
     count(at("ball"), flat.ball, ..bearing.balls, "the number of a ball, counted from 0")?;
     let ball = bearing.ball_radius;
     above(at("flat_radius"), flat.flat_radius, "`bearing.ball_radius`", ball)?;
-    above_zero(at("depth"), flat.depth)?;
+    ABOVE_ZERO.check(at("depth"), flat.depth)?;
     below(at("depth"), flat.depth, "`bearing.ball_radius`", ball)?;
-    above_zero(at("rim_radius"), flat.rim_radius)
+    ABOVE_ZERO.check(at("rim_radius"), flat.rim_radius)
 }

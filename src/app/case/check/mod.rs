@@ -24,18 +24,18 @@ impl Case {
         }
         structure::materials(self)?;
         structure::housing(self)?;
-        structure::ring(self)?;
-        contact::bearing(self)?;
-        contact::defects(self)?;
-        time::shaft(self)?;
-        time::damping(self)?;
-        time::speed(self)?;
+        self.ring.iter().try_for_each(|ring| structure::ring(self, ring))?;
+        self.bearing.iter().try_for_each(|bearing| contact::bearing(self, bearing))?;
+        self.bearing.iter().try_for_each(contact::defects)?;
+        self.shaft.iter().try_for_each(time::shaft)?;
+        self.damping.iter().try_for_each(time::damping)?;
+        self.speed.iter().try_for_each(time::speed)?;
         time::sensors(self)?;
         time::modes(self)?;
         time::condense(self)?;
-        time::frf(self)?;
-        time::accuracy(self)?;
-        time::transient(self)?;
+        self.frf.iter().try_for_each(|frf| time::frf(self, frf))?;
+        self.accuracy.iter().try_for_each(time::accuracy)?;
+        self.transient.iter().try_for_each(|transient| time::transient(self, transient))?;
         time::analysis(self)
     }
 }
@@ -43,37 +43,34 @@ impl Case {
 /// Returns every mesh group that a case names, with the key that names it.
 pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
     let mut groups = Vec::new();
+    let mut name = |key: String, group| groups.push((key, group));
     if let Some(housing) = case.meshed_housing() {
         for (index, part) in housing.parts.iter().enumerate() {
-            groups.push((format!("housing.parts[{index}].group"), part.group.as_str()));
+            name(format!("housing.parts[{index}].group"), part.group.as_str());
         }
         for (index, support) in housing.supports.iter().enumerate() {
-            let key = format!("housing.supports[{index}].group");
-            groups.push((key, support.group.as_str()));
+            name(format!("housing.supports[{index}].group"), &support.group);
         }
         for (index, mass) in housing.masses.iter().enumerate() {
-            groups.push((format!("housing.masses[{index}].group"), mass.group.as_str()));
+            name(format!("housing.masses[{index}].group"), &mass.group);
         }
         for (index, link) in housing.links.iter().enumerate() {
-            for group in &link.between {
-                groups.push((format!("housing.links[{index}].between"), group.as_str()));
-            }
+            link.between.iter().for_each(|group| name(format!("housing.links[{index}].between"), group));
         }
     }
     if let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
-        groups.push(("ring.tie.group".to_owned(), tie.group.as_str()));
+        name("ring.tie.group".to_owned(), &tie.group);
     }
     if let Interface::Group(group) = &case.condense.interface {
-        groups.push(("condense.interface.group".to_owned(), group.as_str()));
+        name("condense.interface.group".to_owned(), group);
     }
-    for (index, push) in case.frf.iter().flat_map(|frf| &frf.from).enumerate() {
-        if let SensorSpot::Group(group) = &push.spot {
-            groups.push((format!("frf.from[{index}].group"), group.as_str()));
-        }
-    }
-    for (index, sensor) in case.sensors.iter().enumerate() {
-        if let SensorSpot::Group(group) = &sensor.spot {
-            groups.push((format!("sensors[{index}].group"), group.as_str()));
+    let pushes = case.frf.iter().flat_map(|frf| &frf.from).map(|push| &push.spot).enumerate();
+    let pushes = pushes.map(|(index, spot)| (format!("frf.from[{index}].group"), spot));
+    let sensors = case.sensors.iter().map(|sensor| &sensor.spot).enumerate();
+    let sensors = sensors.map(|(index, spot)| (format!("sensors[{index}].group"), spot));
+    for (key, spot) in pushes.chain(sensors) {
+        if let SensorSpot::Group(group) = spot {
+            name(key, group);
         }
     }
     groups

@@ -2,12 +2,43 @@
 
 use std::ops::RangeBounds;
 
-use super::super::nearest::Choices;
+use super::super::nearest::names_help;
 use super::super::{Case, IsotropicMaterial, Material};
 use super::rule::{BrokenRule, Rule, short};
 
-fn within(holds: bool, key: impl Into<String>, found: f64, expected: &'static str) -> Result<(), BrokenRule> {
-    kept(holds, key, || Rule::found(short(found), expected))
+/// Numbers that a key takes: in words, and whether one is among them.
+pub(super) struct Range(&'static str, fn(f64) -> bool);
+
+pub(super) const ABOVE_ZERO: Range = Range("a number above 0", |x| x > 0.0);
+pub(super) const ZERO_OR_MORE: Range = Range("a number not below 0", |x| x >= 0.0);
+/// Zero included, one not.
+pub(super) const RATIO: Range = Range("a number from 0 to below 1", |x| (0.0..1.0).contains(&x));
+/// Neither zero nor one.
+pub(super) const FRACTION: Range = Range("a number above 0 and below 1", |x| x > 0.0 && x < 1.0);
+/// Zero not, one included.
+pub(super) const SHARE: Range = Range("a number above 0, at most 1", |x| x > 0.0 && x <= 1.0);
+/// Both included.
+pub(super) const ZERO_TO_ONE: Range = Range("a number from 0 to 1", |x| (0.0..=1.0).contains(&x));
+/// Zero included, two not.
+pub(super) const LOSS_FACTOR: Range = Range("a number from 0 to below 2", |x| (0.0..2.0).contains(&x));
+/// Cycles of a wavelet.
+pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=1000.0).contains(&x));
+/// Beyond, an angle has lost digits or is a number of something else.
+pub(super) const DEGREES: Range = Range("an angle from -36000 to 36000 degrees", |x| x.abs() <= 36_000.0);
+pub(super) const POISSON: Range = Range("a number above -1 and below 0.5", |x| x > -1.0 && x < 0.5);
+/// Wide beyond all materials: further out, products of matrix entries leave the numbers.
+pub(super) const DENSITY: Range = Range("a density from 1e-9 to 1e9 kg/m^3", |x| (1e-9..=1e9).contains(&x));
+/// As [`DENSITY`].
+pub(super) const MODULUS: Range = Range("a modulus from 1e-6 to 1e18 Pa", |x| (1e-6..=1e18).contains(&x));
+
+impl Range {
+    /// What is not given is not refused.
+    pub(super) fn check(&self, key: impl Into<String>, found: impl Into<Option<f64>>) -> Result<(), BrokenRule> {
+        match found.into() {
+            Some(found) => kept((self.1)(found), key, || Rule::found(short(found), self.0)),
+            None => Ok(()),
+        }
+    }
 }
 
 /// A rule that a key keeps or breaks.
@@ -34,74 +65,6 @@ pub(super) fn count(
     kept(range.contains(&found), key, || Rule::found(found, expected))
 }
 
-/// What is not given is not refused.
-pub(super) fn above_zero(key: impl Into<String>, found: impl Into<Option<f64>>) -> Result<(), BrokenRule> {
-    match found.into() {
-        Some(found) => within(found > 0.0, key, found, "a number above 0"),
-        None => Ok(()),
-    }
-}
-
-/// Wide beyond all materials: further out, products of matrix entries leave the numbers.
-pub(super) fn density(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    let key = key.into();
-    above_zero(key.as_str(), found)?;
-    let expected = "a density from 1e-9 to 1e9 kg/m^3";
-    within((1e-9..=1e9).contains(&found), key, found, expected)
-}
-
-/// As [`density`].
-pub(super) fn modulus(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    let key = key.into();
-    above_zero(key.as_str(), found)?;
-    let expected = "a modulus from 1e-6 to 1e18 Pa";
-    within((1e-6..=1e18).contains(&found), key, found, expected)
-}
-
-pub(super) fn zero_or_more(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within(found >= 0.0, key, found, "a number not below 0")
-}
-
-/// Zero included, one not.
-pub(super) fn ratio(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within((0.0..1.0).contains(&found), key, found, "a number from 0 to below 1")
-}
-
-/// Neither zero nor one.
-pub(super) fn fraction(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within(found > 0.0 && found < 1.0, key, found, "a number above 0 and below 1")
-}
-
-/// Zero not, one included.
-pub(super) fn share(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within(found > 0.0 && found <= 1.0, key, found, "a number above 0, at most 1")
-}
-
-/// Both included.
-pub(super) fn zero_to_one(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within((0.0..=1.0).contains(&found), key, found, "a number from 0 to 1")
-}
-
-/// Zero included, two not.
-pub(super) fn loss_factor(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within((0.0..2.0).contains(&found), key, found, "a number from 0 to below 2")
-}
-
-/// Cycles of a wavelet.
-pub(super) fn cycles(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within((2.0..=1000.0).contains(&found), key, found, "a number from 2 to 1000")
-}
-
-/// Beyond, an angle has lost digits or is a number of something else.
-pub(super) fn degrees(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    let expected = "an angle from -36000 to 36000 degrees";
-    within(found.abs() <= 36_000.0, key, found, expected)
-}
-
-pub(super) fn poisson(key: impl Into<String>, found: f64) -> Result<(), BrokenRule> {
-    within(found > -1.0 && found < 0.5, key, found, "a number above -1 and below 0.5")
-}
-
 pub(super) fn above(key: impl Into<String>, found: f64, what: &'static str, other: f64) -> Result<(), BrokenRule> {
     kept(found > other, key, || Rule::beyond(found, &format!("more than {what}"), other))
 }
@@ -116,8 +79,8 @@ pub(super) fn direction(key: impl Into<String>, vector: [f64; 3]) -> Result<(), 
         return Err(Rule::found("a vector of length zero", "a direction").at(key));
     }
     // beyond, the square of its length is zero or infinite
-    let expected = "a direction whose largest component is from 1e-150 to 1e150";
-    within((1e-150..=1e150).contains(&longest), key, longest, expected)
+    Range("a direction whose largest component is from 1e-150 to 1e150", |x| (1e-150..=1e150).contains(&x))
+        .check(key, longest)
 }
 
 pub(super) fn not_empty(key: impl Into<String>, length: usize, expected: &'static str) -> Result<(), BrokenRule> {
@@ -144,34 +107,24 @@ pub(super) fn repeated(name: &str) -> Rule {
 }
 
 /// The material of a name.
-pub(in crate::app::case) fn known_material<'c>(
-    case: &'c Case,
-    key: impl Into<String>,
-    name: &str,
-) -> Result<&'c Material, BrokenRule> {
+pub(crate) fn known_material<'c>(case: &'c Case, key: &str, name: &str) -> Result<&'c Material, BrokenRule> {
     case.material(name).ok_or_else(|| {
-        let names = Choices::new(name, case.materials.keys().cloned().collect());
-        Rule::new(format!("no material is called \"{name}\"")).with_help(names.help("materials")).at(key)
+        let names: Vec<&str> = case.materials.keys().map(String::as_str).collect();
+        Rule::new(format!("no material is called \"{name}\"")).with_help(names_help(name, &names, "materials")).at(key)
     })
 }
 
 /// A name of one of the case's sensors.
 pub(super) fn known_sensor(case: &Case, key: impl Into<String>, name: &str) -> Result<(), BrokenRule> {
-    let names: Vec<String> = case.sensors.iter().map(|sensor| sensor.name.clone()).collect();
-    kept(names.iter().any(|known| known == name), key, || {
-        let names = Choices::new(name, names.clone());
-        Rule::new(format!("no sensor is called \"{name}\"")).with_help(names.help("sensors"))
+    let names: Vec<&str> = case.sensors.iter().map(|sensor| sensor.name.as_str()).collect();
+    kept(names.contains(&name), key, || {
+        Rule::new(format!("no sensor is called \"{name}\"")).with_help(names_help(name, &names, "sensors"))
     })
 }
 
 /// A material that rings and contacts can be made of.
-pub(in crate::app::case) fn known_isotropic<'c>(
-    case: &'c Case,
-    key: impl Into<String>,
-    name: &str,
-) -> Result<&'c IsotropicMaterial, BrokenRule> {
-    let key = key.into();
-    match known_material(case, key.as_str(), name)? {
+pub(crate) fn known_isotropic<'c>(case: &'c Case, key: &str, name: &str) -> Result<&'c IsotropicMaterial, BrokenRule> {
+    match known_material(case, key, name)? {
         Material::Isotropic(material) if material.loss_factor > 0.0 => Err(Rule::new(format!(
             "\"{name}\" has a loss factor, expected a material without: structural damping is for parts of the housing"
         ))

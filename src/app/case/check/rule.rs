@@ -14,11 +14,11 @@ pub struct Rule {
 }
 
 impl Rule {
-    pub(super) fn new(message: impl Into<String>) -> Self {
+    pub(in super::super) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), help: None }
     }
 
-    pub(super) fn found(found: impl Display, expected: &str) -> Self {
+    pub(in super::super) fn found(found: impl Display, expected: &str) -> Self {
         Self::new(format!("found {found}, expected {expected}"))
     }
 
@@ -33,7 +33,7 @@ impl Rule {
     }
 
     /// The same rule with what to do about it.
-    pub(super) fn with_help(self, help: impl Into<String>) -> Self {
+    pub(in super::super) fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 

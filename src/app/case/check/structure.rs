@@ -1,13 +1,13 @@
 //! Materials, housing and ring.
 
 use super::super::path::quoted;
-use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, OrthotropicMaterial, Ring, RingSupport};
+use super::super::{self as case, Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
 use super::range::{
-    above, above_zero, below, count, degrees, density, direction, each_once, kept, known_isotropic, known_material,
-    loss_factor, modulus, needs, not_beside, not_empty, poisson, share, zero_or_more,
+    ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count, direction,
+    each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule};
-use crate::fe::material::{MaterialError, RadiusRule};
+use crate::fe::material::{MaterialError, OrthotropicMaterial, RadiusRule};
 use crate::fe::model::{Connection, Fit, SpringStiffness};
 
 pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
@@ -15,18 +15,24 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
         let at = |key: &str| format!("materials.{}.{key}", quoted(name));
         match material {
             Material::Isotropic(material) => {
-                modulus(at("young"), material.young)?;
-                poisson(at("poisson"), material.poisson)?;
+                ABOVE_ZERO.check(at("young"), material.young)?;
+                MODULUS.check(at("young"), material.young)?;
+                POISSON.check(at("poisson"), material.poisson)?;
             }
             Material::Orthotropic(material) => {
                 for (key, values) in [("young", material.young), ("shear", material.shear)] {
                     for (place, value) in values.into_iter().enumerate() {
-                        modulus(format!("{}[{place}]", at(key)), value)?;
+                        let key = format!("{}[{place}]", at(key));
+                        ABOVE_ZERO.check(key.as_str(), value)?;
+                        MODULUS.check(key, value)?;
                     }
                 }
                 direction(at("x_axis"), material.x_axis)?;
                 direction(at("y_axis"), material.y_axis)?;
-                stable(material).map_err(|error| {
+                let case::OrthotropicMaterial { young, poisson, shear, x_axis, y_axis, .. } = *material;
+                // the density has its own rule
+                let stable = OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis);
+                stable.map_err(|error| {
                     let key = match error {
                         MaterialError::ParallelAxes { .. } => "y_axis",
                         _ => "poisson",
@@ -35,17 +41,10 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
                 })?;
             }
         }
-        density(at("density"), material.density())?;
-        loss_factor(at("loss_factor"), material.loss_factor())?;
+        ABOVE_ZERO.check(at("density"), material.density())?;
+        DENSITY.check(at("density"), material.density())?;
+        LOSS_FACTOR.check(at("loss_factor"), material.loss_factor())?;
     }
-    Ok(())
-}
-
-/// Constants that make a material together.
-fn stable(given: &OrthotropicMaterial) -> Result<(), MaterialError> {
-    let OrthotropicMaterial { young, poisson, shear, x_axis, y_axis, .. } = *given;
-    // the density has its own rule
-    crate::fe::material::OrthotropicMaterial::new(young, poisson, shear, 1.0, x_axis, y_axis)?;
     Ok(())
 }
 
@@ -53,18 +52,17 @@ pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     let Some(housing) = case.meshed_housing() else {
         return needs("housing.superelement", "[ring]", case.superelement().is_none() || case.ring.is_some());
     };
-    above_zero("housing.plane.thickness", housing.plane.map(|plane| plane.thickness))?;
+    ABOVE_ZERO.check("housing.plane.thickness", housing.plane.map(|plane| plane.thickness))?;
     not_empty("housing.parts", housing.parts.len(), "at least one part")?;
     for (index, part) in housing.parts.iter().enumerate() {
-        let key = format!("housing.parts[{index}].material");
-        known_material(case, key, &part.material)?;
+        known_material(case, &format!("housing.parts[{index}].material"), &part.material)?;
     }
     let groups = housing.parts.iter().map(|part| part.group.as_str());
     each_once(groups, |index| format!("housing.parts[{index}].group"))?;
     housing_supports(housing)?;
     links(housing)?;
     for (index, mass) in housing.masses.iter().enumerate() {
-        above_zero(format!("housing.masses[{index}].mass"), mass.mass)?;
+        ABOVE_ZERO.check(format!("housing.masses[{index}].mass"), mass.mass)?;
     }
     Ok(())
 }
@@ -105,13 +103,13 @@ fn links(housing: &Housing) -> Result<(), BrokenRule> {
 /// Springs of the table whose keys `at` names.
 fn springs(at: impl Fn(&str) -> String, stiffness: SpringStiffness, plane: bool) -> Result<(), BrokenRule> {
     let [x, y, z] = match stiffness {
-        SpringStiffness::Radial(stiffness) => return above_zero(at("radial"), stiffness),
+        SpringStiffness::Radial(stiffness) => return ABOVE_ZERO.check(at("radial"), stiffness),
         SpringStiffness::Global(along) => along,
     };
     let key = at("spring");
     let parts = [("x", x), ("y", y), ("z", z)];
     for (name, stiffness) in parts {
-        zero_or_more(format!("{key}.{name}"), stiffness)?;
+        ZERO_OR_MORE.check(format!("{key}.{name}"), stiffness)?;
     }
     let acting = parts.iter().filter(|(_, stiffness)| *stiffness > 0.0);
     not_empty(key.as_str(), acting.count(), "a stiffness above 0")?;
@@ -122,10 +120,7 @@ fn no_z() -> Rule {
     Rule::found("a component z", "x and y only in a plane model")
 }
 
-pub(super) fn ring(case: &Case) -> Result<(), BrokenRule> {
-    let Some(ring) = &case.ring else {
-        return Ok(());
-    };
+pub(super) fn ring(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     count("ring.nodes", ring.nodes, 8..=2000, "8 to 2000 nodes")?;
     sections(case, ring)?;
     for (index, support) in ring.supports.iter().enumerate() {
@@ -141,19 +136,19 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     not_empty("ring.sections", ring.sections.len(), "at least one section")?;
     for (index, section) in ring.sections.iter().enumerate() {
         let at = |key: &str| format!("ring.sections[{index}].{key}");
-        known_isotropic(case, at("material"), &section.material)?;
-        above_zero(at("area"), section.area)?;
-        above_zero(at("inertia"), section.inertia)?;
-        above_zero(at("axial_inertia"), section.axial_inertia)?;
-        above_zero(at("torsion"), section.torsion)?;
-        above_zero(at("radius"), section.radius)?;
+        known_isotropic(case, &at("material"), &section.material)?;
+        ABOVE_ZERO.check(at("area"), section.area)?;
+        ABOVE_ZERO.check(at("inertia"), section.inertia)?;
+        ABOVE_ZERO.check(at("axial_inertia"), section.axial_inertia)?;
+        ABOVE_ZERO.check(at("torsion"), section.torsion)?;
+        ABOVE_ZERO.check(at("radius"), section.radius)?;
         below(
             at("inertia"),
             section.inertia,
             "area radius^2 / 3, that of a section which reaches the ring's axis",
             section.area * section.radius.powi(2) / 3.0,
         )?;
-        share(at("shear_coefficient"), section.shear_coefficient)?;
+        SHARE.check(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
             above("ring.outer_radius", outer, "the section's radius", section.radius)?;
         }
@@ -163,7 +158,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
 }
 
 fn ring_support(key: &str, support: &RingSupport, plane: bool) -> Result<(), BrokenRule> {
-    degrees(format!("{key}.from_deg"), support.from_deg)?;
+    DEGREES.check(format!("{key}.from_deg"), support.from_deg)?;
     let to = format!("{key}.to_deg");
     above(&to, support.to_deg, "`from_deg`", support.from_deg)?;
     kept(support.to_deg - support.from_deg <= 360.0, to, || {

@@ -1,12 +1,12 @@
 //! What moves, what is recorded, and how finely.
 
 use super::super::{
-    Case, Damping, EnvelopeBand, FixedInterfaceModes, Interface, InterfaceModes, Linearise, Load, Method, ModesKept,
-    SensorSpot, StepLength, Transient,
+    Accuracy, Case, Damping, EnvelopeBand, FixedInterfaceModes, Frf, Interface, InterfaceModes, Linearise, Load,
+    Method, ModesKept, SensorSpot, Shaft, Speed, StepLength, Transient,
 };
 use super::range::{
-    self, above, above_zero, below, cycles, degrees, direction, each_once, fraction, kept, known_sensor, needs,
-    not_beside, not_empty, ratio, share, zero_or_more, zero_to_one,
+    self, ABOVE_ZERO, CYCLES, DEGREES, FRACTION, RATIO, SHARE, ZERO_OR_MORE, ZERO_TO_ONE, above, below, direction,
+    each_once, kept, known_sensor, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::fe::modal::ModeRange;
@@ -15,57 +15,44 @@ use crate::formats::is_array_name;
 /// Signals that every simulation records under these names.
 const RESERVED_NAMES: [&str; 6] = ["time_s", "shaft_x", "shaft_y", "ball_radius", "outer_force", "inner_force"];
 
-pub(super) fn shaft(case: &Case) -> Result<(), BrokenRule> {
-    if let Some(shaft) = &case.shaft {
-        above_zero("shaft.mass", shaft.mass)?;
-        zero_or_more("shaft.unbalance", shaft.unbalance)?;
-        for (index, load) in shaft.loads.iter().enumerate() {
-            let Load::Profile(points) = load else {
-                continue;
-            };
-            let key = format!("shaft.loads[{index}].profile");
-            not_empty(key.as_str(), points.len(), "at least one point")?;
-            increasing(&key, points.iter().map(|point| point.time))?;
+pub(super) fn shaft(shaft: &Shaft) -> Result<(), BrokenRule> {
+    ABOVE_ZERO.check("shaft.mass", shaft.mass)?;
+    ZERO_OR_MORE.check("shaft.unbalance", shaft.unbalance)?;
+    for (index, load) in shaft.loads.iter().enumerate() {
+        if let Load::Profile(points) = load {
+            increasing(&format!("shaft.loads[{index}].profile"), points.iter().map(|point| point.time))?;
         }
     }
     Ok(())
 }
 
-pub(super) fn damping(case: &Case) -> Result<(), BrokenRule> {
-    match &case.damping {
-        None => Ok(()),
-        Some(Damping::Modal(modal)) => ratio("damping.modal", *modal),
-        Some(Damping::Rayleigh { alpha, beta }) => {
-            zero_or_more("damping.alpha", *alpha)?;
-            zero_or_more("damping.beta", *beta)
+pub(super) fn damping(damping: &Damping) -> Result<(), BrokenRule> {
+    match damping {
+        Damping::Modal(modal) => RATIO.check("damping.modal", *modal),
+        Damping::Rayleigh { alpha, beta } => {
+            ZERO_OR_MORE.check("damping.alpha", *alpha)?;
+            ZERO_OR_MORE.check("damping.beta", *beta)
         }
-        Some(Damping::Ratios(points)) => {
+        Damping::Ratios(points) => {
             for (index, point) in points.iter().enumerate() {
                 let at = |key: &str| format!("damping.ratios[{index}].{key}");
-                above_zero(at("frequency_hz"), point.frequency_hz)?;
-                ratio(at("ratio"), point.ratio)?;
+                ABOVE_ZERO.check(at("frequency_hz"), point.frequency_hz)?;
+                RATIO.check(at("ratio"), point.ratio)?;
             }
-            above(
-                "damping.ratios[1].frequency_hz",
-                points[1].frequency_hz,
-                "the frequency before it",
-                points[0].frequency_hz,
-            )
+            let [first, second] = points.map(|point| point.frequency_hz);
+            above("damping.ratios[1].frequency_hz", second, "the frequency before it", first)
         }
     }
 }
 
-pub(super) fn speed(case: &Case) -> Result<(), BrokenRule> {
-    let Some(speed) = &case.speed else {
-        return Ok(());
-    };
-    not_empty("speed.profile", speed.profile.len(), "at least one point")?;
+pub(super) fn speed(speed: &Speed) -> Result<(), BrokenRule> {
     increasing("speed.profile", speed.profile.iter().map(|point| point.time))
 }
 
-/// Times of the points under `key`.
+/// Times of the points under `key`, of which there is at least one.
 fn increasing(key: &str, times: impl Iterator<Item = f64>) -> Result<(), BrokenRule> {
     let times: Vec<f64> = times.collect();
+    not_empty(key, times.len(), "at least one point")?;
     for (index, pair) in times.windows(2).enumerate() {
         let key = format!("{key}[{}].time", index + 1);
         above(key, pair[1], "the time before it", pair[0])?;
@@ -101,7 +88,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
         };
         needs(at(key), other, present)?;
         if let SensorSpot::RingDeg(angle) = sensor.spot {
-            degrees(at("ring_deg"), angle)?;
+            DEGREES.check(at("ring_deg"), angle)?;
         }
     }
     let names = case.sensors.iter().map(|sensor| sensor.name.as_str());
@@ -111,14 +98,14 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
 pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
     match case.modes.extent {
         ModeRange::Count(count) | ModeRange::AtMost(count) => range::count("modes.count", count, 1.., "at least 1")?,
-        ModeRange::UpToHz(limit) => above_zero("modes.up_to_hz", limit)?,
+        ModeRange::UpToHz(limit) => ABOVE_ZERO.check("modes.up_to_hz", limit)?,
         ModeRange::BandHz(band) => band_of("modes.band_hz", band)?,
     }
     let passes = !case.modes.ball_pass || case.modes.linearise != Linearise::None;
     needs("modes.ball_pass", "`modes.linearise = \"static\"`", passes)?;
     for (index, expected) in case.modes.expected.iter().enumerate() {
-        above_zero(format!("modes.expected[{index}].hz"), expected.hz)?;
-        fraction(format!("modes.expected[{index}].within"), expected.within)?;
+        ABOVE_ZERO.check(format!("modes.expected[{index}].hz"), expected.hz)?;
+        FRACTION.check(format!("modes.expected[{index}].within"), expected.within)?;
     }
     for (index, variant) in case.modes.variants.iter().enumerate() {
         let key = format!("modes.variants[{index}].set");
@@ -130,9 +117,9 @@ pub(super) fn modes(case: &Case) -> Result<(), BrokenRule> {
 fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
     for (index, other) in case.modes.compare.iter().enumerate() {
         let at = |key: &str| format!("modes.compare[{index}].{key}");
-        share(at("mac"), other.mac)?;
-        fraction(at("within"), other.within)?;
-        above_zero(at("points_within"), other.points_within)?;
+        SHARE.check(at("mac"), other.mac)?;
+        FRACTION.check(at("within"), other.within)?;
+        ABOVE_ZERO.check(at("points_within"), other.points_within)?;
     }
     let Some(convergence) = &case.modes.convergence else {
         return Ok(());
@@ -149,12 +136,12 @@ fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
     let names: Vec<_> = [own].into_iter().chain(others).collect();
     let names = names.iter().map(AsRef::as_ref);
     each_once(names, |place| format!("{key}[{}]", place.saturating_sub(1)))?;
-    above_zero("modes.convergence.order", convergence.order)
+    ABOVE_ZERO.check("modes.convergence.order", convergence.order)
 }
 
 /// A band begins at zero or above and ends above its beginning.
 fn band_of(key: &str, [lowest, highest]: [f64; 2]) -> Result<(), BrokenRule> {
-    zero_or_more(format!("{key}[0]"), lowest)?;
+    ZERO_OR_MORE.check(format!("{key}[0]"), lowest)?;
     above(format!("{key}[1]"), highest, "the lowest frequency", lowest)
 }
 
@@ -166,8 +153,8 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
     }
     match case.condense.interface_modes {
         InterfaceModes::None => {}
-        InterfaceModes::Count(count) => above_zero("condense.interface_modes", count as f64)?,
-        InterfaceModes::UpToHz(limit) => above_zero("condense.interface_modes.up_to_hz", limit)?,
+        InterfaceModes::Count(count) => ABOVE_ZERO.check("condense.interface_modes", count as f64)?,
+        InterfaceModes::UpToHz(limit) => ABOVE_ZERO.check("condense.interface_modes.up_to_hz", limit)?,
     }
     if let Interface::Nodes(nodes) = &case.condense.interface {
         not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
@@ -176,19 +163,16 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
     }
     match case.condense.fixed_interface_modes {
         FixedInterfaceModes::Auto | FixedInterfaceModes::Count(_) => Ok(()),
-        FixedInterfaceModes::UpToHz(limit) => above_zero("condense.fixed_interface_modes.up_to_hz", limit),
+        FixedInterfaceModes::UpToHz(limit) => ABOVE_ZERO.check("condense.fixed_interface_modes.up_to_hz", limit),
     }
 }
 
-pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
-    let Some(frf) = &case.frf else {
-        return Ok(());
-    };
+pub(super) fn frf(case: &Case, frf: &Frf) -> Result<(), BrokenRule> {
     not_empty("frf.from", frf.from.len(), "at least one force")?;
     for (index, push) in frf.from.iter().enumerate() {
         direction(format!("frf.from[{index}].direction"), push.direction)?;
         if let SensorSpot::RingDeg(angle) = push.spot {
-            degrees(format!("frf.from[{index}].ring_deg"), angle)?;
+            DEGREES.check(format!("frf.from[{index}].ring_deg"), angle)?;
         }
     }
     let names = frf.from.iter().map(|push| push.name.as_str());
@@ -197,40 +181,32 @@ pub(super) fn frf(case: &Case) -> Result<(), BrokenRule> {
     for (index, name) in frf.to.iter().enumerate() {
         known_sensor(case, format!("frf.to[{index}]"), name)?;
     }
-    if let Some(band) = frf.band_hz {
-        band_of("frf.band_hz", band)?;
-    }
+    frf.band_hz.iter().try_for_each(|&band| band_of("frf.band_hz", band))?;
     for (index, &hz) in frf.check_hz.iter().flatten().enumerate() {
-        zero_or_more(format!("frf.check_hz[{index}]"), hz)?;
+        ZERO_OR_MORE.check(format!("frf.check_hz[{index}]"), hz)?;
     }
     Ok(())
 }
 
-pub(super) fn accuracy(case: &Case) -> Result<(), BrokenRule> {
-    let Some(accuracy) = &case.accuracy else {
-        return Ok(());
-    };
+pub(super) fn accuracy(accuracy: &Accuracy) -> Result<(), BrokenRule> {
     band_of("accuracy.band_hz", accuracy.band_hz)?;
-    fraction("accuracy.target", accuracy.target)
+    FRACTION.check("accuracy.target", accuracy.target)
 }
 
-pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
-    let Some(transient) = &case.transient else {
-        return Ok(());
-    };
-    zero_or_more("transient.start", transient.start)?;
+pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), BrokenRule> {
+    ZERO_OR_MORE.check("transient.start", transient.start)?;
     above("transient.end", transient.end, "`transient.start`", transient.start)?;
     if let Some(radius) = transient.spectral_radius {
-        zero_to_one("transient.spectral_radius", radius)?;
+        ZERO_TO_ONE.check("transient.spectral_radius", radius)?;
         let other = "`transient.method = \"generalized-alpha\"`";
         needs("transient.spectral_radius", other, transient.method == Method::GeneralizedAlpha)?;
     }
     if let StepLength::Seconds(step) = transient.step {
-        above_zero("transient.step", step)?;
+        ABOVE_ZERO.check("transient.step", step)?;
         below("transient.step", step, "the simulated time", transient.end - transient.start)?;
     }
     if let Some(tolerance) = transient.tolerance {
-        fraction("transient.tolerance", tolerance)?;
+        FRACTION.check("transient.tolerance", tolerance)?;
         let other = "`transient.method = \"dop853\"` or `\"exponential-adams\"`";
         let chooses = matches!(transient.method, Method::Dop853 | Method::ExponentialAdams);
         needs("transient.tolerance", other, chooses)?;
@@ -239,8 +215,8 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
         range::count("transient.modes", count, 1.., "at least 1")?;
     }
     range::count("transient.ensemble.runs", transient.ensemble.runs, 2..=10_000, "2 to 10000 runs")?;
-    fraction("transient.ensemble.perturbation", transient.ensemble.perturbation)?;
-    above_zero("transient.output_hz", transient.output_hz)?;
+    FRACTION.check("transient.ensemble.perturbation", transient.ensemble.perturbation)?;
+    ABOVE_ZERO.check("transient.output_hz", transient.output_hz)?;
     let Some(accuracy) = &case.accuracy else {
         return Ok(());
     };
@@ -259,7 +235,7 @@ pub(super) fn transient(case: &Case) -> Result<(), BrokenRule> {
 
 pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
     if let Some(corner) = case.analysis.high_pass_hz {
-        above_zero("analysis.high_pass_hz", corner)?;
+        ABOVE_ZERO.check("analysis.high_pass_hz", corner)?;
         below_half_the_rate(case, "analysis.high_pass_hz", corner)?;
     }
     if let Some(band) = case.analysis.band_hz {
@@ -277,14 +253,14 @@ pub(super) fn analysis(case: &Case) -> Result<(), BrokenRule> {
         let key = "analysis.scalogram";
         within_run(case, key, [scalogram.from, scalogram.to])?;
         within_rate(case, &format!("{key}.band_hz"), scalogram.band_hz)?;
-        cycles(format!("{key}.cycles"), scalogram.cycles)?;
+        CYCLES.check(format!("{key}.cycles"), scalogram.cycles)?;
     }
     Ok(())
 }
 
 /// A band of that key is one above zero, and lies below half the sampling rate.
 fn within_rate(case: &Case, key: &str, [low, high]: [f64; 2]) -> Result<(), BrokenRule> {
-    above_zero(format!("{key}[0]"), low)?;
+    ABOVE_ZERO.check(format!("{key}[0]"), low)?;
     above(format!("{key}[1]"), high, "the lowest frequency", low)?;
     below_half_the_rate(case, &format!("{key}[1]"), high)
 }

@@ -9,7 +9,7 @@ use crate::app::scene::ring::{Seat, layer};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};
 use crate::fe::modal::{FullModes, ModeSet};
-use crate::fe::model::{MeshedRing, PlaneModel, Ring, RingFrame, SolidRing};
+use crate::fe::model::{HousingModel, MeshedRing, PlaneModel, Ring, RingFrame, SolidRing};
 use crate::numerics::linalg::DenseMatrix;
 
 /// Gap between the rectangle's outer face and the bore that the joint may bridge, over the rectangle's height. A
@@ -215,12 +215,14 @@ impl Points {
         }
     }
 
-    /// Displacements (x, y, z) at the nodes from those of all degrees of freedom.
-    pub(crate) fn shapes(&self, moved: &DenseMatrix, dimension: usize) -> DenseMatrix {
-        DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
+    /// Modes of a body of continuum elements at the nodes.
+    pub(crate) fn of_body(&self, modes: &FullModes, model: &HousingModel) -> ModeSet {
+        let (moved, dimension) = (modes.motions().housing(model, &modes.over_all_rows()), model.dimension());
+        let shapes = DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
             true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
             false => 0.0,
-        })
+        });
+        self.set(modes, shapes)
     }
 
     /// Modes with their shapes at the nodes.

@@ -18,8 +18,8 @@ use crate::fe::modal::{
     ComparisonOptions, FullModes, ModalComparison, ModeRange, ModeSet, Partner, partners, strain_products,
 };
 use crate::fe::model::{
-    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, OverlapRule, PlaneModel, Ring,
-    SpringStiffness, SupportShare,
+    Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, ModelError, OverlapRule,
+    PlaneModel, Ring, SpringStiffness, SupportShare,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
@@ -100,191 +100,188 @@ pub(crate) fn tie_price(
     count: usize,
     watch: &impl Watch,
 ) -> Result<TiePrice, ComputeError> {
-    match compared(case, housing, count, watch) {
+    let both = case.ring.as_ref().zip(case.meshed_housing());
+    let tied = both.and_then(|(asked, of)| Some((asked, of, asked.tie.as_ref()?)));
+    let Some((asked, asked_housing, tie)) = tied else {
+        return Ok(TiePrice::NotComputed(NoTiePrice::NoTie));
+    };
+    match (Tied { case, asked, tie, housing, count, watch }).compared(asked_housing) {
         Ok(comparison) => Ok(TiePrice::Computed(Box::new(comparison))),
         Err(Stop::Reason(reason)) => Ok(TiePrice::NotComputed(reason)),
         Err(Stop::Failed(error)) => Err(*error),
     }
 }
 
-pub(crate) fn compared(
-    case: &Case,
-    housing: &AssembledHousing,
+/// A ring that is tied to a housing, and what is asked of it.
+struct Tied<'a, W> {
+    case: &'a Case,
+    asked: &'a case::Ring,
+    tie: &'a case::Tie,
+    housing: &'a AssembledHousing,
+    /// Elastic modes.
     count: usize,
-    watch: &impl Watch,
-) -> Result<TieComparison, Stop> {
-    let both = case.ring.as_ref().zip(case.meshed_housing());
-    let Some((asked, asked_housing)) = both else {
-        return Err(NoTiePrice::NoTie.into());
-    };
-    let (ring, tie) = ring_and_tie(case, asked, Some(housing))?;
-    let (Some(tie), Some(asked_tie)) = (tie, &asked.tie) else {
-        return Err(NoTiePrice::NoTie.into());
-    };
-    watch.stage("solid ring");
-    let body = RingBody::of(case, asked, asked_tie, housing)?;
-    let description = description(case, asked_housing)?;
-    let plane = description.plane;
-    let (with_body, meshed) = joined(description, asked_tie, housing, &body, &ring)?;
-    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
-    let matrices = CoupledMatrices::new(&housing.matrices, &tie, &ring);
-    let mut beams = FullModes::of(matrices, ModeRange::AtMost(sought), None, watch)?;
-    beams.sharpen(&|motions, all| {
-        let of_ring = ring.strain_products(&motions.ring(all));
-        let of_housing = strain_products(&housing.model, &motions.housing(&housing.model, all))?;
-        Ok(of_housing + of_ring.beams + of_ring.springs)
-    })?;
-    let solid = modes_of(&with_body, sought, watch)?;
-    // the housing's own nodes come first in both, and the ring's after them
-    let of_housing = beams.motions.housing(&housing.model, &beams.over_all_rows());
-    let of_ring = beams.motions.ring(&beams.over_all_rows());
-    let of_solid = solid.motions.housing(&with_body, &solid.over_all_rows());
-    let nodes = housing.mesh.nodes.len();
-    let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
-    let frame = housing.model.frame();
-    let dimension = housing.model.dimension();
-    let carried = beam_shapes(&ring, frame, &of_ring, &points.places[nodes..]);
-    let of_beams =
-        DenseMatrix::from_fn(3 * points.nodes.len(), of_ring.ncols(), |row, mode| match row.checked_sub(3 * nodes) {
-            Some(row) => carried[(row, mode)],
-            None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
-            None => 0.0,
+    watch: &'a W,
+}
+
+impl<W: Watch> Tied<'_, W> {
+    fn compared(&self, asked_housing: &case::Housing) -> Result<TieComparison, Stop> {
+        let AssembledHousing { mesh, model, matrices } = self.housing;
+        let (ring, tie) = ring_and_tie(self.case, self.asked, Some(self.housing))?;
+        let tie = tie.ok_or(NoTiePrice::NoTie)?;
+        self.watch.stage("solid ring");
+        let body = RingBody::of(self.case, self.asked, self.tie, self.housing)?;
+        let description = description(self.case, asked_housing)?;
+        let plane = description.plane;
+        let (with_body, meshed) = self.joined(description, &body, &ring)?;
+        let matrices = CoupledMatrices::new(matrices, &tie, &ring);
+        let mut beams = FullModes::of(matrices, ModeRange::AtMost(self.sought()), None, self.watch)?;
+        beams.sharpen(&|motions, all| {
+            let of_ring = ring.strain_products(&motions.ring(all));
+            let of_housing = strain_products(model, &motions.housing(model, all))?;
+            Ok(of_housing + of_ring.beams + of_ring.springs)
+        })?;
+        let solid = self.modes_of(&with_body)?;
+        // the housing's own nodes come first in both, and the ring's after them
+        let of_housing = beams.motions.housing(model, &beams.over_all_rows());
+        let of_ring = beams.motions.ring(&beams.over_all_rows());
+        let nodes = mesh.nodes.len();
+        let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
+        let dimension = model.dimension();
+        let carried = beam_shapes(&ring, model.frame(), &of_ring, &points.places[nodes..]);
+        let of_beams = DenseMatrix::from_fn(3 * points.nodes.len(), of_ring.ncols(), |row, mode| {
+            match row.checked_sub(3 * nodes) {
+                Some(row) => carried[(row, mode)],
+                None if row % 3 < dimension => of_housing[(dimension * (row / 3) + row % 3, mode)],
+                None => 0.0,
+            }
         });
-    let sets = [points.set(&beams, of_beams), points.set(&solid, points.shapes(&of_solid, dimension))];
-    let mut notes = body.notes.clone();
-    if asked_tie.fit == Fit::Sliding {
-        notes.push(format!(
-            "The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height."
-        ));
-    }
-    if !ring.springs.is_empty() {
-        let text = "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes.";
-        notes.push(text.to_owned());
-    }
-    Ok(TieComparison {
-        modes: side_by_side(&sets, beams.basis.rigid_modes, count)?,
-        rigid_modes: [beams.basis.rigid_modes, solid.basis.rigid_modes],
-        ring_alone: ring_alone(case, asked, &body, plane, housing, count, watch)?,
-        radius_m: body.ring.radius,
-        height_m: body.ring.height,
-        width_m: body.ring.width,
-        elements: body.ring.elements(housing.model.dimension()),
-        free_dof: [beams.free_dof(), solid.free_dof()],
-        notes,
-    })
-}
-
-/// The housing with the solid ring in its bore.
-pub(crate) fn joined(
-    mut description: HousingDescription,
-    tie: &case::Tie,
-    housing: &AssembledHousing,
-    body: &RingBody,
-    ring: &Ring,
-) -> Result<(HousingModel, MeshedRing), Stop> {
-    let AssembledHousing { mesh, model, .. } = housing;
-    let dimension = model.dimension();
-    let meshed = body.ring.added_to(mesh, model.frame(), dimension);
-    let material = body.material_in(description.plane)?.into();
-    description.parts.push(HousingPart { group: meshed.body.clone(), material });
-    let outside = body.ring.radius + 0.5 * body.ring.height;
-    let area = std::f64::consts::TAU * outside * body.ring.width;
-    let connection = match tie.fit {
-        Fit::Bonded => Connection::Tie,
-        Fit::Sliding => {
-            let stiffness = SLIDING * body.material.young / body.ring.height * area;
-            Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
+        let sets = [points.set(&beams, of_beams), points.of_body(&solid, &with_body)];
+        let mut notes = body.notes.clone();
+        if self.tie.fit == Fit::Sliding {
+            notes.push(format!(
+                "The solid ring slides in the bore on radial springs as stiff as a layer of its material of 1/{SLIDING:.0} of its height."
+            ));
         }
-    };
-    // the rectangle may reach into the housing by a small part of its height
-    description.overlap = OverlapRule::Allow;
-    description.links.push(Link { between: [meshed.outer_face.clone(), tie.group.clone()], connection });
-    let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(Stop::of_joint)?;
-    with_body.attach_ring_springs(&meshed, ring).map_err(Stop::of_joint)?;
-    affordable(with_body.free_dofs().len())?;
-    Ok((with_body, meshed))
-}
-
-pub(crate) fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
-    match free_dof <= LARGEST {
-        true => Ok(()),
-        false => Err(NoTiePrice::TooLarge { free_dof, limit: LARGEST }),
+        if !ring.springs.is_empty() {
+            let text =
+                "The ring's springs hold the mean motion of the solid ring's sections at the angles of the nodes.";
+            notes.push(text.to_owned());
+        }
+        Ok(TieComparison {
+            modes: self.side_by_side(&sets, beams.basis.rigid_modes)?,
+            rigid_modes: [beams.basis.rigid_modes, solid.basis.rigid_modes],
+            ring_alone: self.ring_alone(&body, plane)?,
+            radius_m: body.ring.radius,
+            height_m: body.ring.height,
+            width_m: body.ring.width,
+            elements: body.ring.elements(dimension),
+            free_dof: [beams.free_dof(), solid.free_dof()],
+            notes,
+        })
     }
-}
 
-/// The lowest modes of a model of continuum elements.
-pub(crate) fn modes_of(model: &HousingModel, sought: usize, watch: &impl Watch) -> Result<FullModes, ComputeError> {
-    let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
-    let mut modes = FullModes::of(matrices, ModeRange::AtMost(sought), None, watch)?;
-    modes.sharpen(&|motions, all| strain_products(model, &motions.housing(model, all)))?;
-    Ok(modes)
-}
+    /// How many modes are sought.
+    fn sought(&self) -> usize {
+        self.count + RIGID + MORE[0].max(self.count / MORE[1])
+    }
 
-/// The ring alone and free, as beams and as a body.
-pub(crate) fn ring_alone(
-    case: &Case,
-    asked: &case::Ring,
-    body: &RingBody,
-    plane: Option<PlaneModel>,
-    housing: &AssembledHousing,
-    count: usize,
-    watch: &impl Watch,
-) -> Result<Vec<BeamAndSolid>, ComputeError> {
-    let in_space = plane.is_none();
-    let free = case::Ring { supports: Vec::new(), ..asked.clone() };
-    let beams = ring(case, &free, in_space)?;
-    let sought = count + RIGID + MORE[0].max(count / MORE[1]);
-    let mut of_beams = FullModes::of(CoupledMatrices::of_ring(&beams), ModeRange::AtMost(sought), None, watch)?;
-    of_beams.sharpen(&|_, all| {
-        let strain = beams.strain_products(all);
-        Ok(strain.beams + strain.springs)
-    })?;
-    let dimension = if in_space { 3 } else { 2 };
-    let frame = housing.model.frame();
-    let nothing = Mesh {
-        nodes: Vec::new(),
-        node_tags: Vec::new(),
-        blocks: Vec::new(),
-        groups: Vec::new(),
-        format: housing.mesh.format,
-        source: "solid ring".into(),
-    };
-    let meshed = body.ring.added_to(&nothing, frame, dimension);
-    let model = HousingModel::new(
-        &meshed.mesh,
-        HousingDescription {
+    /// The housing with the solid ring in its bore.
+    fn joined(
+        &self,
+        mut description: HousingDescription,
+        body: &RingBody,
+        ring: &Ring,
+    ) -> Result<(HousingModel, MeshedRing), Stop> {
+        let AssembledHousing { mesh, model, .. } = self.housing;
+        let meshed = body.ring.added_to(mesh, model.frame(), model.dimension());
+        let material = body.material_in(description.plane)?.into();
+        description.parts.push(HousingPart { group: meshed.body.clone(), material });
+        let outside = body.ring.radius + 0.5 * body.ring.height;
+        let area = std::f64::consts::TAU * outside * body.ring.width;
+        let connection = match self.tie.fit {
+            Fit::Bonded => Connection::Tie,
+            Fit::Sliding => {
+                let stiffness = SLIDING * body.material.young / body.ring.height * area;
+                Connection::Spring(SpringStiffness::Radial(stiffness), SupportShare::PerGroup)
+            }
+        };
+        // the housing itself is sound: what is wrong now is the ring's joint
+        let joint = |error: ModelError| NoTiePrice::Joint { message: error.to_string() };
+        // the rectangle may reach into the housing by a small part of its height
+        description.overlap = OverlapRule::Allow;
+        description.links.push(Link { between: [meshed.outer_face.clone(), self.tie.group.clone()], connection });
+        let mut with_body = HousingModel::new(&meshed.mesh, description).map_err(joint)?;
+        with_body.attach_ring_springs(&meshed, ring).map_err(joint)?;
+        affordable(with_body.free_dofs().len())?;
+        Ok((with_body, meshed))
+    }
+
+    /// The lowest modes of a model of continuum elements.
+    fn modes_of(&self, model: &HousingModel) -> Result<FullModes, ComputeError> {
+        let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
+        let mut modes = FullModes::of(matrices, ModeRange::AtMost(self.sought()), None, self.watch)?;
+        modes.sharpen(&|motions, all| strain_products(model, &motions.housing(model, all)))?;
+        Ok(modes)
+    }
+
+    /// The ring alone and free, as beams and as a body.
+    fn ring_alone(&self, body: &RingBody, plane: Option<PlaneModel>) -> Result<Vec<BeamAndSolid>, ComputeError> {
+        let in_space = plane.is_none();
+        let free = case::Ring { supports: Vec::new(), ..self.asked.clone() };
+        let beams = ring(self.case, &free, in_space)?;
+        let range = ModeRange::AtMost(self.sought());
+        let mut of_beams = FullModes::of(CoupledMatrices::of_ring(&beams), range, None, self.watch)?;
+        of_beams.sharpen(&|_, all| {
+            let strain = beams.strain_products(all);
+            Ok(strain.beams + strain.springs)
+        })?;
+        let frame = self.housing.model.frame();
+        let nothing = Mesh {
+            nodes: Vec::new(),
+            node_tags: Vec::new(),
+            blocks: Vec::new(),
+            groups: Vec::new(),
+            format: self.housing.mesh.format,
+            source: "solid ring".into(),
+        };
+        let meshed = body.ring.added_to(&nothing, frame, if in_space { 3 } else { 2 });
+        let description = HousingDescription {
             parts: vec![HousingPart { group: meshed.body.clone(), material: body.material_in(plane)?.into() }],
             plane,
             frame: *frame,
             ..HousingDescription::default()
-        },
-    )?;
-    let solid = modes_of(&model, sought, watch)?;
-    let moved = solid.motions.housing(&model, &solid.over_all_rows());
-    let points = Points::new(&meshed, section_nodes(&meshed));
-    let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
-    let sets = [points.set(&of_beams, on_beams), points.set(&solid, points.shapes(&moved, dimension))];
-    side_by_side(&sets, of_beams.basis.rigid_modes, count)
+        };
+        let model = HousingModel::new(&meshed.mesh, description)?;
+        let solid = self.modes_of(&model)?;
+        let points = Points::new(&meshed, section_nodes(&meshed));
+        let on_beams = beam_shapes(&beams, frame, &of_beams.over_all_rows(), &points.places);
+        let sets = [points.set(&of_beams, on_beams), points.of_body(&solid, &model)];
+        self.side_by_side(&sets, of_beams.basis.rigid_modes)
+    }
+
+    /// The first elastic modes of the first set with what belongs to them in the second.
+    fn side_by_side(&self, [beams, solid]: &[ModeSet; 2], rigid: usize) -> Result<Vec<BeamAndSolid>, ComputeError> {
+        let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
+        let partners = partners(beams, solid, &found);
+        let elastic = partners.iter().enumerate().skip(rigid).take(self.count);
+        let row = |(mode, &partner): (usize, &Option<Partner>)| {
+            let beams_hz = beams.frequencies_hz[mode];
+            BeamAndSolid {
+                mode,
+                beams_hz,
+                solid_hz: partner.map(|partner| partner.hz),
+                relative_difference: partner.map(|partner| beams_hz / partner.hz - 1.0),
+                mac: partner.map(|partner| partner.mac),
+            }
+        };
+        Ok(elastic.map(row).collect())
+    }
 }
 
-/// The first `count` elastic modes of the first set with what belongs to them in the second.
-pub(crate) fn side_by_side(
-    [beams, solid]: &[ModeSet; 2],
-    rigid: usize,
-    count: usize,
-) -> Result<Vec<BeamAndSolid>, ComputeError> {
-    let found = ModalComparison::new(beams, solid, ComparisonOptions::default())?;
-    let partners = partners(beams, solid, &found);
-    let elastic = partners.iter().enumerate().skip(rigid).take(count);
-    let row = |(mode, &partner): (usize, &Option<Partner>)| {
-        let beams_hz = beams.frequencies_hz[mode];
-        BeamAndSolid {
-            mode,
-            beams_hz,
-            solid_hz: partner.map(|partner| partner.hz),
-            relative_difference: partner.map(|partner| beams_hz / partner.hz - 1.0),
-            mac: partner.map(|partner| partner.mac),
-        }
-    };
-    Ok(elastic.map(row).collect())
+/// Whether a model with a solid ring is small enough.
+pub(super) fn affordable(free_dof: usize) -> Result<(), NoTiePrice> {
+    match free_dof <= LARGEST {
+        true => Ok(()),
+        false => Err(NoTiePrice::TooLarge { free_dof, limit: LARGEST }),
+    }
 }

@@ -1,7 +1,6 @@
 //! Why the price of a tie was not computed.
 
 use crate::app::error::ComputeError;
-use crate::fe::model::ModelError;
 use schemars::JsonSchema;
 use serde::Serialize;
 use thiserror::Error;
@@ -57,13 +56,6 @@ pub enum NoTiePrice {
 pub(crate) enum Stop {
     Reason(NoTiePrice),
     Failed(Box<ComputeError>),
-}
-
-impl Stop {
-    /// The housing itself is sound: what is wrong now is the ring's joint.
-    pub(crate) fn of_joint(error: ModelError) -> Self {
-        Self::Reason(NoTiePrice::Joint { message: error.to_string() })
-    }
 }
 
 impl From<NoTiePrice> for Stop {

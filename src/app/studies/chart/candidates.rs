@@ -108,7 +108,7 @@ fn distinct(bases: Vec<(ModeSelection, bool)>, frequencies_hz: &[f64]) -> Vec<(M
 }
 
 /// The modes of a model in words: "modes up to 120 kHz + residual".
-pub(super) fn model_name(model: &RunModel) -> String {
+pub(crate) fn model_name(model: &RunModel) -> String {
     let modes = match model.modes {
         ModeSelection::All => return "all modes".to_owned(),
         ModeSelection::Count(count) => format!("{count} modes"),
@@ -129,7 +129,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// That of a model.
-    pub(super) fn of(model: &RunModel) -> Self {
+    pub(crate) fn of(model: &RunModel) -> Self {
         match model.method {
             Method::Dop853 { tolerance, .. } | Method::ExponentialAdams { tolerance: Some(tolerance) } => {
                 Self::Tolerance(tolerance)

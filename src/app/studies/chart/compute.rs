@@ -1,7 +1,7 @@
 //! The chart of a scene, from its case.
 
 use super::candidates::families;
-use super::points::{self, Point, PointError, evaluate, measure, point};
+use super::points::{Comparison, Point, PointError};
 use super::reference::models;
 use super::starts::{Ready, Systems};
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
@@ -13,6 +13,8 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Speed against accuracy of a scene.
@@ -40,13 +42,16 @@ pub struct Chart {
     pub statistics: Vec<ModelStatistics>,
 }
 
-/// Statistics of a model against those of the reference, from the same starts.
-#[derive(Debug)]
+/// Statistics of a model against those of the reference.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "ModelStatisticsSummary")]
 pub struct ModelStatistics {
-    /// Place of its point.
+    /// Index from 0 of its point.
     pub point: usize,
-    /// The figures, or why there are none.
-    pub figures: Result<Vec<ComparedFigure>, String>,
+    /// The figures; `None` where there are none.
+    pub figures: Option<Vec<ComparedFigure>>,
+    /// Why there are none.
+    pub reason: Option<String>,
 }
 
 impl Chart {
@@ -84,28 +89,28 @@ pub(crate) fn compute_chart(
         let run = RunCase { transient, ..run };
         Ok(ModelChoice::of_case(run, &scene)?.model)
     };
-    let automatic = chosen(&automatic(asked, case::Method::Auto))?;
-    let source = chosen(&automatic_source(asked))?;
+    // as it is used there: all displacements, its own step
+    let source = case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) };
+    let wanted = [chosen(&automatic(asked, case::Method::Auto))?, chosen(&source)?];
     watch.stage("points");
-    let (mut points, places) = candidates(&scene, &reference, &settings, [automatic, source], watch);
+    let comparison = Comparison { scene: &scene, reference: &reference, settings: &settings };
+    let (mut points, places) = candidates(comparison, wanted, watch);
     let [chosen, source] = places;
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
-        measure(&scene, &mut points, first, &settings, |part| {
-            watch.fraction(part);
-        });
+        comparison.measure(&mut points, first, |part| watch.fraction(part));
     }
     let front = front(&points, reference.disagreement);
     watch.stage("all starts");
     let over_all_starts = [chosen, source].map(|place| {
         let Point { model, error, .. } = &points[place];
         match error {
-            Ok(_) if settings.point_stride() > 1 => points::over_all_starts(&scene, model, &reference, &settings),
+            Ok(_) if settings.point_stride() > 1 => comparison.over_all_starts(model),
             known => known.clone(),
         }
     });
     watch.stage("statistics");
-    let statistics = statistics(case, &scene, &reference, &settings, [&points[chosen], &points[source]], places, watch);
+    let statistics = statistics(case, comparison, places.map(|place| (place, &points[place])), watch);
     Ok(Chart { scene, settings, starts, reference, points, front, chosen, source, over_all_starts, statistics })
 }
 
@@ -122,37 +127,26 @@ pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::
     }
 }
 
-/// The source paper's method as it is used there: all displacements, its own step.
-fn automatic_source(asked: &case::Transient) -> case::Transient {
-    case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) }
-}
-
 /// All points, and the places of the two that must be there.
-fn candidates(
-    scene: &Scene,
-    reference: &Reference,
-    settings: &Settings,
-    wanted: [RunModel; 2],
-    watch: &(impl Watch + Sync),
-) -> (Vec<Point>, [usize; 2]) {
-    let modes = &scene.stage.modes;
+fn candidates(on: Comparison<'_>, wanted: [RunModel; 2], watch: &(impl Watch + Sync)) -> (Vec<Point>, [usize; 2]) {
+    let modes = &on.scene.stage.modes;
     let frequencies_hz: Vec<f64> = (0..modes.count()).map(|mode| modes.frequency_hz(mode)).collect();
-    let families = families(settings, &frequencies_hz, &wanted);
+    let families = families(on.settings, &frequencies_hz, &wanted);
     let progress = Counter::new(watch, families.len());
     let found: Vec<Vec<Point>> = families
         .par_iter()
         .map(|family| {
-            let points = evaluate(scene, family, reference, settings);
+            let points = on.evaluate(family);
             progress.done();
             points
         })
         .collect();
     let mut points = found.concat();
-    let mut systems = Systems::new(scene);
+    let mut systems = Systems::new(on.scene);
     let places = wanted.map(|model| {
         let known = points.iter().position(|point| point.model == model);
         known.unwrap_or_else(|| {
-            points.push(point(systems.of(&model), &model, reference, settings));
+            points.push(on.point(systems.of(&model), &model));
             points.len() - 1
         })
     });
@@ -192,11 +186,8 @@ fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
 /// Statistics of points against the reference's second method, which is the cheaper one, with its first step.
 fn statistics(
     case: &Case,
-    scene: &Scene,
-    reference: &Reference,
-    settings: &Settings,
-    points: [&Point; 2],
-    places: [usize; 2],
+    Comparison { scene, reference, settings }: Comparison<'_>,
+    points: [(usize, &Point); 2],
     watch: &(impl Watch + Sync),
 ) -> Vec<ModelStatistics> {
     let starts: Vec<Start> = reference.starts.iter().map(|s| s.start.clone()).collect();
@@ -210,8 +201,7 @@ fn statistics(
         ensemble(system, &starts, model, settings, &analysis, done)
     };
     let [_, beside] = models(settings, 0);
-    let measured_by =
-        scene.system(&beside).map_err(Failure::from).and_then(|system| run(&Ready::new(scene, system), &beside));
+    let measured_by = Ready::of(scene, &beside).map_err(Failure::from).and_then(|system| run(&system, &beside));
     let mut systems = Systems::new(scene);
     let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
         let by = measured_by.as_ref().map_err(Clone::clone)?;
@@ -221,11 +211,11 @@ fn statistics(
         let model = &point.model;
         Ok(compare(&run(systems.of(model)?, model)?, by, settings.target))
     };
-    points
-        .into_iter()
-        .zip(places)
-        .map(|(of, point)| ModelStatistics { point, figures: own(of).map_err(|failure| failure.reason) })
-        .collect()
+    let statistics = points.map(|(point, of)| {
+        let (figures, reason) = own(of).map_or_else(|failure| (None, Some(failure.reason)), |all| (Some(all), None));
+        ModelStatistics { point, figures, reason }
+    });
+    statistics.to_vec()
 }
 
 /// Tells a watch how many of the parts are done.

@@ -27,6 +27,7 @@ mod summary;
 mod trace;
 
 pub use candidates::Parameter;
+pub(crate) use candidates::model_name;
 pub(crate) use compute::compute_chart;
 pub use compute::{Chart, ModelStatistics};
 pub use effort::{Effort, Settings};
@@ -35,15 +36,12 @@ pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Reference, StartReference};
 pub(crate) use report::chart_report;
-pub use stability::{
-    Condition, ConditionStability, ConditionSummary, MethodStability, Stability, StabilityModel, StabilitySummary,
-    StepRecord, Window,
-};
+pub use stability::{Condition, ConditionSummary, MethodStability, Stability, StabilityModel, StepRecord, Window};
 pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure};
 pub use summary::{
-    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, ModelStatisticsSummary, OmissionSummary,
-    OverAllStarts, PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
+    ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, OmissionSummary, OverAllStarts,
+    PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
 };
 pub use trace::{Failure, FailureKind, Trace};

@@ -1,6 +1,6 @@
 //! The chart as plots.
 
-use super::{Chart, Growth, Parameter, Point};
+use super::{Chart, Growth, Parameter, Point, model_name};
 use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Symbol, fixed, significant};
 
 /// Methods in the order of the legend, their colour and symbol. What solves its equations has squares, what chooses its
@@ -35,7 +35,7 @@ pub(crate) fn work_precision(chart: &Chart) -> Plot {
     let front = chart.front.iter().map(|&place| &chart.points[place]);
     plot.curves.extend(measured("front", front).map(|curve| curve.colour(MARK)));
     for (name, colour, symbol) in METHODS {
-        let points = || chart.points.iter().filter(|point| point.method() == name);
+        let points = || chart.points.iter().filter(|point| point.model.method.name() == name);
         let labels = points().filter(|point| point.measured().is_some()).map(label).collect();
         plot.curves.extend(measured(name, points()).map(|curve| curve.points(symbol).colour(colour).labels(labels)));
     }
@@ -61,15 +61,15 @@ fn measured<'a>(name: &str, points: impl Iterator<Item = &'a Point>) -> Option<C
 
 /// What a point is, in a line.
 pub(super) fn label(point: &Point) -> String {
-    let value = match point.parameter() {
+    let value = match Parameter::of(&point.model) {
         Parameter::StepS(step) => format!("step {} µs", significant(1e6 * step, 3)),
         Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 2)),
     };
     let (wall, error) = point.measured().unwrap_or((f64::NAN, f64::NAN));
     format!(
         "{}, {}, {value}: error {}, {} s a second",
-        point.method(),
-        point.model_name(),
+        point.model.method.name(),
+        model_name(&point.model),
         significant(error, 2),
         significant(wall, 3)
     )

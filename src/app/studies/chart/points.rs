@@ -1,8 +1,7 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
-use super::candidates::{Parameter, model_name};
 use super::starts::{Ready, Systems};
-use super::trace::{Failure, FailureKind, Trace, simulate};
+use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
 use crate::app::scene::{RunModel, Scene};
@@ -66,21 +65,6 @@ pub struct Point {
 }
 
 impl Point {
-    /// The method's name.
-    pub(crate) fn method(&self) -> &'static str {
-        self.model.method.name()
-    }
-
-    /// The model in words.
-    pub(crate) fn model_name(&self) -> String {
-        model_name(&self.model)
-    }
-
-    /// Its step or tolerance.
-    pub(crate) fn parameter(&self) -> Parameter {
-        Parameter::of(&self.model)
-    }
-
     /// Cost and mean error of a point that has both.
     pub(crate) fn measured(&self) -> Option<(f64, f64)> {
         Some((self.wall_s?, self.error.as_ref().ok()?.mean))
@@ -90,30 +74,116 @@ impl Point {
 /// Part of the target below which nothing finer is tried.
 const FINE: f64 = 0.01;
 
-/// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
-/// or until the error is far below the target or at the floor. Starts in parallel.
-pub(super) fn evaluate(scene: &Scene, family: &[RunModel], reference: &Reference, settings: &Settings) -> Vec<Point> {
-    let mut points: Vec<Point> = Vec::with_capacity(family.len());
-    let mut means: Vec<f64> = Vec::new();
-    let mut systems = Systems::new(scene);
-    for model in family {
-        let point = point(systems.of(model), model, reference, settings);
-        let (mean, refused) = match &point.error {
-            Ok(error) => (Some(error.mean), false),
-            Err(failure) => (failure.error, failure.kind == FailureKind::Refused),
-        };
-        points.push(point);
-        match mean {
-            Some(mean) => means.push(mean),
-            None => means.clear(),
+/// What candidates are simulated on, and what they are compared with.
+#[derive(Clone, Copy)]
+pub(super) struct Comparison<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) reference: &'a Reference,
+    pub(super) settings: &'a Settings,
+}
+
+impl Comparison<'_> {
+    /// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
+    /// or until the error is far below the target or at the floor. Starts in parallel.
+    pub(super) fn evaluate(self, family: &[RunModel]) -> Vec<Point> {
+        let mut points: Vec<Point> = Vec::with_capacity(family.len());
+        let mut means: Vec<f64> = Vec::new();
+        let mut systems = Systems::new(self.scene);
+        for model in family {
+            let point = self.point(systems.of(model), model);
+            let (mean, refused) = match &point.error {
+                Ok(error) => (Some(error.mean), false),
+                Err(failure) => (failure.error, failure.kind == FailureKind::Refused),
+            };
+            points.push(point);
+            match mean {
+                Some(mean) => means.push(mean),
+                None => means.clear(),
+            }
+            let fine = self.reference.disagreement.max(FINE * self.settings.target);
+            let fine_enough = means.last().is_some_and(|mean| *mean <= fine);
+            if refused || fine_enough || gains_nothing(&means) {
+                break;
+            }
         }
-        let fine = reference.disagreement.max(FINE * settings.target);
-        let fine_enough = means.last().is_some_and(|mean| *mean <= fine);
-        if refused || fine_enough || gains_nothing(&means) {
-            break;
+        points
+    }
+
+    /// A point without its cost.
+    pub(super) fn point(self, system: Result<&Ready, Failure>, model: &RunModel) -> Point {
+        let error = system.and_then(|system| self.error(system, model, self.settings.point_stride()));
+        Point { model: *model, wall_s: None, error }
+    }
+
+    /// Error of a model over every start, where a point takes some of them.
+    pub(super) fn over_all_starts(self, model: &RunModel) -> Result<PointError, Failure> {
+        self.error(Systems::new(self.scene).of(model)?, model, 1)
+    }
+
+    /// Mean error over every so many of the starts.
+    fn error(self, system: &Ready, model: &RunModel, stride: usize) -> Result<PointError, Failure> {
+        // the first start that fails tells enough; which one does not depend on the number of threads
+        let failed = AtomicBool::new(false);
+        let starts: Vec<&StartReference> = self.reference.starts.iter().step_by(stride).collect();
+        let errors: Vec<Option<Result<StartErrors, Failure>>> = starts
+            .par_iter()
+            .map(|start| {
+                if failed.load(Ordering::Relaxed) {
+                    return None;
+                }
+                let error = self.error_of(system, model, start);
+                if error.is_err() {
+                    failed.store(true, Ordering::Relaxed);
+                }
+                Some(error)
+            })
+            .collect();
+        if !failed.into_inner() {
+            let values: Vec<StartErrors> = errors.into_iter().flatten().flatten().collect();
+            return judged(&values);
+        }
+        // that of the first start that fails, computed where it was left out
+        let known = starts.iter().zip(errors);
+        let mut all = known.map(|(start, known)| known.unwrap_or_else(|| self.error_of(system, model, start)));
+        let first = all.find_map(Result::err);
+        Err(first.unwrap_or_else(|| Failure::new(FailureKind::Refused, String::new())))
+    }
+
+    /// Relative differences from the reference over a start's horizon and parts of it.
+    fn error_of(self, system: &Ready, model: &RunModel, start: &StartReference) -> Result<StartErrors, Failure> {
+        let run = system.simulate(&start.start, model, self.settings.simulated(start.horizon_s), None)?;
+        let trace = Trace::of_run(&run, self.settings)?;
+        let over = |span_s: f64| {
+            let error = trace.error(&start.trace, 0.0, span_s);
+            error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
+        };
+        let mut by_growth = [GrowthError::default(); GROWTHS.len()];
+        for (part, growth) in by_growth.iter_mut().zip(GROWTHS) {
+            let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
+            *part = GrowthError { growth, span_s, mean: over(span_s)? };
+        }
+        Ok(StartErrors { over_horizon: over(start.horizon_s)?, by_growth })
+    }
+
+    /// Measures what the points cost, one run at a time and on this thread: the median of some rounds over all points, so that what
+    /// else the machine does for a while falls on a round and not on a point. `done` is told the share that is done.
+    pub(super) fn measure(self, points: &mut [Point], start: &StartReference, done: impl Fn(f64)) {
+        let Settings { span_s, output_hz, .. } = *self.settings;
+        let span = Span { duration: TIMED.min(span_s), output_hz };
+        let mut systems = Systems::new(self.scene);
+        let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
+        for round in 0..ROUNDS {
+            for (place, point) in points.iter().enumerate() {
+                walls[place].extend(wall(&mut systems, point, start, span));
+                let count = (ROUNDS * points.len()) as f64;
+                done((round * points.len() + place + 1) as f64 / count);
+            }
+        }
+        for (point, mut walls) in points.iter_mut().zip(walls) {
+            walls.sort_by(f64::total_cmp);
+            point.wall_s = walls.get(walls.len() / 2).copied();
         }
     }
-    points
 }
 
 /// Whether the last of a family's errors, from the roughest on, say that refining brings nothing more.
@@ -127,104 +197,11 @@ fn gains_nothing(means: &[f64]) -> bool {
     (*last < CONVERGING && *last > GAIN * before) || stuck
 }
 
-/// A point without its cost.
-pub(super) fn point(
-    system: Result<&Ready, Failure>,
-    model: &RunModel,
-    reference: &Reference,
-    settings: &Settings,
-) -> Point {
-    let stride = settings.point_stride();
-    let error = system.and_then(|system| error(system, model, reference, settings, stride));
-    Point { model: *model, wall_s: None, error }
-}
-
-/// Error of a model over every start, where a point takes some of them.
-pub(super) fn over_all_starts(
-    scene: &Scene,
-    model: &RunModel,
-    reference: &Reference,
-    settings: &Settings,
-) -> Result<PointError, Failure> {
-    let mut systems = Systems::new(scene);
-    error(systems.of(model)?, model, reference, settings, 1)
-}
-
-/// Mean error over every so many of the starts.
-fn error(
-    system: &Ready,
-    model: &RunModel,
-    reference: &Reference,
-    settings: &Settings,
-    stride: usize,
-) -> Result<PointError, Failure> {
-    // the first start that fails tells enough; which one does not depend on the number of threads
-    let failed = AtomicBool::new(false);
-    let starts: Vec<&StartReference> = reference.starts.iter().step_by(stride).collect();
-    let errors: Vec<Option<Result<StartErrors, Failure>>> = starts
-        .par_iter()
-        .map(|start| {
-            if failed.load(Ordering::Relaxed) {
-                return None;
-            }
-            let error = error_of(system, model, start, settings);
-            if error.is_err() {
-                failed.store(true, Ordering::Relaxed);
-            }
-            Some(error)
-        })
-        .collect();
-    if failed.into_inner() {
-        return Err(first_failure(system, model, &starts, settings, errors));
-    }
-    let values: Vec<StartErrors> = errors.into_iter().flatten().flatten().collect();
-    judged(&values)
-}
-
 /// Errors from one start.
 #[derive(Debug, Clone, Copy)]
 struct StartErrors {
     over_horizon: f64,
     by_growth: [GrowthError; GROWTHS.len()],
-}
-
-/// The failure of the first start that fails, computed where it was left out.
-fn first_failure(
-    system: &Ready,
-    model: &RunModel,
-    starts: &[&StartReference],
-    settings: &Settings,
-    errors: Vec<Option<Result<StartErrors, Failure>>>,
-) -> Failure {
-    let starts = starts.iter().zip(errors);
-    let failures = starts.filter_map(|(start, known)| {
-        let error = known.unwrap_or_else(|| error_of(system, model, start, settings));
-        error.err()
-    });
-    let first = failures.into_iter().next();
-    first.unwrap_or_else(|| Failure::new(FailureKind::Refused, String::new()))
-}
-
-/// Relative differences from the reference over a start's horizon and parts of it.
-fn error_of(
-    system: &Ready,
-    model: &RunModel,
-    start: &StartReference,
-    settings: &Settings,
-) -> Result<StartErrors, Failure> {
-    let (system, state) = system.at(&start.start);
-    let trace = Trace::simulate(system, state, model, settings, start.horizon_s)?;
-    let over = |span_s: f64| {
-        let error = trace.error(&start.trace, 0.0, span_s);
-        error.map_err(|error| Failure::new(FailureKind::Refused, error.to_string()))
-    };
-    let mut by_growth = [GrowthError::default(); GROWTHS.len()];
-    for (part, growth) in by_growth.iter_mut().zip(GROWTHS) {
-        let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
-        let mean = over(span_s)?;
-        *part = GrowthError { growth, span_s, mean };
-    }
-    Ok(StartErrors { over_horizon: over(start.horizon_s)?, by_growth })
 }
 
 /// Mean and scatter, or that they show nothing.
@@ -252,36 +229,10 @@ fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
     }
 }
 
-/// Measures what the points cost, one run at a time and on this thread: the median of some rounds over all points, so that what
-/// else the machine does for a while falls on a round and not on a point. `done` is told the share that is done.
-pub(super) fn measure(
-    scene: &Scene,
-    points: &mut [Point],
-    start: &StartReference,
-    settings: &Settings,
-    done: impl Fn(f64),
-) {
-    let span = Span { duration: TIMED.min(settings.span_s), output_hz: settings.output_hz };
-    let mut systems = Systems::new(scene);
-    let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
-    for round in 0..ROUNDS {
-        for (place, point) in points.iter().enumerate() {
-            walls[place].extend(wall(&mut systems, point, start, span));
-            let count = (ROUNDS * points.len()) as f64;
-            done((round * points.len() + place + 1) as f64 / count);
-        }
-    }
-    for (point, mut walls) in points.iter_mut().zip(walls) {
-        walls.sort_by(f64::total_cmp);
-        point.wall_s = walls.get(walls.len() / 2).copied();
-    }
-}
-
 /// Wall time of one run over its simulated time; `None` for a point without an error.
 fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
     point.error.as_ref().ok()?;
-    let (system, state) = systems.of(&point.model).ok()?.at(&start.start);
-    let simulation = simulate(system, state, &point.model, span).ok()?;
+    let simulation = systems.of(&point.model).ok()?.simulate(&start.start, &point.model, span, None).ok()?;
     Some(simulation.stepping_s / simulation.simulated_s)
 }
 

@@ -1,6 +1,6 @@
 //! Candidates on a small scene: the same whatever the number of threads, and what fails is told.
 
-use super::points::{Point, evaluate, over_all_starts};
+use super::points::{Comparison, Point};
 use super::{Effort, FailureKind, Reference, Settings, Starts};
 use crate::app::case::Case;
 use crate::app::scene::{RunModel, Scene};
@@ -42,7 +42,8 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
                 all_modes(Method::NewmarkExplicit, &[2e-6]),
                 all_modes(Method::Exponential, &[-1.0, 1e-7]),
             ];
-            let points = families.iter().flat_map(|family| evaluate(&scene, family, &reference, &settings));
+            let on = Comparison { scene: &scene, reference: &reference, settings: &settings };
+            let points = families.iter().flat_map(|family| on.evaluate(family));
             let points = points.collect();
             (reference, points)
         })
@@ -82,15 +83,16 @@ fn marked_points_take_every_start_and_others_some() {
     let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
     let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
     let family = all_modes(Method::Exponential, &[2e-7]);
-    let some = evaluate(&scene, &family, &reference, &settings)[0].clone();
-    let all = over_all_starts(&scene, &some.model, &reference, &settings).unwrap();
+    let on = Comparison { scene: &scene, reference: &reference, settings: &settings };
+    let some = on.evaluate(&family)[0].clone();
+    let all = on.over_all_starts(&some.model).unwrap();
     // those of every second start, and the others
     let some = some.error.unwrap();
     assert!(all.largest >= some.largest && all.mean.to_bits() != some.mean.to_bits());
     let halves = [0, 1].map(|first| {
         let mut half = reference.clone();
         half.starts = half.starts.into_iter().skip(first).step_by(2).collect();
-        over_all_starts(&scene, &family[0], &half, &settings).unwrap().mean
+        Comparison { reference: &half, ..on }.over_all_starts(&family[0]).unwrap().mean
     });
     assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
     let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;

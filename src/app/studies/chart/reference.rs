@@ -1,7 +1,7 @@
 //! What the chart measures by: two methods of different kind on the fullest model, refined until they agree.
 
-use super::starts::{Ready, perturb};
-use super::trace::{Failure, Trace};
+use super::starts::Ready;
+use super::trace::Trace;
 use super::{Growth, Settings, Start, Starts};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
@@ -68,7 +68,7 @@ impl Reference {
         done: impl Fn() + Sync,
     ) -> Result<Self, ComputeError> {
         let [by, _] = models(settings, 0);
-        let system = Ready::new(scene, scene.system(&by)?);
+        let system = Ready::of(scene, &by)?;
         let found = starts.starts.par_iter().map(|start| {
             let found = of_start(&system, start, settings);
             done();
@@ -129,21 +129,19 @@ pub(super) fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
 
 fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartReference, ComputeError> {
     let (span, window) = (settings.span_s, settings.window_s);
-    let run = |model: &RunModel, perturbation: f64| -> Result<Trace, ComputeError> {
-        let (system, mut state) = system.at(start);
-        let seed = settings.ensemble.seed;
-        perturb(&mut state, perturbation, seed, start.number);
-        let failed = |failure: Failure| no_reference(model.method.name(), start.time_s, &failure.reason);
-        Trace::simulate(system, state, model, settings, span).map_err(failed)
+    let run = |model: &RunModel, perturbed| -> Result<Trace, ComputeError> {
+        let run = system.simulate(start, model, settings.simulated(span), perturbed);
+        run.and_then(|run| Trace::of_run(&run, settings))
+            .map_err(|failure| no_reference(model.method.name(), start.time_s, &failure.reason))
     };
     let [mut by, mut beside] = models(settings, 0);
-    let mut witness = run(&beside, 0.0)?;
-    let nearby = run(&beside, settings.ensemble.perturbation)?;
+    let mut witness = run(&beside, None)?;
+    let nearby = run(&beside, Some(settings.ensemble))?;
     let growth = Growth::between(&nearby, &witness, span, window)?;
     let horizon_s = growth.horizon_s(1.0 / settings.target);
     let mut refinements = 0;
     loop {
-        let trace = run(&by, 0.0)?;
+        let trace = run(&by, None)?;
         let disagreement = witness.error(&trace, 0.0, horizon_s)?;
         if disagreement <= WANTED * settings.target || refinements == REFINEMENTS {
             return Ok(StartReference {
@@ -158,7 +156,7 @@ fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartR
         }
         refinements += 1;
         [by, beside] = models(settings, refinements);
-        witness = run(&beside, 0.0)?;
+        witness = run(&beside, None)?;
     }
 }
 

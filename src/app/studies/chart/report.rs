@@ -2,7 +2,7 @@
 
 use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
-use super::{Chart, GROWTHS, Parameter, Point};
+use super::{Chart, GROWTHS, Parameter, Point, model_name};
 use crate::app::case::Case;
 use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
@@ -94,15 +94,15 @@ fn point_table(caption: &str, first: Column) -> Table {
 }
 
 fn point_row(first: Cell, point: &Point) -> Vec<Cell> {
-    let (step, tolerance) = match point.parameter() {
+    let (step, tolerance) = match Parameter::of(&point.model) {
         Parameter::StepS(step) => (Some(1e6 * step), None),
         Parameter::Tolerance(tolerance) => (None, Some(tolerance)),
     };
     let error = point.error.as_ref().ok();
     vec![
         first,
-        Cell::text(point.method()),
-        Cell::text(point.model_name()),
+        Cell::text(point.model.method.name()),
+        Cell::text(model_name(&point.model)),
         Cell::number_or(step, 3, "–"),
         Cell::number_or(tolerance, 2, "–"),
         Cell::number_or(point.wall_s, 3, "–"),
@@ -168,7 +168,7 @@ fn growth_table(chart: &Chart) -> Table {
     let rows = marked(chart).into_iter().filter_map(|(point, what)| {
         let error = point.error.as_ref().ok()?;
         let means = error.by_growth.iter().map(|part| part.mean).chain([error.mean]);
-        let texts = [Cell::text(what), Cell::text(point.method()), Cell::text(point.model_name())];
+        let texts = [Cell::text(what), Cell::text(point.model.method.name()), Cell::text(model_name(&point.model))];
         Some(texts.into_iter().chain(means.map(|mean| Cell::number(mean, 2))).collect::<Vec<_>>())
     });
     Table::new("Error while nearby solutions part", columns).rows(rows)
@@ -238,8 +238,11 @@ fn statistics_section(chart: &Chart) -> Section {
     ));
     for of in &chart.statistics {
         section = match &of.figures {
-            Ok(figures) => section.table(figures_table(named(chart, of.point), figures)),
-            Err(reason) => section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point))),
+            Some(figures) => section.table(figures_table(named(chart, of.point), figures)),
+            None => {
+                let reason = of.reason.as_deref().unwrap_or_default();
+                section.paragraph(format!("{}: no statistics: {reason}", named(chart, of.point)))
+            }
         };
     }
     section
@@ -296,13 +299,13 @@ fn omissions_section(chart: &Chart) -> Section {
     )
     .rows(chart.omissions().map(|(place, failure)| {
         let point = &chart.points[place];
-        let parameter = match point.parameter() {
+        let parameter = match Parameter::of(&point.model) {
             Parameter::StepS(step) => Cell::text(format!("{} µs", significant(1e6 * step, 3))).value(step),
             Parameter::Tolerance(tolerance) => Cell::number(tolerance, 2),
         };
         [
-            Cell::text(point.method()),
-            Cell::text(point.model_name()),
+            Cell::text(point.model.method.name()),
+            Cell::text(model_name(&point.model)),
             parameter,
             Cell::text(failure.kind.name()),
             Cell::text(&failure.reason),

@@ -2,7 +2,9 @@
 //! and small random changes of their states.
 
 use super::Settings;
-use super::trace::Failure;
+use super::trace::{Failure, FailureKind};
+use crate::app::case;
+use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::State;
@@ -111,15 +113,34 @@ pub(super) struct Systems<'a> {
 }
 
 impl<'a> Ready<'a> {
-    /// A system that is at hand.
-    pub(super) fn new(scene: &'a Scene, system: CoupledSystem) -> Self {
-        Self { scene, system }
+    /// The system of a model.
+    ///
+    /// # Errors
+    /// [`ComputeError`] for a model that does not fit the scene.
+    pub(super) fn of(scene: &'a Scene, model: &RunModel) -> Result<Self, ComputeError> {
+        Ok(Self { scene, system: scene.system(model)? })
     }
 
-    /// The system, and its state at rest at a start.
-    pub(super) fn at(&self, start: &Start) -> (CoupledSystem, State) {
-        let state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
-        (self.system.clone(), state)
+    /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
+    ///
+    /// # Errors
+    /// [`Failure`] also for one that ended before its time.
+    pub(super) fn simulate(
+        &self,
+        start: &Start,
+        model: &RunModel,
+        span: Span,
+        perturbed: Option<case::Ensemble>,
+    ) -> Result<Simulation, Failure> {
+        let mut state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
+        if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
+            perturb(&mut state, perturbation, seed, start.number);
+        }
+        let simulation = Simulation::from_state(self.system.clone(), state, model, span, |_| ())?;
+        match simulation.end {
+            RunEnd::Complete => Ok(simulation),
+            RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
+        }
     }
 }
 
@@ -134,20 +155,12 @@ impl<'a> Systems<'a> {
     /// # Errors
     /// [`Failure`] for a model that does not fit the scene.
     pub(super) fn of(&mut self, model: &RunModel) -> Result<&Ready<'a>, Failure> {
-        let same = |other: &RunModel| {
-            let method = (model.method, model.step);
-            RunModel { method: method.0, step: method.1, ..*other } == *model
-        };
+        let same = |other: &RunModel| RunModel { method: model.method, step: model.step, ..*other } == *model;
         let known = self.built.iter().position(|(other, _)| same(other));
-        let place = match known {
-            Some(place) => place,
-            None => {
-                let system = self.scene.system(model)?;
-                self.built.push((*model, Ready::new(self.scene, system)));
-                self.built.len() - 1
-            }
-        };
-        Ok(&self.built[place].1)
+        if known.is_none() {
+            self.built.push((*model, Ready::of(self.scene, model)?));
+        }
+        Ok(&self.built[known.unwrap_or(self.built.len() - 1)].1)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
-use super::starts::{Ready, perturb};
-use super::trace::{Failure, simulate};
+use super::starts::Ready;
+use super::trace::Failure;
 use super::{Settings, Start};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
@@ -87,11 +87,8 @@ impl Estimate {
 ///
 /// # Errors
 /// [`SignalError`] for a filter that does not fit the sampling.
-pub(crate) fn figures(
-    signal: &TimeSeries,
-    band_hz: [f64; 2],
-    high_pass_hz: Option<f64>,
-) -> Result<Vec<Figure>, SignalError> {
+fn figures(signal: &TimeSeries, settings: FigureSettings) -> Result<Vec<Figure>, SignalError> {
+    let FigureSettings { band_hz, high_pass_hz } = settings;
     let figure = |name: &str, unit, value| Figure { name: name.to_owned(), unit, value };
     let settings = EnvelopeAnalysis { high_pass_hz, ..EnvelopeAnalysis::default() };
     let envelope = settings.envelope(signal)?;
@@ -136,19 +133,16 @@ pub(super) fn ensemble(
     analysis: &FigureSettings,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<Figure>>, Failure> {
-    let runs: Vec<Result<Vec<Figure>, Failure>> = starts
+    let runs: Vec<_> = starts
         .par_iter()
         .map(|start| {
-            let (system, mut state) = system.at(start);
-            let ensemble = settings.ensemble;
-            perturb(&mut state, ensemble.perturbation, ensemble.seed, start.number);
             let span = settings.simulated(settings.statistics_s);
-            let simulation = simulate(system, state, model, span)?;
+            let simulation = system.simulate(start, model, span, Some(settings.ensemble))?;
             let signal = simulation.signal(0)?;
             let signal = crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;
             let signal = signal.window(signal.start_s(), end).map_err(ComputeError::from)?;
-            let figures = figures(&signal, analysis.band_hz, analysis.high_pass_hz);
+            let figures = figures(&signal, *analysis);
             done();
             Ok(figures.map_err(ComputeError::from)?)
         })
@@ -237,7 +231,7 @@ mod tests {
     fn figures_of_a_tone() {
         let values = (0..20_000).map(|k| 4.0 * (TAU * 8e3 * f64::from(k) * 5e-6).sin());
         let signal = TimeSeries::new(0.0, 5e-6, "m/s^2", values.collect()).unwrap();
-        let found = figures(&signal, [0.0, 40e3], Some(5e3)).unwrap();
+        let found = figures(&signal, FigureSettings { band_hz: [0.0, 40e3], high_pass_hz: Some(5e3) }).unwrap();
         let of = |name: &str| {
             let figure = found.iter().find(|figure| figure.name == name);
             figure.unwrap_or_else(|| panic!("{name}: {found:?}")).value

@@ -1,8 +1,7 @@
 //! What `chart.json` says.
 
 use super::{
-    Chart, ComparedFigure, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, StabilitySummary,
-    StartReference,
+    Chart, Failure, GrowthError, ModelStatistics, Parameter, Point, PointError, Stability, StartReference, model_name,
 };
 use crate::app::case::Case;
 use crate::app::commands::result::CaseResult;
@@ -17,7 +16,7 @@ pub struct ChartResult<'a> {
     pub chart: CaseResult<'a, ChartSummary<'a>>,
     /// `stability.json`, where the map was computed too; not in `chart.json`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stability: Option<CaseResult<'a, StabilitySummary<'a>>>,
+    pub stability: Option<CaseResult<'a, &'a Stability>>,
 }
 
 /// Speed against accuracy.
@@ -189,18 +188,7 @@ pub struct StatisticsSummary<'a> {
     /// Length of the runs, s.
     pub seconds: f64,
     /// By model.
-    pub models: Vec<ModelStatisticsSummary<'a>>,
-}
-
-/// Statistics of a model against those of the reference.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct ModelStatisticsSummary<'a> {
-    /// Index from 0 of its point.
-    pub point: usize,
-    /// The figures; `None` where there are none.
-    pub figures: Option<&'a [ComparedFigure]>,
-    /// Why there are none.
-    pub reason: Option<&'a str>,
+    pub models: &'a [ModelStatistics],
 }
 
 impl Chart {
@@ -209,6 +197,14 @@ impl Chart {
         let (reference, settings) = (&self.reference, &self.settings);
         let starts = reference.starts.iter();
         let [chosen, source] = &self.over_all_starts;
+        let point = |point: &'a Point| PointSummary {
+            method: point.model.method.name(),
+            model: model_name(&point.model),
+            parameter: Parameter::of(&point.model),
+            wall_s: point.wall_s,
+            below_floor: self.below_floor(point),
+            error: ErrorSummary::of(&point.error),
+        };
         ChartSummary {
             scene: &case.title,
             warnings: &self.scene.doubts,
@@ -235,15 +231,15 @@ impl Chart {
             horizon_s: reference.mean_horizon_s(),
             least_horizon_s: reference.least_horizon_s(),
             growth_rate_per_s: reference.growth_rate_per_s(),
-            points: self.points.iter().map(|point| self.point(point)).collect(),
+            points: self.points.iter().map(point).collect(),
             front: &self.front,
             omissions: self
                 .omissions()
                 .map(|(point, failure)| OmissionSummary {
                     point,
-                    method: self.points[point].method(),
-                    model: self.points[point].model_name(),
-                    parameter: self.points[point].parameter(),
+                    method: self.points[point].model.method.name(),
+                    model: model_name(&self.points[point].model),
+                    parameter: Parameter::of(&self.points[point].model),
                     kind: failure.kind.name(),
                     reason: &failure.reason,
                 })
@@ -251,29 +247,8 @@ impl Chart {
             chosen: self.chosen,
             source: self.source,
             over_all_starts: OverAllStarts { chosen: ErrorSummary::of(chosen), source: ErrorSummary::of(source) },
-            statistics: StatisticsSummary {
-                seconds: settings.statistics_s,
-                models: self.statistics.iter().map(ModelStatisticsSummary::of).collect(),
-            },
+            statistics: StatisticsSummary { seconds: settings.statistics_s, models: &self.statistics },
         }
-    }
-
-    fn point<'a>(&self, point: &'a Point) -> PointSummary<'a> {
-        PointSummary {
-            method: point.method(),
-            model: point.model_name(),
-            parameter: point.parameter(),
-            wall_s: point.wall_s,
-            below_floor: self.below_floor(point),
-            error: ErrorSummary::of(&point.error),
-        }
-    }
-}
-
-impl<'a> ModelStatisticsSummary<'a> {
-    fn of(of: &'a ModelStatistics) -> Self {
-        let figures = of.figures.as_deref();
-        Self { point: of.point, figures: figures.ok(), reason: figures.err().map(String::as_str) }
     }
 }
 

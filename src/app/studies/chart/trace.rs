@@ -1,14 +1,11 @@
 //! The signals of one run, ready to be compared, or why there are none.
 
 use super::Settings;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::Simulation;
 use crate::app::error::ComputeError;
-use crate::app::scene::RunModel;
-use crate::numerics::ode::State;
 use crate::numerics::ode::TransientError;
 use crate::numerics::series::TimeSeries;
 use crate::signal::{SignalError, band_limit, relative_difference};
-use crate::system::CoupledSystem;
 
 /// Accelerations of all sensors over the same instants, limited to the scene's band.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,20 +72,13 @@ impl Trace {
         Self { signals }
     }
 
-    /// The signals of a run from `state` over `seconds` (s), limited to the band.
+    /// The signals of a run, limited to the band of the settings.
     ///
     /// # Errors
-    /// [`Failure`]: what happened instead.
-    pub(crate) fn simulate(
-        system: CoupledSystem,
-        state: State,
-        model: &RunModel,
-        settings: &Settings,
-        seconds: f64,
-    ) -> Result<Self, Failure> {
-        let whole = simulate(system, state, model, settings.simulated(seconds))?;
-        let signals = (0..whole.record.sensors.len()).map(|sensor| {
-            let signal = whole.signal(sensor)?;
+    /// [`Failure`] for a signal that cannot be limited.
+    pub(crate) fn of_run(run: &Simulation, settings: &Settings) -> Result<Self, Failure> {
+        let signals = (0..run.record.sensors.len()).map(|sensor| {
+            let signal = run.signal(sensor)?;
             Ok(band_limit(&signal, settings.band_hz)?)
         });
         let signals = signals.collect::<Result<Vec<_>, ComputeError>>();
@@ -132,23 +122,6 @@ impl Trace {
             return Err(SignalError::zero_reference());
         }
         Ok(self.difference(reference, from, to)? / size)
-    }
-}
-
-/// A whole simulation.
-///
-/// # Errors
-/// [`Failure`] also for one that ended before its time.
-pub(super) fn simulate(
-    system: CoupledSystem,
-    state: State,
-    model: &RunModel,
-    span: Span,
-) -> Result<Simulation, Failure> {
-    let simulation = Simulation::from_state(system, state, model, span, |_| ())?;
-    match simulation.end {
-        RunEnd::Complete => Ok(simulation),
-        RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
     }
 }
 

@@ -50,8 +50,8 @@ impl Axis {
             if item.is_empty() {
                 return Err(format!("value {place} is empty"));
             }
-            match Range::parse(item)? {
-                Some(range) => values.extend(range.values()),
+            match range(item)? {
+                Some(range) => values.extend(range),
                 None => values.push(item.to_owned()),
             }
         }
@@ -105,65 +105,47 @@ fn items(text: &str) -> Result<Vec<&str>, String> {
     Ok(items)
 }
 
-/// Values between two ends.
-struct Range {
-    from: f64,
-    to: f64,
-    count: usize,
-    /// Equal ratios instead of equal differences.
-    ratios: bool,
-    /// Both ends are written as whole numbers.
-    whole: bool,
-}
-
-impl Range {
-    /// `None` for what does not begin with two numbers with a colon between.
-    fn parse(item: &str) -> Result<Option<Self>, String> {
-        let wrong = |reason: &str| format!("found the range `{item}`: {reason}");
-        let parts: Vec<&str> = item.split(':').map(str::trim).collect();
-        let &[first, second, ref rest @ ..] = parts.as_slice() else {
-            return Ok(None);
-        };
-        let (Ok(from), Ok(to)) = (first.parse::<f64>(), second.parse::<f64>()) else {
-            return Ok(None);
-        };
-        let (count, ratios) = match *rest {
-            [count] => (count, false),
-            [count, "log"] => (count, true),
-            _ => return Err(wrong("expected FROM:TO:COUNT or FROM:TO:COUNT:log")),
-        };
-        if !(from.is_finite() && to.is_finite()) {
-            return Err(wrong("expected finite ends"));
-        }
-        let count = match count.parse() {
-            Ok(count) if (2..=MOST_VALUES).contains(&count) => count,
-            _ => return Err(wrong("expected a COUNT from 2 to 100000")),
-        };
-        if ratios && !(from > 0.0 && to > 0.0) {
-            return Err(wrong("equal ratios need ends above 0"));
-        }
-        let whole = first.parse::<i64>().is_ok() && second.parse::<i64>().is_ok();
-        Ok(Some(Self { from, to, count, ratios, whole }))
+/// Values between two ends, both included; `None` for what does not begin with two numbers with a colon between.
+fn range(item: &str) -> Result<Option<Vec<String>>, String> {
+    let wrong = |reason: &str| format!("found the range `{item}`: {reason}");
+    let parts: Vec<&str> = item.split(':').map(str::trim).collect();
+    let &[first, second, ref rest @ ..] = parts.as_slice() else {
+        return Ok(None);
+    };
+    let (Ok(from), Ok(to)) = (first.parse::<f64>(), second.parse::<f64>()) else {
+        return Ok(None);
+    };
+    let (count, ratios) = match *rest {
+        [count] => (count, false),
+        [count, "log"] => (count, true),
+        _ => return Err(wrong("expected FROM:TO:COUNT or FROM:TO:COUNT:log")),
+    };
+    if !(from.is_finite() && to.is_finite()) {
+        return Err(wrong("expected finite ends"));
     }
-
-    fn values(&self) -> Vec<String> {
-        let last = self.count - 1;
-        let at = |k: usize| {
-            let part = k as f64 / last as f64;
-            let value = match (k, self.ratios) {
-                (0, _) => self.from,
-                (k, _) if k == last => self.to,
-                (_, false) => self.from + (self.to - self.from) * part,
-                (_, true) => self.from * (self.to / self.from).powf(part),
-            };
-            // a difference of nearly equal numbers is 0 where it should be
-            let scale = self.from.abs().max(self.to.abs());
-            if value.abs() < 1e-15 * scale { 0.0 } else { rounded(value) }
-        };
-        let values: Vec<f64> = (0..self.count).map(at).collect();
-        let whole = self.whole && values.iter().all(|value| value.fract().abs() < f64::MIN_POSITIVE);
-        values.into_iter().map(|value| text(value, whole)).collect()
+    let last = match count.parse::<usize>() {
+        Ok(count) if (2..=MOST_VALUES).contains(&count) => count - 1,
+        _ => return Err(wrong("expected a COUNT from 2 to 100000")),
+    };
+    if ratios && !(from > 0.0 && to > 0.0) {
+        return Err(wrong("equal ratios need ends above 0"));
     }
+    let at = |k: usize| {
+        let part = k as f64 / last as f64;
+        let value = match (k, ratios) {
+            (0, _) => from,
+            (k, _) if k == last => to,
+            (_, false) => from + (to - from) * part,
+            (_, true) => from * (to / from).powf(part),
+        };
+        // a difference of nearly equal numbers is 0 where it should be
+        let scale = from.abs().max(to.abs());
+        if value.abs() < 1e-15 * scale { 0.0 } else { rounded(value) }
+    };
+    let values: Vec<f64> = (0..=last).map(at).collect();
+    let whole_ends = first.parse::<i64>().is_ok() && second.parse::<i64>().is_ok();
+    let whole = whole_ends && values.iter().all(|value| value.fract().abs() < f64::MIN_POSITIVE);
+    Ok(Some(values.into_iter().map(|value| text(value, whole)).collect()))
 }
 
 /// With 15 significant digits, as many as any decimal number keeps.

@@ -39,7 +39,8 @@ fn of_run(result: &Value) -> Vec<Output> {
     for (place, window) in windows.iter().enumerate() {
         let sensor_name = sensor(window);
         let count = windows[..=place].iter().filter(|other| sensor(other) == sensor_name).count();
-        let name = |what: &str| format!("{}.{count}.{what}", plain(&sensor_name));
+        let part = plain(&sensor_name, |letter| letter.is_alphanumeric() || "_-".contains(letter));
+        let name = |what: &str| format!("{part}.{count}.{what}");
         outputs.push(number(name("speed_hz"), "Hz", None, &window["speed_hz"]));
         for (what, unit, group) in
             [("rms", "m/s^2", "Root mean square"), ("peak", "m/s^2", "Peak"), ("kurtosis", "", "Kurtosis")]
@@ -104,12 +105,9 @@ fn number(name: impl Into<String>, unit: &'static str, group: Option<&'static st
     Output { name: name.into(), unit, group, value: value.as_f64().map_or(Value::Null, Value::from) }
 }
 
-/// A sensor's name as part of an array's.
-fn plain(name: &str) -> String {
-    let plain = |letter: char| {
-        if letter.is_alphanumeric() || "_-".contains(letter) { letter } else { '_' }
-    };
-    name.chars().map(plain).collect()
+/// A name with `_` in the place of all letters but the allowed ones.
+pub(super) fn plain(name: &str, allowed: impl Fn(char) -> bool) -> String {
+    name.chars().map(|letter| if allowed(letter) { letter } else { '_' }).collect()
 }
 
 #[cfg(test)]

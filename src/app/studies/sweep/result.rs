@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::outputs::plain;
 use super::{Output, Plan, PointRecord, PointState, SweepPoint, outputs_of};
 use crate::app::error::ComputeError;
 use crate::formats::{FormatError, NpzWriter};
@@ -215,7 +216,8 @@ pub(crate) fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), F
     let numbers: Vec<i64> = points.map(|point| whole(point.point.number)).collect();
     archive.array("point", &numbers)?;
     for column in result.columns() {
-        let name = array_name(&column.name);
+        // without what the name of an array cannot have
+        let name = plain(&column.name, |letter| letter.is_alphanumeric() || "_-. ".contains(letter));
         match &column.values {
             Values::Numbers(numbers) => archive.array(&name, numbers)?,
             Values::Texts(texts) => {
@@ -225,13 +227,6 @@ pub(crate) fn write_sweep_npz(path: &Path, result: &SweepResult) -> Result<(), F
         }
     }
     archive.finish()
-}
-
-/// Without what the name of an array cannot have.
-fn array_name(name: &str) -> String {
-    let allowed = |letter: char| letter.is_alphanumeric() || "_-. ".contains(letter);
-    let plain = |letter: char| if allowed(letter) { letter } else { '_' };
-    name.chars().map(plain).collect()
 }
 
 #[cfg(test)]

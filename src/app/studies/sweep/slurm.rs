@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::outputs::plain;
 use crate::app::shell_word::shell_word;
 
 /// The scripts, and how to submit them.
@@ -22,8 +23,7 @@ pub struct SlurmScripts {
 pub(crate) fn slurm_scripts(program: &Path, folder: &Path, tasks: usize, threads: usize) -> SlurmScripts {
     let [program_word, folder_word] = [program, folder].map(|path| shell_word(&path.to_string_lossy()));
     let name = folder.file_name().map_or_else(|| "sweep".into(), |name| name.to_string_lossy());
-    let name: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || "_-.".contains(c) { c } else { '_' }).collect();
+    let name = plain(&name, |letter| letter.is_ascii_alphanumeric() || "_-.".contains(letter));
     let array = format!(
         "#!/bin/sh\n\
          #SBATCH --job-name={name}\n\

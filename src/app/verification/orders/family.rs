@@ -7,8 +7,6 @@ use crate::report::{Abscissa, Axis, Cell, Column, Curve, Plot, Table};
 pub(super) struct Family {
     /// Caption of its table and its plot.
     pub(super) title: &'static str,
-    /// What a size is, and its unit.
-    pub(super) size: [&'static str; 2],
     pub(super) source: &'static str,
     pub(super) assumptions: &'static str,
     pub(super) reason: &'static str,
@@ -40,9 +38,14 @@ impl Family {
         self.series.iter().map(check).collect()
     }
 
+    /// What a size is, and its unit.
+    fn size(&self) -> [&'static str; 2] {
+        self.series.first().map_or(["", ""], |series| [series.size, series.unit])
+    }
+
     /// Errors and orders, a row for each size.
     pub(super) fn table(&self) -> Table {
-        let [size, unit] = self.size;
+        let [size, unit] = self.size();
         let columns = [
             Column::text("Of"),
             Column::number(size, unit),
@@ -64,7 +67,7 @@ impl Family {
     }
 
     pub(super) fn plot(&self) -> Plot {
-        let [size, unit] = self.size;
+        let [size, unit] = self.size();
         let x = Axis::new(size, unit).log();
         let mut plot = Plot::new(self.title, x, Axis::new("Relative error", "").log());
         let mut kinds: Vec<&str> = Vec::new();

@@ -38,7 +38,6 @@ pub(super) fn rings() -> Result<Family, VerificationError> {
     };
     Ok(Family {
         title: "Frequencies of a ring of beams",
-        size: SIZE,
         source: "What inertia between exact nodes leaves out: shear and stretch under the load p L inside an element, of second order in its length L",
         assumptions: "Free ring, radius over thickness 5, 24 to 192 exact arcs; error: the difference from the ring of twice as many elements.",
         reason: "The next term, of fourth order, is less than a tenth of the first at 96 elements.",

@@ -44,7 +44,6 @@ pub(super) fn solids() -> Result<Family, VerificationError> {
     }
     Ok(Family {
         title: "Frequencies of solids",
-        size: SIZE,
         source: "Strang and Fix, An Analysis of the Finite Element Method, ch. 6: eigenvalues converge with order 2 p, p the degree. Standing waves in closed form",
         assumptions: "Box of 1 x 0.8 x 0.25 m between frictionless rigid walls. Frequencies: f = c |k| / (2 pi), k = pi (l/L, m/W, n/H). The speed c is that of shear waves and of pressure waves. Meshes of 4 x 3 x 1 cells, divided further.",
         reason: "Theory is for sizes that go to zero: 0.1 of the order with hexahedra. Six tetrahedra a cell are coarser along one diagonal and 0.3 away at three divisions, rising.",

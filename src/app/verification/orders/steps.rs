@@ -38,7 +38,6 @@ pub(super) fn steps() -> Result<Family, VerificationError> {
     }
     Ok(Family {
         title: "Signals by integrators",
-        size: SIZE,
         source: "Hairer, Lubich, Wanner, Geometric Numerical Integration, for the second order of one-step methods; Hochbruck, Ostermann, Acta Numerica 19 (2010) 209, for exponential Adams methods",
         assumptions: "examples/scenes/smooth.toml, 0.25 ms from rest with 14 modes: no impact, and no ball passes the end of a ring element, where accelerations have a kink. Root mean square of the acceleration's difference from dop853 at a tolerance of 1e-12, over that of the acceleration. Both are sampled at the step, whose filter they share.",
         reason: "Theory is for steps that go to zero; from the second step to the third the orders are within 2 % of it.",

@@ -97,12 +97,12 @@ pub(super) fn by_tolerance(
         by_tolerance: method.chooses_its_steps(),
         predicted_limit_s,
         measured_limit_s: None,
-        chosen_step_s: seen.failure.is_none().then_some(seen.mean_step_s),
+        chosen_step_s: seen.as_ref().ok().copied(),
         resonances: Vec::new(),
         phases_looked_at: 0,
         phases_at_multiples_of_pi: 0,
         steps: Vec::new(),
-        note: Some(seen.failure.unwrap_or_else(|| note.to_owned())),
+        note: Some(seen.err().map_or_else(|| note.to_owned(), |failure| failure.to_string())),
     }
 }
 
@@ -128,7 +128,12 @@ pub(super) fn on_grid(
     for &step_s in grid {
         let predicted = predict(linearised, step_s);
         let (unstable, why) = measurement.unstable(method, step_s);
-        let measured = measured_state(unstable, predicted);
+        // a run tells that something grows, the prediction whether it is a mode in resonance
+        let measured = match predicted {
+            _ if !unstable => StepState::Stable,
+            StepState::Resonant => StepState::Resonant,
+            _ => StepState::Unstable,
+        };
         if measured == StepState::Unstable && failure.is_none() {
             failure = why;
         }
@@ -153,7 +158,7 @@ pub(super) fn on_grid(
     let note = match first {
         None => Some(format!("none found up to h = {longest:.2e} s")),
         Some(0) => Some("grows in the shortest step of the grid".to_owned()),
-        Some(_) => failure.filter(|_| method.is_implicit()),
+        Some(_) => failure.filter(|_| method.is_implicit()).map(|failure| failure.to_string()),
     };
     // beyond it the contacts alone are unstable, whatever the modes do
     let reach = (2.0 / scale).min(longest);
@@ -169,15 +174,6 @@ pub(super) fn on_grid(
         phases_at_multiples_of_pi: phases.len(),
         steps,
         note,
-    }
-}
-
-/// A run tells that something grows, the prediction whether it is a mode in resonance.
-fn measured_state(unstable: bool, predicted: StepState) -> StepState {
-    match (unstable, predicted) {
-        (false, _) => StepState::Stable,
-        (true, StepState::Resonant) => StepState::Resonant,
-        (true, _) => StepState::Unstable,
     }
 }
 

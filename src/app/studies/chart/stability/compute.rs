@@ -12,6 +12,8 @@ use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
 use crate::numerics::ode::{Linearised, Method, fastest};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Shortest and longest step of the grid, s.
 const STEPS: [f64; 2] = [5e-8, 1e-5];
@@ -50,28 +52,44 @@ const BY_TOLERANCE: [Method; 2] =
 /// Time between samples of these, s, and how many: 2 ms.
 const SAMPLES: [f64; 2] = [4e-7, 5000.0];
 
-/// The stability map of a scene.
-#[derive(Debug)]
+/// Which steps methods can take, under which conditions.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "StabilitySummary")]
 pub struct Stability {
-    /// How much was computed.
-    pub effort: Effort,
-    /// The model, whose method and step are varied.
-    pub model: RunModel,
-    /// How many modes it keeps of how many.
-    pub modes: [usize; 2],
-    /// The steps, s, ascending.
+    /// What of the case was modelled.
+    pub model: StabilityModel,
+    /// Steps of the grid, s, ascending.
     pub steps_s: Vec<f64>,
     /// The conditions, the case itself first.
-    pub conditions: Vec<ConditionStability>,
+    pub conditions: Vec<ConditionSummary>,
+}
+
+/// What of the case was modelled.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct StabilityModel {
+    /// Kept modes of ring and housing.
+    pub modes: usize,
+    /// Of how many.
+    pub of_modes: usize,
+    /// Whether the static residual of the others was in use.
+    pub residual: bool,
 }
 
 /// All methods under a condition.
-#[derive(Debug)]
-pub struct ConditionStability {
-    /// The condition.
-    pub condition: Condition,
-    /// The methods, in the same order everywhere, or why there are none.
-    pub methods: Result<Vec<MethodStability>, String>,
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ConditionSummary {
+    /// What is other than in the case.
+    pub condition: &'static str,
+    /// Its value, in `unit`; `None` for a condition without.
+    pub value: Option<f64>,
+    /// Unit of the value, "x" for a factor.
+    pub unit: Option<&'static str>,
+    /// Both in words.
+    pub label: String,
+    /// The methods; `None` where the bearing cannot be in the condition.
+    pub methods: Option<Vec<MethodStability>>,
+    /// Why it cannot.
+    pub reason: Option<String>,
 }
 
 /// A condition made ready.
@@ -122,14 +140,20 @@ pub(crate) fn compute_stability(
     let modes = prepared.first().and_then(|first| first.as_ref().ok());
     let kept = modes.map_or(0, |first| first.variant.system.modes());
     let conditions = conditions.into_iter().zip(prepared).zip(cells.chunks(methods));
-    let conditions = conditions.map(|((condition, prepared), cells)| ConditionStability {
-        condition,
-        methods: prepared.map(|_| cells.iter().flatten().cloned().collect()),
+    let conditions = conditions.map(|((condition, prepared), cells)| {
+        let (name, value) = condition.axis_and_value();
+        let (value, unit) = value.unzip();
+        ConditionSummary {
+            condition: name,
+            value,
+            unit,
+            label: condition.label(),
+            methods: prepared.is_ok().then(|| cells.iter().flatten().cloned().collect()),
+            reason: prepared.err(),
+        }
     });
     Ok(Stability {
-        effort,
-        model,
-        modes: [kept, scene.stage.modes.count()],
+        model: StabilityModel { modes: kept, of_modes: scene.stage.modes.count(), residual: model.residual },
         conditions: conditions.collect(),
         steps_s: grid,
     })

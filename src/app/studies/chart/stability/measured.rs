@@ -41,21 +41,13 @@ pub(super) struct Measurement<'a> {
     pub(super) reference: &'a Reference,
 }
 
-/// What happened in a pair of runs.
-pub(super) struct Observed {
-    /// Mean length of a step, s.
-    pub(super) mean_step_s: f64,
-    /// Why they ended early.
-    pub(super) failure: Option<String>,
-}
-
 impl Reference {
     /// Of so many steps of `h` (s) by `method`; `fastest` (1/s) is the order of the fastest motion. Runs that fail tell of their time
     /// until then.
     pub(super) fn of(variant: &Variant, method: Method, h: f64, steps: u32, fastest: f64) -> Self {
         let mut values = Vec::with_capacity((steps / STRIDE) as usize);
         let mut most = [0.0_f64; 2];
-        observe(variant, method, h, steps, |_, now| {
+        let _ = observe(variant, method, h, steps, |_, now| {
             most = [0, 1].map(|k| most[k].max(now[k]));
             values.push(most);
             true
@@ -75,37 +67,31 @@ impl Reference {
 
 impl Measurement<'_> {
     /// Whether runs with steps of `h` (s) do what fine ones do not; with the failure if there is one.
-    pub(super) fn unstable(&self, method: Method, h: f64) -> (bool, Option<String>) {
+    pub(super) fn unstable(&self, method: Method, h: f64) -> (bool, Option<TransientError>) {
         let mut grown = false;
-        let seen = observe(self.variant, method, h, self.steps, |time, [speed, apart]| {
+        let failure = observe(self.variant, method, h, self.steps, |time, [speed, apart]| {
             let [fast, far] = self.reference.until(time);
             grown = speed > FASTER * fast || apart > FARTHER * far;
             !grown
-        });
-        (grown || seen.failure.is_some(), seen.failure)
+        })
+        .err();
+        (grown || failure.is_some(), failure)
     }
 }
 
 /// Runs of so many steps of `h` (s) from rest and from beside it; `see` is told the time since the start (s), the root of the sum
-/// of the squared velocities and that of their difference, and says whether to go on.
+/// of the squared velocities and that of their difference, and says whether to go on. Gives the mean length of a step, s.
+///
+/// # Errors
+/// Why they ended early.
 pub(super) fn observe(
     variant: &Variant,
     method: Method,
     h: f64,
     steps: u32,
-    see: impl FnMut(f64, [f64; 2]) -> bool,
-) -> Observed {
-    let run = run(variant, method, h, (steps / STRIDE).max(1), see);
-    Observed { mean_step_s: run.as_ref().map_or(h, |mean| *mean), failure: run.err().map(|error| error.to_string()) }
-}
-
-fn run(
-    variant: &Variant,
-    method: Method,
-    h: f64,
-    intervals: u32,
     mut see: impl FnMut(f64, [f64; 2]) -> bool,
 ) -> Result<f64, TransientError> {
+    let intervals = (steps / STRIDE).max(1);
     let schedule =
         Schedule { interval: h * f64::from(STRIDE), steps_per_interval: STRIDE, intervals: u64::from(intervals) };
     let mut beside = variant.state.clone();

@@ -14,12 +14,10 @@ mod condition;
 mod measured;
 mod plots;
 mod section;
-mod summary;
 
 pub use cell::{MethodStability, StepRecord, Window};
 pub(crate) use compute::compute_stability;
-pub use compute::{ConditionStability, Stability};
+pub use compute::{ConditionSummary, Stability, StabilityModel};
 pub use condition::Condition;
 pub(crate) use plots::{resonance_plot, stability_map};
 pub(crate) use section::{stability_report, stability_section};
-pub use summary::{ConditionSummary, StabilityModel, StabilitySummary};

@@ -20,7 +20,7 @@ const STEPS: u32 = 400;
 pub(crate) fn stability_map(stability: &Stability) -> StepMap {
     let conditions = || {
         let good = stability.conditions.iter();
-        good.filter_map(|of| Some((of.condition, of.methods.as_ref().ok()?)))
+        good.filter_map(|of| Some((&of.label, of.methods.as_ref()?)))
     };
     let mut methods: Vec<Method> = Vec::new();
     for of in conditions().flat_map(|(_, methods)| methods) {
@@ -51,7 +51,7 @@ pub(crate) fn stability_map(stability: &Stability) -> StepMap {
         axis: "Step".to_owned(),
         unit: "µs".to_owned(),
         steps: stability.steps_s.iter().map(|step| 1e6 * step).collect(),
-        rows: conditions().map(|(condition, _)| condition.label()).collect(),
+        rows: conditions().map(|(label, _)| label.clone()).collect(),
         panels: panels.collect(),
     }
 }

@@ -1,6 +1,6 @@
 //! The map in a report.
 
-use super::{ConditionStability, MethodStability, Stability, resonance_plot, stability_map};
+use super::{ConditionSummary, MethodStability, Stability, StabilityModel, resonance_plot, stability_map};
 use crate::app::case::Case;
 use crate::report::{Block, Cell, Column, Report, Section, Table, significant};
 
@@ -13,7 +13,7 @@ pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str
 
 /// Picture, resonance and tables.
 pub(crate) fn stability_section(stability: &Stability) -> Section {
-    let [kept, all] = stability.modes;
+    let StabilityModel { modes: kept, of_modes: all, .. } = stability.model;
     Section::new("Stability map")
         .paragraph(format!(
             "Which steps a method can take, on the program's own model ({kept} of {all} modes) and, in the last rows, on all of them. The predicted limit is that of small motions about the equilibrium: the method itself steps the linearised system, and the limit is the step from which a motion grows by more than 0.05 % a step. The measured one is that of two short runs of the whole model side by side: beyond it they end with an error, run ten times as fast as finer ones, or are a hundred times as far apart as these. Where balls strike, the contacts are stiffer than in equilibrium and the measured limit is the lower one; impacts also part nearby runs by chance, and a single dark cell below the limit may be that. A growth too slow for short runs is not seen, and a limit says nothing of accuracy, which is lost much earlier."
@@ -26,14 +26,14 @@ pub(crate) fn stability_section(stability: &Stability) -> Section {
 }
 
 /// All methods that were computed under all conditions.
-fn cells(stability: &Stability) -> impl Iterator<Item = (&ConditionStability, &MethodStability)> {
+fn cells(stability: &Stability) -> impl Iterator<Item = (&ConditionSummary, &MethodStability)> {
     let conditions = stability.conditions.iter();
     conditions.flat_map(|of| of.methods.iter().flatten().map(move |method| (of, method)))
 }
 
 /// Names of a condition and a method in the first columns of the tables.
-fn names(of: &ConditionStability, method: &MethodStability) -> [Cell; 2] {
-    [Cell::text(of.condition.label()), Cell::text(method.method.name())]
+fn names(of: &ConditionSummary, method: &MethodStability) -> [Cell; 2] {
+    [Cell::text(&of.label), Cell::text(method.method.name())]
 }
 
 /// A time in microseconds, or a dash.
@@ -66,8 +66,8 @@ fn limits(stability: &Stability) -> Table {
         names(of, method).into_iter().chain(values).collect::<Vec<_>>()
     });
     let refused = stability.conditions.iter().filter_map(|of| {
-        let reason = of.methods.as_ref().err()?;
-        let label = [Cell::text(of.condition.label())];
+        let reason = of.reason.as_ref()?;
+        let label = [Cell::text(&of.label)];
         Some(label.into_iter().chain(dashes::<4>()).chain([Cell::text(reason)]).collect())
     });
     Table::new("Limits", columns).rows(computed.chain(refused))
