@@ -54,7 +54,8 @@ pub(super) fn json(result: &impl Serialize) -> Result<Value, CliError> {
 /// be written last, after the files that it speaks of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFolder {
-    path: PathBuf,
+    /// Where it is.
+    pub(crate) path: PathBuf,
 }
 
 impl OutputFolder {
@@ -72,12 +73,6 @@ impl OutputFolder {
     #[must_use]
     pub(crate) fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
-    }
-
-    /// Returns the folder's path.
-    #[must_use]
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
     }
 
     /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
@@ -333,7 +328,7 @@ mod tests {
         folder.claim("modes", false).unwrap();
         folder.claim("run", true).unwrap();
         let default = OutputFolder::of(&case, &Options::default());
-        assert_eq!(default.path(), Path::new("out/case.v2"));
+        assert_eq!(default.path, Path::new("out/case.v2"));
         let blocked = OutputFolder { path: written.join("below a file") };
         let error = blocked.claim("run", false).unwrap_err();
         assert_eq!(error.exit_code(), 2);

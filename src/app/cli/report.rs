@@ -61,7 +61,7 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         let version = &report.version;
         summary.push(format!("{command}: {}, computed by {version}", report.title));
         pages.push(PageSummary {
-            page: folder.path().join(&page),
+            page: folder.path.join(&page),
             command,
             computed_by: version.clone(),
             tables: files.tables,

@@ -75,7 +75,7 @@ impl ReportFiles {
         let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
         for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
-            let path = folder.path().join(of);
+            let path = folder.path.join(of);
             if files.is_empty() && !path.exists() {
                 continue;
             }
@@ -108,14 +108,17 @@ pub(super) fn page_of(record: &str) -> Option<String> {
 /// Checks that the meshes are still those that were read: the report names their content.
 ///
 /// # Errors
-/// [`ComputeError::MeshChanged`].
+/// [`ComputeError::Failed`].
 fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError> {
     let other = |file: &&FileDigest| {
         let same_path = now.iter().find(|now| now.path == file.path);
         same_path.is_some_and(|now| now.sha256 != file.sha256)
     };
     match read.iter().find(other) {
-        Some(file) => Err(ComputeError::MeshChanged { path: file.path.clone() }),
+        Some(file) => Err(ComputeError::failed(
+            format!("{} was changed while it was used: the result belongs to what it was before", file.path.display()),
+            "run the command again when the mesh is complete",
+        )),
         None => Ok(()),
     }
 }
@@ -145,7 +148,6 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{is_of_report, page_of, record_of, unchanged};
-    use crate::app::error::ComputeError;
     use crate::files::FileDigest;
 
     #[test]
@@ -164,7 +166,7 @@ mod tests {
         let now = [file("a.msh", b"1"), file("b.msh", b"2")];
         assert!(unchanged(&now, &now[..1]).is_ok());
         let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();
-        assert!(matches!(&error, ComputeError::MeshChanged { path } if path.ends_with("b.msh")));
+        assert!(error.to_string().starts_with("b.msh was changed while it was used"));
         assert!(!error.is_input());
     }
 

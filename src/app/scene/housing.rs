@@ -78,14 +78,16 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
 fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
     match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         None => Ok(RingFrame::default()),
-        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(ComputeError::TieFrame),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
+            ComputeError::wrong("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")
+        }),
     }
 }
 
 /// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`ComputeError::Material`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
+/// [`ComputeError::Input`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
 pub(crate) fn material(case: &Case, key: &str, name: &str) -> Result<Material, ComputeError> {
     checked(name, case.isotropic(key, name)?)
 }
@@ -111,8 +113,7 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeE
 }
 
 fn named(name: &str, source: MaterialError) -> ComputeError {
-    let name = name.to_owned();
-    ComputeError::Material { name, source }
+    ComputeError::wrong(format!("materials.{name}: {source}"))
 }
 
 fn support(support: &case::Support) -> HousingSupport {

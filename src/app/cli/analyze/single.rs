@@ -26,7 +26,7 @@ pub(super) fn single(
     folder: &OutputFolder,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     progress.stage("read");
     let source = Source::open(asked, input, Unnamed::Only, options)?;
     let baseline = Baseline::open(asked, options)?;

@@ -46,7 +46,7 @@ pub(super) fn survey(
     let started = std::time::Instant::now();
     let baseline = Baseline::open(asked, options)?;
     folder.claim(RESULT, options.force)?;
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     progress.stage("analyse");
     let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     progress.count(0, inputs.len());

@@ -10,7 +10,7 @@ pub use arguments::{Share, SweepArguments};
 
 use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings};
+use super::results::{Job, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt, write_atomic};
 use crate::app::case::{Case, CaseError};
 use crate::app::error::ComputeError;
@@ -36,14 +36,14 @@ const POINTS_KEPT: &str = "the points so far and checkpoints of the others are";
 /// # Errors
 /// [`CliError`] when the input is wrong, no point is a valid case, the sweep was interrupted or a file cannot be written.
 pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome, CliError> {
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     let outcome = if let Some(share) = asked.task {
         task(&asked.from, share, options, &progress)
     } else if asked.merge {
         let folder = OutputFolder::at(&asked.from);
         let plan = read_plan(&folder)?;
         folder.claim("sweep", options.force)?;
-        merge(plan, &folder, &progress)
+        merge(plan, folder, options, &progress)
     } else {
         whole(asked, options, &progress)
     };
@@ -58,7 +58,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
     check_points(&plan, &case)?;
     let folder = OutputFolder::of(&case, options);
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     if asked.resume {
         if options.force {
             return Err(CliError::resume_anew());
@@ -66,7 +66,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
         if !changes.is_empty() {
-            return Err(changed(folder.path(), &changes).into());
+            return Err(changed(&folder.path, &changes).into());
         }
     } else {
         begin(&plan, &folder, options.force)?;
@@ -83,7 +83,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         let what = format!("interrupted at {done} of {} points", plan.count());
         return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again(&case, asked, options)));
     }
-    merge(plan, &folder, progress)
+    merge(plan, folder, options, progress)
 }
 
 /// One share of the points, of the sweep in a folder.
@@ -93,9 +93,9 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     let case = Case::load(&plan.case, &plan.set)?;
     let changes = plan.changes(&Plan::new(&case, plan.command, plan.axes.clone())?);
     if !changes.is_empty() {
-        return Err(changed(folder.path(), &changes).into());
+        return Err(changed(&folder.path, &changes).into());
     }
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     progress.stage("points");
     let stop = interrupt::stop_request()?;
     let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
@@ -141,10 +141,10 @@ fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
 
 /// Writes the plan into an empty folder of points.
 fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError> {
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     let file = points.join(PLAN);
     if file.exists() && !force {
-        return Err(in_the_way(folder.path()).into());
+        return Err(in_the_way(&folder.path).into());
     }
     folder.claim("sweep", force)?;
     if file.exists() {
@@ -157,11 +157,11 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
 }
 
 fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
-    let plan = folder.path().join(POINTS).join(PLAN);
+    let plan = folder.path.join(POINTS).join(PLAN);
     let text = match fs::read(&plan) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(no_plan(folder.path(), &plan));
+            return Err(no_plan(&folder.path, &plan));
         }
         Err(error) => return Err(ComputeError::io(&plan)(error)),
     };
@@ -197,21 +197,20 @@ fn no_plan(folder: &Path, plan: &Path) -> ComputeError {
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
-fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
+fn merge(plan: Plan, folder: OutputFolder, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     progress.stage("write");
     let case = Case::load(&plan.case, &plan.set)?;
-    let result = SweepResult::collect(plan, &folder.path().join(POINTS))?;
+    let job = Job { folder, ..Job::new("sweep", &case, options, progress) };
+    let folder = &job.folder;
+    let result = SweepResult::collect(plan, &folder.path.join(POINTS))?;
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
-    let npz = folder.path().join("sweep.npz");
+    let npz = folder.path.join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
     let command = command_line(&result.plan);
     let document = Document::new().case(case.source.path.display().to_string());
     let report = sweep_report(&case.title, &result, &command).document(document);
     let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("sweep", &case, progress, wall_s, &files, result.summary());
-    let (path, json) = folder.write_json("sweep.json", &record)?;
+    let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -267,14 +266,14 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
-    let scripts = slurm_scripts(&program, &absolute(folder.path())?, tasks, threads);
+    let scripts = slurm_scripts(&program, &absolute(&folder.path)?, tasks, threads);
     let mut written: Vec<PathBuf> = Vec::new();
     for (name, text) in
         [("array.sbatch", &scripts.array), ("merge.sbatch", &scripts.merge), ("submit.sh", &scripts.submit)]
     {
         written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
     }
-    let submit = folder.path().join(POINTS).join("submit.sh");
+    let submit = folder.path.join(POINTS).join("submit.sh");
     Ok(Outcome {
         summary: format!(
             "{} points in {tasks} tasks; submit them by: sh {}",
