@@ -9,7 +9,7 @@ use crate::app::commands::result::{CaseResult, ResultHead, VERSION};
 use crate::app::commands::run::{Recording, RunResult, SensorScalogram};
 use crate::app::error::ComputeError;
 use crate::files::FileDigest;
-use crate::formats::{NpzWriter, write_modes_npz};
+use crate::formats::{NpzWriter, column_name, write_modes_npz};
 use crate::system::Column;
 use serde::Serialize;
 use serde_json::Value;
@@ -116,15 +116,7 @@ pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunRes
     let write = || -> Result<(), ComputeError> {
         let mut npz = NpzWriter::create(&path)?;
         for column in Column::all(sensors.len()) {
-            let name = match column {
-                Column::Time => "time_s",
-                Column::ShaftX => "shaft_x",
-                Column::ShaftY => "shaft_y",
-                Column::Sensor(sensor) => &sensors[sensor],
-                Column::BallRadius => "ball_radius",
-                Column::OuterForce => "outer_force",
-                Column::InnerForce => "inner_force",
-            };
+            let name = column_name(column).unwrap_or_else(|sensor| &sensors[sensor]);
             let shape: &[usize] = match column {
                 Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
                 _ => &[rows],

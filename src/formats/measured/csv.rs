@@ -48,32 +48,34 @@ impl Table<'_> {
         let mut values: Vec<Vec<f64>> = Vec::new();
         loop {
             let more = table.read_record(&mut record);
-            if !more.map_err(|error| self.damaged(&error))? {
+            let damaged = |error: ::csv::Error| {
+                let line = error.position().map_or(0, Position::line);
+                self.content(line, "a line of the table", &error.to_string())
+            };
+            if !more.map_err(damaged)? {
                 break;
             }
             if record.iter().all(str::is_empty) {
                 continue;
             }
-            let Some(columns) = &mut columns else {
-                let found = self.header(&record, request)?;
+            let Some(found) = &mut columns else {
+                let found = columns.insert(self.header(&record, request)?);
                 values = vec![Vec::new(); found.wanted.len()];
-                let is_data = numbers(&record);
-                columns = Some(found);
-                if is_data && let Some(columns) = &columns {
+                if numbers(&record) {
                     first_row = self.line(&record);
-                    self.row(&record, columns, &mut times, &mut values)?;
+                    self.row(&record, found, &mut times, &mut values)?;
                 }
                 continue;
             };
+            // a row of units below the names
+            if first_row == 0 && record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
+                self.units(&record, found)?;
+                continue;
+            }
             if first_row == 0 {
-                // a row of units below the names
-                if record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
-                    self.units(&record, columns)?;
-                    continue;
-                }
                 first_row = self.line(&record);
             }
-            self.row(&record, columns, &mut times, &mut values)?;
+            self.row(&record, found, &mut times, &mut values)?;
         }
         let Some(columns) = columns.filter(|_| first_row > 0) else {
             return Err(self.content(1, "a header and rows of numbers", "none"));
@@ -82,15 +84,9 @@ impl Table<'_> {
             Some(_) => Clock::Times { times, first_row },
             None => Clock::Unknown,
         });
-        let pairs = columns.wanted.into_iter().zip(values);
-        let channels = pairs.map(|((_, name, unit), values)| Channel {
-            name,
-            unit,
-            values,
-            clock: Rc::clone(&clock),
-            speed_hz: None,
-        });
-        Ok(channels.collect())
+        let channel =
+            |((_, name, unit), values)| Channel { name, unit, values, clock: Rc::clone(&clock), speed_hz: None };
+        Ok(columns.wanted.into_iter().zip(values).map(channel).collect())
     }
 
     /// What separates the columns: the first of tab, semicolon and comma that the first line has.
@@ -114,12 +110,11 @@ impl Table<'_> {
         } else {
             let place = record.iter().position(|cell| time_unit(cell).is_some());
             let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
-            let others = record.iter().enumerate().filter(|&(own, _)| Some(own) != place);
-            let named = others.map(|(own, cell)| {
+            let named = |(own, cell): (usize, &str)| {
                 let (name, unit) = name_and_unit(cell);
-                (own, name, unit)
-            });
-            (named.collect(), time)
+                (Some(own) != place).then_some((own, name, unit))
+            };
+            (record.iter().enumerate().filter_map(named).collect(), time)
         };
         if time.is_none() && request.rate_hz.is_none() {
             return Err(MeasuredError::NoTime { path: self.path.to_owned() });
@@ -173,10 +168,7 @@ impl Table<'_> {
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             _ if is_comma_number(cell) => Err(self.comma(self.line(record), cell)),
-            _ => {
-                let expected = format!("a finite number for {what}");
-                Err(self.content(self.line(record), &expected, cell))
-            }
+            _ => Err(self.content(self.line(record), &format!("a finite number for {what}"), cell)),
         }
     }
 
@@ -192,15 +184,10 @@ impl Table<'_> {
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {
         let path = self.path.display();
-        MeasuredError::Refused {
-            message: format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
-            help: Some("write the table with decimal points; the separator may stay a semicolon".to_owned()),
-        }
-    }
-
-    fn damaged(&self, error: &::csv::Error) -> MeasuredError {
-        let line = error.position().map_or(0, Position::line);
-        self.content(line, "a line of the table", &error.to_string())
+        MeasuredError::refused_with(
+            format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
+            "write the table with decimal points; the separator may stay a semicolon",
+        )
     }
 }
 

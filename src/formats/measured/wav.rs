@@ -119,19 +119,16 @@ fn parts(bytes: &[u8]) -> Result<(Format, &[u8]), String> {
             });
         };
         let size = word(&head[4..]) as usize;
-        let Some(body) = after.get(..size) else {
-            let there = after.len();
-            return Err(format!("a part of {size} bytes, of which {there} are there"));
-        };
+        let missing = || format!("a part of {size} bytes, of which {} are there", after.len());
+        let body = after.get(..size).ok_or_else(missing)?;
         match &head[..4] {
             b"fmt " => format = Some(format_of(body)?),
             b"data" => {
                 let format = format.ok_or("samples before their format")?;
                 let frame = format.decode.width() * format.channels;
-                return if body.len().is_multiple_of(frame) {
-                    Ok((format, body))
-                } else {
-                    Err(format!("{size} bytes of samples, {frame} at each instant"))
+                return match body.len().is_multiple_of(frame) {
+                    true => Ok((format, body)),
+                    false => Err(format!("{size} bytes of samples, {frame} at each instant")),
                 };
             }
             _ => {}

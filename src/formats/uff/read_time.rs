@@ -122,11 +122,8 @@ fn text(cursor: &mut Cursor) -> Result<Option<(Quantity, TimeResponse)>, Fault> 
 
 fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
     let found = read_binary(cursor, first)?;
-    let mut lines = found.lines.iter();
-    let head = FunctionHead::read(|expected| {
-        let line = lines.next().cloned();
-        line.ok_or_else(|| first.fault(expected))
-    })?;
+    let mut lines = found.lines.iter().cloned();
+    let head = FunctionHead::read(|expected| lines.next().ok_or_else(|| first.fault(expected)))?;
     if !is_time(&head) {
         return Ok(None);
     }
@@ -151,27 +148,24 @@ fn signal(head: &FunctionHead, numbers: Vec<f64>, end: &Line) -> Result<(Quantit
         return Err(head.data_fault("real values of a signal over time"));
     }
     let size = if head.form.even.is_some() { 1 } else { 2 };
-    if head.form.count.checked_mul(size) != Some(numbers.len()) {
-        let found = format!("{} of {}", numbers.len() / size, head.form.count);
-        return Err(Fault::new("as many values as the data has", found).line(end.number));
-    }
+    let found = format_args!("{} of {}", numbers.len() / size, head.form.count);
+    let all = head.form.count.checked_mul(size) == Some(numbers.len());
+    Fault::unless(all, "as many values as the data has", found).map_err(|fault| fault.line(end.number))?;
     let (axis, values) = match head.form.even {
         Some((start_s, step_s)) => (TimeAxis::Even { start_s, step_s }, numbers),
         None => {
-            let pairs = numbers.chunks_exact(2);
-            let (times, values) = pairs.map(|pair| (pair[0], pair[1])).unzip();
+            let (times, values) = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
             (TimeAxis::Uneven(times), values)
         }
     };
-    let unit = head.axes.get(1).map_or("", |(_, line)| axis_unit(line)).to_owned();
-    let in_g = unit.eq_ignore_ascii_case("g");
-    let (quantity, unit) = match head.axes.get(1).map(|(kind, _)| kind) {
-        Some(12) if in_g => (Quantity::Other, "g".to_owned()),
-        Some(8) => (Quantity::Motion, "m".to_owned()),
-        Some(11) => (Quantity::Motion, "m/s".to_owned()),
-        Some(12) => (Quantity::Motion, "m/s^2".to_owned()),
-        Some(9 | 13) => (Quantity::Force, "N".to_owned()),
-        _ => (Quantity::Other, named(&unit)),
+    let (kind, unit) = head.axes.get(1).map_or((0, ""), |(kind, line)| (*kind, axis_unit(line)));
+    let (quantity, unit) = match kind {
+        12 if unit.eq_ignore_ascii_case("g") => (Quantity::Other, "g".to_owned()),
+        8 => (Quantity::Motion, "m".to_owned()),
+        11 => (Quantity::Motion, "m/s".to_owned()),
+        12 => (Quantity::Motion, "m/s^2".to_owned()),
+        9 | 13 => (Quantity::Force, "N".to_owned()),
+        _ => (Quantity::Other, named(unit)),
     };
     Ok((quantity, TimeResponse { name: name(head), unit, axis, values }))
 }
