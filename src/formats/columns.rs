@@ -4,7 +4,7 @@
 //! Read with `numpy.fromfile(path)`, the last three with `.reshape(-1, balls)`.
 
 use std::fs::{File, OpenOptions};
-use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -156,15 +156,12 @@ impl ColumnFiles {
         let mut file = File::open(&path).map_err(failed)?;
         let first = (places.start * BYTES) as u64;
         file.seek(SeekFrom::Start(first)).map_err(failed)?;
-        let mut file = BufReader::with_capacity(1 << 16, file);
-        let (mut left, mut bytes) = (places.len(), [0; BYTES]);
-        let mut values = Vec::with_capacity(PIECE.min(left));
+        let mut left = places.len();
+        let mut bytes = vec![0; BYTES * PIECE.min(left)];
         while left > 0 {
-            values.clear();
-            for _ in 0..PIECE.min(left) {
-                file.read_exact(&mut bytes).map_err(failed)?;
-                values.push(f64::from_le_bytes(bytes));
-            }
+            bytes.truncate(BYTES * left);
+            file.read_exact(&mut bytes).map_err(failed)?;
+            let values: Vec<f64> = bytes.as_chunks().0.iter().map(|number| f64::from_le_bytes(*number)).collect();
             left -= values.len();
             take(&values)?;
         }

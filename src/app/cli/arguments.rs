@@ -395,8 +395,7 @@ impl Command {
 const MOST_THREADS: usize = 1024;
 
 fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
-    let number = text.parse::<NonZeroUsize>().ok();
-    let number = number.filter(|number| number.get() <= MOST_THREADS);
+    let number = text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= MOST_THREADS);
     number.ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }
 
@@ -425,30 +424,32 @@ pub struct Options {
 
 /// A pause between checkpoints: not negative, at most a year.
 fn pause(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(pause) if (0.0..=3.2e7).contains(&pause) => Ok(pause),
-        _ => Err(format!("expected seconds from 0 to 3.2e7, found \"{text}\"")),
-    }
+    number(text, |pause| (0.0..=3.2e7).contains(&pause), "seconds from 0 to 3.2e7")
 }
 
 /// A density: positive and finite.
 fn density(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(density) if density > 0.0 && density.is_finite() => Ok(density),
-        _ => Err(format!("expected a number of kg/m^3 above 0, found \"{text}\"")),
-    }
+    number(text, |density| density > 0.0 && density.is_finite(), "a number of kg/m^3 above 0")
+}
+
+fn number(text: &str, fits: fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|&value| fits(value));
+    value.ok_or_else(|| format!("expected {expected}, found \"{text}\""))
+}
+
+/// The command line that computes a case.
+pub(super) fn command_line(command: &str, case: &Case) -> String {
+    let line = format!("plummer {command} {}", shell_word(&case.source.path.to_string_lossy()));
+    case.source.set.iter().fold(line, |line, set| format!("{line} --set {}", shell_word(set)))
+}
+
+/// The command line that goes on with what another one began.
+pub(super) fn resuming(line: &str, options: &Options) -> String {
+    let out = options.out.as_ref().map(|out| format!(" --out {}", shell_word(&out.to_string_lossy())));
+    format!("{line}{} --resume", out.unwrap_or_default())
 }
 
 impl Options {
-    /// The command line that computes this again.
-    #[must_use]
-    pub(crate) fn command_line(&self, command: &str, case: &Case) -> String {
-        let file = shell_word(&case.source.path.to_string_lossy());
-        let mut words = vec![format!("plummer {command} {file}")];
-        words.extend(self.set.iter().map(|set| format!("--set {}", shell_word(set))));
-        words.join(" ")
-    }
-
     /// Returns whether progress may be shown at all.
     #[must_use]
     pub(crate) fn shows_progress(&self) -> bool {

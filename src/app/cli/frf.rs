@@ -34,18 +34,15 @@ fn verdict(result: &FrfResult) -> Result<(), CliError> {
     if result.passes() {
         return Ok(());
     }
-    let found = |how: &str, (hz, error): (f64, f64)| {
-        (error > result.target).then(|| format!("{how} {error:.1e} at {hz:.0} Hz"))
+    let found = |(how, at): (&str, Option<(f64, f64)>)| {
+        let (hz, error) = at.filter(|&(_, error)| error > result.target)?;
+        Some(format!("{how} {error:.1e} at {hz:.0} Hz"))
     };
-    let estimated = result.largest_estimate();
-    let compared = result.largest_difference();
-    let misses: Vec<String> = [
-        estimated.and_then(|at| found("estimated error", at)),
-        compared.and_then(|at| found("difference from the full model", at)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let errors = [
+        ("estimated error", result.largest_estimate()),
+        ("difference from the full model", result.largest_difference()),
+    ];
+    let misses: Vec<String> = errors.into_iter().filter_map(found).collect();
     Err(CliError::failed(format!(
         "the reduced responses miss the target {:.1e}: {}",
         result.target,
@@ -73,13 +70,9 @@ fn summary(result: &FrfResult) -> String {
             lines.push(format!("{} to {}: {}", path.from, path.to, TransferPath::CLOSED));
             continue;
         }
-        let modes: Vec<String> = path
-            .shares
-            .modes
-            .iter()
-            .take(3)
-            .map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share))
-            .collect();
+        let shares = path.shares.modes.iter().take(3);
+        let modes = shares.map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share));
+        let modes: Vec<String> = modes.collect();
         lines.push(format!("{} to {}: carried by {}", path.from, path.to, modes.join(", ")));
     }
     if let Some((hz, error)) = result.largest_estimate() {

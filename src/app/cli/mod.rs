@@ -37,8 +37,8 @@ use std::time::Duration;
 use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
-use arguments::word;
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
+use arguments::{command_line, resuming, word};
 pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
@@ -155,9 +155,7 @@ fn compute(
         Command::Run { explain: true, .. } => {}
         Command::Run { resume: true, .. } => run::claim_unfinished(&job.folder, options.force)?,
         _ => {
-            let files = arguments.command.result_files();
-            let names: Vec<&str> = files.iter().map(String::as_str).collect();
-            job.folder.claim_files(&names, options.force)?;
+            job.folder.claim_files(&arguments.command.result_files(), options.force)?;
         }
     }
     let outcome = work(&job);

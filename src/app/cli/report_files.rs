@@ -123,12 +123,9 @@ fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError
     }
 }
 
-/// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
+/// Removes what an earlier report of the command left in a folder, and nothing else.
 fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
     let failed = |error| CliError::folder(path, &error);
-    if !path.is_dir() {
-        return Ok(());
-    }
     for entry in fs::read_dir(path).map_err(failed)? {
         let entry = entry.map_err(failed)?;
         if is_of_report(command, &entry.file_name().to_string_lossy(), ending) {

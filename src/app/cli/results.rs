@@ -2,7 +2,7 @@
 
 use super::earlier_results::digests;
 use super::report_files::ReportFiles;
-use super::{CliError, Options, OutputFolder, Progress};
+use super::{CliError, Options, OutputFolder, Progress, command_line};
 use crate::app::case::Case;
 use crate::app::commands::modes::ModesResult;
 use crate::app::commands::result::{CaseResult, ResultHead, VERSION};
@@ -53,7 +53,7 @@ impl<'a> Job<'a> {
 
     /// The command line that computes this again.
     pub(super) fn command_line(&self) -> String {
-        self.options.command_line(self.command, self.case)
+        command_line(self.command, self.case)
     }
 
     /// What was found, as the result of the case; it rests on these meshes and has these tables, if it has a report.
@@ -99,9 +99,9 @@ pub(super) fn warnings(doubts: &[String]) -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result<PathBuf, CliError> {
+pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result<PathBuf, ComputeError> {
     let path = folder.path.join("modes.npz");
-    write_modes_npz(&path, &result.mode_shapes()).map_err(ComputeError::from)?;
+    write_modes_npz(&path, &result.mode_shapes())?;
     Ok(path)
 }
 
@@ -109,25 +109,25 @@ pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunResult<R>) -> Result<PathBuf, CliError> {
+pub(super) fn write_signals<R: Recording>(
+    folder: &OutputFolder,
+    result: &RunResult<R>,
+) -> Result<PathBuf, ComputeError> {
     let path = folder.path.join("signals.npz");
     let record = &result.simulation.record;
     let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
-    let write = || -> Result<(), ComputeError> {
-        let mut npz = NpzWriter::create(&path)?;
-        for column in Column::all(sensors.len()) {
-            let name = column_name(column).unwrap_or_else(|sensor| &sensors[sensor]);
-            let shape: &[usize] = match column {
-                Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
-                _ => &[rows],
-            };
-            let mut array = npz.begin(name, shape)?;
-            record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
-            array.end()?;
-        }
-        Ok(npz.finish()?)
-    };
-    write()?;
+    let mut npz = NpzWriter::create(&path)?;
+    for column in Column::all(sensors.len()) {
+        let name = column_name(column).unwrap_or_else(|sensor| &sensors[sensor]);
+        let shape: &[usize] = match column {
+            Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
+            _ => &[rows],
+        };
+        let mut array = npz.begin(name, shape)?;
+        record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
+        array.end()?;
+    }
+    npz.finish()?;
     Ok(path)
 }
 
@@ -138,21 +138,18 @@ pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunRes
 pub(super) fn write_scalograms(
     folder: &OutputFolder,
     scalograms: &[SensorScalogram],
-) -> Result<Option<PathBuf>, CliError> {
+) -> Result<Option<PathBuf>, ComputeError> {
     let Some(SensorScalogram { scalogram: axes, .. }) = scalograms.first() else {
         return Ok(None);
     };
     let path = folder.path.join("scalogram.npz");
     let (rows, columns) = (axes.frequency_hz.len(), axes.time_s.len());
-    let write = || -> Result<(), ComputeError> {
-        let mut npz = NpzWriter::create(&path)?;
-        npz.array("time_s", &axes.time_s)?;
-        npz.array("frequency_hz", &axes.frequency_hz)?;
-        for of_sensor in scalograms {
-            npz.matrix(&of_sensor.sensor, rows, columns, &of_sensor.scalogram.amplitude)?;
-        }
-        Ok(npz.finish()?)
-    };
-    write()?;
+    let mut npz = NpzWriter::create(&path)?;
+    npz.array("time_s", &axes.time_s)?;
+    npz.array("frequency_hz", &axes.frequency_hz)?;
+    for of_sensor in scalograms {
+        npz.matrix(&of_sensor.sensor, rows, columns, &of_sensor.scalogram.amplitude)?;
+    }
+    npz.finish()?;
     Ok(Some(path))
 }

@@ -3,13 +3,12 @@
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
-use super::{CliError, Outcome, OutputFolder, interrupt};
+use super::{CliError, Outcome, OutputFolder, interrupt, resuming};
 use crate::app::case::{Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
-use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
 use std::time::Duration;
@@ -78,7 +77,7 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
             &error.to_string(),
             "the signals so far and a checkpoint are",
             &unfinished.folder,
-            &again(job),
+            &resuming(&job.command_line(), job.options),
         ),
         error => error.into(),
     })?;
@@ -95,15 +94,6 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
         written: [arrays, vec![path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
     })
-}
-
-/// The command line that goes on with a run.
-fn again(job: &Job<'_>) -> String {
-    let mut line = job.command_line();
-    if let Some(out) = &job.options.out {
-        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
-    }
-    line + " --resume"
 }
 
 fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Result<(), CliError> {

@@ -56,34 +56,36 @@ fn conclude(
         summary: summary(sections),
         result: json,
         written: [vec![path], files.paths].concat(),
-        verdict: if failed.is_empty() {
-            Ok(())
-        } else {
-            Err(CliError::failed(failed.join("; ")).with_help(
+        verdict: match failed.is_empty() {
+            true => Ok(()),
+            false => Err(CliError::failed(failed.join("; ")).with_help(
                 "the program does not compute here what it computed where it was made: please report it with verify.json",
-            ))
+            )),
         },
     })
 }
 
 fn report(sections: &[SectionResult], command: &str) -> Report {
-    let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok).count();
-    let total = checks().count();
+    let [good, total] = good_of(sections);
     let verdict = crate::report::Verdict::of(good == total);
     let mut report = Report::new("Verification", command, env!("CARGO_PKG_VERSION"))
         .subtitle("The program against published numbers and closed forms")
         .judgement("Checks", format!("{good} of {total} pass"), verdict);
     for section in sections {
-        let good = section.checks.iter().filter(|check| check.ok).count();
-        let value = format!("{good} of {}", section.checks.len());
-        let verdict = crate::report::Verdict::of(good == section.checks.len());
-        report = report.headline(&section.title, value, verdict);
+        let [good, total] = good_of(std::slice::from_ref(section));
+        let verdict = crate::report::Verdict::of(good == total);
+        report = report.headline(&section.title, format!("{good} of {total}"), verdict);
         for part in section.sections() {
             report = report.section(part);
         }
     }
     report
+}
+
+/// How many checks pass, and how many there are.
+fn good_of(sections: &[SectionResult]) -> [usize; 2] {
+    let checks = || sections.iter().flat_map(|section| &section.checks);
+    [checks().filter(|check| check.ok).count(), checks().count()]
 }
 
 fn summary(sections: &[SectionResult]) -> String {
@@ -96,9 +98,8 @@ fn summary(sections: &[SectionResult]) -> String {
             lines.push(table.plain());
         }
     }
-    let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok).count();
-    lines.push(format!("{good} of {} checks pass", checks().count()));
+    let [good, total] = good_of(sections);
+    lines.push(format!("{good} of {total} checks pass"));
     lines.join("\n")
 }
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
-use super::SuperelementRecord;
+use super::{InterfaceRecovery, SuperelementRecord};
 use crate::files::Fault;
 use crate::formats::{DofDirection, DofLabel};
 use crate::numerics::linalg::DenseMatrix;
@@ -52,13 +52,16 @@ impl SuperelementRecord {
         self.check_matrices()?;
         let order = self.order();
         count("modal_hz", order - self.interface.len(), self.modal_hz.len())?;
-        finite("modal_hz", &column(&self.modal_hz))?;
+        let modal_hz = DenseMatrix::from_fn(self.modal_hz.len(), 1, |row, _| self.modal_hz[row]);
+        finite("modal_hz", [self.modal_hz.len(), 1], &modal_hz)?;
         self.check_frequencies()?;
         if let Some(weight) = &self.weight {
-            shape("weight", [order, 3], weight)?;
-            finite("weight", weight)?;
+            finite("weight", [order, 3], weight)?;
         }
-        self.check_interface_recovery()?;
+        if let Some(InterfaceRecovery { labels, modes }) = &self.interface_recovery {
+            finite("interface_modes", [labels.len(), self.interface.len()], modes)?;
+            check_labels(labels, &RECOVERED)?;
+        }
         self.check_sensors()?;
         self.check_field()
     }
@@ -77,22 +80,11 @@ impl SuperelementRecord {
         ];
         for (name, matrix) in matrices {
             if let Some(matrix) = matrix {
-                shape(name, [rows, rows], matrix)?;
-                finite(name, matrix)?;
+                finite(name, [rows, rows], matrix)?;
                 symmetric(name, matrix)?;
             }
         }
         check_labels(&self.interface, &INTERFACE)
-    }
-
-    fn check_interface_recovery(&self) -> Result<(), Fault> {
-        let Some(recovery) = &self.interface_recovery else {
-            return Ok(());
-        };
-        let expected = [recovery.labels.len(), self.interface.len()];
-        shape("interface_modes", expected, &recovery.modes)?;
-        finite("interface_modes", &recovery.modes)?;
-        check_labels(&recovery.labels, &RECOVERED)
     }
 
     fn check_frequencies(&self) -> Result<(), Fault> {
@@ -130,8 +122,7 @@ impl SuperelementRecord {
         let nodes = field.node_tags.len();
         count("field_positions", nodes, field.positions.len())?;
         let rows = nodes.saturating_mul(3);
-        shape("field_recovery", [rows, self.order()], &field.recovery)?;
-        finite("field_recovery", &field.recovery)?;
+        finite("field_recovery", [rows, self.order()], &field.recovery)?;
         let positions = field.positions.as_flattened();
         if let Some(place) = positions.iter().position(|value| !value.is_finite()) {
             return Err(not_finite("field_positions", [place / 3, place % 3], positions[place]));
@@ -170,10 +161,6 @@ fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), Fault> {
     Ok(())
 }
 
-fn column(values: &[f64]) -> DenseMatrix {
-    DenseMatrix::from_fn(values.len(), 1, |row, _| values[row])
-}
-
 fn count(array: &'static str, expected: usize, found: usize) -> Result<(), Fault> {
     if expected == found { Ok(()) } else { Err(of_array(array, format!("{expected} entries"), found)) }
 }
@@ -203,11 +190,9 @@ fn not_finite(array: &str, [row, column]: [usize; 2], found: f64) -> Fault {
     of_array(array, "finite numbers", format_args!("{found} at [{row}, {column}]"))
 }
 
-fn shape(array: &'static str, expected: [usize; 2], matrix: &DenseMatrix) -> Result<(), Fault> {
-    same_shape(array, expected, [matrix.nrows(), matrix.ncols()])
-}
-
-fn finite(array: &'static str, matrix: &DenseMatrix) -> Result<(), Fault> {
+/// Whether a matrix has its shape and finite numbers.
+fn finite(array: &'static str, expected: [usize; 2], matrix: &DenseMatrix) -> Result<(), Fault> {
+    same_shape(array, expected, [matrix.nrows(), matrix.ncols()])?;
     for (column, values) in matrix.col_iter().enumerate() {
         for (row, &found) in values.iter().enumerate() {
             if !found.is_finite() {

@@ -101,12 +101,7 @@ impl<'a> Cursor<'a> {
     /// The line with the next dataset's number, if there is one; text between datasets means nothing.
     pub(super) fn next_dataset(&mut self) -> Option<Line> {
         while !self.next()?.is_delimiter() {}
-        loop {
-            let line = self.next()?;
-            if !line.text.trim().is_empty() {
-                return Some(line);
-            }
-        }
+        std::iter::from_fn(|| self.next()).find(|line| !line.text.trim().is_empty())
     }
 
     /// Whether a line that begins or ends a dataset follows so many bytes.

@@ -48,8 +48,14 @@ pub(super) fn read_units<const N: usize>(cursor: &mut Cursor, expected: &'static
     Ok(factors)
 }
 
-/// What record 6 says.
-pub(super) struct Identification {
+/// What record 6 says: function type, 1 a signal over time, 4 a frequency response; where it was measured, and from where;
+/// whether both are along axes, or not known.
+type Identification = (i64, ResponsePoint, ResponsePoint, bool);
+
+/// What a dataset 58 says before its values.
+pub(super) struct FunctionHead {
+    /// Identification lines.
+    pub(super) names: Vec<String>,
     /// Function type: 1 a signal over time, 4 a frequency response.
     pub(super) function: i64,
     /// Where it was measured.
@@ -57,14 +63,6 @@ pub(super) struct Identification {
     pub(super) from: ResponsePoint,
     /// Both along axes, or not known.
     pub(super) moves: bool,
-}
-
-/// What a dataset 58 says before its values.
-pub(super) struct FunctionHead {
-    /// Identification lines.
-    pub(super) names: Vec<String>,
-    /// Record 6.
-    pub(super) own: Identification,
     /// Record 7 and what it says.
     data: Line,
     pub(super) form: Form,
@@ -80,7 +78,10 @@ impl FunctionHead {
         for _ in 0..5 {
             names.push(next(LINES)?.within(LINES)?.text.trim().to_owned());
         }
-        let own = identification(&next(POINTS)?)?;
+        let line = next(POINTS)?;
+        let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
+        let points = point_fields(&fields(&line.text, &WIDTHS)).or_else(|| point_fields(&words));
+        let (function, to, from, moves) = points.ok_or_else(|| line.fault(POINTS))?;
         const FORM: &str = "type, number, spacing, first abscissa and step of the data";
         let data = next(FORM)?;
         let form = Form::read(&data).ok_or_else(|| data.fault(FORM))?;
@@ -92,7 +93,7 @@ impl FunctionHead {
             let kind: Option<i64> = kind.and_then(|word| word.parse().ok());
             axes.push((kind.ok_or_else(|| line.fault(AXIS))?, line));
         }
-        Ok(Self { names, own, data, form, axes })
+        Ok(Self { names, function, to, from, moves, data, form, axes })
     }
 
     /// What is wrong with record 7.
@@ -109,13 +110,8 @@ pub(super) fn axis_unit(line: &Line) -> &str {
 const POINTS: &str =
     "function, its number, version, load case, then name, node and direction of response and reference";
 
-/// Record 6, in its columns, else as words.
-fn identification(line: &Line) -> Result<Identification, Fault> {
-    const WIDTHS: [usize; 10] = [5, 10, 5, 10, 11, 10, 4, 11, 10, 4];
-    let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
-    let own = point_fields(&fields(&line.text, &WIDTHS)).or_else(|| point_fields(&words));
-    own.ok_or_else(|| line.fault(POINTS))
-}
+/// Columns of record 6; some programs have words there.
+const WIDTHS: [usize; 10] = [5, 10, 5, 10, 11, 10, 4, 11, 10, 4];
 
 fn point_fields(fields: &[&str]) -> Option<Identification> {
     let &[function, _, _, _, to, to_node, to_axis, from, from_node, from_axis] = fields else {
@@ -129,12 +125,9 @@ fn point_fields(fields: &[&str]) -> Option<Identification> {
             direction: ResponsePoint::direction_of(axis),
         })
     };
-    Some(Identification {
-        function: function.parse().ok()?,
-        to: point(to, to_node, to_axis)?,
-        from: point(from, from_node, from_axis)?,
-        moves: (-3..=3).contains(&to_axis) && (-3..=3).contains(&from_axis),
-    })
+    let moves = (-3..=3).contains(&to_axis) && (-3..=3).contains(&from_axis);
+    let (to, from) = (point(to, to_node, to_axis)?, point(from, from_node, from_axis)?);
+    Some((function.parse().ok()?, to, from, moves))
 }
 
 /// A name, where there is one.

@@ -70,7 +70,7 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     const FUNCTION: i64 = 4;
     let kind = ResponseKind::of_numerator(*numerator);
     let force = matches!(denominator, 9 | 13);
-    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, head.own.function, head.own.moves) else {
+    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, head.function, head.moves) else {
         cursor.skip()?;
         return Ok(None);
     };
@@ -80,14 +80,14 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     if !head.form.complex {
         return Err(head.data_fault("complex values of a frequency response"));
     }
-    let mut own = head.own;
+    let (mut from, mut to) = (head.from, head.to);
     let name_of = |line: &str, begin: &str, point: &mut ResponsePoint| {
         if let Some(name) = line.strip_prefix(begin) {
             point.name = named(name);
         }
     };
-    name_of(&head.names[3], REFERENCE, &mut own.from);
-    name_of(&head.names[4], RESPONSE, &mut own.to);
+    name_of(&head.names[3], REFERENCE, &mut from);
+    name_of(&head.names[4], RESPONSE, &mut to);
     let (frequency_hz, value) = head.form.values(cursor)?;
-    Ok(Some(FrequencyResponse { name: named(&head.names[0]), frequency_hz, value, kind, from: own.from, to: own.to }))
+    Ok(Some(FrequencyResponse { name: named(&head.names[0]), frequency_hz, value, kind, from, to }))
 }

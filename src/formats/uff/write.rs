@@ -16,12 +16,8 @@ const LAST_LABEL: u64 = 9_999_999_999;
 /// A node with its label.
 type Node = (u64, [f64; 3]);
 
-/// An element ready to be written.
-struct Element<'a> {
-    label: u64,
-    descriptor: Descriptor,
-    nodes: &'a [usize],
-}
+/// An element with its label, ready to be written.
+type Element<'a> = (u64, Descriptor, &'a [usize]);
 
 /// Writes mode shapes at some of the nodes of some elements of a mesh, whole or not at all: header, SI units, nodes,
 /// elements, then one dataset 55 a mode (real, modal mass 1, no damping, 6 digits as the format has it). `description` is
@@ -46,7 +42,7 @@ pub fn write_uff(
         let descriptor = descriptor(kind)
             .ok_or_else(|| Fault::new("surface and solid elements", format_args!("a {}", kind.name())))?;
         nodes.iter().for_each(|&node| used[node] = true);
-        own.push(Element { label, descriptor, nodes });
+        own.push((label, descriptor, nodes));
     }
     let nodes: Vec<Node> =
         (0..used.len()).filter(|&node| used[node]).map(|node| (mesh.node_tags[node], mesh.nodes[node])).collect();
@@ -56,7 +52,7 @@ pub fn write_uff(
         let expected = "mode shapes at nodes of the elements";
         return Err(Fault::new(expected, format!("node {tag}")).into());
     }
-    let labels = known.iter().copied().chain(own.iter().map(|e| e.label));
+    let labels = known.iter().copied().chain(own.iter().map(|&(label, ..)| label));
     modes.check().map_err(|fault| fault.of(path))?;
     check_label(labels)?;
     Ok(write_atomic(path, |to| {
@@ -148,12 +144,10 @@ fn write_nodes(to: &mut impl Write, nodes: &[Node]) -> io::Result<()> {
 /// Dataset 2412; properties and materials are tables 1, which are not in the file.
 fn write_elements(to: &mut impl Write, mesh: &Mesh, elements: &[Element]) -> io::Result<()> {
     begin(to, 2412)?;
-    for element in elements {
-        let Descriptor { id, order } = element.descriptor;
-        let count = order.len();
-        writeln!(to, "{:>10}{id:>10}{:>10}{:>10}{:>10}{count:>10}", element.label, 1, 1, 7)?;
+    for (label, Descriptor { id, order }, nodes) in elements {
+        writeln!(to, "{label:>10}{id:>10}{:>10}{:>10}{:>10}{:>10}", 1, 1, 7, order.len())?;
         for line in order.chunks(8) {
-            let tags = line.iter().map(|&place| format!("{:>10}", mesh.node_tags[element.nodes[place]]));
+            let tags = line.iter().map(|&place| format!("{:>10}", mesh.node_tags[nodes[place]]));
             writeln!(to, "{}", tags.collect::<String>())?;
         }
     }

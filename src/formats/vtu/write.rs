@@ -85,10 +85,7 @@ impl<'a> Grid<'a> {
 
 impl FieldValues<'_> {
     fn components(&self) -> usize {
-        match self {
-            Self::Vectors(_) => 3,
-            Self::Scalars(_) | Self::Integers(_) => 1,
-        }
+        if matches!(self, Self::Vectors(_)) { 3 } else { 1 }
     }
 
     fn len(&self) -> usize {
@@ -99,10 +96,7 @@ impl FieldValues<'_> {
     }
 
     fn type_name(&self) -> &'static str {
-        match self {
-            Self::Vectors(_) | Self::Scalars(_) => "Float64",
-            Self::Integers(_) => "Int64",
-        }
+        if matches!(self, Self::Integers(_)) { "Int64" } else { "Float64" }
     }
 
     /// Writes the values of one node or element.

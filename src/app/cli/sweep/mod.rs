@@ -4,19 +4,20 @@ mod arguments;
 mod points;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use arguments::{Share, SweepArguments};
 
 use super::output::json;
 use super::report_files::ReportFiles;
 use super::results::{Job, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt, write_atomic};
-use crate::app::case::{Case, CaseError};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, command_line, interrupt, resuming, write_atomic};
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, ScriptsSummary, SweepResult, TaskSummary, slurm_scripts, sweep_report, write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepResult, SweptCommand, TaskSummary, slurm_scripts, sweep_report,
+    write_sweep_npz,
 };
 use crate::report::Document;
 use points::Workers;
@@ -81,7 +82,8 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
     if let Some(done) = stopped {
         let what = format!("interrupted at {done} of {} points", plan.count());
-        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again(&case, asked, options)));
+        let line = sweep_line(&case, asked.vary.iter().cloned(), asked.command);
+        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &resuming(&line, options)));
     }
     merge(plan, folder, options, progress)
 }
@@ -108,14 +110,14 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
         return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again));
     }
     let result = SweepResult::collect(plan, &points)?;
-    let mut lines = Vec::new();
-    for point in result.points.iter().filter(|point| share.has(point.point.number)) {
+    let of_share = result.points.iter().filter(|point| share.has(point.point.number));
+    let lines = of_share.map(|point| {
         let message = point.record.as_ref().map_or("", |record| record.message.as_str());
         let line = format!("point {}: {} {message}", point.point.number, point.state.name());
-        lines.push(line.trim_end().to_owned());
-    }
+        line.trim_end().to_owned()
+    });
     Ok(Outcome {
-        summary: lines.join("\n"),
+        summary: lines.collect::<Vec<_>>().join("\n"),
         result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: numbers })?,
         written: vec![points],
         verdict: Ok(()),
@@ -124,19 +126,15 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
 
 /// Checks that at least one point is a valid case: a misspelled key is an error before anything is computed.
 fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
-    let mut first = None;
-    for point in plan.points() {
-        match plan.case_at(&point, &case.source.text) {
-            Ok(_) => return Ok(()),
-            Err(error) => {
-                first.get_or_insert((point.number, error));
-            }
-        }
+    let mut errors = plan.points().map(|point| (point.number, plan.case_at(&point, &case.source.text).err()));
+    let Some((number, Some(error))) = errors.next() else {
+        return Ok(());
+    };
+    if errors.any(|(_, error)| error.is_none()) {
+        return Ok(());
     }
-    first.map_or(Ok(()), |(number, error): (usize, CaseError)| {
-        let what = format!("no point of the sweep is a valid case; point {number}: {error}");
-        Err(ComputeError::Input { what, help: error.help() }.into())
-    })
+    let what = format!("no point of the sweep is a valid case; point {number}: {error}");
+    Err(CliError { help: error.help(), ..CliError::input(what) })
 }
 
 /// Writes the plan into an empty folder of points.
@@ -158,17 +156,12 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
 
 fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
     let plan = folder.path.join(POINTS).join(PLAN);
-    let text = match fs::read(&plan) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(no_plan(&folder.path, &plan));
-        }
-        Err(error) => return Err(ComputeError::io(&plan)(error)),
-    };
-    serde_json::from_slice(&text).map_err(|error| {
-        let what = format!("{} is no plan of a sweep: {error}", plan.display());
-        ComputeError::Input { what, help: None }
-    })
+    let text = fs::read(&plan).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => no_plan(&folder.path, &plan),
+        _ => ComputeError::io(&plan)(error),
+    })?;
+    serde_json::from_slice(&text)
+        .map_err(|error| ComputeError::wrong(format!("{} is no plan of a sweep: {error}", plan.display())))
 }
 
 /// The error of a folder that holds a sweep already.
@@ -206,7 +199,8 @@ fn merge(plan: Plan, folder: OutputFolder, options: &Options, progress: &Progres
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
     let npz = folder.path.join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
-    let command = command_line(&result.plan);
+    let axes = result.plan.axes.iter().map(|axis| format!("{}={}", axis.key, axis.values.join(",")));
+    let command = sweep_line(&case, axes, result.plan.command);
     let document = Document::new().case(case.source.path.display().to_string());
     let report = sweep_report(&case.title, &result, &command).document(document);
     let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
@@ -267,12 +261,13 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
     let scripts = slurm_scripts(&program, &absolute(&folder.path)?, tasks, threads);
-    let mut written: Vec<PathBuf> = Vec::new();
-    for (name, text) in
-        [("array.sbatch", &scripts.array), ("merge.sbatch", &scripts.merge), ("submit.sh", &scripts.submit)]
-    {
-        written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
-    }
+    folder.make_below(Path::new(POINTS))?;
+    let write = |name: &str, text: &str| folder.write(&format!("{POINTS}/{name}"), text.as_bytes());
+    let written = vec![
+        write("array.sbatch", &scripts.array)?,
+        write("merge.sbatch", &scripts.merge)?,
+        write("submit.sh", &scripts.submit)?,
+    ];
     let submit = folder.path.join(POINTS).join("submit.sh");
     Ok(Outcome {
         summary: format!(
@@ -286,34 +281,16 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     })
 }
 
-/// The command line of a plan.
-fn command_line(plan: &Plan) -> String {
-    let file = shell_word(&plan.case.to_string_lossy());
-    let mut words = vec![format!("plummer sweep {file}")];
-    words.extend(plan.set.iter().map(|set| format!("--set {}", shell_word(set))));
-    for axis in &plan.axes {
-        let values = format!("{}={}", axis.key, axis.values.join(","));
-        words.push(format!("--vary {}", shell_word(&values)));
+/// The command line of a sweep over these keys and values.
+fn sweep_line(case: &Case, vary: impl IntoIterator<Item = String>, command: SweptCommand) -> String {
+    let mut line = command_line("sweep", case);
+    for vary in vary {
+        line.push_str(&format!(" --vary {}", shell_word(&vary)));
     }
-    if plan.command != crate::app::studies::sweep::SweptCommand::default() {
-        words.push(format!("--command {}", plan.command.name()));
+    if command != SweptCommand::default() {
+        line.push_str(&format!(" --command {}", command.name()));
     }
-    words.join(" ")
-}
-
-/// The command line that goes on with a sweep.
-fn again(case: &Case, asked: &SweepArguments, options: &Options) -> String {
-    let mut line = options.command_line("sweep", case);
-    for vary in &asked.vary {
-        line.push_str(&format!(" --vary {}", shell_word(vary)));
-    }
-    if asked.command != crate::app::studies::sweep::SweptCommand::default() {
-        line.push_str(&format!(" --command {}", asked.command.name()));
-    }
-    if let Some(out) = &options.out {
-        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
-    }
-    line + " --resume"
+    line
 }
 
 #[cfg(test)]
