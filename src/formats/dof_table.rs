@@ -130,13 +130,8 @@ impl DofDirection {
 impl DofLabel {
     /// The amplitude of a superelement's mode, counted from 0.
     pub fn modal(mode: u64) -> Self {
-        Self {
-            body: DofBody::Modal,
-            node: mode,
-            direction: DofDirection::Generalised,
-            position: [f64::NAN; 3],
-            axis: [f64::NAN; 3],
-        }
+        let [position, axis] = [[f64::NAN; 3]; 2];
+        Self { body: DofBody::Modal, node: mode, direction: DofDirection::Generalised, position, axis }
     }
 
     /// An interface coordinate of which only the number, from 0, is known.

@@ -76,18 +76,14 @@ impl ReportFiles {
         let mut paths = Vec::new();
         for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
             let path = folder.path.join(of);
-            if files.is_empty() && !path.exists() {
-                continue;
+            if !files.is_empty() || path.exists() {
+                folder.make_below(Path::new(of))?;
+                remove_earlier(&path, command, ending)?;
             }
-            folder.make_below(Path::new(of))?;
-            remove_earlier(&path, command, ending)?;
-            if files.is_empty() {
-                continue;
+            for (name, text) in &files {
+                folder.write(name, text.as_bytes())?;
             }
-            for (name, text) in files {
-                folder.write(&name, text.as_bytes())?;
-            }
-            paths.push(path);
+            paths.extend(Some(path).filter(|_| !files.is_empty()));
         }
         paths.push(folder.write(page, html.as_bytes())?);
         Ok(Self { meshes: Vec::new(), tables: named, paths })

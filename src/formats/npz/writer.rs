@@ -94,14 +94,8 @@ impl NpzWriter {
     pub(crate) fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
         self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
-        Ok(NpzArray {
-            writer: self,
-            element: PhantomData,
-            name: name.to_owned(),
-            shape: shape.to_vec(),
-            expected,
-            written: 0,
-        })
+        let (name, shape) = (name.to_owned(), shape.to_vec());
+        Ok(NpzArray { writer: self, element: PhantomData, name, shape, expected, written: 0 })
     }
 
     /// Writes a one-dimensional array of text (NumPy `<U`), each as long as the longest.

@@ -39,19 +39,10 @@ impl Builder {
             return Err("a matrix of type 1 to 4");
         }
         let name: String = name.chars().filter(|c| !" \0".contains(*c)).collect();
-        Ok(Self {
-            matrix: Op4Matrix {
-                name,
-                form,
-                kind,
-                rows: rows.unsigned_abs() as usize,
-                columns: columns as usize,
-                runs: Vec::new(),
-                values: Vec::new(),
-            },
-            big: !(0..BIG).contains(&rows),
-            column: 0,
-        })
+        let big = !(0..BIG).contains(&rows);
+        let (rows, columns) = (rows.unsigned_abs() as usize, columns as usize);
+        let matrix = Op4Matrix { name, form, kind, rows, columns, runs: Vec::new(), values: Vec::new() };
+        Ok(Self { matrix, big, column: 0 })
     }
 
     /// Nastran's type has odd numbers for single precision.

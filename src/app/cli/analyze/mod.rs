@@ -77,13 +77,11 @@ fn write_results<R: Serialize>(
 
 /// `--out`, else the run's own folder, else `out/` and the file's name; of several inputs `out/analysis`.
 fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
-    if let Some(out) = &options.out {
-        return OutputFolder::at(out);
-    }
-    match asked.inputs.as_slice() {
-        [folder] if folder.is_dir() => OutputFolder::at(folder),
-        [file] => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
-        _ => OutputFolder::at(Path::new("out/analysis")),
+    match (&options.out, asked.inputs.as_slice()) {
+        (Some(out), _) => OutputFolder::at(out),
+        (None, [folder]) if folder.is_dir() => OutputFolder::at(folder),
+        (None, [file]) => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
+        (None, _) => OutputFolder::at(Path::new("out/analysis")),
     }
 }
 

@@ -39,7 +39,7 @@ impl WrittenFile {
     /// A file that was written into a folder.
     ///
     /// # Errors
-    /// [`CliError::File`] if it is not there.
+    /// [`CliError`] if it is not there.
     pub(super) fn new(folder: &Path, name: &str, what: String) -> Result<Self, CliError> {
         let path = folder.join(name);
         let found = fs::metadata(&path).map_err(FileError::write(&path))?;

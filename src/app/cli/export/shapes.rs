@@ -136,19 +136,10 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
     let count = nodes.len();
     let tags: Vec<u64> = (1..=count as u64).collect();
     let ends = (0..count).flat_map(|node| [node, (node + 1) % count]);
-    Mesh {
-        node_tags: tags.clone(),
-        blocks: vec![ElementBlock {
-            kind: ElementKind::Line2,
-            tags,
-            connectivity: ends.collect(),
-            entity: Entity { dimension: 1, tag: 1 },
-        }],
-        nodes,
-        groups: Vec::new(),
-        format: MshFormat { version: MshVersion::V41, binary: false },
-        source: PathBuf::new(),
-    }
+    let (node_tags, entity) = (tags.clone(), Entity { dimension: 1, tag: 1 });
+    let line = ElementBlock { kind: ElementKind::Line2, tags, connectivity: ends.collect(), entity };
+    let format = MshFormat { version: MshVersion::V41, binary: false };
+    Mesh { node_tags, blocks: vec![line], nodes, groups: Vec::new(), format, source: PathBuf::new() }
 }
 
 /// Shapes at those nodes of a mesh that its elements use, with their labels.

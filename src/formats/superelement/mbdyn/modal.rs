@@ -89,13 +89,8 @@ pub fn write_mbdyn_fem(
     let nodes = nodes(record);
     let expected = "a node with a known position and three displacements, in the interface or in the field";
     Fault::unless(!nodes.is_empty(), expected, "none")?;
-    let body = Body {
-        damping: record.damping.as_ref().map(|damping| vectors.transpose() * damping * &vectors),
-        eigenvalues,
-        vectors,
-        nodes,
-        inertia,
-    };
+    let damping = record.damping.as_ref().map(|damping| vectors.transpose() * damping * &vectors);
+    let body = Body { nodes, eigenvalues, vectors, damping, inertia };
     write(path, &body)?;
     let hertz = |value: &f64| value.sqrt() / std::f64::consts::TAU;
     Ok(MbdynSummary {
