@@ -15,7 +15,10 @@ pub(super) const BY_POINT: [&str; 8] = ["mode", "frequency_hz", "x", "y", "z", "
 pub(super) const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy", "uz"];
 
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
-pub(in crate::formats) fn line_of(text: &str, place: &Position) -> u64 {
+pub(in crate::formats) fn line_of(text: &str, record: &StringRecord) -> u64 {
+    let Some(place) = record.position() else {
+        return 0;
+    };
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
     let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#'));
     place.line() + passed.count() as u64
@@ -116,11 +119,7 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
         if record.iter().all(str::is_empty) {
             continue;
         }
-        let row = Row {
-            line: record.position().map_or(0, |place| line_of(text, place)),
-            record: &record,
-            decimal_comma: semicolon,
-        };
+        let row = Row { line: line_of(text, &record), record: &record, decimal_comma: semicolon };
         let Some(columns) = columns else {
             columns = Some(header_of(&row)?);
             continue;

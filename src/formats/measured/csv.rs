@@ -62,7 +62,7 @@ impl Table<'_> {
                 let found = columns.insert(self.header(&record, request)?);
                 values = vec![Vec::new(); found.wanted.len()];
                 if numbers(&record) {
-                    first_row = self.line(&record);
+                    first_row = line_of(self.text, &record);
                     self.row(&record, found, &mut times, &mut values)?;
                 }
                 continue;
@@ -73,7 +73,7 @@ impl Table<'_> {
                 continue;
             }
             if first_row == 0 {
-                first_row = self.line(&record);
+                first_row = line_of(self.text, &record);
             }
             self.row(&record, found, &mut times, &mut values)?;
         }
@@ -96,7 +96,7 @@ impl Table<'_> {
     }
 
     fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
-        let line = self.line(record);
+        let line = line_of(self.text, record);
         if let Some(cell) = record.iter().find(|cell| is_comma_number(cell)) {
             return Err(self.comma(line, cell));
         }
@@ -133,7 +133,7 @@ impl Table<'_> {
         if let Some((place, unit)) = &mut columns.time {
             let found = text(*place);
             *unit = time_unit(&format!("time ({found})"))
-                .ok_or_else(|| self.content(self.line(record), "s, ms or us as unit of the time", &found))?;
+                .ok_or_else(|| self.content(line_of(self.text, record), "s, ms or us as unit of the time", &found))?;
         }
         for (place, _, unit) in &mut columns.wanted {
             if unit.is_empty() {
@@ -152,7 +152,7 @@ impl Table<'_> {
     ) -> Result<(), MeasuredError> {
         if record.len() != columns.count {
             let expected = format!("{} columns, as in the first line", columns.count);
-            return Err(self.content(self.line(record), &expected, &record.len().to_string()));
+            return Err(self.content(line_of(self.text, record), &expected, &record.len().to_string()));
         }
         if let Some((place, unit)) = columns.time {
             times.push(self.number(record, place, "the time")? * unit);
@@ -167,13 +167,9 @@ impl Table<'_> {
         let cell = record.get(place).unwrap_or_default();
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ if is_comma_number(cell) => Err(self.comma(self.line(record), cell)),
-            _ => Err(self.content(self.line(record), &format!("a finite number for {what}"), cell)),
+            _ if is_comma_number(cell) => Err(self.comma(line_of(self.text, record), cell)),
+            _ => Err(self.content(line_of(self.text, record), &format!("a finite number for {what}"), cell)),
         }
-    }
-
-    fn line(&self, record: &StringRecord) -> u64 {
-        record.position().map_or(0, |place| line_of(self.text, place))
     }
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {

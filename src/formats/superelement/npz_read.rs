@@ -145,9 +145,9 @@ impl Source<'_> {
                 })?;
             }
         }
-        let vectors: [(_, fn(&mut DofLabel) -> &mut [f64; 3]); 2] =
-            [("positions", |label| &mut label.position), ("axes", |label| &mut label.axis)];
-        for (what, of) in vectors {
+        type Vector = fn(&mut DofLabel) -> &mut [f64; 3];
+        let [position, axis]: [Vector; 2] = [|label| &mut label.position, |label| &mut label.axis];
+        for (what, of) in [("positions", position), ("axes", axis)] {
             let name = names.array(what);
             if self.npz.has(&name) {
                 let read = self.vectors(&name, count)?;

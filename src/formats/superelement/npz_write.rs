@@ -75,9 +75,8 @@ fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Resu
     let dofs = nodes.into_iter().zip(labels).map(|(node, dof)| [node, dof.direction.component()]);
     npz.matrix(&names.array("dofs"), labels.len(), 2, dofs.collect::<Vec<_>>().as_flattened())?;
     npz.texts(&names.array("bodies"), &labels.iter().map(|dof| dof.body.name()).collect::<Vec<_>>())?;
-    let vectors: [(_, fn(&DofLabel) -> [f64; 3]); 2] = [("positions", |dof| dof.position), ("axes", |dof| dof.axis)];
-    for (what, vector) in vectors {
-        let vectors: Vec<[f64; 3]> = labels.iter().map(vector).collect();
+    let (positions, axes): (Vec<_>, Vec<_>) = labels.iter().map(|dof| (dof.position, dof.axis)).unzip();
+    for (what, vectors) in [("positions", positions), ("axes", axes)] {
         npz.matrix(&names.array(what), vectors.len(), 3, vectors.as_flattened())?;
     }
     Ok(())
