@@ -24,19 +24,13 @@ impl FileDigest {
     /// # Errors
     /// What the system says when the file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
-        Ok(Self::of_hash(path, sha256(open(path)?)?))
+        Ok(Self { path: path.to_owned(), sha256: hex(sha256(open(path)?)?) })
     }
 
     /// The digest of a file's content that is at hand.
     #[must_use]
     pub(crate) fn of_bytes(path: &Path, bytes: &[u8]) -> Self {
-        let mut hasher = Sha256::new();
-        hasher.update(bytes);
-        Self::of_hash(path, hasher)
-    }
-
-    fn of_hash(path: &Path, hasher: Sha256) -> Self {
-        Self { path: path.to_owned(), sha256: hex(hasher) }
+        Self { path: path.to_owned(), sha256: hex(Sha256::new_with_prefix(bytes)) }
     }
 }
 

@@ -88,22 +88,28 @@ impl Fault {
         Self { place: Place::Whole, expected: expected.into(), found: found.to_string() }
     }
 
+    /// The fault of data that are not as expected.
+    pub(crate) fn unless(
+        fits: bool,
+        expected: impl Into<Cow<'static, str>>,
+        found: impl fmt::Display,
+    ) -> Result<(), Self> {
+        if fits { Ok(()) } else { Err(Self::new(expected, found)) }
+    }
+
     /// The same fault in a line, counted from 1.
     pub(crate) fn line(self, line: u64) -> Self {
-        let place = Place::Line(line);
-        Self { place, ..self }
+        Self { place: Place::Line(line), ..self }
     }
 
     /// The same fault at a position.
     pub(crate) fn at(self, position: impl fmt::Display) -> Self {
-        let place = Place::At(position.to_string());
-        Self { place, ..self }
+        Self { place: Place::At(position.to_string()), ..self }
     }
 
     /// The same fault in a part with a name.
     pub(crate) fn within(self, part: impl Into<String>) -> Self {
-        let place = Place::In(part.into());
-        Self { place, ..self }
+        Self { place: Place::In(part.into()), ..self }
     }
 
     /// The same fault in a file.

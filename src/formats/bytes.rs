@@ -13,9 +13,7 @@ impl ByteOrder {
     /// The first bytes, lowest first; those that are missing are zero.
     pub(super) fn lowest_first<const N: usize>(self, bytes: &[u8]) -> [u8; N] {
         let mut own = [0; N];
-        for (to, from) in own.iter_mut().zip(bytes) {
-            *to = *from;
-        }
+        own.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
         if self == Self::Big {
             own.reverse();
         }

@@ -4,7 +4,7 @@
 //! Read with `numpy.fromfile(path)`, the last three with `.reshape(-1, balls)`.
 
 use std::fs::{File, OpenOptions};
-use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -23,26 +23,33 @@ const PIECE: usize = 1 << 13;
 #[derive(Debug)]
 pub struct ColumnFiles {
     folder: PathBuf,
-    sensors: Vec<String>,
-    balls: usize,
+    /// Names of the sensors.
+    pub(crate) sensors: Vec<String>,
+    /// Number of balls.
+    pub(crate) balls: usize,
     rows: usize,
     files: Vec<(Column, File)>,
     /// Of each file's rows.
     hashers: Vec<Sha256>,
 }
 
+/// What files call a column, unless it is a sensor's.
+pub(crate) fn column_name(column: Column) -> Result<&'static str, usize> {
+    match column {
+        Column::Sensor(sensor) => Err(sensor),
+        Column::Time => Ok("time_s"),
+        Column::ShaftX => Ok("shaft_x"),
+        Column::ShaftY => Ok("shaft_y"),
+        Column::BallRadius => Ok("ball_radius"),
+        Column::OuterForce => Ok("outer_force"),
+        Column::InnerForce => Ok("inner_force"),
+    }
+}
+
 /// A column's file.
 fn path_of(folder: &Path, column: Column) -> PathBuf {
-    let name = match column {
-        Column::Sensor(sensor) => format!("sensor-{sensor}.f64"),
-        Column::Time => "time_s.f64".to_owned(),
-        Column::ShaftX => "shaft_x.f64".to_owned(),
-        Column::ShaftY => "shaft_y.f64".to_owned(),
-        Column::BallRadius => "ball_radius.f64".to_owned(),
-        Column::OuterForce => "outer_force.f64".to_owned(),
-        Column::InnerForce => "inner_force.f64".to_owned(),
-    };
-    folder.join(name)
+    let name = column_name(column).map_or_else(|sensor| format!("sensor-{sensor}"), str::to_owned);
+    folder.join(name + ".f64")
 }
 
 impl ColumnFiles {
@@ -75,8 +82,8 @@ impl ColumnFiles {
             let failed = |source| FileError::Open { path: path.clone(), source };
             no_link(&path).map_err(failed)?;
             let mut file = options.read(true).write(true).open(&path).map_err(failed)?;
-            let (expected, found) =
-                ((rows * column.width(balls) * BYTES) as u64, file.metadata().map_err(failed)?.len());
+            let expected = (rows * column.width(balls) * BYTES) as u64;
+            let found = file.metadata().map_err(failed)?.len();
             if found < expected {
                 return Err(FormatError::CutColumn { path, expected, found });
             }
@@ -88,16 +95,6 @@ impl ColumnFiles {
         Ok(Self { folder: folder.to_owned(), sensors, balls, rows, files, hashers })
     }
 
-    /// Names of the sensors.
-    pub(crate) fn sensors(&self) -> &[String] {
-        &self.sensors
-    }
-
-    /// Number of balls.
-    pub(crate) fn balls(&self) -> usize {
-        self.balls
-    }
-
     /// Rows written.
     pub fn rows(&self) -> usize {
         self.rows
@@ -106,9 +103,7 @@ impl ColumnFiles {
     /// SHA-256 of the rows of all columns, 64 hexadecimal digits.
     pub(crate) fn digest(&self) -> String {
         let mut all = Sha256::new();
-        for hasher in &self.hashers {
-            all.update(hasher.clone().finalize());
-        }
+        self.hashers.iter().for_each(|hasher| all.update(hasher.clone().finalize()));
         hex(all)
     }
 
@@ -161,15 +156,12 @@ impl ColumnFiles {
         let mut file = File::open(&path).map_err(failed)?;
         let first = (places.start * BYTES) as u64;
         file.seek(SeekFrom::Start(first)).map_err(failed)?;
-        let mut file = BufReader::with_capacity(1 << 16, file);
-        let (mut left, mut bytes) = (places.len(), [0; BYTES]);
-        let mut values = Vec::with_capacity(PIECE.min(left));
+        let mut left = places.len();
+        let mut bytes = vec![0; BYTES * PIECE.min(left)];
         while left > 0 {
-            values.clear();
-            for _ in 0..PIECE.min(left) {
-                file.read_exact(&mut bytes).map_err(failed)?;
-                values.push(f64::from_le_bytes(bytes));
-            }
+            bytes.truncate(BYTES * left);
+            file.read_exact(&mut bytes).map_err(failed)?;
+            let values: Vec<f64> = bytes.as_chunks().0.iter().map(|number| f64::from_le_bytes(*number)).collect();
             left -= values.len();
             take(&values)?;
         }
@@ -200,7 +192,7 @@ mod tests {
     }
 
     fn read(files: &ColumnFiles, range: Range<usize>) -> RunRecord {
-        let mut record = RunRecord::blank(files.sensors().to_vec(), files.balls());
+        let mut record = RunRecord::blank(files.sensors.clone(), files.balls);
         for column in Column::all(2) {
             let mut values = Vec::new();
             files

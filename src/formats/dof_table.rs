@@ -14,9 +14,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::npz::npz_label;
+use super::npz::npz_labels;
 use super::{FormatError, NpzWriter};
-use crate::files::{AtomicFile, Fault, FileError, write_atomic};
+use crate::files::{FileError, write_atomic};
 
 const COLUMNS: [&str; 12] =
     ["row", "mtx_row", "body", "node", "direction", "unit", "x_m", "y_m", "z_m", "axis_x", "axis_y", "axis_z"];
@@ -130,13 +130,8 @@ impl DofDirection {
 impl DofLabel {
     /// The amplitude of a superelement's mode, counted from 0.
     pub fn modal(mode: u64) -> Self {
-        Self {
-            body: DofBody::Modal,
-            node: mode,
-            direction: DofDirection::Generalised,
-            position: [f64::NAN; 3],
-            axis: [f64::NAN; 3],
-        }
+        let [position, axis] = [[f64::NAN; 3]; 2];
+        Self { body: DofBody::Modal, node: mode, direction: DofDirection::Generalised, position, axis }
     }
 
     /// An interface coordinate of which only the number, from 0, is known.
@@ -150,7 +145,7 @@ impl DofLabel {
 /// # Errors
 /// [`FileError::Write`].
 pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), FileError> {
-    let write = |to: &mut AtomicFile| {
+    write_atomic(path, |to| {
         write!(to, "{}\r\n", COLUMNS.join(","))?;
         for (row, label) in rows.iter().enumerate() {
             let (body, direction) = (label.body.name(), label.direction.name());
@@ -166,8 +161,7 @@ pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), FileError> {
             write!(to, "\r\n")?;
         }
         Ok(())
-    };
-    write_atomic(path, write)
+    })
 }
 
 /// Writes the rows as a NumPy archive, whole or not at all: `body`, `node`, `direction` \[rows\], `position_m` and `axis`
@@ -176,16 +170,14 @@ pub fn write_dofs_csv(path: &Path, rows: &[DofLabel]) -> Result<(), FileError> {
 /// # Errors
 /// [`FormatError::File`] when the file cannot be written, [`FormatError::Data`] for labels beyond i64.
 pub fn write_dofs_npz(path: &Path, rows: &[DofLabel]) -> Result<(), FormatError> {
-    let nodes: Result<Vec<i64>, Fault> = rows.iter().map(|row| npz_label(row.node)).collect();
-    let nodes = nodes?;
+    let nodes = npz_labels(rows.iter().map(|row| row.node))?;
     let texts = |text: fn(&DofLabel) -> &'static str| rows.iter().map(text).collect::<Vec<_>>();
     let vectors = |vector: fn(&DofLabel) -> [f64; 3]| rows.iter().map(vector).collect::<Vec<_>>();
     let mut npz = NpzWriter::create(path)?;
     npz.texts("body", &texts(|row| row.body.name()))?;
     npz.array("node", &nodes)?;
     npz.texts("direction", &texts(|row| row.direction.name()))?;
-    let positions = vectors(|row| row.position);
-    npz.matrix("position_m", rows.len(), 3, positions.as_flattened())?;
+    npz.matrix("position_m", rows.len(), 3, vectors(|row| row.position).as_flattened())?;
     npz.matrix("axis", rows.len(), 3, vectors(|row| row.axis).as_flattened())?;
     npz.finish()
 }

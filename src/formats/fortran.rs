@@ -55,12 +55,9 @@ pub(super) fn take_line<'a>(rest: &mut &'a [u8]) -> Option<&'a [u8]> {
     if rest.is_empty() {
         return None;
     }
-    let end = rest.iter().position(|&byte| byte == b'\n');
-    let (line, after) = match end {
-        Some(end) => (&rest[..end], &rest[end + 1..]),
-        None => (*rest, &[][..]),
-    };
-    *rest = after;
+    let end = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+    let line = &rest[..end];
+    *rest = rest.get(end + 1..).unwrap_or_default();
     Some(line)
 }
 

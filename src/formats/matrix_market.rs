@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::FormatError;
-use crate::files::{AtomicFile, Fault, write_atomic};
+use crate::files::{Fault, write_atomic};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
 
 /// Writes the lower triangle of a symmetric matrix, whole or not at all. `comment` goes below the banner, line by line
@@ -29,33 +29,24 @@ pub fn write_matrix_market(path: &Path, matrix: &SparseMatrix, comment: &str) ->
 pub fn write_dense_matrix_market(path: &Path, matrix: &DenseMatrix, comment: &str) -> Result<(), FormatError> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     check_square(path, (rows, columns))?;
-    let write = |to: &mut AtomicFile| {
+    Ok(write_atomic(path, |to| {
         write_head(to, "array", comment)?;
         writeln!(to, "{rows} {columns}")?;
-        for (column, values) in matrix.col_iter().enumerate() {
-            for value in values.iter().skip(column) {
-                writeln!(to, "{value:.16e}")?;
-            }
-        }
-        Ok(())
-    };
-    Ok(write_atomic(path, write)?)
+        let mut columns = matrix.col_iter().enumerate();
+        columns.try_for_each(|(column, values)| {
+            values.iter().skip(column).try_for_each(|value| writeln!(to, "{value:.16e}"))
+        })
+    })?)
 }
 
 fn check_square(path: &Path, (rows, columns): (usize, usize)) -> Result<(), Fault> {
-    if rows == columns {
-        return Ok(());
-    }
     let expected = format!("a square matrix for {}", path.display());
-    Err(Fault::new(expected, format!("{rows} x {columns}")))
+    Fault::unless(rows == columns, expected, format_args!("{rows} x {columns}"))
 }
 
 fn write_head(to: &mut impl Write, format: &str, comment: &str) -> io::Result<()> {
     writeln!(to, "%%MatrixMarket matrix {format} real symmetric")?;
-    for line in comment.lines() {
-        writeln!(to, "% {line}")?;
-    }
-    Ok(())
+    comment.lines().try_for_each(|line| writeln!(to, "% {line}"))
 }
 
 /// Entries on and below the diagonal, column by column. A matrix in compressed rows is read as its transpose, which is
@@ -71,12 +62,8 @@ fn lower(matrix: &SparseMatrix) -> impl Iterator<Item = (usize, usize, f64)> + '
 
 fn write_lower(to: &mut impl Write, matrix: &SparseMatrix, comment: &str) -> io::Result<()> {
     write_head(to, "coordinate", comment)?;
-    let count = lower(matrix).count();
-    writeln!(to, "{} {} {count}", matrix.rows(), matrix.cols())?;
-    for (row, column, value) in lower(matrix) {
-        writeln!(to, "{} {} {value:.16e}", row + 1, column + 1)?;
-    }
-    Ok(())
+    writeln!(to, "{} {} {}", matrix.rows(), matrix.cols(), lower(matrix).count())?;
+    lower(matrix).try_for_each(|(row, column, value)| writeln!(to, "{} {} {value:.16e}", row + 1, column + 1))
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@ pub mod uff;
 pub mod vtu;
 
 pub use columns::ColumnFiles;
+pub(crate) use columns::column_name;
 pub use csv::{read_modes_csv, write_modes_csv};
 pub use dof_table::{DofBody, DofDirection, DofLabel, write_dofs_csv, write_dofs_npz};
 pub use error::FormatError;

@@ -40,15 +40,11 @@ impl ModeShapes {
     /// [`Fault`], the first that is found.
     pub fn check(&self) -> Result<(), Fault> {
         let (modes, points) = (self.count_modes(), self.count_points());
-        if modes == 0 || points == 0 {
-            let found = format!("{modes} modes at {points} points");
-            return Err(Fault::new("at least one mode at one point", found));
-        }
-        if self.shapes.len() != modes {
-            let expected = format!("a shape for each of {modes} frequencies");
-            let found = format!("{} shapes", self.shapes.len());
-            return Err(Fault::new(expected, found));
-        }
+        let found = format_args!("{modes} modes at {points} points");
+        Fault::unless(modes > 0 && points > 0, "at least one mode at one point", found)?;
+        let shapes = self.shapes.len();
+        let expected = format!("a shape for each of {modes} frequencies");
+        Fault::unless(shapes == modes, expected, format_args!("{shapes} shapes"))?;
         self.check_points(points)?;
         for (index, &found) in self.frequencies_hz.iter().enumerate() {
             if !(found.is_finite() && found >= 0.0) {
@@ -73,15 +69,12 @@ impl ModeShapes {
 
     fn check_points(&self, count: usize) -> Result<(), Fault> {
         if let Some(points) = &self.points {
-            if points.len() != count {
-                let found = format!("{} points and {count} labels", points.len());
-                return Err(Fault::new("as many points as labels", found));
-            }
-            for (index, point) in points.iter().enumerate() {
-                if let Some(found) = point.iter().find(|value| !value.is_finite()) {
-                    let found = format!("{found} at point {}", index + 1);
-                    return Err(Fault::new("finite coordinates", found));
-                }
+            let found = format_args!("{} points and {count} labels", points.len());
+            Fault::unless(points.len() == count, "as many points as labels", found)?;
+            let values = points.as_flattened();
+            if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+                let found = format!("{} at point {}", values[place], place / 3 + 1);
+                return Err(Fault::new("finite coordinates", found));
             }
         }
         let mut seen = HashSet::new();

@@ -1,6 +1,5 @@
 //! What can be written on the command line.
 
-use super::progress::Visibility;
 use super::{AnalyzeArguments, CliError, SweepArguments};
 use crate::app::case::{Case, replaced_argument};
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
@@ -333,17 +332,6 @@ pub enum ChartPart {
     Stability,
 }
 
-impl ChartPart {
-    /// The word that stands after `--only`.
-    #[must_use]
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Accuracy => "accuracy",
-            Self::Stability => "stability",
-        }
-    }
-}
-
 /// A format of `plummer export`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ExportFormat {
@@ -361,19 +349,9 @@ pub enum ExportFormat {
     Mbdyn,
 }
 
-impl ExportFormat {
-    /// The word that stands after `--to`.
-    #[must_use]
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Vtu => "vtu",
-            Self::Uff => "uff",
-            Self::Mtx => "mtx",
-            Self::Npz => "npz",
-            Self::Op4 => "op4",
-            Self::Mbdyn => "mbdyn",
-        }
-    }
+/// The word by which a value of an option is typed.
+pub(super) fn word(value: impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 impl Command {
@@ -417,8 +395,7 @@ impl Command {
 const MOST_THREADS: usize = 1024;
 
 fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
-    let number = text.parse::<NonZeroUsize>().ok();
-    let number = number.filter(|number| number.get() <= MOST_THREADS);
+    let number = text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= MOST_THREADS);
     number.ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }
 
@@ -447,34 +424,36 @@ pub struct Options {
 
 /// A pause between checkpoints: not negative, at most a year.
 fn pause(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(pause) if (0.0..=3.2e7).contains(&pause) => Ok(pause),
-        _ => Err(format!("expected seconds from 0 to 3.2e7, found \"{text}\"")),
-    }
+    number(text, |pause| (0.0..=3.2e7).contains(&pause), "seconds from 0 to 3.2e7")
 }
 
 /// A density: positive and finite.
 fn density(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(density) if density > 0.0 && density.is_finite() => Ok(density),
-        _ => Err(format!("expected a number of kg/m^3 above 0, found \"{text}\"")),
-    }
+    number(text, |density| density > 0.0 && density.is_finite(), "a number of kg/m^3 above 0")
+}
+
+fn number(text: &str, fits: fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|&value| fits(value));
+    value.ok_or_else(|| format!("expected {expected}, found \"{text}\""))
+}
+
+/// The command line that computes a case.
+pub(super) fn command_line(command: &str, case: &Case) -> String {
+    let line = format!("plummer {command} {}", shell_word(&case.source.path.to_string_lossy()));
+    case.source.set.iter().fold(line, |line, set| format!("{line} --set {}", shell_word(set)))
+}
+
+/// The command line that goes on with what another one began.
+pub(super) fn resuming(line: &str, options: &Options) -> String {
+    let out = options.out.as_ref().map(|out| format!(" --out {}", shell_word(&out.to_string_lossy())));
+    format!("{line}{} --resume", out.unwrap_or_default())
 }
 
 impl Options {
-    /// The command line that computes this again.
-    #[must_use]
-    pub(crate) fn command_line(&self, command: &str, case: &Case) -> String {
-        let file = shell_word(&case.source.path.to_string_lossy());
-        let mut words = vec![format!("plummer {command} {file}")];
-        words.extend(self.set.iter().map(|set| format!("--set {}", shell_word(set))));
-        words.join(" ")
-    }
-
     /// Returns whether progress may be shown at all.
     #[must_use]
-    pub(crate) fn visibility(&self) -> Visibility {
-        if self.quiet || self.json { Visibility::Hidden } else { Visibility::OnTerminal }
+    pub(crate) fn shows_progress(&self) -> bool {
+        !self.quiet && !self.json
     }
 }
 
@@ -536,13 +515,6 @@ pub(super) fn check_set(arguments: &Arguments) -> Result<(), CliError> {
 /// The command, if it reads no case of its own.
 fn without_case(command: &Command) -> Option<&'static str> {
     match command {
-        Command::Completions { .. } => Some("completions"),
-        Command::Man => Some("man"),
-        Command::Schema { .. } => Some("schema"),
-        Command::Init(_) => Some("init"),
-        Command::Inspect { .. } => Some("inspect"),
-        Command::Verify { .. } => Some("verify"),
-        Command::Report { .. } => Some("report"),
         Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => Some("analyze FILE"),
         Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
         Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
@@ -554,6 +526,7 @@ fn without_case(command: &Command) -> Option<&'static str> {
         | Command::Export { .. }
         | Command::Analyze(_)
         | Command::Sweep(_) => None,
+        other => Some(other.name()),
     }
 }
 
@@ -561,7 +534,7 @@ fn without_case(command: &Command) -> Option<&'static str> {
 mod tests {
     use clap::{CommandFactory, Parser, ValueEnum};
 
-    use super::{Arguments, ChartPart, Command, ExportFormat, Visibility};
+    use super::{Arguments, ChartPart, Command, ExportFormat, word};
 
     fn parse(words: &str) -> Result<Arguments, clap::Error> {
         Arguments::try_parse_from(words.split(' '))
@@ -666,7 +639,7 @@ mod tests {
     #[test]
     fn formats_are_called_what_is_typed() {
         for format in ExportFormat::value_variants() {
-            let words = format!("plummer export a.toml --to {}", format.name());
+            let words = format!("plummer export a.toml --to {}", word(*format));
             let command = parse(&words).unwrap().command;
             assert!(matches!(command, Command::Export { to, .. } if to == *format));
         }
@@ -677,7 +650,7 @@ mod tests {
         let files = |words: &str| parse(words).unwrap().command.result_files();
         assert_eq!(files("plummer chart a"), ["chart.json", "stability.json"]);
         for (part, file) in [(ChartPart::Accuracy, "chart.json"), (ChartPart::Stability, "stability.json")] {
-            let words = format!("plummer chart a --only {}", part.name());
+            let words = format!("plummer chart a --only {}", word(part));
             assert_eq!(files(&words), [file]);
         }
         assert_eq!(files("plummer run a"), ["run.json"]);
@@ -686,9 +659,9 @@ mod tests {
 
     #[test]
     fn quiet_and_json_hide_progress() {
-        let visibility = |words| parse(words).unwrap().options.visibility();
-        assert_eq!(visibility("plummer run a"), Visibility::OnTerminal);
-        assert_eq!(visibility("plummer run a --quiet"), Visibility::Hidden);
-        assert_eq!(visibility("plummer run a --json"), Visibility::Hidden);
+        let shown = |words| parse(words).unwrap().options.shows_progress();
+        assert!(shown("plummer run a"));
+        assert!(!shown("plummer run a --quiet"));
+        assert!(!shown("plummer run a --json"));
     }
 }

@@ -2,10 +2,9 @@
 
 use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{case_result, result_head, result_of_case, warnings};
+use super::results::{Job, warnings};
 use super::stability::{alone, stability_lines, write_stability};
-use super::{ChartPart, CliError, Options, Outcome, OutputFolder, Progress};
-use crate::app::case::Case;
+use super::{ChartPart, CliError, Outcome, word};
 use crate::app::error::ComputeError;
 use crate::app::studies::chart::{
     Chart, ChartResult, Condition, Effort, Parameter, Point, chart_report, compute_chart, compute_stability,
@@ -18,17 +17,11 @@ use crate::report::significant;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn chart(
-    case: &Case,
-    effort: Effort,
-    only: Option<ChartPart>,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
-    let command = result_command(effort, only, &options.command_line("chart", case));
+pub(super) fn chart(job: &Job<'_>, effort: Effort, only: Option<ChartPart>) -> Result<Outcome, CliError> {
+    let Job { case, progress, ref folder, .. } = *job;
+    let command = result_command(effort, only, &job.command_line());
     if only == Some(ChartPart::Stability) {
-        return alone(case, effort, &command, options, progress);
+        return alone(job, effort, &command);
     }
     let run = case.for_chart().map_err(ComputeError::from)?;
     let result = compute_chart(run, effort, progress)?;
@@ -41,7 +34,6 @@ pub(super) fn chart(
         Some(_) => None,
     };
     progress.stage("write");
-    let folder = OutputFolder::of(case, options);
     let svg = work_precision(&result).to_svg().map_err(ComputeError::from)?;
     let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
     let mut report = chart_report(case, &result, &command);
@@ -49,15 +41,13 @@ pub(super) fn chart(
         // after the chart itself
         report.sections.insert(1, stability_section(stability));
     }
-    let files = ReportFiles::write(&folder, "chart", case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("chart", case, progress, wall_s, &files, result.summary(case));
+    let files = ReportFiles::write(folder, "chart", case, report, progress)?;
+    let record = job.record(&files.meshes, Some(&files.tables), result.summary(case));
     let mut shown = ChartResult { chart: record, stability: None };
     let mut lines = summary(&result);
     if let Some(stability) = &stability {
-        let head = result_head("chart", progress, wall_s, None);
-        let record = result_of_case(head, case, &files.meshes, stability);
-        written.extend(write_stability(&folder, stability, &record)?);
+        let record = job.record(&files.meshes, None, stability);
+        written.extend(write_stability(folder, stability, &record)?);
         lines = format!("{lines}\n{}", stability_lines(stability));
         shown.stability = Some(record);
     }
@@ -73,7 +63,7 @@ pub(super) fn chart(
 
 /// The command line with what it computed.
 fn result_command(effort: Effort, only: Option<ChartPart>, line: &str) -> String {
-    let part = only.map_or(String::new(), |part| format!(" --only {}", part.name()));
+    let part = only.map_or(String::new(), |part| format!(" --only {}", word(part)));
     match effort {
         Effort::Full => format!("{line}{part}"),
         Effort::Quick => format!("{line}{part} --quick"),
@@ -150,9 +140,9 @@ mod tests {
 
     use serde_json::Value;
 
-    use super::{ChartPart, Effort, Options, Progress, chart};
+    use super::{ChartPart, Effort, Job, chart};
     use crate::app::case::Case;
-    use crate::app::cli::Visibility;
+    use crate::app::cli::{Options, Progress};
 
     /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
     fn small() -> Case {
@@ -167,8 +157,9 @@ mod tests {
         let out = std::env::temp_dir().join(format!("plummer-{}-chart", std::process::id()));
         fs::create_dir_all(&out).unwrap();
         let options = Options { out: Some(out.clone()), ..Options::default() };
-        let progress = Progress::new(Visibility::Hidden);
-        let outcome = chart(&case, Effort::Quick, Some(ChartPart::Accuracy), &options, &progress).unwrap();
+        let progress = Progress::new(false);
+        let job = Job::new("chart", &case, &options, &progress);
+        let outcome = chart(&job, Effort::Quick, Some(ChartPart::Accuracy)).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");
         // nothing grows where all balls stay in contact: the span, in whole windows of ten periods

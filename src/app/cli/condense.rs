@@ -1,9 +1,8 @@
 //! `plummer condense`: a superelement and its certificate.
 
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress};
-use crate::app::case::Case;
+use super::results::{Job, warnings};
+use super::{CliError, Outcome};
 use crate::app::commands::condense::{
     Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
     superelement_record,
@@ -18,71 +17,52 @@ use crate::formats::write_superelement_npz;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(crate) fn condense(
-    case: &Case,
-    compare_full: bool,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
+pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, CliError> {
+    let Job { case, progress, .. } = *job;
     let comparison = if compare_full { Comparison::Full } else { Comparison::None };
     if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
         progress.stage("check");
         let (imported, _) = ImportedHousing::read(case, ring, path)?;
-        return check_imported(case, options, &imported, progress, started);
+        return check_imported(job, &imported);
     }
     let result = compute_condense(case, comparison, progress)?;
     progress.stage("write");
-    let folder = OutputFolder::of(case, options);
-    let mut command = options.command_line("condense", case);
+    let mut command = job.command_line();
     if compare_full {
         command.push_str(" --compare-full");
     }
     let report = condense_report(case, &result, &command);
-    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
-    let element = folder.path().join("superelement.npz");
+    let files = ReportFiles::write(&job.folder, "condense", case, report, progress)?;
+    let element = job.folder.path.join("superelement.npz");
     let record = match &result.interface {
         Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
         None => superelement_record(case, &result.stage)?,
     };
     write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("condense", case, progress, wall_s, &files, result.summary());
-    let (path, json) = folder.write_json("condense.json", &record)?;
+    let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
         written: [vec![path, element], files.paths].concat(),
         verdict: verdict(
             &result.checks,
-            match result.interface {
-                None => {
-                    "more vectors (condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
+            &format!(
+                "{} or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report",
+                match result.interface {
+                    None => "more vectors (condense.fixed_interface_modes)",
+                    Some(_) => "more coordinates (condense.interface_modes, condense.fixed_interface_modes)",
                 }
-                Some(_) => {
-                    "more coordinates (condense.interface_modes, condense.fixed_interface_modes) or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report"
-                }
-            },
+            ),
         ),
     })
 }
 
 /// What is condensed already is checked, no more: `report.html` and, last, `condense.json`.
-fn check_imported(
-    case: &Case,
-    options: &Options,
-    imported: &ImportedHousing,
-    progress: &Progress,
-    started: std::time::Instant,
-) -> Result<Outcome, CliError> {
-    progress.stage("write");
-    let folder = OutputFolder::of(case, options);
-    let command = options.command_line("condense", case);
-    let report = imported_report(case, imported, &command);
-    let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("condense", case, progress, wall_s, &files, imported.summary());
-    let (path, json) = folder.write_json("condense.json", &record)?;
+fn check_imported(job: &Job<'_>, imported: &ImportedHousing) -> Result<Outcome, CliError> {
+    job.progress.stage("write");
+    let report = imported_report(job.case, imported, &job.command_line());
+    let files = ReportFiles::write(&job.folder, "condense", job.case, report, job.progress)?;
+    let (path, json) = job.write_result(&files, &[], imported.summary())?;
     let mut lines = imported.notes.clone();
     lines.extend(check_lines(&imported.checks));
     Ok(Outcome {
@@ -159,10 +139,6 @@ fn check_lines(checks: &[Check]) -> Vec<String> {
     let failed = || checks.iter().filter(|check| !check.ok());
     let passed = checks.len() - failed().count();
     let mut lines = vec![format!("checks passed: {passed} of {}", checks.len())];
-    lines.extend(failed().map(line));
+    lines.extend(failed().map(|check| format!("  {} FAILS: {}: {:.3e}", check.name, check.what, check.value)));
     lines
-}
-
-fn line(check: &Check) -> String {
-    format!("  {} FAILS: {}: {:.3e}", check.name, check.what, check.value)
 }

@@ -34,13 +34,11 @@ pub(super) struct Wanted {
 /// # Errors
 /// [`CliError`] for a file that is gone.
 pub(super) fn digests(files: &[PathBuf]) -> Result<BTreeMap<String, String>, CliError> {
-    let mut digests = BTreeMap::new();
-    for path in files {
+    let of_file = |path: &PathBuf| {
         let digest = FileDigest::of_file(path).map_err(FileError::write(path))?;
-        let name = path.file_name().unwrap_or_default();
-        digests.insert(name.to_string_lossy().into_owned(), digest.sha256);
-    }
-    Ok(digests)
+        Ok((path.file_name().unwrap_or_default().to_string_lossy().into_owned(), digest.sha256))
+    };
+    files.iter().map(of_file).collect()
 }
 
 /// The case of the results in a folder, which are whole and belong together; `set` is applied after what they were computed with.
@@ -67,10 +65,8 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     let result = files::read(&path).map_err(|error| error.to_string());
     let result = result.and_then(|text| serde_json::from_slice(&text).map_err(|e| e.to_string()));
     let result: Value = result.map_err(|found| damaged("a result of this command", found))?;
-    let Some(file) = result["case"].as_str().map(PathBuf::from) else {
-        let found = result["case"].to_string();
-        return Err(damaged("the case file's name under \"case\"", found));
-    };
+    let file = result["case"].as_str().map(PathBuf::from);
+    let file = file.ok_or_else(|| damaged("the case file's name under \"case\"", result["case"].to_string()))?;
     let own: Vec<String> = match &result["set"] {
         Value::Null => Vec::new(),
         set => serde_json::from_value(set.clone())

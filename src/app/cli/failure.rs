@@ -143,9 +143,9 @@ mod tests {
                  help: go on with: plummer run a.toml --resume\n",
             ),
             (
-                CliError::from(ComputeError::TieFrame),
+                CliError::from(ComputeError::NothingToCondense),
                 2,
-                "error: ring.tie: `zero_deg` lies along `axis`: expected a direction across it\n",
+                "error: nothing to condense the housing on: expected ring.tie, or condense.interface = { group = \"NAME\" }\n",
             ),
             (
                 CliError::from(FormatError::from(FileError::Write { path: path(), source: source() })),

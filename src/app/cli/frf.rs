@@ -1,9 +1,9 @@
 //! `plummer frf`: transfer paths.
 
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress};
-use crate::app::case::Case;
+use super::results::{Job, warnings};
+use super::{CliError, Outcome};
+use crate::app::case::{Case, SensorSpot};
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
 use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::FrfQuantity;
@@ -13,19 +13,15 @@ use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_respo
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(crate) fn frf(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
+pub(super) fn frf(job: &Job<'_>) -> Result<Outcome, CliError> {
+    let Job { case, progress, .. } = *job;
     let result = compute_frf(case, progress)?;
     progress.stage("write");
-    let folder = OutputFolder::of(case, options);
-    let command = options.command_line("frf", case);
-    let report = frf_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "frf", case, report, progress)?;
-    let uff = folder.path().join("frf.uff");
+    let report = frf_report(case, &result, &job.command_line())?;
+    let files = ReportFiles::write(&job.folder, "frf", case, report, progress)?;
+    let uff = job.folder.path.join("frf.uff");
     write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(ComputeError::from)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("frf", case, progress, wall_s, &files, result.summary());
-    let (path, json) = folder.write_json("frf.json", &record)?;
+    let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -38,18 +34,15 @@ fn verdict(result: &FrfResult) -> Result<(), CliError> {
     if result.passes() {
         return Ok(());
     }
-    let found = |how: &str, (hz, error): (f64, f64)| {
-        (error > result.target).then(|| format!("{how} {error:.1e} at {hz:.0} Hz"))
+    let found = |(how, at): (&str, Option<(f64, f64)>)| {
+        let (hz, error) = at.filter(|&(_, error)| error > result.target)?;
+        Some(format!("{how} {error:.1e} at {hz:.0} Hz"))
     };
-    let estimated = result.largest_estimate();
-    let compared = result.largest_difference();
-    let misses: Vec<String> = [
-        estimated.and_then(|at| found("estimated error", at)),
-        compared.and_then(|at| found("difference from the full model", at)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let errors = [
+        ("estimated error", result.largest_estimate()),
+        ("difference from the full model", result.largest_difference()),
+    ];
+    let misses: Vec<String> = errors.into_iter().filter_map(found).collect();
     Err(CliError::failed(format!(
         "the reduced responses miss the target {:.1e}: {}",
         result.target,
@@ -77,13 +70,9 @@ fn summary(result: &FrfResult) -> String {
             lines.push(format!("{} to {}: {}", path.from, path.to, TransferPath::CLOSED));
             continue;
         }
-        let modes: Vec<String> = path
-            .shares
-            .modes
-            .iter()
-            .take(3)
-            .map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share))
-            .collect();
+        let shares = path.shares.modes.iter().take(3);
+        let modes = shares.map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share));
+        let modes: Vec<String> = modes.collect();
         lines.push(format!("{} to {}: carried by {}", path.from, path.to, modes.join(", ")));
     }
     if let Some((hz, error)) = result.largest_estimate() {
@@ -115,25 +104,18 @@ fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
 
 /// The receptances as other programs read them.
 fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, ComputeError> {
-    let direction = |name: &str| {
+    let point = |name: &str| {
         let pushes = case.frf.iter().flat_map(|frf| &frf.from);
-        let push = pushes.filter(|push| push.name == name).map(|push| push.direction);
+        let push = pushes.filter(|push| push.name == name).map(|push| (&push.spot, push.direction));
         let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
-        let given = push.chain(sensors.map(|sensor| sensor.direction)).next();
-        given.and_then(unit)
-    };
-    let node = |name: &str| {
-        use crate::app::case::SensorSpot;
-        let pushes = case.frf.iter().flat_map(|frf| &frf.from);
-        let push = pushes.filter(|push| push.name == name).map(|push| &push.spot);
-        let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
-        let spot = push.chain(sensors.map(|sensor| &sensor.spot)).next();
-        match spot {
-            Some(SensorSpot::Node(tag)) => Some(*tag),
+        let given = push.chain(sensors.map(|sensor| (&sensor.spot, sensor.direction))).next();
+        let node = match given {
+            Some((SensorSpot::Node(tag), _)) => Some(*tag),
             _ => None,
-        }
+        };
+        let direction = given.and_then(|(_, direction)| unit(direction));
+        ResponsePoint { name: name.to_owned(), node, direction }
     };
-    let point = |name: &str| ResponsePoint { name: name.to_owned(), node: node(name), direction: direction(name) };
     let mut responses = Vec::with_capacity(result.paths.len());
     for path in &result.paths {
         let (sensor, load) = path.place;

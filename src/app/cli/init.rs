@@ -39,8 +39,9 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     }
     fs::create_dir_all(folder).map_err(|error| CliError::folder(folder, &error))?;
     write_atomic(&case, draft.text.as_bytes())?;
+    let next = format!("Look through the guesses, then: plummer modes {}", shell_word(&case.to_string_lossy()));
     Ok(Outcome {
-        summary: summary(&draft, &case),
+        summary: [draft.findings.as_slice(), &[next]].concat().join("\n"),
         result: json(&DraftResult { plummer: VERSION, command: "init", mesh, case: &case, draft: &draft })?,
         written: vec![case],
         verdict: Ok(()),
@@ -56,10 +57,8 @@ fn named(name: &str) -> Result<&'static CatalogueBearing, CliError> {
 
 /// `--out`, else the mesh's name with another ending in the current folder.
 fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, CliError> {
-    let path = match &options.out {
-        Some(path) => path.clone(),
-        None => Path::new(mesh.file_stem().unwrap_or_default()).with_extension("toml"),
-    };
+    let beside = || Path::new(mesh.file_stem().unwrap_or_default()).with_extension("toml");
+    let path = options.out.clone().unwrap_or_else(beside);
     if path.file_name().is_none() || path.is_dir() {
         return Err(CliError::input(format!(
             "{}: found no file name, expected that of a case file (--out FILE.toml)",
@@ -67,13 +66,6 @@ fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, CliError> {
         )));
     }
     Ok(path)
-}
-
-fn summary(draft: &Draft, case: &Path) -> String {
-    let mut lines = draft.findings.clone();
-    let case = shell_word(&case.to_string_lossy());
-    lines.push(format!("Look through the guesses, then: plummer modes {case}"));
-    lines.join("\n")
 }
 
 /// Lists the bearings of the catalogue.
@@ -102,7 +94,6 @@ fn table() -> String {
                 .map(|length| 1e3 * length);
         let star = if bearing.pitch_published { ' ' } else { '*' };
         let orders = catalogue_orders(bearing)
-            .ok()
             .map_or([f64::NAN; 4], |orders| [orders.outer, orders.inner, orders.ball_spin, orders.cage]);
         let orders = orders.map(|order| format!(" {order:>6.4}")).concat();
         // writing to a String cannot fail
@@ -134,15 +125,13 @@ fn path_from(folder: &Path, file: &Path) -> String {
         return file.display().to_string();
     };
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
-    let names = |path: &Path| {
-        path.components().skip(common).map(|part| part.as_os_str().to_string_lossy().into_owned()).collect::<Vec<_>>()
-    };
     let shared = folder.components().take(common).any(|part| matches!(part, Component::Normal(_)));
     if !shared {
         return file.display().to_string();
     }
-    let up = vec!["..".to_owned(); names(&folder).len()];
-    [up, names(&file)].concat().join("/")
+    let up = folder.components().skip(common).map(|_| "..".into());
+    let down = file.components().skip(common).map(|part| part.as_os_str().to_string_lossy());
+    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 /// Without `.` and `..`; a link to a folder is followed by nobody, so that the name stays the one that was typed.

@@ -45,8 +45,7 @@ pub(crate) fn inspect(
 
 /// A mesh is good unless elements of it are folded or count twice.
 pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
-    let overlapping = found.overlapping.iter();
-    let overlapping: Vec<String> = overlapping.map(|overlap| overlap.sentence()).collect();
+    let overlapping: Vec<String> = found.overlapping.iter().map(|overlap| overlap.sentence()).collect();
     let (what, help) = match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
         (None, None, None) if overlapping.is_empty() => return Ok(()),
         (None, None, None) => (
@@ -110,21 +109,11 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let more = if found.invalid_elements > tags.len() { ", ..." } else { "" };
         line("INVALID", format!("{} elements: {}{more}", found.invalid_elements, tags.join(", ")));
     }
-    if let Some(doubled) = &found.doubled {
-        line("DOUBLED", doubled.sentence());
-    }
-    if let Some(mixed) = &found.mixed_orders {
-        line("MIXED ORDERS", mixed.sentence());
-    }
-    for overlap in &found.overlapping {
-        line("OVERLAP", overlap.sentence());
-    }
-    for touching in &found.touching {
-        line("warning", touching.sentence());
-    }
-    for crossing in &found.crossing {
-        line("warning", crossing.sentence());
-    }
+    found.doubled.iter().for_each(|doubled| line("DOUBLED", doubled.sentence()));
+    found.mixed_orders.iter().for_each(|mixed| line("MIXED ORDERS", mixed.sentence()));
+    found.overlapping.iter().for_each(|overlap| line("OVERLAP", overlap.sentence()));
+    found.touching.iter().for_each(|touching| line("warning", touching.sentence()));
+    found.crossing.iter().for_each(|crossing| line("warning", crossing.sentence()));
     line("connected parts", inventory.parts.len().to_string());
     if inventory.parts.len() > 1 {
         for part in &inventory.parts {
@@ -146,10 +135,8 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let (name, tag) = (format!("\"{}\"", group.name), group.tag);
         let _ = write!(text, "\n  {name:<22}{what:<9} tag {tag:<5}{:>8} nodes  ", group.nodes);
         let _ = write!(text, "{}", counts(&group.kinds));
-        let same = |size: &&crate::app::commands::inspect::GroupSize| {
-            size.name == group.name && size.dimension == group.dimension
-        };
-        if let Some(size) = found.group_sizes.iter().find(same) {
+        let mut sizes = found.group_sizes.iter();
+        if let Some(size) = sizes.find(|size| size.name == group.name && size.dimension == group.dimension) {
             let power = ["", "", "^2", "^3"][group.dimension.min(3)];
             let _ = write!(text, "  {} {unit}{power}", significant(size.size, 5));
         }
@@ -164,17 +151,13 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
 }
 
 fn node_faults(found: &Inspection) -> String {
-    let inventory = &found.inventory;
+    let (unused, doubled) = (&found.inventory.unused, &found.inventory.duplicates);
     let mut faults = String::new();
-    if inventory.unused.count > 0 {
-        let _ = write!(faults, ", {} unused (tags {:?} ...)", inventory.unused.count, inventory.unused.first_tags);
+    if unused.count > 0 {
+        faults += &format!(", {} unused (tags {:?} ...)", unused.count, unused.first_tags);
     }
-    if inventory.duplicates.count > 0 {
-        let _ = write!(
-            faults,
-            ", {} in the place of another (pairs {:?} ...)",
-            inventory.duplicates.count, inventory.duplicates.first_pairs
-        );
+    if doubled.count > 0 {
+        faults += &format!(", {} in the place of another (pairs {:?} ...)", doubled.count, doubled.first_pairs);
     }
     faults
 }
@@ -186,12 +169,11 @@ fn masses(found: &Inspection, density: Option<f64>) -> String {
         Some(_) => vec![(1.0, "")],
         None => vec![(1e-9, " if in mm"), (1.0, " if in m")],
     };
-    let mut words = Vec::new();
-    for (scale, unit) in units {
-        for &density in &densities {
+    let words = units.into_iter().flat_map(|(scale, unit)| {
+        densities.iter().map(move |density| {
             let mass = significant(density * scale * found.size, 5);
-            words.push(format!("{mass} kg at {density} kg/m^3{unit}"));
-        }
-    }
-    words.join(", ")
+            format!("{mass} kg at {density} kg/m^3{unit}")
+        })
+    });
+    words.collect::<Vec<_>>().join(", ")
 }

@@ -38,10 +38,12 @@ use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
+use arguments::{command_line, resuming, word};
 pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
-pub use progress::{Progress, StageTime, Visibility};
+pub use progress::Progress;
+use results::Job;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
@@ -113,23 +115,16 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Completions { shell } => return shell::completions(*shell, to),
         Command::Man => return shell::man(options, to),
         Command::Run { case, explain: true, .. } => compute(case, Purpose::Run, arguments, run::explain),
-        Command::Run { case, resume, checkpoint_every, .. } => {
-            compute(case, Purpose::Run, arguments, |case, progress| {
-                run::run(case, *resume, Duration::from_secs_f64(*checkpoint_every), options, progress)
-            })
-        }
-        Command::Modes { case } => {
-            compute(case, Purpose::Modes, arguments, |case, progress| modes::modes(case, options, progress))
-        }
-        Command::Condense { case, compare_full } => compute(case, Purpose::Condense, arguments, |case, progress| {
-            condense::condense(case, *compare_full, options, progress)
+        Command::Run { case, resume, checkpoint_every, .. } => compute(case, Purpose::Run, arguments, |job| {
+            run::run(job, *resume, Duration::from_secs_f64(*checkpoint_every))
         }),
-        Command::Frf { case } => {
-            compute(case, Purpose::Frf, arguments, |case, progress| frf::frf(case, options, progress))
+        Command::Modes { case } => compute(case, Purpose::Modes, arguments, modes::modes),
+        Command::Condense { case, compare_full } => {
+            compute(case, Purpose::Condense, arguments, |job| condense::condense(job, *compare_full))
         }
-        Command::Chart { case, quick, only } => compute(case, Purpose::Chart, arguments, |case, progress| {
-            let effort = if *quick { Effort::Quick } else { Effort::Full };
-            chart::chart(case, effort, *only, options, progress)
+        Command::Frf { case } => compute(case, Purpose::Frf, arguments, frf::frf),
+        Command::Chart { case, quick, only } => compute(case, Purpose::Chart, arguments, |job| {
+            chart::chart(job, if *quick { Effort::Quick } else { Effort::Full }, *only)
         }),
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
@@ -149,23 +144,21 @@ fn compute(
     path: &Path,
     purpose: Purpose,
     arguments: &Arguments,
-    work: impl FnOnce(&Case, &Progress) -> Result<Outcome, CliError>,
+    work: impl FnOnce(&Job<'_>) -> Result<Outcome, CliError>,
 ) -> Result<Outcome, CliError> {
     let options = &arguments.options;
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
-    let folder = OutputFolder::of(&case, options);
+    let progress = Progress::new(options.shows_progress());
+    let job = Job::new(arguments.command.name(), &case, options, &progress);
     match arguments.command {
         Command::Run { explain: true, .. } => {}
-        Command::Run { resume: true, .. } => run::claim_unfinished(&folder, options.force)?,
+        Command::Run { resume: true, .. } => run::claim_unfinished(&job.folder, options.force)?,
         _ => {
-            let files = arguments.command.result_files();
-            let names: Vec<&str> = files.iter().map(String::as_str).collect();
-            folder.claim_files(&names, options.force)?;
+            job.folder.claim_files(&arguments.command.result_files(), options.force)?;
         }
     }
-    let progress = Progress::new(options.visibility());
-    let outcome = work(&case, &progress);
+    let outcome = work(&job);
     progress.finish();
     outcome
 }

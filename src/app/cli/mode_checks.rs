@@ -1,7 +1,8 @@
 //! Comparisons with other modes and the convergence of the mesh, as lines for a reader.
 
 use crate::app::commands::modes::{
-    FileComparison, LoneMode, MeshConvergence, ModesResult, error_text, misses_text, mode_numbers, plain, signed,
+    FileComparison, LoneMode, MeshConvergence, ModesResult, SequenceMesh, error_text, misses_text, mode_numbers, plain,
+    signed,
 };
 use crate::report::significant;
 
@@ -10,8 +11,7 @@ const LISTED: usize = 30;
 
 /// What does not hold, a clause each; empty: everything does.
 pub(super) fn failures(result: &ModesResult) -> Vec<String> {
-    let mut found = Vec::new();
-    let expected = &result.base.expected;
+    let (mut found, expected) = (Vec::new(), &result.base.expected);
     let failed = expected.iter().filter(|row| !row.ok).count();
     if failed > 0 {
         found.push(format!(
@@ -61,22 +61,17 @@ fn compared(comparison: &FileComparison) -> Vec<String> {
         if row >= LISTED && pair.misses.is_empty() {
             continue;
         }
-        let difference = match pair.relative_difference {
-            Some(difference) => format!("{} %", signed(100.0 * difference, 3)),
-            None => "no stiffness".to_owned(),
-        };
+        let difference = pair.relative_difference.map(|difference| format!("{} %", signed(100.0 * difference, 3)));
+        let fails = if pair.misses.is_empty() { "" } else { "FAILS: " };
         lines.push(format!(
             "  {:<12} {:>12.3}  {:<12} {:>12.3}  {:>12}  {:>7.4}  {}",
             mode_numbers(&pair.here),
             pair.here_hz,
             mode_numbers(&pair.there),
             pair.there_hz,
-            difference,
+            difference.as_deref().unwrap_or("no stiffness"),
             pair.mac,
-            match pair.misses.is_empty() {
-                true => misses_text(&pair.misses),
-                false => format!("FAILS: {}", misses_text(&pair.misses)),
-            },
+            format_args!("{fails}{}", misses_text(&pair.misses)),
         ));
     }
     if comparison.pairs.len() > LISTED {
@@ -103,14 +98,11 @@ fn lone(side: &str, modes: &[LoneMode]) -> Vec<String> {
 }
 
 fn converged(found: &MeshConvergence) -> Vec<String> {
-    let sizes: Vec<String> = found
-        .meshes
-        .iter()
-        .map(|mesh| {
-            let own = if mesh.own { " (this case)" } else { "" };
-            format!("{} mm{own}", significant(1e3 * mesh.element_size_m, 3))
-        })
-        .collect();
+    let size = |mesh: &SequenceMesh| {
+        let own = if mesh.own { " (this case)" } else { "" };
+        format!("{} mm{own}", significant(1e3 * mesh.element_size_m, 3))
+    };
+    let sizes: Vec<String> = found.meshes.iter().map(size).collect();
     let mut lines = vec![
         format!(
             "convergence over {} meshes, h = {}; order promised: {}",

@@ -1,30 +1,22 @@
 //! `plummer modes`: eigenfrequencies and their verification.
 
-use super::earlier_results::digests;
 use super::mode_checks::{check_lines, failures};
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings, write_modes};
-use super::{CliError, Options, Outcome, OutputFolder, Progress};
-use crate::app::case::Case;
+use super::results::{Job, warnings, write_modes};
+use super::{CliError, Outcome};
 use crate::app::commands::modes::{ModesResult, Reading, compute_modes, modes_report};
 
 /// Computes the modes of a case and writes `report.html`, its tables, `modes.npz` and, last, `modes.json`.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub fn modes(case: &Case, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
-    let result = compute_modes(case, progress)?;
-    progress.stage("write");
-    let folder = OutputFolder::of(case, options);
-    let command = options.command_line("modes", case);
-    let report = modes_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "modes", case, report, progress)?;
-    let shapes = write_modes(&folder, &result)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let mut record = case_result("modes", case, progress, wall_s, &files, result.summary());
-    record.arrays = digests(std::slice::from_ref(&shapes))?;
-    let (path, json) = folder.write_json("modes.json", &record)?;
+pub(super) fn modes(job: &Job<'_>) -> Result<Outcome, CliError> {
+    let result = compute_modes(job.case, job.progress)?;
+    job.progress.stage("write");
+    let report = modes_report(job.case, &result, &job.command_line())?;
+    let files = ReportFiles::write(&job.folder, "modes", job.case, report, job.progress)?;
+    let shapes = write_modes(&job.folder, &result)?;
+    let (path, json) = job.write_result(&files, std::slice::from_ref(&shapes), result.summary())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,

@@ -42,6 +42,15 @@ pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     Ok(files::write_atomic(path, |file| file.write_all(bytes))?)
 }
 
+/// Appends what is not there yet.
+pub(super) fn extend_new<T: PartialEq>(list: &mut Vec<T>, more: impl IntoIterator<Item = T>) {
+    for item in more {
+        if !list.contains(&item) {
+            list.push(item);
+        }
+    }
+}
+
 /// A result as JSON.
 ///
 /// # Errors
@@ -54,18 +63,15 @@ pub(super) fn json(result: &impl Serialize) -> Result<Value, CliError> {
 /// be written last, after the files that it speaks of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFolder {
-    path: PathBuf,
+    /// Where it is.
+    pub(crate) path: PathBuf,
 }
 
 impl OutputFolder {
     /// Returns the folder of a case: `--out`, else `out/` and the case's name. Makes nothing yet.
     #[must_use]
     pub(crate) fn of(case: &Case, options: &Options) -> Self {
-        let path = match &options.out {
-            Some(path) => path.clone(),
-            None => Path::new("out").join(case.name()),
-        };
-        Self { path }
+        Self { path: options.out.clone().unwrap_or_else(|| Path::new("out").join(case.name())) }
     }
 
     /// Returns the folder of this path.
@@ -74,25 +80,19 @@ impl OutputFolder {
         Self { path: path.to_owned() }
     }
 
-    /// Returns the folder's path.
-    #[must_use]
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
     ///
     /// # Errors
     /// [`CliError`]: a folder that cannot be made or that another process has, a result that is there.
     pub(crate) fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
-        self.claim_files(&[&format!("{command}.json")], force)
+        self.claim_files(&[format!("{command}.json")], force)
     }
 
     /// Makes the folder, takes it for this process and checks that none of these files would be replaced without `force`.
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
-    pub(crate) fn claim_files(&self, names: &[&str], force: bool) -> Result<(), CliError> {
+    pub(crate) fn claim_files<N: AsRef<Path>>(&self, names: &[N], force: bool) -> Result<(), CliError> {
         fs::create_dir_all(&self.path).map_err(|error| CliError::folder(&self.path, &error))?;
         self.lock()?;
         let mut paths = names.iter().map(|name| self.path.join(name));
@@ -120,11 +120,9 @@ impl OutputFolder {
     /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
     #[must_use]
     pub(crate) fn report_name(&self, command: &str) -> String {
-        let others = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"]
-            .into_iter()
-            .filter(|&other| other != command);
-        let shared = |other: &str| self.path.join(format!("{other}.json")).exists();
-        if others.into_iter().any(shared) { format!("{command}-report.html") } else { "report.html".to_owned() }
+        let mut all = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"].into_iter();
+        let shared = all.any(|other| other != command && self.path.join(format!("{other}.json")).exists());
+        if shared { format!("{command}-report.html") } else { "report.html".to_owned() }
     }
 
     /// Writes a result as JSON; gives its path, and what it says.
@@ -135,15 +133,6 @@ impl OutputFolder {
         let json = json(result)?;
         let path = self.write(name, format!("{json:#}\n").as_bytes())?;
         Ok((path, json))
-    }
-
-    /// Writes a file at this path below the folder, `/` between its parts, and makes the folders between.
-    ///
-    /// # Errors
-    /// [`CliError`] when a folder cannot be made or the file not be written.
-    pub(crate) fn write_below(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
-        self.make_below(Path::new(name).parent().unwrap_or(Path::new("")))?;
-        self.write(name, bytes)
     }
 
     /// Makes a folder below this one; none between may be a symbolic link.
@@ -333,7 +322,7 @@ mod tests {
         folder.claim("modes", false).unwrap();
         folder.claim("run", true).unwrap();
         let default = OutputFolder::of(&case, &Options::default());
-        assert_eq!(default.path(), Path::new("out/case.v2"));
+        assert_eq!(default.path, Path::new("out/case.v2"));
         let blocked = OutputFolder { path: written.join("below a file") };
         let error = blocked.claim("run", false).unwrap_err();
         assert_eq!(error.exit_code(), 2);

@@ -4,27 +4,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde::Serialize;
 
 use crate::files::FileDigest;
-
-/// Whether progress is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Visibility {
-    /// On standard error, if that is a terminal.
-    OnTerminal,
-    /// Never.
-    Hidden,
-}
-
-/// How long a stage took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct StageTime {
-    /// The stage.
-    pub name: String,
-    /// Wall time in s.
-    pub seconds: f64,
-}
 
 /// Steps of the bar: finer than any terminal shows.
 const STEPS: u64 = 10_000;
@@ -41,13 +22,10 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Starts without a stage; nothing is shown yet.
+    /// Starts without a stage. Later ones are shown on standard error, if that is a terminal, or never.
     #[must_use]
-    pub fn new(visibility: Visibility) -> Self {
-        Self::on(match visibility {
-            Visibility::OnTerminal => ProgressDrawTarget::stderr(),
-            Visibility::Hidden => ProgressDrawTarget::hidden(),
-        })
+    pub fn new(shown: bool) -> Self {
+        Self::on(if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() })
     }
 
     fn on(target: ProgressDrawTarget) -> Self {
@@ -106,18 +84,15 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    /// Returns how long each stage took; the last one lasts until now.
+    /// Returns each stage with the time that it took, s; the last one lasts until now.
     #[must_use]
-    pub(crate) fn times(&self) -> Vec<StageTime> {
+    pub(crate) fn times(&self) -> Vec<(String, f64)> {
         let stages = self.stages();
         let ends = stages.iter().skip(1).map(|&(_, start)| start);
         stages
             .iter()
             .zip(ends.chain([Instant::now()]))
-            .map(|((name, start), end)| StageTime {
-                name: name.clone(),
-                seconds: end.duration_since(*start).as_secs_f64(),
-            })
+            .map(|((name, start), end)| (name.clone(), end.duration_since(*start).as_secs_f64()))
             .collect()
     }
 
@@ -158,7 +133,7 @@ mod tests {
 
     use indicatif::{ProgressDrawTarget, ProgressStyle, TermLike};
 
-    use super::{COUNTED, Progress, STEPS, Visibility, WITH_END, WITHOUT_END};
+    use super::{COUNTED, Progress, STEPS, WITH_END, WITHOUT_END};
 
     /// A terminal that keeps what is written to it.
     #[derive(Debug, Clone, Default)]
@@ -225,7 +200,7 @@ mod tests {
 
     #[test]
     fn what_was_done_before_is_not_taken_for_speed() {
-        let progress = Progress::new(Visibility::Hidden);
+        let progress = Progress::new(false);
         progress.stage("step");
         progress.set(0.9);
         sleep(Duration::from_millis(100));
@@ -254,7 +229,7 @@ mod tests {
 
     #[test]
     fn fractions_beyond_the_ends_are_held() {
-        let progress = Progress::new(Visibility::Hidden);
+        let progress = Progress::new(false);
         progress.stage("step");
         for (fraction, position) in [(0.5, STEPS / 2), (2.0, STEPS), (-1.0, 0), (f64::NAN, 0), (1.0, STEPS)] {
             progress.set(fraction);
@@ -266,14 +241,14 @@ mod tests {
 
     #[test]
     fn stages_are_timed_in_order() {
-        let progress = Progress::new(Visibility::Hidden);
+        let progress = Progress::new(false);
         assert!(progress.times().is_empty());
         progress.stage("read");
         sleep(Duration::from_millis(20));
         progress.stage("assemble");
         let times = progress.times();
-        assert_eq!((times[0].name.as_str(), times[1].name.as_str()), ("read", "assemble"));
-        assert!(times[0].seconds >= 0.02);
-        assert!(times[1].seconds >= 0.0);
+        assert_eq!((times[0].0.as_str(), times[1].0.as_str()), ("read", "assemble"));
+        assert!(times[0].1 >= 0.02);
+        assert!(times[1].1 >= 0.0);
     }
 }

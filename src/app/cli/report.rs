@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::output::json;
+use super::output::{extend_new, json};
 use super::report_files::{ReportFiles, page_of};
 use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::commands::result::VERSION;
@@ -54,27 +54,21 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         let (command, report) = read(&path)?;
         reports.push((page, command, report));
     }
-    folder.claim_files(&[], true)?;
+    folder.claim_files::<&str>(&[], true)?;
     let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
     for (page, command, report) in reports {
         let files = ReportFiles::draw(&folder, &page, &command, &report)?;
         let version = &report.version;
         summary.push(format!("{command}: {}, computed by {version}", report.title));
         pages.push(PageSummary {
-            page: folder.path().join(&page),
+            page: folder.path.join(&page),
             command,
             computed_by: version.clone(),
             tables: files.tables,
         });
-        written.extend(files.paths);
+        // two reports share the folders of tables and figures
+        extend_new(&mut written, files.paths);
     }
-    // two reports share the folders of tables and figures
-    let mut seen = Vec::new();
-    written.retain(|path: &PathBuf| {
-        let new = !seen.contains(path);
-        seen.push(path.clone());
-        new
-    });
     Ok(Outcome {
         summary: summary.join("\n"),
         result: json(&ReportResult { plummer: VERSION, command: "report", reports: pages })?,
@@ -110,13 +104,10 @@ fn read(path: &Path) -> Result<(String, Report), CliError> {
     let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
     let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
     // names of files are made of it: nothing is written beside the folder
-    let command = report.table_files.as_ref().map(|files| &files.prefix);
-    match command.filter(|command| WITH_REPORT.contains(&command.as_str())) {
-        Some(command) => Ok((command.clone(), report)),
-        None => {
-            let command = command.map_or("", String::as_str);
-            Err(wrong(&format!("a report of \"{command}\": expected one of {}", WITH_REPORT.join(", "))))
-        }
+    let command = report.table_files.as_ref().map(|files| files.prefix.clone()).unwrap_or_default();
+    match WITH_REPORT.contains(&command.as_str()) {
+        true => Ok((command, report)),
+        false => Err(wrong(&format!("a report of \"{command}\": expected one of {}", WITH_REPORT.join(", ")))),
     }
 }
 

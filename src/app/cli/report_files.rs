@@ -75,19 +75,15 @@ impl ReportFiles {
         let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
         for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
-            let path = folder.path().join(of);
-            if files.is_empty() && !path.exists() {
-                continue;
+            let path = folder.path.join(of);
+            if !files.is_empty() || path.exists() {
+                folder.make_below(Path::new(of))?;
+                remove_earlier(&path, command, ending)?;
             }
-            folder.make_below(Path::new(of))?;
-            remove_earlier(&path, command, ending)?;
-            if files.is_empty() {
-                continue;
+            for (name, text) in &files {
+                folder.write(name, text.as_bytes())?;
             }
-            for (name, text) in files {
-                folder.write(&name, text.as_bytes())?;
-            }
-            paths.push(path);
+            paths.extend(Some(path).filter(|_| !files.is_empty()));
         }
         paths.push(folder.write(page, html.as_bytes())?);
         Ok(Self { meshes: Vec::new(), tables: named, paths })
@@ -108,24 +104,24 @@ pub(super) fn page_of(record: &str) -> Option<String> {
 /// Checks that the meshes are still those that were read: the report names their content.
 ///
 /// # Errors
-/// [`ComputeError::MeshChanged`].
+/// [`ComputeError::Failed`].
 fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError> {
     let other = |file: &&FileDigest| {
         let same_path = now.iter().find(|now| now.path == file.path);
         same_path.is_some_and(|now| now.sha256 != file.sha256)
     };
     match read.iter().find(other) {
-        Some(file) => Err(ComputeError::MeshChanged { path: file.path.clone() }),
+        Some(file) => Err(ComputeError::failed(
+            format!("{} was changed while it was used: the result belongs to what it was before", file.path.display()),
+            "run the command again when the mesh is complete",
+        )),
         None => Ok(()),
     }
 }
 
-/// Removes what an earlier report of the command left in a folder, if there is one, and nothing else.
+/// Removes what an earlier report of the command left in a folder, and nothing else.
 fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
     let failed = |error| CliError::folder(path, &error);
-    if !path.is_dir() {
-        return Ok(());
-    }
     for entry in fs::read_dir(path).map_err(failed)? {
         let entry = entry.map_err(failed)?;
         if is_of_report(command, &entry.file_name().to_string_lossy(), ending) {
@@ -145,7 +141,6 @@ fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{is_of_report, page_of, record_of, unchanged};
-    use crate::app::error::ComputeError;
     use crate::files::FileDigest;
 
     #[test]
@@ -164,7 +159,7 @@ mod tests {
         let now = [file("a.msh", b"1"), file("b.msh", b"2")];
         assert!(unchanged(&now, &now[..1]).is_ok());
         let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();
-        assert!(matches!(&error, ComputeError::MeshChanged { path } if path.ends_with("b.msh")));
+        assert!(error.to_string().starts_with("b.msh was changed while it was used"));
         assert!(!error.is_input());
     }
 

@@ -1,17 +1,21 @@
 //! Results of a case as files: what all have in common; `modes.npz`, `signals.npz`.
 
+use super::earlier_results::digests;
 use super::report_files::ReportFiles;
-use super::{CliError, OutputFolder, Progress};
+use super::{CliError, Options, OutputFolder, Progress, command_line};
 use crate::app::case::Case;
 use crate::app::commands::modes::ModesResult;
 use crate::app::commands::result::{CaseResult, ResultHead, VERSION};
 use crate::app::commands::run::{Recording, RunResult, SensorScalogram};
 use crate::app::error::ComputeError;
 use crate::files::FileDigest;
-use crate::formats::{NpzWriter, write_modes_npz};
+use crate::formats::{NpzWriter, column_name, write_modes_npz};
 use crate::system::Column;
+use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// What a result says of its computation, `wall_s` (s) after its begin.
 pub(super) fn result_head(
@@ -20,45 +24,69 @@ pub(super) fn result_head(
     wall_s: f64,
     tables: Option<&[String]>,
 ) -> ResultHead {
-    let times = progress.times().into_iter();
     ResultHead {
         plummer: VERSION,
         command,
         wall_s,
-        stages_s: times.map(|stage| (stage.name, stage.seconds)).collect(),
+        stages_s: progress.times().into_iter().collect(),
         threads: rayon::current_num_threads(),
         tables: tables.map(<[String]>::to_vec),
     }
 }
 
-/// The result of a case with a report.
-pub(super) fn case_result<'a, T>(
-    command: &'static str,
-    case: &'a Case,
-    progress: &Progress,
-    wall_s: f64,
-    files: &'a ReportFiles,
-    result: T,
-) -> CaseResult<'a, T> {
-    let head = result_head(command, progress, wall_s, Some(&files.tables));
-    result_of_case(head, case, &files.meshes, result)
+/// A case that a command computes, and where its results go.
+pub(super) struct Job<'a> {
+    pub(super) command: &'static str,
+    pub(super) case: &'a Case,
+    pub(super) options: &'a Options,
+    pub(super) progress: &'a Progress,
+    pub(super) folder: OutputFolder,
+    pub(super) started: Instant,
 }
 
-/// The result of a case that rests on these meshes.
-pub(super) fn result_of_case<'a, T>(
-    head: ResultHead,
-    case: &'a Case,
-    meshes: &'a [FileDigest],
-    result: T,
-) -> CaseResult<'a, T> {
-    CaseResult {
-        head,
-        case: &case.source.path,
-        set: &case.source.set,
-        case_digest: case.source.digest().ok(),
-        meshes,
-        arrays: BTreeMap::new(),
-        result,
+impl<'a> Job<'a> {
+    /// A job that begins now, with the folder that the options or the case name.
+    pub(super) fn new(command: &'static str, case: &'a Case, options: &'a Options, progress: &'a Progress) -> Self {
+        let folder = OutputFolder::of(case, options);
+        Self { command, case, options, progress, folder, started: Instant::now() }
+    }
+
+    /// The command line that computes this again.
+    pub(super) fn command_line(&self) -> String {
+        command_line(self.command, self.case)
+    }
+
+    /// What was found, as the result of the case; it rests on these meshes and has these tables, if it has a report.
+    pub(super) fn record<'r, T>(
+        &'r self,
+        meshes: &'r [FileDigest],
+        tables: Option<&[String]>,
+        result: T,
+    ) -> CaseResult<'r, T> {
+        CaseResult {
+            head: result_head(self.command, self.progress, self.started.elapsed().as_secs_f64(), tables),
+            case: &self.case.source.path,
+            set: &self.case.source.set,
+            case_digest: self.case.source.digest().ok(),
+            meshes,
+            arrays: BTreeMap::new(),
+            result,
+        }
+    }
+
+    /// Writes `COMMAND.json` with the digests of the files that hold its arrays; gives its path, and what it says.
+    ///
+    /// # Errors
+    /// [`CliError`] if a file is gone or cannot be written.
+    pub(super) fn write_result(
+        &self,
+        files: &ReportFiles,
+        arrays: &[PathBuf],
+        result: impl Serialize,
+    ) -> Result<(PathBuf, Value), CliError> {
+        let mut record = self.record(&files.meshes, Some(&files.tables), result);
+        record.arrays = digests(arrays)?;
+        self.folder.write_json(&format!("{}.json", self.command), &record)
     }
 }
 
@@ -71,9 +99,9 @@ pub(super) fn warnings(doubts: &[String]) -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result<PathBuf, CliError> {
-    let path = folder.path().join("modes.npz");
-    write_modes_npz(&path, &result.mode_shapes()).map_err(ComputeError::from)?;
+pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result<PathBuf, ComputeError> {
+    let path = folder.path.join("modes.npz");
+    write_modes_npz(&path, &result.mode_shapes())?;
     Ok(path)
 }
 
@@ -81,33 +109,25 @@ pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
-pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunResult<R>) -> Result<PathBuf, CliError> {
-    let path = folder.path().join("signals.npz");
+pub(super) fn write_signals<R: Recording>(
+    folder: &OutputFolder,
+    result: &RunResult<R>,
+) -> Result<PathBuf, ComputeError> {
+    let path = folder.path.join("signals.npz");
     let record = &result.simulation.record;
     let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
-    let write = || -> Result<(), ComputeError> {
-        let mut npz = NpzWriter::create(&path)?;
-        for column in Column::all(sensors.len()) {
-            let name = match column {
-                Column::Time => "time_s",
-                Column::ShaftX => "shaft_x",
-                Column::ShaftY => "shaft_y",
-                Column::Sensor(sensor) => &sensors[sensor],
-                Column::BallRadius => "ball_radius",
-                Column::OuterForce => "outer_force",
-                Column::InnerForce => "inner_force",
-            };
-            let shape: &[usize] = match column {
-                Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
-                _ => &[rows],
-            };
-            let mut array = npz.begin(name, shape)?;
-            record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
-            array.end()?;
-        }
-        Ok(npz.finish()?)
-    };
-    write()?;
+    let mut npz = NpzWriter::create(&path)?;
+    for column in Column::all(sensors.len()) {
+        let name = column_name(column).unwrap_or_else(|sensor| &sensors[sensor]);
+        let shape: &[usize] = match column {
+            Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
+            _ => &[rows],
+        };
+        let mut array = npz.begin(name, shape)?;
+        record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
+        array.end()?;
+    }
+    npz.finish()?;
     Ok(path)
 }
 
@@ -118,21 +138,18 @@ pub(super) fn write_signals<R: Recording>(folder: &OutputFolder, result: &RunRes
 pub(super) fn write_scalograms(
     folder: &OutputFolder,
     scalograms: &[SensorScalogram],
-) -> Result<Option<PathBuf>, CliError> {
+) -> Result<Option<PathBuf>, ComputeError> {
     let Some(SensorScalogram { scalogram: axes, .. }) = scalograms.first() else {
         return Ok(None);
     };
-    let path = folder.path().join("scalogram.npz");
+    let path = folder.path.join("scalogram.npz");
     let (rows, columns) = (axes.frequency_hz.len(), axes.time_s.len());
-    let write = || -> Result<(), ComputeError> {
-        let mut npz = NpzWriter::create(&path)?;
-        npz.array("time_s", &axes.time_s)?;
-        npz.array("frequency_hz", &axes.frequency_hz)?;
-        for of_sensor in scalograms {
-            npz.matrix(&of_sensor.sensor, rows, columns, &of_sensor.scalogram.amplitude)?;
-        }
-        Ok(npz.finish()?)
-    };
-    write()?;
+    let mut npz = NpzWriter::create(&path)?;
+    npz.array("time_s", &axes.time_s)?;
+    npz.array("frequency_hz", &axes.frequency_hz)?;
+    for of_sensor in scalograms {
+        npz.matrix(&of_sensor.sensor, rows, columns, &of_sensor.scalogram.amplitude)?;
+    }
+    npz.finish()?;
     Ok(Some(path))
 }

@@ -1,16 +1,14 @@
 //! `plummer run`: the simulation in time.
 
-use super::earlier_results::digests;
 use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings, write_scalograms, write_signals};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt};
-use crate::app::case::{Case, Method, Transient};
+use super::results::{Job, warnings, write_scalograms, write_signals};
+use super::{CliError, Outcome, OutputFolder, interrupt, resuming};
+use crate::app::case::{Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
-use crate::app::shell_word::shell_word;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::significant;
 use std::time::Duration;
@@ -24,7 +22,7 @@ pub(super) const PARTIAL: &str = ".run.partial";
 /// [`CliError`]: another process has the folder, `--force` is there too, or the run has ended.
 pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
     folder.lock()?;
-    let (partial, finished) = (folder.path().join(PARTIAL), folder.path().join("run.json"));
+    let (partial, finished) = (folder.path.join(PARTIAL), folder.path.join("run.json"));
     if force {
         Err(CliError::resume_anew())
     } else if !UnfinishedRun::is_in(&partial) && finished.exists() {
@@ -42,8 +40,8 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong or there is nothing to start from.
-pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliError> {
-    let (choice, doubts) = explain_run(case, progress)?;
+pub(super) fn explain(job: &Job<'_>) -> Result<Outcome, CliError> {
+    let (choice, doubts) = explain_run(job.case, job.progress)?;
     let lines = std::iter::once(choice.table().plain()).chain(warnings(&doubts));
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
@@ -60,17 +58,10 @@ pub(super) fn explain(case: &Case, progress: &Progress) -> Result<Outcome, CliEr
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or is interrupted, or a file cannot be written.
-pub(crate) fn run(
-    case: &Case,
-    resume: bool,
-    pause: Duration,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
-    let folder = OutputFolder::of(case, options);
-    let partial = folder.path().join(PARTIAL);
-    if !resume && !options.force && UnfinishedRun::is_in(&partial) {
+pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcome, CliError> {
+    let Job { case, progress, ref folder, .. } = *job;
+    let partial = folder.path.join(PARTIAL);
+    if !resume && !job.options.force && UnfinishedRun::is_in(&partial) {
         return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
             .with_help("go on with --resume, or give it up and begin anew with --force"));
     }
@@ -86,36 +77,23 @@ pub(crate) fn run(
             &error.to_string(),
             "the signals so far and a checkpoint are",
             &unfinished.folder,
-            &again(case, options),
+            &resuming(&job.command_line(), job.options),
         ),
         error => error.into(),
     })?;
     progress.stage("write");
-    let mut arrays = vec![write_signals(&folder, &result)?];
-    arrays.extend(write_scalograms(&folder, &result.scalograms)?);
-    let command = options.command_line("run", case);
-    let report = run_report(case, &result, &command)?;
-    let files = ReportFiles::write(&folder, "run", case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let mut record = case_result("run", case, progress, wall_s, &files, result.summary());
-    record.arrays = digests(&arrays)?;
-    let (path, json) = folder.write_json("run.json", &record)?;
+    let mut arrays = vec![write_signals(folder, &result)?];
+    arrays.extend(write_scalograms(folder, &result.scalograms)?);
+    let report = run_report(case, &result, &job.command_line())?;
+    let files = ReportFiles::write(folder, "run", case, report, progress)?;
+    let (path, json) = job.write_result(&files, &arrays, result.summary())?;
     unfinished.remove()?;
     Ok(Outcome {
-        summary: summary(&result, started.elapsed().as_secs_f64()),
+        summary: summary(&result, job.started.elapsed().as_secs_f64()),
         result: json,
         written: [arrays, vec![path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
     })
-}
-
-/// The command line that goes on with a run.
-fn again(case: &Case, options: &Options) -> String {
-    let mut line = options.command_line("run", case);
-    if let Some(out) = &options.out {
-        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
-    }
-    line + " --resume"
 }
 
 fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Result<(), CliError> {
@@ -168,12 +146,12 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
             "the step is beyond the method's limit: stay well below it with --set transient.step={:.1e}, {by_itself}",
             0.5 * limit.step_s
         ),
-        (Some(_), _) => format!(
-            "the step was below the method's limit just before: see whether the steps are the cause with half of it, --set transient.step={:.1e}, {by_itself}",
-            0.5 * blow_up.step_s
-        ),
-        (None, _) => format!(
-            "see whether the step is the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+        (limit, _) => format!(
+            "{} the cause with half of it, --set transient.step={:.1e}, {by_itself}",
+            match limit {
+                Some(_) => "the step was below the method's limit just before: see whether the steps are",
+                None => "see whether the step is",
+            },
             0.5 * blow_up.step_s
         ),
     }
@@ -181,22 +159,19 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
 
 fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
     let mut lines = vec![result.bearing_table().plain()];
+    let simulation = &result.simulation;
     lines.push(format!(
         "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
-        significant(result.simulation.simulated_s, 4),
-        significant(result.simulation.stepping_s, 3),
+        significant(simulation.simulated_s, 4),
+        significant(simulation.stepping_s, 3),
         significant(wall_s, 3),
-        result.simulation.statistics.steps,
-        result.simulation.step_s(),
-        result.simulation.method.name(),
-        result.simulation.modes,
+        simulation.statistics.steps,
+        simulation.step_s(),
+        simulation.method.name(),
+        simulation.modes,
         result.scene.stage.structure.dof(),
-        if result.simulation.residual {
-            " with static residual"
-        } else {
-            ""
-        },
-        result.simulation.realtime_factor(),
+        if simulation.residual { " with static residual" } else { "" },
+        simulation.realtime_factor(),
     ));
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
@@ -234,8 +209,6 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
         lines.extend(imported.notes.iter().cloned());
     }
     lines.extend(warnings(&result.warnings));
-    for text in &result.not_analysed {
-        lines.push(format!("warning: not analysed: {text}"));
-    }
+    lines.extend(result.not_analysed.iter().map(|text| format!("warning: not analysed: {text}")));
     lines.join("\n")
 }

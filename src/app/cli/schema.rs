@@ -1,10 +1,9 @@
 //! `plummer schema`: what case files and results look like, for editors and for programs that read them.
 
-use super::arguments::ResultOf;
+use super::arguments::{ResultOf, word};
 use std::borrow::Cow;
 use std::marker::PhantomData;
 
-use clap::ValueEnum;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
@@ -76,8 +75,6 @@ fn of<T: JsonSchema>(result: ResultOf) -> Value {
     let schema = settings.into_generator().into_root_schema_for::<T>();
     let mut schema = schema.to_value();
     in_words(&mut schema, "null");
-    let command = result.to_possible_value();
-    let command = command.as_ref().map_or("", |value| value.get_name());
-    schema["title"] = format!("result of plummer {command}").into();
+    schema["title"] = format!("result of plummer {}", word(result)).into();
     schema
 }

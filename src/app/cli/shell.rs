@@ -31,7 +31,7 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
         return printed(to.write_all(&page).and_then(|()| to.flush()));
     };
     let folder = OutputFolder::at(folder);
-    folder.claim_files(&[], options.force)?;
+    folder.claim_files::<&str>(&[], options.force)?;
     let mut command = command;
     // pages name the whole command line: "plummer run"
     command.build();

@@ -2,9 +2,8 @@
 
 use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::case_result;
-use super::{CliError, Options, Outcome, OutputFolder, Progress};
-use crate::app::case::Case;
+use super::results::Job;
+use super::{CliError, Outcome, OutputFolder};
 use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
@@ -18,25 +17,17 @@ use std::path::PathBuf;
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn alone(
-    case: &Case,
-    effort: Effort,
-    command: &str,
-    options: &Options,
-    progress: &Progress,
-) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
+pub(super) fn alone(job: &Job<'_>, effort: Effort, command: &str) -> Result<Outcome, CliError> {
+    let Job { case, progress, ref folder, .. } = *job;
     let run = case.for_chart().map_err(ComputeError::from)?;
     let scene = Scene::with_all_modes(run, progress)?;
     let conditions = Condition::all(case, effort);
     let stability = compute_stability(run, &scene, conditions, effort, progress)?;
     progress.stage("write");
-    let folder = OutputFolder::of(case, options);
     let report = stability_report(case, &stability, command);
-    let files = ReportFiles::write(&folder, "stability", case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("chart", case, progress, wall_s, &files, &stability);
-    let written = write_stability(&folder, &stability, &record)?;
+    let files = ReportFiles::write(folder, "stability", case, report, progress)?;
+    let record = job.record(&files.meshes, Some(&files.tables), &stability);
+    let written = write_stability(folder, &stability, &record)?;
     Ok(Outcome {
         summary: stability_lines(&stability),
         result: json(&record)?,

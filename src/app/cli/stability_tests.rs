@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use super::{Effort, OutputFolder, compute_stability, stability_lines, write_stability};
 use crate::app::case::Case;
-use crate::app::cli::results::{result_head, result_of_case};
-use crate::app::cli::{Progress, Visibility};
+use crate::app::cli::results::Job;
+use crate::app::cli::{Options, Progress};
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{Condition, stability_report};
 use crate::numerics::Unwatched;
@@ -36,8 +36,9 @@ fn a_map_has_its_files_and_limits() {
         Condition::RadialPlay(2e-4),
     ];
     let map = compute_stability(run, &scene, asked, Effort::Quick, &Unwatched).unwrap();
-    let head = result_head("chart", &Progress::new(Visibility::Hidden), 0.0, None);
-    let record = result_of_case(head, &case, &[], &map);
+    let (options, progress) = (Options::default(), Progress::new(false));
+    let job = Job::new("chart", &case, &options, &progress);
+    let record = job.record(&[], None, &map);
     write_stability(&OutputFolder::at(&out), &map, &record).unwrap();
     let json = serde_json::to_value(&record).unwrap();
     let conditions = json["conditions"].as_array().unwrap();

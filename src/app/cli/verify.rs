@@ -18,7 +18,7 @@ const FOLDER: &str = "out/verify";
 pub(crate) fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
     let folder = OutputFolder::at(options.out.as_deref().unwrap_or(Path::new(FOLDER)));
     folder.claim("verify", options.force)?;
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     let started = std::time::Instant::now();
     let sections = suite(full, &progress).map_err(|error| CliError::failed(error.to_string()));
     let outcome = sections.and_then(|sections| {
@@ -56,34 +56,36 @@ fn conclude(
         summary: summary(sections),
         result: json,
         written: [vec![path], files.paths].concat(),
-        verdict: if failed.is_empty() {
-            Ok(())
-        } else {
-            Err(CliError::failed(failed.join("; ")).with_help(
+        verdict: match failed.is_empty() {
+            true => Ok(()),
+            false => Err(CliError::failed(failed.join("; ")).with_help(
                 "the program does not compute here what it computed where it was made: please report it with verify.json",
-            ))
+            )),
         },
     })
 }
 
 fn report(sections: &[SectionResult], command: &str) -> Report {
-    let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok).count();
-    let total = checks().count();
+    let [good, total] = good_of(sections);
     let verdict = crate::report::Verdict::of(good == total);
     let mut report = Report::new("Verification", command, env!("CARGO_PKG_VERSION"))
         .subtitle("The program against published numbers and closed forms")
         .judgement("Checks", format!("{good} of {total} pass"), verdict);
     for section in sections {
-        let good = section.checks.iter().filter(|check| check.ok).count();
-        let value = format!("{good} of {}", section.checks.len());
-        let verdict = crate::report::Verdict::of(good == section.checks.len());
-        report = report.headline(&section.title, value, verdict);
+        let [good, total] = good_of(std::slice::from_ref(section));
+        let verdict = crate::report::Verdict::of(good == total);
+        report = report.headline(&section.title, format!("{good} of {total}"), verdict);
         for part in section.sections() {
             report = report.section(part);
         }
     }
     report
+}
+
+/// How many checks pass, and how many there are.
+fn good_of(sections: &[SectionResult]) -> [usize; 2] {
+    let checks = || sections.iter().flat_map(|section| &section.checks);
+    [checks().filter(|check| check.ok).count(), checks().count()]
 }
 
 fn summary(sections: &[SectionResult]) -> String {
@@ -96,16 +98,14 @@ fn summary(sections: &[SectionResult]) -> String {
             lines.push(table.plain());
         }
     }
-    let checks = || sections.iter().flat_map(|section| &section.checks);
-    let good = checks().filter(|check| check.ok).count();
-    lines.push(format!("{good} of {} checks pass", checks().count()));
+    let [good, total] = good_of(sections);
+    lines.push(format!("{good} of {total} checks pass"));
     lines.join("\n")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::cli::Visibility;
     use crate::app::verification::section::Kind;
     use crate::report::Section;
     use serde_json::Value;
@@ -124,7 +124,7 @@ mod tests {
         let _ = std::fs::remove_dir_all(&path);
         let folder = OutputFolder::at(&path);
         folder.claim("verify", false).unwrap();
-        let progress = Progress::new(Visibility::Hidden);
+        let progress = Progress::new(false);
         let sections = [section(reference)];
         let outcome = conclude(&sections, false, &folder, &progress, 0.5).unwrap();
         (outcome, folder)
@@ -138,20 +138,20 @@ mod tests {
         assert_eq!(error.exit_code(), 1);
         assert!(what.starts_with("judged: 2.0") && !what.contains("right"), "{what}");
         assert!(outcome.summary.ends_with("1 of 2 checks pass"), "{}", outcome.summary);
-        let text = std::fs::read_to_string(folder.path().join("verify.json")).unwrap();
+        let text = std::fs::read_to_string(folder.path.join("verify.json")).unwrap();
         let json: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(json["checks"][0]["ok"], true);
         assert_eq!(json["checks"][1]["ok"], false);
         assert!(json.get("orders").is_none());
-        let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+        let page = std::fs::read_to_string(folder.path.join("report.html")).unwrap();
         assert!(page.contains("1 of 2 pass") && page.contains("Told beside."));
-        std::fs::remove_dir_all(folder.path()).unwrap();
+        std::fs::remove_dir_all(folder.path).unwrap();
     }
 
     #[test]
     fn references_that_are_met_are_good() {
         let (outcome, folder) = concluded("verify-good", 2.01);
         assert_eq!(outcome.verdict, Ok(()));
-        std::fs::remove_dir_all(folder.path()).unwrap();
+        std::fs::remove_dir_all(folder.path).unwrap();
     }
 }

@@ -67,7 +67,7 @@ pub(crate) fn defects(
 /// Waves of the races.
 ///
 /// # Errors
-/// [`ComputeError::Bearing`] naming the wave.
+/// [`ComputeError::Input`] naming the wave.
 pub(crate) fn waves(asked: &[case::Wave], geometry: &BearingGeometry) -> Result<Vec<Wave>, ComputeError> {
     let wave = |(index, wave): (usize, &case::Wave)| {
         let wave =
@@ -84,12 +84,11 @@ fn check_apart(defects: &[(usize, RaceDefect)]) -> Result<(), ComputeError> {
             let apart = reduced(a.angle() - b.angle()).abs();
             let needed = a.contact_half_angle() + b.contact_half_angle();
             if a.race() == b.race() && apart < needed {
-                return Err(ComputeError::DefectsOverlap {
-                    first: *first,
-                    second: *second,
-                    apart_deg: apart.to_degrees(),
-                    needed_deg: needed.to_degrees(),
-                });
+                return Err(ComputeError::wrong(format!(
+                    "bearing.defects[{first}] and bearing.defects[{second}] overlap (arcs {:.2} degrees apart, {:.2} needed): move one or make it shorter",
+                    apart.to_degrees(),
+                    needed.to_degrees()
+                )));
             }
         }
     }
@@ -102,11 +101,9 @@ const COLUMNS: [&str; 2] = ["arc_length_m", "depth_m"];
 /// Arc length and depth (m) in the rows of a CSV file with the header `arc_length_m,depth_m`; lines that begin with # are
 /// left out.
 fn read_profile(index: usize, path: &Path) -> Result<Vec<(f64, f64)>, ComputeError> {
-    let refused = |line: Option<u64>, what: String| ComputeError::ProfileFile {
-        index,
-        path: path.to_owned(),
-        line: line.map_or_else(String::new, |line| format!(":{line}")),
-        what,
+    let refused = |line: Option<u64>, what: String| {
+        let line = line.map_or_else(String::new, |line| format!(":{line}"));
+        ComputeError::wrong(format!("{}{line}: {what} (bearing.defects[{index}].profile)", path.display()))
     };
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))

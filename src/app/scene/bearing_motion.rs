@@ -8,7 +8,7 @@ use crate::system::{LoadProfile, Shaft};
 /// Shaft speed over time; at rest where the case says nothing.
 ///
 /// # Errors
-/// [`ComputeError::Bearing`].
+/// [`ComputeError::Input`].
 pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
     let profile = match &case.speed {
         Some(speed) => SpeedProfile::new(&speed.profile),
@@ -20,7 +20,7 @@ pub(crate) fn speed(case: &Case) -> Result<SpeedProfile, ComputeError> {
 /// Slip of the cage.
 ///
 /// # Errors
-/// [`ComputeError::Bearing`].
+/// [`ComputeError::Input`].
 pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
     let profile = match asked {
         Slip::Constant(slip) => SlipProfile::constant(*slip),

@@ -191,9 +191,13 @@ impl CondensedHousing {
 fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, ComputeError> {
     let model = &housing.model;
     let place: HashMap<u64, usize> = model.node_tags.iter().enumerate().map(|(index, &tag)| (tag, index)).collect();
-    let found = |(index, tag): (usize, &u64)| match place.get(tag) {
-        Some(&node) if model.used[node] => Ok(node),
-        other => Err(ComputeError::InterfaceNode { index, tag: *tag, in_mesh: other.is_some() }),
+    let found = |(index, tag): (usize, &u64)| {
+        let missing = match place.get(tag) {
+            Some(&node) if model.used[node] => return Ok(node),
+            Some(_) => "no element of the housing has node",
+            None => "the mesh has no node",
+        };
+        Err(ComputeError::wrong(format!("condense.interface.nodes[{index}]: {missing} {tag}")))
     };
     tags.iter().enumerate().map(found).collect()
 }
@@ -215,7 +219,7 @@ pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
 /// from a factorisation.
 ///
 /// # Errors
-/// [`ComputeError::LooseInterior`].
+/// [`ComputeError::Input`].
 fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(), ComputeError> {
     let partition = boundary.partition();
     if partition.driven.is_empty() || partition.interior.is_empty() {
@@ -223,7 +227,14 @@ fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(),
     }
     let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
     match Mechanisms::find_in(&housing.mesh, &housing.model, &Bore::Held(&partition.driven, rotation))? {
-        Some(found) if found.total() > 0 => Err(ComputeError::LooseInterior { what: found.sentences() }),
+        Some(found) if found.total() > 0 => Err(ComputeError::input(
+            format!(
+                "with the interface held, the housing can still move, so that it cannot be condensed: {}",
+                found.sentences().join("; ")
+            ),
+            "join the part (merge its nodes in gmsh, housing.links), hold it (housing.supports), put three of its nodes \
+             that are not in line into the interface, or leave it out of housing.parts",
+        )),
         _ => Ok(()),
     }
 }
@@ -239,7 +250,11 @@ fn located(error: ReductionError, model: &HousingModel) -> ComputeError {
     let of_node = elements.find(|element| model.elements().nodes(element).contains(&node));
     let part = of_node.and_then(|element| model.description.parts.get(element.part));
     match (part, model.node_tags.get(node)) {
-        (Some(part), Some(&tag)) => ComputeError::SoftPart { part: part.group.clone(), tag, source: error },
+        (Some(part), Some(tag)) => ComputeError::input(
+            format!("part \"{}\", near node {tag}: {error}", part.group),
+            "check the units of the springs that hold it and its flattest elements (`plummer inspect`); hold it by \
+             stiffer springs or a link, or leave it out of housing.parts",
+        ),
         _ => error.into(),
     }
 }

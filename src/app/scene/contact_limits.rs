@@ -47,7 +47,7 @@ fn contacts<'c>(setup: &BearingSetup, contacts: &'c RaceContacts, equilibrium: &
 /// stiffness is given, grooves and materials do not act, and nothing is refused.
 ///
 /// # Errors
-/// [`ComputeError::WidePatch`], [`ComputeError::Pressure`].
+/// [`ComputeError::Input`].
 pub(crate) fn accept_contacts(
     setup: &BearingSetup,
     hertz: &RaceContacts,
@@ -60,17 +60,19 @@ pub(crate) fn accept_contacts(
     for contact in contacts(setup, hertz, equilibrium) {
         let Contact { race, force, patch, .. } = contact;
         if patch.longer >= ball_radius {
-            return Err(ComputeError::WidePatch {
-                race,
-                groove: contact.groove,
-                ball_radius,
-                force,
-                half_axis: patch.longer,
-            });
+            let (half_axis, groove) = (patch.longer, contact.groove);
+            return Err(ComputeError::wrong(format!(
+                "bearing.{race}_groove_radius: the contact of a ball with the {race} race would have a half-axis of {half_axis:.3e} m under the largest force at rest, {force:.3e} N, and the ball's radius is {ball_radius:.3e} m: expected a patch well below it, found a groove of {groove:e} m, {:.7} of the ball's diameter (0.51 to 0.54 are built); check the groove, the ball and the load on the shaft",
+                0.5 * groove / ball_radius
+            )));
         }
         let limit = STRENGTH * contact.hertz.effective_modulus;
         if patch.peak_pressure > limit {
-            return Err(ComputeError::Pressure { race, force, pressure: patch.peak_pressure, limit });
+            return Err(ComputeError::wrong(format!(
+                "bearing: the pressure between a ball and the {race} race would be {:.0} MPa under the largest force at rest, {force:.3e} N: expected below {:.0} MPa, a tenth of the effective modulus, beyond which no solid is elastic (bearing steel is rated to 4200 MPa, ISO 76); check the load on the shaft, bearing.ball_radius and the groove radii",
+                1e-6 * patch.peak_pressure,
+                1e-6 * limit
+            )));
         }
     }
     Ok(())

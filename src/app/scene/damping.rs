@@ -9,7 +9,7 @@ use crate::system::ModeDamping;
 /// The damping of a case; none without `[damping]`.
 ///
 /// # Errors
-/// [`ComputeError::NegativeDamping`] for ratios that drive some modes.
+/// [`ComputeError::Input`] for ratios that drive some modes.
 pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
     let damping = match &case.damping {
         None => ModeDamping::Modal(0.0),
@@ -20,9 +20,9 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
         }
     };
     match damping {
-        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => {
-            Err(ComputeError::NegativeDamping { alpha, beta })
-        }
+        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => Err(ComputeError::wrong(format!(
+            "damping: these values mean alpha = {alpha:.4e} 1/s and beta = {beta:.4e} s; a negative coefficient drives some modes: bring the two ratios closer together, or use damping.modal"
+        ))),
         admissible => Ok(admissible),
     }
 }
@@ -30,13 +30,13 @@ pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
 /// Time integration has no structural damping; a loss factor of a part in use must not be passed over.
 ///
 /// # Errors
-/// [`ComputeError::StructuralDamping`].
+/// [`ComputeError::Input`].
 pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), ComputeError> {
     match case.lossy_part() {
         None => Ok(()),
-        Some((material, loss_factor)) => {
-            Err(ComputeError::StructuralDamping { material: material.to_owned(), loss_factor })
-        }
+        Some((material, loss_factor)) => Err(ComputeError::wrong(format!(
+            "materials.{material}: loss_factor = {loss_factor} is structural damping, which has a meaning for harmonic motion alone (frf); a run steps through time: leave the key out and give [damping]"
+        ))),
     }
 }
 

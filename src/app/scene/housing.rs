@@ -78,17 +78,19 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
 fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
     match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
         None => Ok(RingFrame::default()),
-        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or(ComputeError::TieFrame),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
+            ComputeError::wrong("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")
+        }),
     }
 }
 
 /// An isotropic material of the case, checked.
 ///
 /// # Errors
-/// [`ComputeError::Material`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
+/// [`ComputeError::Input`] for values out of range, [`ComputeError::Case`] for a name that `key` may not have.
 pub(crate) fn material(case: &Case, key: &str, name: &str) -> Result<Material, ComputeError> {
     let IsotropicMaterial { young, poisson, density, .. } = *case.isotropic(key, name)?;
-    Material::new(young, poisson, density).map_err(|source| ComputeError::Material { name: name.to_owned(), source })
+    Material::new(young, poisson, density).map_err(|source| named(name, source))
 }
 
 fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeError> {
@@ -104,7 +106,11 @@ fn elastic_material(case: &Case, name: &str) -> Result<ElasticMaterial, ComputeE
             material.and_then(|material| material.with_loss_factor(loss_factor)).map(ElasticMaterial::from)
         }
     };
-    material.map_err(|source| ComputeError::Material { name: name.to_owned(), source })
+    material.map_err(|source| named(name, source))
+}
+
+fn named(name: &str, source: MaterialError) -> ComputeError {
+    ComputeError::wrong(format!("materials.{name}: {source}"))
 }
 
 fn support(support: &case::Support) -> HousingSupport {

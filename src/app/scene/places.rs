@@ -81,10 +81,18 @@ impl Place {
     /// [`ComputeError`] for a place that is not there or cannot move, and a direction across the plane of a plane model; each names the
     /// sensor or force.
     pub(crate) fn new(bodies: PlaceBodies<'_>, spot: Spot<'_>) -> Result<Self, ComputeError> {
-        let needs_housing = |place: String| ComputeError::SensorNeedsHousing { name: spot.to_string(), place };
+        let needs_housing = |place: String| {
+            ComputeError::wrong(format!(
+                "{spot} stands on {place}, but the case has no housing: use ring_deg for a place on the ring"
+            ))
+        };
         let (nodes, housing) = match (spot.at, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
-                let ring = bodies.ring.ok_or_else(|| ComputeError::SensorNeedsRing { name: spot.to_string() })?;
+                let ring = bodies.ring.ok_or_else(|| {
+                    ComputeError::wrong(format!(
+                        "{spot} stands on the ring, but no ring is attached here: give group, node or point"
+                    ))
+                })?;
                 let direction = unit(bodies.frame.vector(spot.direction));
                 if !ring.is_in_space() {
                     in_plane(spot, direction)?;
@@ -186,7 +194,10 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
 /// A unit vector that lies in the plane.
 fn in_plane(spot: Spot<'_>, [x, y, across]: [f64; 3]) -> Result<[f64; 3], ComputeError> {
     if across.abs() > ACROSS {
-        return Err(ComputeError::SensorDirection { name: spot.to_string(), across: (across * 1e6).round() / 1e6 });
+        let across = (across * 1e6).round() / 1e6;
+        return Err(ComputeError::wrong(format!(
+            "{spot}: direction has a part across the bearing's plane, {across}: a plane model moves in its plane alone; give direction = [0, 1, 0] or the like"
+        )));
     }
     Ok([x, y, 0.0])
 }
@@ -200,10 +211,10 @@ fn check_moves(housing: &AssembledHousing, spot: Spot<'_>, entries: &[(usize, f6
     let holders: Option<Vec<usize>> = moving.map(|&(dof, _)| model.fixed[dof / d][dof % d]).collect();
     match holders.and_then(|holders| holders.last().copied()) {
         None => Ok(()),
-        Some(support) => {
-            let support = model.description.supports[support].group.clone();
-            Err(ComputeError::SensorHeld { name: spot.to_string(), support })
-        }
+        Some(support) => Err(ComputeError::wrong(format!(
+            "{spot} stands where the support \"{}\" holds the housing in its direction, so that it measures zero: expected a place that moves; give another place or direction, or another support",
+            model.description.supports[support].group
+        ))),
     }
 }
 
@@ -222,8 +233,9 @@ pub(crate) fn nodes_at(housing: &AssembledHousing, spot: Spot<'_>) -> Result<Vec
         SensorSpot::Point(point) => Ok(vec![nearest_node(housing, spot, point)?]),
         SensorSpot::Node(tag) => {
             let place = model.node_tags.iter().position(|found| found == tag);
-            let missing = || ComputeError::SensorNode { name: spot.to_string(), tag: *tag, in_mesh: place.is_some() };
-            Ok(vec![place.filter(used).ok_or_else(missing)?])
+            let missing = if place.is_some() { "no element of the housing has node" } else { "the mesh has no node" };
+            let node = place.filter(used);
+            Ok(vec![node.ok_or_else(|| ComputeError::wrong(format!("{spot}: {missing} {tag}")))?])
         }
         SensorSpot::RingDeg(_) | SensorSpot::Recovered(_) => Ok(Vec::new()),
     }
@@ -248,7 +260,12 @@ fn nearest_node(housing: &AssembledHousing, spot: Spot<'_>, point: &[f64; 3]) ->
             }
         }
     }
-    let missed = |distance| ComputeError::SensorPlace { name: spot.to_string(), point: *point, distance };
+    let missed = |distance: f64| {
+        let [x, y, z] = point;
+        ComputeError::wrong(format!(
+            "{spot}: the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres"
+        ))
+    };
     let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;
     if away <= TOLERANCE * bounds[0].hypot(bounds[1]).hypot(bounds[2]) { Ok(index) } else { Err(missed(away)) }
 }

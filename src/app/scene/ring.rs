@@ -34,7 +34,7 @@ pub(crate) fn ring_and_tie(
 /// A section of a ring as it is asked for.
 ///
 /// # Errors
-/// [`ComputeError::Material`].
+/// [`ComputeError::Input`].
 pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, ComputeError> {
     Ok(RingLayer {
         material: material(case, "ring.sections", &section.material)?,

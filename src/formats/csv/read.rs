@@ -15,7 +15,10 @@ pub(super) const BY_POINT: [&str; 8] = ["mode", "frequency_hz", "x", "y", "z", "
 pub(super) const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy", "uz"];
 
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
-pub(in crate::formats) fn line_of(text: &str, place: &Position) -> u64 {
+pub(in crate::formats) fn line_of(text: &str, record: &StringRecord) -> u64 {
+    let Some(place) = record.position() else {
+        return 0;
+    };
     let rest = text.get(place.byte() as usize..).unwrap_or_default();
     let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#'));
     place.line() + passed.count() as u64
@@ -62,10 +65,7 @@ pub(super) fn modes_from_bytes(bytes: &[u8], path: &Path) -> Result<ModeShapes, 
     // Comments may be in any encoding; numbers and header are ASCII.
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    let read = read(text).and_then(|modes| {
-        modes.check()?;
-        Ok(modes)
-    });
+    let read = read(text).and_then(|modes| modes.check().map(|()| modes));
     Ok(read.map_err(|fault| fault.of(path))?)
 }
 
@@ -93,10 +93,7 @@ impl Row<'_> {
 
     fn real(&self, column: usize, what: &str) -> Result<f64, Fault> {
         let text = self.text(column);
-        let value = match self.decimal_comma {
-            true => text.replace(',', ".").parse::<f64>(),
-            false => text.parse(),
-        };
+        let value = if self.decimal_comma { text.replace(',', ".").parse::<f64>() } else { text.parse() };
         let value = value.ok().filter(|value| value.is_finite());
         value.ok_or_else(|| self.fault(format!("a number for {what}"), text))
     }
@@ -122,19 +119,13 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
         if record.iter().all(str::is_empty) {
             continue;
         }
-        let row = Row {
-            line: record.position().map_or(0, |place| line_of(text, place)),
-            record: &record,
-            decimal_comma: semicolon,
-        };
+        let row = Row { line: line_of(text, &record), record: &record, decimal_comma: semicolon };
         let Some(columns) = columns else {
             columns = Some(header_of(&row)?);
             continue;
         };
-        if record.len() != columns.len() {
-            let expected = format!("{} columns", columns.len());
-            return Err(Fault::new(expected, record.len()).line(row.line));
-        }
+        Fault::unless(record.len() == columns.len(), format!("{} columns", columns.len()), record.len())
+            .map_err(|fault| fault.line(row.line))?;
         let (mode, place, displacement) = values(&row, columns)?;
         let frequency_hz = mode.frequency_hz;
         let index = *index_of.entry(mode.number).or_insert_with(|| {
@@ -171,24 +162,17 @@ fn place_text(place: Place) -> String {
 /// Checks the header and returns it.
 fn header_of(row: &Row) -> Result<&'static [&'static str], Fault> {
     let names: Vec<String> = row.record.iter().map(str::to_lowercase).collect();
-    if names == BY_POINT {
-        Ok(&BY_POINT)
-    } else if names == BY_NODE {
-        Ok(&BY_NODE)
-    } else {
+    let headers: [&[&str]; 2] = [&BY_POINT, &BY_NODE];
+    headers.into_iter().find(|header| names == *header).ok_or_else(|| {
         let expected = format!("the header {} or {}", BY_POINT.join(","), BY_NODE.join(","));
-        Err(row.fault(expected, names.join(",")))
-    }
+        row.fault(expected, names.join(","))
+    })
 }
 
 /// Mode, place and displacement of a line.
 fn values(row: &Row, columns: &[&str]) -> Result<(Mode, Place, [f64; 3]), Fault> {
-    let mode = Mode {
-        number: row.whole(0, "mode")?,
-        frequency_hz: row.real(1, "frequency_hz")?,
-        line: row.line,
-        shape: Vec::new(),
-    };
+    let (number, frequency_hz) = (row.whole(0, "mode")?, row.real(1, "frequency_hz")?);
+    let mode = Mode { number, frequency_hz, line: row.line, shape: Vec::new() };
     let place = if columns.len() == BY_NODE.len() {
         Place::Node(row.whole(2, "node")?)
     } else {
@@ -200,8 +184,7 @@ fn values(row: &Row, columns: &[&str]) -> Result<(Mode, Place, [f64; 3]), Fault>
 }
 
 fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
-    let short = modes.iter().find(|mode| mode.shape.len() != 3 * places.len());
-    if let Some(mode) = short {
+    if let Some(mode) = modes.iter().find(|mode| mode.shape.len() != 3 * places.len()) {
         let expected = format!("{} points in every mode", places.len());
         let found = format!("{} in mode {}", mode.shape.len() / 3, mode.number);
         return Err(Fault::new(expected, found).line(mode.line));

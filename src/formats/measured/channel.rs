@@ -49,14 +49,11 @@ impl Channel {
         let series = TimeSeries::new(start_s, step_s, self.unit, self.values).map_err(|error| {
             MeasuredError::refused(format!("{}: channel \"{}\": {error}", path.display(), self.name))
         })?;
-        let peak = series.peak();
-        let [least, most] = MAGNITUDES;
-        if peak > 0.0 && !(least..=most).contains(&peak) {
-            let expected = format!("a largest magnitude from {least:e} to {most:e}");
-            let fault = Fault::new(expected, format!("{peak:e}"));
-            let fault = fault.within(format!("channel \"{}\"", self.name));
-            return Err(fault.of(path).into());
-        }
+        let (peak, [least, most]) = (series.peak(), MAGNITUDES);
+        let fits = peak == 0.0 || (least..=most).contains(&peak);
+        let expected = format!("a largest magnitude from {least:e} to {most:e}");
+        Fault::unless(fits, expected, format_args!("{peak:e}"))
+            .map_err(|fault| fault.within(format!("channel \"{}\"", self.name)).of(path))?;
         Ok(MeasuredSignal { name: self.name, series, speed_hz: self.speed_hz, own_rate_hz: self.clock.rate_hz() })
     }
 }
@@ -70,16 +67,15 @@ pub(super) fn choose(path: &Path, names: &[String], request: &SignalRequest) -> 
         };
     }
     let place = |wanted: &String| {
-        let count = names.iter().filter(|name| *name == wanted).count();
-        if count > 1 {
-            return Err(MeasuredError::array(path, wanted, "one channel of this name", count.to_string()));
+        let places: Vec<usize> = (0..names.len()).filter(|&place| names[place] == *wanted).collect();
+        match places[..] {
+            [place] => Ok(place),
+            [] => {
+                let (path, wanted, known) = (path.to_owned(), wanted.clone(), names.to_vec());
+                Err(MeasuredError::NoChannel { path, wanted, known })
+            }
+            _ => Err(MeasuredError::array(path, wanted, "one channel of this name", places.len().to_string())),
         }
-        let place = names.iter().position(|name| name == wanted);
-        place.ok_or_else(|| MeasuredError::NoChannel {
-            path: path.to_owned(),
-            wanted: wanted.clone(),
-            known: names.to_vec(),
-        })
     };
     request.channels.iter().map(place).collect()
 }

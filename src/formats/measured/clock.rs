@@ -51,13 +51,12 @@ impl Clock {
     pub(super) fn agrees(&self, path: &Path, stated: Option<(&str, f64)>) -> Result<(), MeasuredError> {
         match (self.rate_hz(), stated) {
             (Some(found_hz), Some((name, rate_hz))) if (found_hz / rate_hz - 1.0).abs() > SAME_RATE => {
-                Err(MeasuredError::Refused {
-                    message: format!(
-                        "{}: expected one sampling rate, found {rate_hz} Hz in \"{name}\" and {found_hz} Hz by the time",
-                        path.display()
-                    ),
-                    help: Some("--rate HZ takes the place of both; or leave the wrong one out of the file".to_owned()),
-                })
+                let message = format!(
+                    "{}: expected one sampling rate, found {rate_hz} Hz in \"{name}\" and {found_hz} Hz by the time",
+                    path.display()
+                );
+                let help = "--rate HZ takes the place of both; or leave the wrong one out of the file";
+                Err(MeasuredError::refused_with(message, help))
             }
             _ => Ok(()),
         }
@@ -66,17 +65,18 @@ impl Clock {
 
 /// Checks that steps are equal. The step is that of the whole, (last - first) / (n - 1).
 fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), MeasuredError> {
-    let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+    let &[first, .., last] = times else {
         return Err(MeasuredError::NoTime { path: path.to_owned() });
     };
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if steps.is_empty() {
-        return Err(MeasuredError::NoTime { path: path.to_owned() });
-    }
     let middle = steps.len() / 2;
     let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
     let uneven = |place: usize, expected: String, found: String| {
-        Err(MeasuredError::Uneven { path: path.to_owned(), row: first_row + place as u64, expected, found })
+        let (path, row) = (path.display(), first_row + place as u64);
+        Err(MeasuredError::refused_with(
+            format!("{path}: row {row}: expected equal time steps{expected}, found {found} s"),
+            "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place",
+        ))
     };
     let mut pairs = times.windows(2).enumerate();
     let wrong = pairs.find(|(_, pair)| {

@@ -48,32 +48,34 @@ impl Table<'_> {
         let mut values: Vec<Vec<f64>> = Vec::new();
         loop {
             let more = table.read_record(&mut record);
-            if !more.map_err(|error| self.damaged(&error))? {
+            let damaged = |error: ::csv::Error| {
+                let line = error.position().map_or(0, Position::line);
+                self.content(line, "a line of the table", &error.to_string())
+            };
+            if !more.map_err(damaged)? {
                 break;
             }
             if record.iter().all(str::is_empty) {
                 continue;
             }
-            let Some(columns) = &mut columns else {
-                let found = self.header(&record, request)?;
+            let Some(found) = &mut columns else {
+                let found = columns.insert(self.header(&record, request)?);
                 values = vec![Vec::new(); found.wanted.len()];
-                let is_data = numbers(&record);
-                columns = Some(found);
-                if is_data && let Some(columns) = &columns {
-                    first_row = self.line(&record);
-                    self.row(&record, columns, &mut times, &mut values)?;
+                if numbers(&record) {
+                    first_row = line_of(self.text, &record);
+                    self.row(&record, found, &mut times, &mut values)?;
                 }
                 continue;
             };
-            if first_row == 0 {
-                // a row of units below the names
-                if record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
-                    self.units(&record, columns)?;
-                    continue;
-                }
-                first_row = self.line(&record);
+            // a row of units below the names
+            if first_row == 0 && record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
+                self.units(&record, found)?;
+                continue;
             }
-            self.row(&record, columns, &mut times, &mut values)?;
+            if first_row == 0 {
+                first_row = line_of(self.text, &record);
+            }
+            self.row(&record, found, &mut times, &mut values)?;
         }
         let Some(columns) = columns.filter(|_| first_row > 0) else {
             return Err(self.content(1, "a header and rows of numbers", "none"));
@@ -82,15 +84,9 @@ impl Table<'_> {
             Some(_) => Clock::Times { times, first_row },
             None => Clock::Unknown,
         });
-        let pairs = columns.wanted.into_iter().zip(values);
-        let channels = pairs.map(|((_, name, unit), values)| Channel {
-            name,
-            unit,
-            values,
-            clock: Rc::clone(&clock),
-            speed_hz: None,
-        });
-        Ok(channels.collect())
+        let channel =
+            |((_, name, unit), values)| Channel { name, unit, values, clock: Rc::clone(&clock), speed_hz: None };
+        Ok(columns.wanted.into_iter().zip(values).map(channel).collect())
     }
 
     /// What separates the columns: the first of tab, semicolon and comma that the first line has.
@@ -100,7 +96,7 @@ impl Table<'_> {
     }
 
     fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
-        let line = self.line(record);
+        let line = line_of(self.text, record);
         if let Some(cell) = record.iter().find(|cell| is_comma_number(cell)) {
             return Err(self.comma(line, cell));
         }
@@ -114,12 +110,11 @@ impl Table<'_> {
         } else {
             let place = record.iter().position(|cell| time_unit(cell).is_some());
             let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
-            let others = record.iter().enumerate().filter(|&(own, _)| Some(own) != place);
-            let named = others.map(|(own, cell)| {
+            let named = |(own, cell): (usize, &str)| {
                 let (name, unit) = name_and_unit(cell);
-                (own, name, unit)
-            });
-            (named.collect(), time)
+                (Some(own) != place).then_some((own, name, unit))
+            };
+            (record.iter().enumerate().filter_map(named).collect(), time)
         };
         if time.is_none() && request.rate_hz.is_none() {
             return Err(MeasuredError::NoTime { path: self.path.to_owned() });
@@ -138,7 +133,7 @@ impl Table<'_> {
         if let Some((place, unit)) = &mut columns.time {
             let found = text(*place);
             *unit = time_unit(&format!("time ({found})"))
-                .ok_or_else(|| self.content(self.line(record), "s, ms or us as unit of the time", &found))?;
+                .ok_or_else(|| self.content(line_of(self.text, record), "s, ms or us as unit of the time", &found))?;
         }
         for (place, _, unit) in &mut columns.wanted {
             if unit.is_empty() {
@@ -157,7 +152,7 @@ impl Table<'_> {
     ) -> Result<(), MeasuredError> {
         if record.len() != columns.count {
             let expected = format!("{} columns, as in the first line", columns.count);
-            return Err(self.content(self.line(record), &expected, &record.len().to_string()));
+            return Err(self.content(line_of(self.text, record), &expected, &record.len().to_string()));
         }
         if let Some((place, unit)) = columns.time {
             times.push(self.number(record, place, "the time")? * unit);
@@ -172,16 +167,9 @@ impl Table<'_> {
         let cell = record.get(place).unwrap_or_default();
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ if is_comma_number(cell) => Err(self.comma(self.line(record), cell)),
-            _ => {
-                let expected = format!("a finite number for {what}");
-                Err(self.content(self.line(record), &expected, cell))
-            }
+            _ if is_comma_number(cell) => Err(self.comma(line_of(self.text, record), cell)),
+            _ => Err(self.content(line_of(self.text, record), &format!("a finite number for {what}"), cell)),
         }
-    }
-
-    fn line(&self, record: &StringRecord) -> u64 {
-        record.position().map_or(0, |place| line_of(self.text, place))
     }
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
@@ -192,15 +180,10 @@ impl Table<'_> {
 
     fn comma(&self, line: u64, found: &str) -> MeasuredError {
         let path = self.path.display();
-        MeasuredError::Refused {
-            message: format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
-            help: Some("write the table with decimal points; the separator may stay a semicolon".to_owned()),
-        }
-    }
-
-    fn damaged(&self, error: &::csv::Error) -> MeasuredError {
-        let line = error.position().map_or(0, Position::line);
-        self.content(line, "a line of the table", &error.to_string())
+        MeasuredError::refused_with(
+            format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
+            "write the table with decimal points; the separator may stay a semicolon",
+        )
     }
 }
 

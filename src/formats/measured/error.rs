@@ -42,18 +42,6 @@ pub enum MeasuredError {
         /// The file.
         path: PathBuf,
     },
-    /// Steps that are not equal, or instants that leave equal steps little by little.
-    #[error("{}: row {row}: expected equal time steps{expected}, found {found} s", path.display())]
-    Uneven {
-        /// The file.
-        path: PathBuf,
-        /// Row of the (later) instant: a line of a table, a place counted from 0 in an array.
-        row: u64,
-        /// Of which step, or to which instant.
-        expected: String,
-        /// Step or instant found.
-        found: String,
-    },
     /// Several channels, and none was named.
     #[error("{}: expected one signal or the name of one, found {}", path.display(), quoted(known))]
     Choose {
@@ -78,21 +66,23 @@ pub enum MeasuredError {
 const LISTED: usize = 20;
 
 fn quoted(names: &[String]) -> String {
-    if names.is_empty() {
-        return "no signals".to_owned();
+    let listed = names.iter().take(LISTED).map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ");
+    match names.len() {
+        0 => "no signals".to_owned(),
+        count if count > LISTED => format!("{listed} and {} more", count - LISTED),
+        _ => listed,
     }
-    let listed: Vec<String> = names.iter().take(LISTED).map(|n| format!("\"{n}\"")).collect();
-    let more = match names.len().saturating_sub(LISTED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    format!("{}{more}", listed.join(", "))
 }
 
 impl MeasuredError {
     /// A file that is none of a format's.
     pub(super) fn refused(message: String) -> Self {
         Self::Refused { message, help: None }
+    }
+
+    /// The same with what to do about it.
+    pub(super) fn refused_with(message: String, help: &str) -> Self {
+        Self::Refused { message, help: Some(help.to_owned()) }
     }
 
     /// An array that does not fit.
@@ -111,10 +101,6 @@ impl MeasuredError {
                 let nearest = known.iter().map(|name| (strsim::damerau_levenshtein(wanted, name), name)).min();
                 nearest.map(|(_, name)| format!("did you mean --channel '{name}'?"))
             }
-            Self::Uneven { .. } => Some(
-                "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place"
-                    .to_owned(),
-            ),
             Self::Refused { help, .. } => help.clone(),
             _ => None,
         }

@@ -12,7 +12,7 @@
 //! files also by `rate` beside a sampling rate in one struct.
 //!
 //! A rate that is asked for goes before what the file says of time; the first instant stays the file's. A time that is not
-//! uniform is refused ([`MeasuredError::Uneven`]): a spectrum of such samples has lines that the signal does not have.
+//! uniform is refused ([`MeasuredError::Refused`]): a spectrum of such samples has lines that the signal does not have.
 //!
 //! What it hands on is a [`TimeSeries`](crate::numerics::series::TimeSeries). Memory stays below ten times the file's size (npz arrays: what [`NpzReader`](super::NpzReader) says;
 //! MATLAB files: 20 times, or 20 000 times where variables are packed): sizes that a file only promises are not believed.

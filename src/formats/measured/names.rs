@@ -18,10 +18,7 @@ pub(super) fn name_and_unit(text: &str) -> (String, String) {
 pub(super) fn time_unit(text: &str) -> Option<f64> {
     let (name, unit) = name_and_unit(text);
     let name = name.to_lowercase();
-    let (name, suffix) = match name.rsplit_once('_') {
-        Some((name, suffix)) => (name, suffix),
-        None => (name.as_str(), ""),
-    };
+    let (name, suffix) = name.rsplit_once('_').unwrap_or((&name, ""));
     let unit = if unit.is_empty() { suffix } else { &unit };
     if !matches!(name, "t" | "time" | "zeit" | "temps") {
         return None;

@@ -17,22 +17,15 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     let names = archive.names();
     let time = names.iter().find(|name| time_unit(name).is_some());
     let rate = names.iter().find(|name| RATES.contains(&name.as_str()));
-    let stated = match rate {
-        Some(name) => {
-            let values = archive.real(name)?.values;
-            match values.as_slice() {
-                &[rate] if rate > 0.0 && rate.is_finite() => Some((name.as_str(), rate)),
-                found => {
-                    let found = match found {
-                        [one] => one.to_string(),
-                        more => format!("{} values", more.len()),
-                    };
-                    return Err(MeasuredError::array(path, name, "one sampling rate above 0 Hz", found));
-                }
-            }
-        }
-        None => None,
-    };
+    let mut stated = None;
+    if let Some(name) = rate {
+        let wrong = |found: String| MeasuredError::array(path, name, "one sampling rate above 0 Hz", found);
+        stated = match archive.real(name)?.values[..] {
+            [rate] if rate > 0.0 && rate.is_finite() => Some((name.as_str(), rate)),
+            [one] => return Err(wrong(one.to_string())),
+            ref more => return Err(wrong(format!("{} values", more.len()))),
+        };
+    }
     let clock = match (time, stated) {
         (Some(name), _) => {
             let unit = time_unit(name).unwrap_or(1.0);
@@ -68,27 +61,20 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             };
             return Err(MeasuredError::array(path, name, expected, format!("shape {:?}", array.shape)));
         }
-        found.push(Channel {
-            name: name.clone(),
-            unit: String::new(),
-            values: array.values,
-            clock: Rc::clone(&clock),
-            speed_hz,
-        });
+        let (name, unit, clock) = (name.clone(), String::new(), Rc::clone(&clock));
+        found.push(Channel { name, unit, values: array.values, clock, speed_hz });
     }
     Ok(found)
 }
 
 /// Arrays of one number that is a shaft speed by its name, with the speed in Hz; others of such a name are signals.
 fn speeds(archive: &mut NpzReader, names: &[String]) -> Vec<(String, f64)> {
-    let mut found = Vec::new();
-    for name in names {
-        if let Some(unit) = speed_unit(name)
-            && let Ok(array) = archive.real(name)
-            && let &[speed] = array.values.as_slice()
-        {
-            found.push((name.clone(), unit * speed));
+    let speed = |name: &String| {
+        let unit = speed_unit(name)?;
+        match archive.real(name).ok()?.values[..] {
+            [speed] => Some((name.clone(), unit * speed)),
+            _ => None,
         }
-    }
-    found
+    };
+    names.iter().filter_map(speed).collect()
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use super::super::uff::{TimeAxis, read_times_uff};
+use super::super::uff::{TimeAxis, TimeResponse, read_times_uff};
 use super::channel::{Channel, choose};
 use super::clock::Clock;
 use super::{MeasuredError, MeasuredSignal, SignalRequest};
@@ -27,8 +27,7 @@ pub fn read_signals(path: &Path, request: &SignalRequest) -> Result<Vec<Measured
             Err(MeasuredError::refused(format!("{}: expected {EXPECTED}", path.display())))
         }
     }?;
-    let made = channels.into_iter().map(|channel| channel.signal(path, request));
-    made.collect()
+    channels.into_iter().map(|channel| channel.signal(path, request)).collect()
 }
 
 /// Reads the wanted channels of a universal file.
@@ -46,13 +45,8 @@ fn universal(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, Measu
             TimeAxis::Even { start_s, step_s } => Clock::Even { start_s, step_s },
             TimeAxis::Uneven(times) => Clock::Times { times, first_row: 0 },
         };
-        channels.push(Channel {
-            name: signal.name,
-            unit: signal.unit,
-            values: signal.values,
-            clock: Rc::new(clock),
-            speed_hz: None,
-        });
+        let TimeResponse { name, unit, values, .. } = signal;
+        channels.push(Channel { name, unit, values, clock: Rc::new(clock), speed_hz: None });
     }
     Ok(channels)
 }

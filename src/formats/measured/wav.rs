@@ -30,14 +30,14 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     let (format, data) = parts(&bytes).map_err(fault)?;
     let names: Vec<String> = (1..=format.channels).map(|n| format!("channel {n}")).collect();
     let wanted = choose(path, &names, request)?;
-    let width = format.decode.width();
+    let Format { decode, width, .. } = format;
     let clock = Rc::new(Clock::Even { start_s: 0.0, step_s: 1.0 / f64::from(format.rate_hz) });
     let made = wanted.into_iter().map(|place| Channel {
         name: names[place].clone(),
         unit: "full scale".to_owned(),
         values: data
             .chunks_exact(width * format.channels)
-            .map(|frame| format.decode.value(&frame[place * width..][..width]))
+            .map(|frame| decode(&frame[place * width..][..width]))
             .collect(),
         clock: Rc::clone(&clock),
         speed_hz: None,
@@ -45,53 +45,30 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
     Ok(made.collect())
 }
 
+/// A sample of the bytes that it has, full scale 1.
+type Decode = fn(&[u8]) -> f64;
+
 /// How samples are written.
-#[derive(Debug, Clone, Copy)]
-enum Decode {
-    Unsigned8,
-    /// Whole numbers of so many bytes, 2 to 4.
-    Signed(usize),
-    Float(NumberType),
-}
-
-impl Decode {
-    fn of(tag: u16, bits: u16) -> Option<Self> {
-        match (tag, bits) {
-            (PCM, 8) => Some(Self::Unsigned8),
-            (PCM, 16 | 24 | 32) => Some(Self::Signed(usize::from(bits) / 8)),
-            (FLOAT, 32) => Some(Self::Float(NumberType::F32)),
-            (FLOAT, 64) => Some(Self::Float(NumberType::F64)),
-            _ => None,
-        }
-    }
-
-    /// Bytes a sample.
-    fn width(self) -> usize {
-        match self {
-            Self::Unsigned8 => 1,
-            Self::Signed(width) => width,
-            Self::Float(number) => number.width(),
-        }
-    }
-
-    /// A sample of so many bytes, full scale 1.
-    fn value(self, bytes: &[u8]) -> f64 {
-        match self {
-            Self::Unsigned8 => (f64::from(bytes[0]) - 128.0) / 128.0,
-            // an integer's bytes as the upper ones of 32 bits: full scale is 2^31 for all depths
-            Self::Signed(width) => {
-                let mut word = [0; 4];
-                word[4 - width..].copy_from_slice(bytes);
-                f64::from(i32::from_le_bytes(word)) / 2_f64.powi(31)
-            }
-            Self::Float(number) => number.value(bytes, ByteOrder::Little),
-        }
+fn decode(tag: u16, bits: u16) -> Option<Decode> {
+    match (tag, bits) {
+        (PCM, 8) => Some(|bytes| (f64::from(bytes[0]) - 128.0) / 128.0),
+        // an integer's bytes as the upper ones of 32 bits: full scale is 2^31 for all depths
+        (PCM, 16 | 24 | 32) => Some(|bytes| {
+            let mut word = [0; 4];
+            word[4 - bytes.len()..].copy_from_slice(bytes);
+            f64::from(i32::from_le_bytes(word)) / 2_f64.powi(31)
+        }),
+        (FLOAT, 32) => Some(|bytes| NumberType::F32.value(bytes, ByteOrder::Little)),
+        (FLOAT, 64) => Some(|bytes| NumberType::F64.value(bytes, ByteOrder::Little)),
+        _ => None,
     }
 }
 
 /// What the head says.
 struct Format {
     decode: Decode,
+    /// Bytes a sample.
+    width: usize,
     channels: usize,
     rate_hz: u32,
 }
@@ -119,19 +96,16 @@ fn parts(bytes: &[u8]) -> Result<(Format, &[u8]), String> {
             });
         };
         let size = word(&head[4..]) as usize;
-        let Some(body) = after.get(..size) else {
-            let there = after.len();
-            return Err(format!("a part of {size} bytes, of which {there} are there"));
-        };
+        let missing = || format!("a part of {size} bytes, of which {} are there", after.len());
+        let body = after.get(..size).ok_or_else(missing)?;
         match &head[..4] {
             b"fmt " => format = Some(format_of(body)?),
             b"data" => {
                 let format = format.ok_or("samples before their format")?;
-                let frame = format.decode.width() * format.channels;
-                return if body.len().is_multiple_of(frame) {
-                    Ok((format, body))
-                } else {
-                    Err(format!("{size} bytes of samples, {frame} at each instant"))
+                let frame = format.width * format.channels;
+                return match body.len().is_multiple_of(frame) {
+                    true => Ok((format, body)),
+                    false => Err(format!("{size} bytes of samples, {frame} at each instant")),
                 };
             }
             _ => {}
@@ -152,7 +126,8 @@ fn format_of(body: &[u8]) -> Result<Format, String> {
     if rate_hz == 0 || channels == 0 {
         return Err(format!("{rate_hz} Hz and {channels} channels"));
     }
-    let decode = Decode::of(tag, bits).filter(|decode| usize::from(align) == decode.width() * usize::from(channels));
+    let (width, channels) = (usize::from(bits) / 8, usize::from(channels));
+    let decode = decode(tag, bits).filter(|_| usize::from(align) == width * channels);
     let decode = decode.ok_or_else(|| format!("format {tag} of {bits} bits, {align} bytes for {channels} channels"))?;
-    Ok(Format { decode, channels: usize::from(channels), rate_hz })
+    Ok(Format { decode, width, channels, rate_hz })
 }

@@ -57,32 +57,18 @@ pub(super) fn whole(type_name: &str) -> Option<Decoder<i64>> {
 
 /// Text: U (four bytes a character) and S (one), padded with zeros.
 pub(super) fn text(type_name: &str) -> Option<Decoder<String>> {
-    let length = |digits: &str| {
-        let length = digits.parse::<usize>().ok();
-        length.filter(|length| (1..=LONGEST_TEXT).contains(length))
-    };
+    let length = |digits: &str| digits.parse().ok().filter(|length: &usize| (1..=LONGEST_TEXT).contains(length));
     if let Some(digits) = type_name.strip_prefix("|S") {
-        return Some(Decoder {
-            bytes: length(digits)?,
-            decode: Box::new(|bytes| {
-                let end = bytes.iter().rposition(|&byte| byte != 0);
-                let own = bytes.get(..end.map_or(0, |end| end + 1));
-                String::from_utf8_lossy(own.unwrap_or_default()).into_owned()
-            }),
-        });
+        let decode = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim_end_matches('\0').to_owned();
+        return Some(Decoder { bytes: length(digits)?, decode: Box::new(decode) });
     }
     let (order, name) = order(type_name)?;
-    let bytes = 4 * length(name.strip_prefix('U')?)?;
-    Some(Decoder {
-        bytes,
-        decode: Box::new(move |bytes| {
-            let codes = bytes.chunks_exact(4);
-            let codes = codes.map(|code| order.u32(code));
-            let character = |code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER);
-            let padded: String = codes.map(character).collect();
-            padded.trim_end_matches('\0').to_owned()
-        }),
-    })
+    let decode = move |bytes: &[u8]| {
+        let codes = bytes.chunks_exact(4).map(|code| order.u32(code));
+        let padded: String = codes.map(|code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+        padded.trim_end_matches('\0').to_owned()
+    };
+    Some(Decoder { bytes: 4 * length(name.strip_prefix('U')?)?, decode: Box::new(decode) })
 }
 
 #[cfg(test)]

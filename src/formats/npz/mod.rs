@@ -24,5 +24,5 @@ mod writer_tests;
 pub use modes::{read_modes_npz, write_modes_npz};
 pub use reader::{NpzReader, NpzValues};
 pub use sparse::write_sparse_npz;
-pub(super) use writer::npz_label;
+pub(super) use writer::npz_labels;
 pub use writer::{NpzArray, NpzElement, NpzWriter, is_array_name};

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::super::{FormatError, ModeShapes};
-use super::writer::npz_label;
+use super::writer::npz_labels;
 use super::{NpzReader, NpzWriter};
-use crate::files::Fault;
 
 /// Writes mode shapes, whole or not at all: `frequencies_hz` \[count\], `eigenvalues` \[count\] (`(2 pi f)^2`, 1/s^2),
 /// `shapes` \[count x nodes x 3\] and, if they are known, `nodes` \[nodes x 3\], m, and `node_tags` \[nodes\].
@@ -29,8 +28,7 @@ pub fn write_modes_npz(path: &Path, modes: &ModeShapes) -> Result<(), FormatErro
         npz.matrix("nodes", points.len(), 3, points.as_flattened())?;
     }
     if let Some(tags) = &modes.node_tags {
-        let numbers: Result<Vec<i64>, Fault> = tags.iter().copied().map(npz_label).collect();
-        npz.array("node_tags", &numbers?)?;
+        npz.array("node_tags", &npz_labels(tags.iter().copied())?)?;
     }
     npz.finish()
 }
@@ -51,28 +49,23 @@ pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, FormatError> {
         &[modes, points, 3] if modes == count => points,
         found => return Err(npz.wrong_shape("shapes", "a shape [modes, nodes, 3]", found)),
     };
-    let points = match npz.has("nodes") {
-        false => None,
-        true => {
-            let nodes = npz.f64("nodes")?;
-            if nodes.shape != [count_points, 3] {
-                return Err(npz.wrong_shape("nodes", "a shape [nodes, 3]", &nodes.shape));
-            }
-            let (points, _) = nodes.values.as_chunks::<3>();
-            Some(points.to_vec())
+    let mut points = None;
+    if npz.has("nodes") {
+        let nodes = npz.f64("nodes")?;
+        if nodes.shape != [count_points, 3] {
+            return Err(npz.wrong_shape("nodes", "a shape [nodes, 3]", &nodes.shape));
         }
-    };
-    let node_tags = match npz.has("node_tags") {
-        false => None,
-        true => {
-            let tags = npz.i64("node_tags")?;
-            if tags.shape != [count_points] {
-                return Err(npz.wrong_shape("node_tags", "a shape [nodes]", &tags.shape));
-            }
-            let label = |&tag: &i64| u64::try_from(tag).map_err(|_| npz.wrong("node_tags", "labels >= 0", tag));
-            Some(tags.values.iter().map(label).collect::<Result<_, _>>()?)
+        points = Some(nodes.values.as_chunks::<3>().0.to_vec());
+    }
+    let mut node_tags = None;
+    if npz.has("node_tags") {
+        let tags = npz.i64("node_tags")?;
+        if tags.shape != [count_points] {
+            return Err(npz.wrong_shape("node_tags", "a shape [nodes]", &tags.shape));
         }
-    };
+        let label = |&tag: &i64| u64::try_from(tag).map_err(|_| npz.wrong("node_tags", "labels >= 0", tag));
+        node_tags = Some(tags.values.iter().map(label).collect::<Result<_, _>>()?);
+    }
     // a chunk of no values does not exist: `check` tells of modes without points
     let shapes = shapes.values.chunks_exact(count_points.saturating_mul(3).max(1));
     let modes = ModeShapes {

@@ -67,8 +67,7 @@ impl NpzReader {
     /// # Errors
     /// [`FormatError`] if there is none of this name, it is damaged, of another type, or has more than three dimensions.
     pub fn f64(&mut self, name: &str) -> Result<NpzValues<f64>, FormatError> {
-        let own = |type_name: &str| (type_name == "<f8").then(|| real(type_name)).flatten();
-        self.values(name, "numbers of type '<f8'", own)
+        self.values(name, "numbers of type '<f8'", |type_name| real(type_name).filter(|_| type_name == "<f8"))
     }
 
     /// Reads an array of i64 (`<i8`).
@@ -76,8 +75,7 @@ impl NpzReader {
     /// # Errors
     /// As [`f64`](Self::f64).
     pub fn i64(&mut self, name: &str) -> Result<NpzValues<i64>, FormatError> {
-        let own = |type_name: &str| (type_name == "<i8").then(|| whole(type_name)).flatten();
-        self.values(name, "numbers of type '<i8'", own)
+        self.values(name, "numbers of type '<i8'", |type_name| whole(type_name).filter(|_| type_name == "<i8"))
     }
 
     /// Reads an array of real numbers as other programs may have it: f8, f4, i1 to i8, u1 to u4, in either byte order.
@@ -124,12 +122,8 @@ impl NpzReader {
     pub(in crate::formats) fn missing(&self, name: &str) -> FormatError {
         let names = self.names();
         let known: Vec<String> = names.iter().take(20).map(|name| format!("\"{name}\"")).collect();
-        let known = match known.is_empty() {
-            true => "no arrays".to_owned(),
-            false => known.join(", "),
-        };
-        let fault = Fault::new(format!("an array \"{name}\""), known);
-        fault.of(&self.path).into()
+        let known = if known.is_empty() { "no arrays".to_owned() } else { known.join(", ") };
+        Fault::new(format!("an array \"{name}\""), known).of(&self.path).into()
     }
 
     fn values<T: Clone>(
@@ -157,42 +151,33 @@ impl NpzReader {
         if shape.len() > 3 {
             return Err(wrong("up to three dimensions", shape.len().to_string()));
         }
-        let product = shape.iter().try_fold(1_usize, |n, &m| n.checked_mul(m));
-        let Some(count) = product else {
+        let Some(count) = shape.iter().try_fold(1_usize, |n, &m| n.checked_mul(m)) else {
             return Err(wrong("a shape that memory can hold", format!("{shape:?}")));
         };
         let (values, more) = numbers(&mut entry, count, &decoder).map_err(damaged)?;
         if values.len() != count || more {
-            let found = if more { "more" } else { "fewer" };
-            let found = format!("{found} values than shape {shape:?} has");
-            return Err(wrong("as many values as the shape has", found));
+            let amount = if more { "more" } else { "fewer" };
+            return Err(wrong("as many values as the shape has", format!("{amount} values than shape {shape:?} has")));
         }
         Ok(header.in_c_order(values))
     }
 }
 
 fn array_fault(path: &Path, name: &str, expected: &'static str, found: impl fmt::Display) -> FormatError {
-    let fault = Fault::new(expected, found).within(format!("array \"{name}\""));
-    fault.of(path).into()
+    Fault::new(expected, found).within(format!("array \"{name}\"")).of(path).into()
 }
 
 /// Text of the header; none if it does not begin as one or is too long.
 fn header_text(from: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
-    let mut start = [0; 8];
+    let (mut start, mut length) = ([0; 8], [0; 4]);
     from.read_exact(&mut start)?;
-    let length = match start {
-        [0x93, b'N', b'U', b'M', b'P', b'Y', 1, _] => {
-            let mut length = [0; 2];
-            from.read_exact(&mut length)?;
-            usize::from(u16::from_le_bytes(length))
-        }
-        [0x93, b'N', b'U', b'M', b'P', b'Y', 2 | 3, _] => {
-            let mut length = [0; 4];
-            from.read_exact(&mut length)?;
-            u32::from_le_bytes(length) as usize
-        }
+    let width = match start {
+        [0x93, b'N', b'U', b'M', b'P', b'Y', 1, _] => 2,
+        [0x93, b'N', b'U', b'M', b'P', b'Y', 2 | 3, _] => 4,
         _ => return Ok(None),
     };
+    from.read_exact(&mut length[..width])?;
+    let length = u32::from_le_bytes(length) as usize;
     if length > LONGEST_HEADER {
         return Ok(None);
     }

@@ -40,8 +40,7 @@ pub fn is_array_name(name: &str) -> bool {
 #[derive(Debug)]
 pub struct NpzWriter {
     partial: PathBuf,
-    /// `None` only after `finish`.
-    archive: Option<ZipWriter<AtomicFile>>,
+    archive: ZipWriter<AtomicFile>,
     names: Vec<String>,
     /// Array begun and not ended.
     incomplete: Option<String>,
@@ -56,7 +55,7 @@ impl NpzWriter {
         let path = path.as_ref();
         let partial = AtomicFile::partial_of(path);
         let file = AtomicFile::create(path).map_err(FileError::write(&partial))?;
-        Ok(Self { partial, archive: Some(ZipWriter::new(file)), names: Vec::new(), incomplete: None })
+        Ok(Self { partial, archive: ZipWriter::new(file), names: Vec::new(), incomplete: None })
     }
 
     /// Writes a one-dimensional array.
@@ -64,9 +63,7 @@ impl NpzWriter {
     /// # Errors
     /// As `begin`.
     pub fn array<T: NpzElement>(&mut self, name: &str, values: &[T]) -> Result<(), FormatError> {
-        let mut array = self.begin(name, &[values.len()])?;
-        array.extend(values)?;
-        array.end()
+        self.whole(name, &[values.len()], values)
     }
 
     /// Writes a matrix of `rows` x `columns`, `values` row by row (C order).
@@ -80,7 +77,11 @@ impl NpzWriter {
         columns: usize,
         values: &[T],
     ) -> Result<(), FormatError> {
-        let mut array = self.begin(name, &[rows, columns])?;
+        self.whole(name, &[rows, columns], values)
+    }
+
+    fn whole<T: NpzElement>(&mut self, name: &str, shape: &[usize], values: &[T]) -> Result<(), FormatError> {
+        let mut array = self.begin(name, shape)?;
         array.extend(values)?;
         array.end()
     }
@@ -93,14 +94,8 @@ impl NpzWriter {
     pub(crate) fn begin<T: NpzElement>(&mut self, name: &str, shape: &[usize]) -> Result<NpzArray<'_, T>, FormatError> {
         let expected = shape.iter().product();
         self.start(name, &header(T::TYPE, shape), expected * T::BYTES)?;
-        Ok(NpzArray {
-            writer: self,
-            element: PhantomData,
-            name: name.to_owned(),
-            shape: shape.to_vec(),
-            expected,
-            written: 0,
-        })
+        let (name, shape) = (name.to_owned(), shape.to_vec());
+        Ok(NpzArray { writer: self, element: PhantomData, name, shape, expected, written: 0 })
     }
 
     /// Writes a one-dimensional array of text (NumPy `<U`), each as long as the longest.
@@ -154,7 +149,7 @@ impl NpzWriter {
         let options = SimpleFileOptions::DEFAULT
             .compression_method(CompressionMethod::Stored)
             .large_file(bytes > u64::from(u32::MAX) - (1 << 16));
-        let begun = self.archive()?.start_file(format!("{name}.npy"), options);
+        let begun = self.archive.start_file(format!("{name}.npy"), options);
         begun.map_err(|error| FileError::write(&self.partial)(error.into()))?;
         self.write(header)
     }
@@ -163,12 +158,9 @@ impl NpzWriter {
     ///
     /// # Errors
     /// [`FormatError::Refused`] after an array that is incomplete, [`FormatError::File`]; the temporary file is then removed.
-    pub fn finish(mut self) -> Result<(), FormatError> {
+    pub fn finish(self) -> Result<(), FormatError> {
         self.check_complete()?;
-        let Some(archive) = self.archive.take() else {
-            return Ok(());
-        };
-        let finished = archive.finish().map_err(io::Error::from);
+        let finished = self.archive.finish().map_err(io::Error::from);
         let committed = finished.and_then(AtomicFile::commit);
         Ok(committed.map_err(FileError::write(&self.partial))?)
     }
@@ -180,13 +172,8 @@ impl NpzWriter {
         }
     }
 
-    fn archive(&mut self) -> Result<&mut ZipWriter<AtomicFile>, FileError> {
-        let missing = || FileError::write(&self.partial)(io::ErrorKind::NotConnected.into());
-        self.archive.as_mut().ok_or_else(missing)
-    }
-
     fn write(&mut self, bytes: &[u8]) -> Result<(), FormatError> {
-        let written = self.archive()?.write_all(bytes);
+        let written = self.archive.write_all(bytes);
         Ok(written.map_err(FileError::write(&self.partial))?)
     }
 }
@@ -257,13 +244,12 @@ pub trait NpzElement: Copy + sealed::Sealed {
 mod sealed {
     /// No other types: their names and bytes belong together.
     pub trait Sealed {}
-    impl Sealed for f64 {}
-    impl Sealed for i32 {}
-    impl Sealed for i64 {}
 }
 
 macro_rules! element {
     ($number:ty, $name:literal) => {
+        impl sealed::Sealed for $number {}
+
         impl NpzElement for $number {
             const TYPE: &'static str = $name;
             const BYTES: usize = size_of::<$number>();
@@ -279,10 +265,11 @@ element!(f64, "<f8");
 element!(i32, "<i4");
 element!(i64, "<i8");
 
-/// A label as an archive's whole numbers have it.
+/// Labels as an archive's whole numbers have them.
 ///
 /// # Errors
 /// [`Fault`] for labels beyond them.
-pub(in crate::formats) fn npz_label(label: u64) -> Result<i64, Fault> {
-    i64::try_from(label).map_err(|_| Fault::new(format!("labels up to {}", i64::MAX), label))
+pub(in crate::formats) fn npz_labels(labels: impl Iterator<Item = u64>) -> Result<Vec<i64>, Fault> {
+    let beyond = |label| Fault::new(format!("labels up to {}", i64::MAX), label);
+    labels.map(|label| i64::try_from(label).map_err(|_| beyond(label))).collect()
 }

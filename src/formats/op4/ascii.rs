@@ -2,7 +2,7 @@
 
 use super::super::fortran::{columns, fields, quoted, real, take_line};
 use super::Op4Matrix;
-use super::builder::{Builder, Column, Header};
+use super::builder::{Builder, Column};
 use crate::files::Fault;
 
 /// Reals a line and their width, where a header does not say.
@@ -43,15 +43,10 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
         Some(text) => (text, 16),
         None => (line.as_str(), 8),
     };
-    let Some([columns, rows, form, kind]) = integers(text, [wide, wide, 8, 8]) else {
-        return Err(fault(lines, HEADER));
-    };
-    let name_at = 2 * wide + 16;
-    let rest = text.get(name_at..).unwrap_or_default();
+    let header = integers(text, [wide, wide, 8, 8]).ok_or_else(|| fault(lines, HEADER))?;
+    let rest = text.get(2 * wide + 16..).unwrap_or_default();
     let (name, format) = rest.split_at_checked(8).unwrap_or((rest, ""));
-    let header = Header { columns, rows, form, kind };
-    let builder = Builder::new(header, name);
-    let mut builder = builder.map_err(|expected| fault(lines, expected))?;
+    let mut builder = Builder::new(header, name).map_err(|expected| fault(lines, expected))?;
     let format = RealFormat::parse(format).ok_or_else(|| fault(lines, "a format of reals such as 1P,3E24.16"))?;
     const COLUMN: &str = "column, first row and length of a column";
     loop {
@@ -62,7 +57,7 @@ fn matrix(lines: &mut Lines) -> Result<Op4Matrix, Fault> {
             Column::End => {
                 // one number, of no meaning
                 lines.next("a last number")?;
-                return Ok(builder.finish());
+                return Ok(builder.matrix);
             }
             Column::Dense(row) => lines.run(&mut builder, format, row, length)?,
             Column::Sparse => sparse(lines, &mut builder, format, length)?,
@@ -76,18 +71,15 @@ fn sparse(lines: &mut Lines, builder: &mut Builder, format: RealFormat, mut word
     let words_of_real = if builder.is_single() { 1 } else { 2 };
     while words > 0 {
         let line = lines.next(RUN)?;
-        let key = if builder.big {
-            integers(&line, [8; 2])
-        } else {
-            let key = line.trim().parse::<i64>().ok();
-            key.map(|key| [key >> 16, key & 0xffff])
+        let key = match builder.big {
+            true => integers(&line, [8; 2]),
+            false => line.trim().parse::<i64>().ok().map(|key| [key >> 16, key & 0xffff]),
         };
         let [length, row] = key.ok_or_else(|| lines.fault(RUN, &line))?;
         if length < 2 || (length - 1) % words_of_real != 0 {
             return Err(lines.fault(RUN, &line));
         }
-        let own_words = if builder.big { length + 1 } else { length };
-        words -= own_words;
+        words -= if builder.big { length + 1 } else { length };
         lines.run(builder, format, row, (length - 1) / words_of_real)?;
     }
     Ok(())
@@ -134,23 +126,20 @@ impl Lines<'_> {
     /// So many numbers, from a row on.
     fn run(&mut self, builder: &mut Builder, format: RealFormat, row: i64, count: i64) -> Result<(), Fault> {
         const NUMBERS: &str = "the real numbers of a column";
-        let mut missing = usize::try_from(count).unwrap_or(0);
-        let count = missing;
+        let count = usize::try_from(count).unwrap_or(0);
         let begin = self.line;
         // taken line by line, whatever the file says of their number
         let mut values = Vec::new();
-        while missing > 0 {
+        while values.len() < count {
             let line = self.next(NUMBERS)?;
-            let own = missing.min(format.per_line);
+            let own = format.per_line.min(count - values.len());
             let words = columns(&line, format.width);
             let numbers: Option<Vec<f64>> = words.into_iter().take(own).map(real).collect();
             let numbers = numbers.filter(|numbers| numbers.len() == own);
             values.extend(numbers.ok_or_else(|| self.fault(NUMBERS, &line))?);
-            missing -= own;
         }
-        let taken = builder.run(row, count, values);
-        taken.map_err(|expected| {
-            Fault::new(expected, format!("{count} from row {row}")).at(format_args!("line {begin}"))
+        builder.run(row, count, values).map_err(|expected| {
+            Fault::new(expected, format_args!("{count} from row {row}")).at(format_args!("line {begin}"))
         })
     }
 }

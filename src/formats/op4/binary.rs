@@ -1,7 +1,7 @@
 //! Binary files: Fortran records in either byte order, words of 32 or 64 bits.
 
 use super::Op4Matrix;
-use super::builder::{Builder, Column, Header};
+use super::builder::{Builder, Column};
 use crate::files::Fault;
 use crate::formats::bytes::{ByteOrder, NumberType};
 
@@ -66,45 +66,32 @@ pub(super) fn read_binary(bytes: &[u8], words: Words) -> Result<Vec<Op4Matrix>, 
 fn matrix(records: &mut Records) -> Result<Op4Matrix, Fault> {
     const HEADER: &str = "columns, rows, form, type and name of a matrix";
     let mut record = records.next(HEADER)?;
-    let place = record.place;
-    let mut numbers = [0; 4];
-    for number in &mut numbers {
-        *number = record.whole(HEADER)?;
-    }
+    let mut number = || record.whole(HEADER);
+    let header @ [columns, rows, _, kind] = [number()?, number()?, number()?, number()?];
     if record.content.len() != 2 * records.words.bytes {
         return Err(record.fault(HEADER, format!("a record of {} bytes", record.content.len())));
     }
-    let [columns, rows, form, kind] = numbers;
-    let header = Header { columns, rows, form, kind };
-    let name = String::from_utf8_lossy(record.content);
-    let mut builder = Builder::new(header, &name).map_err(|expected| {
-        Fault::new(expected, format!("{columns} columns, {rows} rows, type {kind}")).at(format_args!("byte {place}"))
-    })?;
+    let mut builder = Builder::new(header, &String::from_utf8_lossy(record.content))
+        .map_err(|expected| record.fault(expected, format!("{columns} columns, {rows} rows, type {kind}")))?;
     const COLUMN: &str = "column, first row and length of a column";
     loop {
         let mut record = records.next(COLUMN)?;
-        let (column, row) = (record.whole(COLUMN)?, record.whole(COLUMN)?);
-        let length = record.whole(COLUMN)?;
-        let found = format!("column {column} from row {row} with {length} words");
-        let begun = builder.column(column, row);
-        match begun.map_err(|expected| record.fault(expected, found.clone()))? {
-            Column::End => return Ok(builder.finish()),
-            // a record may be longer than its column: what follows is left out
-            kind => {
-                let bytes = usize::try_from(length).ok().and_then(|length| length.checked_mul(records.words.bytes));
-                let content = bytes.and_then(|bytes| record.content.get(..bytes));
-                let Some(content) = content else {
-                    return Err(record.fault("as many words as the record has", found));
-                };
-                record.content = content;
-                match kind {
-                    Column::Dense(row) => {
-                        let bytes = record.content.len();
-                        run(&mut builder, &mut record, row, bytes)?;
-                    }
-                    _ => sparse(&mut builder, &mut record)?,
-                }
+        let (column, row, length) = (record.whole(COLUMN)?, record.whole(COLUMN)?, record.whole(COLUMN)?);
+        let found = || format!("column {column} from row {row} with {length} words");
+        let kind = builder.column(column, row).map_err(|expected| record.fault(expected, found()))?;
+        if kind == Column::End {
+            return Ok(builder.matrix);
+        }
+        // a record may be longer than its column: what follows is left out
+        let bytes = usize::try_from(length).ok().and_then(|length| length.checked_mul(records.words.bytes));
+        let content = bytes.and_then(|bytes| record.content.get(..bytes));
+        record.content = content.ok_or_else(|| record.fault("as many words as the record has", found()))?;
+        match kind {
+            Column::Dense(row) => {
+                let bytes = record.content.len();
+                run(&mut builder, &mut record, row, bytes)?;
             }
+            _ => sparse(&mut builder, &mut record)?,
         }
     }
 }
@@ -135,8 +122,7 @@ fn run(builder: &mut Builder, record: &mut Record, row: i64, bytes: usize) -> Re
     };
     let values = numbers.chunks_exact(size).map(|bytes| real.value(bytes, order));
     let count = bytes / size;
-    let taken = builder.run(row, count, values);
-    taken.map_err(|expected| record.fault(expected, format!("{count} from row {row}")))?;
+    builder.run(row, count, values).map_err(|expected| record.fault(expected, format!("{count} from row {row}")))?;
     record.content = rest;
     Ok(())
 }
@@ -147,22 +133,19 @@ impl<'a> Records<'a> {
         let place = self.place;
         let fault = |found: String| Fault::new(expected, found).at(format_args!("byte {place}"));
         let rest = self.bytes.get(place..).unwrap_or_default();
-        let length = |bytes: &[u8]| bytes.get(..4).map(|bytes| self.words.order.u32(bytes));
-        let Some(first) = length(rest) else {
-            return Err(fault("the end of the file".to_owned()));
+        let length = |bytes: &[u8]| {
+            let bytes = bytes.get(..4).ok_or_else(|| fault("the end of the file".to_owned()))?;
+            Ok(self.words.order.u32(bytes))
         };
+        let first = length(rest)?;
         // on machines of fewer bits than a length has, nothing is that long
         let size = usize::try_from(first).unwrap_or(usize::MAX);
         let content = rest.get(4..).and_then(|rest| rest.split_at_checked(size));
-        let Some((content, after)) = content else {
-            return Err(fault(format!("a record of {first} bytes, which the file has not")));
-        };
-        match length(after) {
-            Some(last) if last == first => {}
-            Some(last) => {
-                return Err(fault(format!("a record of {first} bytes that ends as one of {last}")));
-            }
-            None => return Err(fault("the end of the file".to_owned())),
+        let (content, after) =
+            content.ok_or_else(|| fault(format!("a record of {first} bytes, which the file has not")))?;
+        let last = length(after)?;
+        if last != first {
+            return Err(fault(format!("a record of {first} bytes that ends as one of {last}")));
         }
         self.place = place + 8 + size;
         Ok(Record { place: place + 4, content, words: self.words })
@@ -172,9 +155,10 @@ impl<'a> Records<'a> {
 impl Record<'_> {
     /// Takes a whole number.
     fn whole(&mut self, expected: &'static str) -> Result<i64, Fault> {
-        let Some((number, rest)) = self.content.split_at_checked(self.words.bytes) else {
-            return Err(self.fault(expected, "the end of the record".to_owned()));
-        };
+        let (number, rest) = self
+            .content
+            .split_at_checked(self.words.bytes)
+            .ok_or_else(|| self.fault(expected, "the end of the record".to_owned()))?;
         self.content = rest;
         Ok(self.words.whole(number))
     }

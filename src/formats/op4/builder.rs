@@ -7,19 +7,11 @@ const BIG: i64 = 65536;
 /// Largest number of rows or columns.
 const MOST: i64 = i32::MAX as i64;
 
-/// Numbers of a header.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Header {
-    pub(super) columns: i64,
-    pub(super) rows: i64,
-    pub(super) form: i64,
-    pub(super) kind: i64,
-}
-
 /// A matrix that is being read.
 #[derive(Debug)]
 pub(super) struct Builder {
-    matrix: Op4Matrix,
+    /// What was read so far.
+    pub(super) matrix: Op4Matrix,
     /// How sparse columns give length and first row.
     pub(super) big: bool,
     /// The last column that was begun, counted from 1.
@@ -38,9 +30,8 @@ pub(super) enum Column {
 }
 
 impl Builder {
-    /// Begins a matrix, or says what was expected.
-    pub(super) fn new(header: Header, name: &str) -> Result<Self, &'static str> {
-        let Header { columns, rows, form, kind } = header;
+    /// Begins a matrix with the numbers of its header, or says what was expected.
+    pub(super) fn new([columns, rows, form, kind]: [i64; 4], name: &str) -> Result<Self, &'static str> {
         if !(1..=MOST).contains(&columns) || rows == 0 || !(-MOST..=MOST).contains(&rows) {
             return Err("numbers of columns and rows up to 2147483647");
         }
@@ -48,19 +39,10 @@ impl Builder {
             return Err("a matrix of type 1 to 4");
         }
         let name: String = name.chars().filter(|c| !" \0".contains(*c)).collect();
-        Ok(Self {
-            matrix: Op4Matrix {
-                name,
-                form,
-                kind,
-                rows: rows.unsigned_abs() as usize,
-                columns: columns as usize,
-                runs: Vec::new(),
-                values: Vec::new(),
-            },
-            big: !(0..BIG).contains(&rows),
-            column: 0,
-        })
+        let big = !(0..BIG).contains(&rows);
+        let (rows, columns) = (rows.unsigned_abs() as usize, columns as usize);
+        let matrix = Op4Matrix { name, form, kind, rows, columns, runs: Vec::new(), values: Vec::new() };
+        Ok(Self { matrix, big, column: 0 })
     }
 
     /// Nastran's type has odd numbers for single precision.
@@ -110,9 +92,5 @@ impl Builder {
         self.matrix.runs.push(Run { row: first as u32, column: (self.column - 1) as u32, count: entries as u32 });
         self.matrix.values.extend(values);
         Ok(())
-    }
-
-    pub(super) fn finish(self) -> Op4Matrix {
-        self.matrix
     }
 }

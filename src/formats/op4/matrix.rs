@@ -66,21 +66,18 @@ impl Op4Matrix {
     /// [`Fault`] for a complex matrix, and for one of more than 2^20 entries of which the file has less than one in a
     /// thousand, which a few damaged bytes can ask for.
     pub fn dense(&self) -> Result<DenseMatrix, Fault> {
-        let fault = |expected: &'static str, found: String| {
-            Err(Fault::new(expected, found).within(format!("matrix \"{}\"", self.name)))
-        };
-        if self.is_complex() {
-            let found = format!("complex ones (type {})", self.kind);
-            return fault("real numbers", found);
-        }
+        let (rows, columns, values) = (self.rows, self.columns, self.values.len());
         // a column takes the memory of eight numbers at least
-        let size = self.rows.max(8).checked_mul(self.columns);
-        let most = SMALL.max(self.values.len().saturating_mul(MOST_ZEROS));
-        if size.is_none_or(|size| size > most) {
-            let (rows, columns, values) = (self.rows, self.columns, self.values.len());
-            let found = format!("{rows} x {columns} with {values} numbers");
-            return fault("a matrix that is worth its memory when dense", found);
-        }
+        let size = rows.max(8).checked_mul(columns);
+        let most = SMALL.max(values.saturating_mul(MOST_ZEROS));
+        let complex = format_args!("complex ones (type {})", self.kind);
+        let sparse = format_args!("{rows} x {columns} with {values} numbers");
+        Fault::unless(!self.is_complex(), "real numbers", complex)
+            .and_then(|()| {
+                let worth = size.is_some_and(|size| size <= most);
+                Fault::unless(worth, "a matrix that is worth its memory when dense", sparse)
+            })
+            .map_err(|fault| fault.within(format!("matrix \"{}\"", self.name)))?;
         let mut matrix = DenseMatrix::zeros(self.rows, self.columns);
         for (row, column, value) in self.entries() {
             matrix[(row, column)] = value;

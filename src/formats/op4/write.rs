@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::FormatError;
 use super::super::fortran::exponential;
-use crate::files::{AtomicFile, Fault, write_atomic};
+use crate::files::{Fault, write_atomic};
 use crate::numerics::linalg::DenseMatrix;
 
 /// How numbers stand in a file.
@@ -34,41 +34,33 @@ pub fn write_op4(path: &Path, matrices: &[(&str, &DenseMatrix)], format: Op4Form
     for &(name, matrix) in matrices {
         check(name, matrix, format)?;
     }
-    let write = |to: &mut AtomicFile| {
-        for &(name, matrix) in matrices {
-            match format {
-                Op4Format::Binary => binary(to, name, matrix)?,
-                Op4Format::Ascii => ascii(to, name, matrix)?,
-            }
-        }
-        Ok(())
-    };
-    Ok(write_atomic(path, write)?)
+    Ok(write_atomic(path, |to| {
+        matrices.iter().try_for_each(|&(name, matrix)| match format {
+            Op4Format::Binary => binary(to, name, matrix),
+            Op4Format::Ascii => ascii(to, name, matrix),
+        })
+    })?)
 }
 
 fn check(name: &str, matrix: &DenseMatrix, format: Op4Format) -> Result<(), Fault> {
     let fits = (1..=8).contains(&name.len())
         && name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric());
-    if !fits {
-        let expected = "a matrix name of 1 to 8 letters and digits, a letter first";
-        return Err(Fault::new(expected, format!("\"{name}\"")));
-    }
-    let of_matrix = |fault: Fault| Err(fault.within(format!("matrix \"{name}\"")));
+    let expected = "a matrix name of 1 to 8 letters and digits, a letter first";
+    Fault::unless(fits, expected, format_args!("\"{name}\""))?;
+    let of_matrix = |fault: Fault| fault.within(format!("matrix \"{name}\""));
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     let most = match format {
         // the length of a record, 12 bytes and 8 a row, has 31 bits
         Op4Format::Binary => (i32::MAX as usize - 12) / 8,
         Op4Format::Ascii => 9_999_999,
     };
-    if rows.min(columns) == 0 || rows.max(columns) > most {
-        let expected = format!("up to {most} rows and columns");
-        return of_matrix(Fault::new(expected, format!("{rows} x {columns}")));
-    }
+    let fits = rows.min(columns) > 0 && rows.max(columns) <= most;
+    Fault::unless(fits, format!("up to {most} rows and columns"), format_args!("{rows} x {columns}"))
+        .map_err(of_matrix)?;
     for (column, values) in matrix.col_iter().enumerate() {
         if let Some((row, found)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            let found = format!("{found} at [{row}, {column}]");
-            return of_matrix(Fault::new("finite numbers", found));
+            return Err(of_matrix(Fault::new("finite numbers", format_args!("{found} at [{row}, {column}]"))));
         }
     }
     Ok(())
@@ -101,27 +93,17 @@ fn binary(to: &mut impl Write, name: &str, matrix: &DenseMatrix) -> io::Result<(
     // `check` keeps all of these below 2^31
     let word = |number: usize| (number as i32).to_le_bytes();
     let (rows, width) = (matrix.nrows(), matrix.ncols());
-    to.write_all(&word(24))?;
-    to.write_all(&word(width))?;
-    to.write_all(&word(rows))?;
-    to.write_all(&form(matrix).to_le_bytes())?;
-    to.write_all(&REAL_DOUBLE.to_le_bytes())?;
+    to.write_all([word(24), word(width), word(rows)].as_flattened())?;
+    to.write_all([form(matrix).to_le_bytes(), REAL_DOUBLE.to_le_bytes()].as_flattened())?;
     write!(to, "{:<8}", name.to_ascii_uppercase())?;
     to.write_all(&word(24))?;
     let mut record = |column: usize, row: usize, values: &[f64]| {
         let length = word(12 + 8 * values.len());
-        to.write_all(&length)?;
-        to.write_all(&word(column))?;
-        to.write_all(&word(row))?;
-        to.write_all(&word(2 * values.len()))?;
-        for value in values {
-            to.write_all(&value.to_le_bytes())?;
-        }
+        to.write_all([length, word(column), word(row), word(2 * values.len())].as_flattened())?;
+        values.iter().try_for_each(|value| to.write_all(&value.to_le_bytes()))?;
         to.write_all(&length)
     };
-    for (column, row, values) in columns(matrix) {
-        record(column, row, &values)?;
-    }
+    columns(matrix).try_for_each(|(column, row, values)| record(column, row, &values))?;
     record(width + 1, 1, &[LAST])
 }
 
@@ -131,16 +113,11 @@ fn ascii(to: &mut impl Write, name: &str, matrix: &DenseMatrix) -> io::Result<()
     writeln!(to, "{width:>8}{rows:>8}{form:>8}{REAL_DOUBLE:>8}{name:<8}1P,3E24.16")?;
     let mut record = |column: usize, row: usize, values: &[f64]| {
         writeln!(to, "{column:>8}{row:>8}{:>8}", values.len())?;
-        for line in values.chunks(3) {
-            for &value in line {
-                write!(to, "{}", exponential(value, 24, 16, 'E'))?;
-            }
-            writeln!(to)?;
-        }
-        Ok(())
+        values.chunks(3).try_for_each(|line| {
+            let line: String = line.iter().map(|&value| exponential(value, 24, 16, 'E')).collect();
+            writeln!(to, "{line}")
+        })
     };
-    for (column, row, values) in columns(matrix) {
-        record(column, row, &values)?;
-    }
+    columns(matrix).try_for_each(|(column, row, values)| record(column, row, &values))?;
     record(width + 1, 1, &[LAST])
 }

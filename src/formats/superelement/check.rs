@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
-use super::SuperelementRecord;
+use super::{InterfaceRecovery, SuperelementRecord};
 use crate::files::Fault;
 use crate::formats::{DofDirection, DofLabel};
 use crate::numerics::linalg::DenseMatrix;
@@ -19,39 +19,28 @@ const FREQUENCY_LIMIT: f64 = 1e-6;
 /// Arrays of one list of labels.
 #[derive(Debug)]
 pub(super) struct LabelArrays {
-    /// Node and component.
-    pub(super) dofs: &'static str,
-    /// Bodies of the nodes.
-    pub(super) bodies: &'static str,
-    /// Positions of the nodes.
-    pub(super) positions: &'static str,
-    /// Unit vectors.
-    pub(super) axes: &'static str,
+    /// What their names begin with: `_dofs` (node and component), `_bodies`, `_positions` of the nodes, `_axes` (unit vectors).
+    prefix: &'static str,
     /// The matrix whose rows they name.
     pub(super) matrix: &'static str,
     /// What their number should be.
     pub(super) expected: &'static str,
 }
 
+impl LabelArrays {
+    /// Name of one of the arrays.
+    pub(super) fn array(&self, what: &str) -> String {
+        format!("{}_{what}", self.prefix)
+    }
+}
+
 /// Of the first coordinates.
-pub(super) const INTERFACE: LabelArrays = LabelArrays {
-    dofs: "interface_dofs",
-    bodies: "interface_bodies",
-    positions: "interface_positions",
-    axes: "interface_axes",
-    matrix: "k",
-    expected: "at most as many rows as \"k\"",
-};
+pub(super) const INTERFACE: LabelArrays =
+    LabelArrays { prefix: "interface", matrix: "k", expected: "at most as many rows as \"k\"" };
 
 /// Of the interface that modes stand for.
-pub(super) const RECOVERED: LabelArrays = LabelArrays {
-    dofs: "recovered_dofs",
-    bodies: "recovered_bodies",
-    positions: "recovered_positions",
-    axes: "recovered_axes",
-    matrix: "interface_modes",
-    expected: "as many rows as \"interface_modes\"",
-};
+pub(super) const RECOVERED: LabelArrays =
+    LabelArrays { prefix: "recovered", matrix: "interface_modes", expected: "as many rows as \"interface_modes\"" };
 
 impl SuperelementRecord {
     /// Whether everything fits: shapes, finite numbers, symmetry to [`SYMMETRY_LIMIT`] of each matrix's largest entry,
@@ -63,13 +52,16 @@ impl SuperelementRecord {
         self.check_matrices()?;
         let order = self.order();
         count("modal_hz", order - self.interface.len(), self.modal_hz.len())?;
-        finite("modal_hz", &column(&self.modal_hz))?;
+        let modal_hz = DenseMatrix::from_fn(self.modal_hz.len(), 1, |row, _| self.modal_hz[row]);
+        finite("modal_hz", [self.modal_hz.len(), 1], &modal_hz)?;
         self.check_frequencies()?;
         if let Some(weight) = &self.weight {
-            shape("weight", [order, 3], weight)?;
-            finite("weight", weight)?;
+            finite("weight", [order, 3], weight)?;
         }
-        self.check_interface_recovery()?;
+        if let Some(InterfaceRecovery { labels, modes }) = &self.interface_recovery {
+            finite("interface_modes", [labels.len(), self.interface.len()], modes)?;
+            check_labels(labels, &RECOVERED)?;
+        }
         self.check_sensors()?;
         self.check_field()
     }
@@ -77,13 +69,9 @@ impl SuperelementRecord {
     /// Matrices and labels, without which nothing else can be told.
     pub(super) fn check_matrices(&self) -> Result<(), Fault> {
         let (rows, columns) = (self.stiffness.nrows(), self.stiffness.ncols());
-        if rows != columns || rows == 0 {
-            return Err(not_square(rows, columns));
-        }
-        if self.interface.len() > rows {
-            let expected = format!("at most {rows} interface coordinates (rows of \"k\")");
-            return Err(Fault::new(expected, self.interface.len()));
-        }
+        square(rows, columns)?;
+        let expected = format!("at most {rows} interface coordinates (rows of \"k\")");
+        Fault::unless(self.interface.len() <= rows, expected, self.interface.len())?;
         let matrices = [
             ("k", Some(&self.stiffness)),
             ("m", Some(&self.mass)),
@@ -92,22 +80,11 @@ impl SuperelementRecord {
         ];
         for (name, matrix) in matrices {
             if let Some(matrix) = matrix {
-                shape(name, [rows, rows], matrix)?;
-                finite(name, matrix)?;
+                finite(name, [rows, rows], matrix)?;
                 symmetric(name, matrix)?;
             }
         }
         check_labels(&self.interface, &INTERFACE)
-    }
-
-    fn check_interface_recovery(&self) -> Result<(), Fault> {
-        let Some(recovery) = &self.interface_recovery else {
-            return Ok(());
-        };
-        let expected = [recovery.labels.len(), self.interface.len()];
-        shape("interface_modes", expected, &recovery.modes)?;
-        finite("interface_modes", &recovery.modes)?;
-        check_labels(&recovery.labels, &RECOVERED)
     }
 
     fn check_frequencies(&self) -> Result<(), Fault> {
@@ -126,17 +103,13 @@ impl SuperelementRecord {
     fn check_sensors(&self) -> Result<(), Fault> {
         let mut names = HashSet::new();
         for (number, sensor) in self.sensors.iter().enumerate() {
-            if sensor.row.len() != self.order() {
-                let rows = self.sensors.len();
-                let expected = [rows, self.order()];
-                return Err(other_shape("sensors", expected, [rows, sensor.row.len()]));
-            }
+            let rows = self.sensors.len();
+            same_shape("sensors", [rows, self.order()], [rows, sensor.row.len()])?;
             if let Some(place) = sensor.row.iter().position(|value| !value.is_finite()) {
                 return Err(not_finite("sensors", [number, place], sensor.row[place]));
             }
             if !names.insert(sensor.name.as_str()) {
-                let found = format!("\"{}\" twice", sensor.name);
-                return Err(of_array("sensor_names", "each name once", found));
+                return Err(of_array("sensor_names", "each name once", format_args!("\"{}\" twice", sensor.name)));
             }
         }
         Ok(())
@@ -149,19 +122,14 @@ impl SuperelementRecord {
         let nodes = field.node_tags.len();
         count("field_positions", nodes, field.positions.len())?;
         let rows = nodes.saturating_mul(3);
-        shape("field_recovery", [rows, self.order()], &field.recovery)?;
-        finite("field_recovery", &field.recovery)?;
-        for (row, position) in field.positions.iter().enumerate() {
-            if let Some(column) = position.iter().position(|value| !value.is_finite()) {
-                return Err(not_finite("field_positions", [row, column], position[column]));
-            }
+        finite("field_recovery", [rows, self.order()], &field.recovery)?;
+        let positions = field.positions.as_flattened();
+        if let Some(place) = positions.iter().position(|value| !value.is_finite()) {
+            return Err(not_finite("field_positions", [place / 3, place % 3], positions[place]));
         }
         let mut seen = HashSet::new();
         match field.node_tags.iter().find(|&&tag| !seen.insert(tag)) {
-            Some(tag) => {
-                let found = format!("{tag} twice");
-                Err(of_array("field_node_tags", "each node once", found))
-            }
+            Some(tag) => Err(of_array("field_node_tags", "each node once", format_args!("{tag} twice"))),
             None => Ok(()),
         }
     }
@@ -175,67 +143,56 @@ fn check_labels(labels: &[DofLabel], names: &LabelArrays) -> Result<(), Fault> {
             continue;
         };
         if axis > 2 {
-            let expected = format!("an axis 0, 1 or 2 in row {row}");
-            return Err(of_array(names.dofs, expected, axis));
+            return Err(of_array(&names.array("dofs"), format!("an axis 0, 1 or 2 in row {row}"), axis));
         }
         if let Some(first) = seen.insert((label.body, label.node, label.direction), row) {
-            let found = format!("rows {first} and {row} alike");
-            return Err(of_array(names.dofs, "each once", found));
+            return Err(of_array(&names.array("dofs"), "each once", format_args!("rows {first} and {row} alike")));
         }
     }
     for (row, label) in labels.iter().enumerate() {
-        for (array, found) in [(names.positions, label.position), (names.axes, label.axis)] {
+        for (what, found) in [("positions", label.position), ("axes", label.axis)] {
             let known = found.iter().all(|value| value.is_finite());
             if !known && !found.iter().all(|value| value.is_nan()) {
                 let expected = format!("three finite numbers or NaN for all in row {row}");
-                return Err(of_array(array, expected, format!("{found:?}")));
+                return Err(of_array(&names.array(what), expected, format_args!("{found:?}")));
             }
         }
     }
     Ok(())
 }
 
-fn column(values: &[f64]) -> DenseMatrix {
-    DenseMatrix::from_fn(values.len(), 1, |row, _| values[row])
-}
-
 fn count(array: &'static str, expected: usize, found: usize) -> Result<(), Fault> {
-    if expected == found {
-        return Ok(());
-    }
-    Err(of_array(array, format!("{expected} entries"), found))
+    if expected == found { Ok(()) } else { Err(of_array(array, format!("{expected} entries"), found)) }
 }
 
 fn of_array(array: &str, expected: impl Into<Cow<'static, str>>, found: impl fmt::Display) -> Fault {
     Fault::new(expected, found).within(format!("array \"{array}\""))
 }
 
-/// The fault of a stiffness that is not square.
-pub(super) fn not_square(rows: usize, columns: usize) -> Fault {
-    let found = format!("{rows} x {columns}");
-    of_array("k", "a square matrix of at least one row", found)
+/// Whether a stiffness is square.
+pub(super) fn square(rows: usize, columns: usize) -> Result<(), Fault> {
+    match rows == columns && rows > 0 {
+        true => Ok(()),
+        false => Err(of_array("k", "a square matrix of at least one row", format_args!("{rows} x {columns}"))),
+    }
 }
 
-/// The fault of an array of another shape.
-pub(super) fn other_shape(array: &str, expected: [usize; 2], found: [usize; 2]) -> Fault {
-    let [expected, found] = [expected, found].map(|[rows, columns]| format!("{rows} x {columns}"));
-    of_array(array, expected, found)
-}
-
-fn not_finite(array: &str, [row, column]: [usize; 2], found: f64) -> Fault {
-    let found = format!("{found} at [{row}, {column}]");
-    of_array(array, "finite numbers", found)
-}
-
-fn shape(array: &'static str, expected: [usize; 2], matrix: &DenseMatrix) -> Result<(), Fault> {
-    let found = [matrix.nrows(), matrix.ncols()];
+/// Whether an array has its shape.
+pub(super) fn same_shape(array: &str, expected: [usize; 2], found: [usize; 2]) -> Result<(), Fault> {
     if expected == found {
         return Ok(());
     }
-    Err(other_shape(array, expected, found))
+    let [expected, found] = [expected, found].map(|[rows, columns]| format!("{rows} x {columns}"));
+    Err(of_array(array, expected, found))
 }
 
-fn finite(array: &'static str, matrix: &DenseMatrix) -> Result<(), Fault> {
+fn not_finite(array: &str, [row, column]: [usize; 2], found: f64) -> Fault {
+    of_array(array, "finite numbers", format_args!("{found} at [{row}, {column}]"))
+}
+
+/// Whether a matrix has its shape and finite numbers.
+fn finite(array: &'static str, expected: [usize; 2], matrix: &DenseMatrix) -> Result<(), Fault> {
+    same_shape(array, expected, [matrix.nrows(), matrix.ncols()])?;
     for (column, values) in matrix.col_iter().enumerate() {
         for (row, &found) in values.iter().enumerate() {
             if !found.is_finite() {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::check::{INTERFACE, LabelArrays, RECOVERED, not_square, other_shape};
+use super::check::{INTERFACE, LabelArrays, RECOVERED, same_shape, square};
 use super::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};
 use crate::files::Fault;
 use crate::formats::{DofBody, DofDirection, DofLabel, FormatError, NpzReader};
@@ -30,7 +30,10 @@ pub fn read_superelement_npz(path: &Path) -> Result<SuperelementRecord, FormatEr
     let stiffness = file.matrix("k", None)?;
     let order = stiffness.nrows();
     let mass = file.matrix("m", Some(order))?;
-    let interface = file.interface(order)?;
+    let interface = match file.npz.has("interface_dofs") {
+        true => file.labels(&INTERFACE, order)?,
+        false => file.numbered(order)?,
+    };
     let mut record = SuperelementRecord::of_matrices(stiffness, mass, interface).map_err(fault)?;
     record.damping = file.optional("c", order)?;
     record.structural = file.optional("structural", order)?;
@@ -60,25 +63,19 @@ impl Source<'_> {
     /// memory than its numbers.
     fn matrix(&mut self, name: &'static str, columns: Option<usize>) -> Result<DenseMatrix, FormatError> {
         let read = self.npz.real(name)?;
-        let fault = |fault: Fault| Err(fault.of(self.path).into());
-        match (read.shape.as_slice(), columns) {
-            (&[rows, columns], None) if rows != columns || rows == 0 => fault(not_square(rows, columns)),
-            (&[rows, found], Some(columns)) if found != columns => {
-                fault(other_shape(name, [rows, columns], [rows, found]))
-            }
-            (&[rows, columns], _) => {
-                let value = |row: usize, column: usize| read.values[row * columns + column];
-                Ok(DenseMatrix::from_fn(rows, columns, value))
-            }
-            (shape, _) => Err(self.npz.wrong_shape(name, "two dimensions", shape)),
-        }
+        let &[rows, found] = read.shape.as_slice() else {
+            return Err(self.npz.wrong_shape(name, "two dimensions", &read.shape));
+        };
+        let checked = match columns {
+            None => square(rows, found),
+            Some(columns) => same_shape(name, [rows, columns], [rows, found]),
+        };
+        checked.map_err(|fault| fault.of(self.path))?;
+        Ok(DenseMatrix::from_fn(rows, found, |row, column| read.values[row * found + column]))
     }
 
     fn optional(&mut self, name: &'static str, columns: usize) -> Result<Option<DenseMatrix>, FormatError> {
-        match self.npz.has(name) {
-            true => Ok(Some(self.matrix(name, Some(columns))?)),
-            false => Ok(None),
-        }
+        self.npz.has(name).then(|| self.matrix(name, Some(columns))).transpose()
     }
 
     fn list(&mut self, name: &str) -> Result<Vec<f64>, FormatError> {
@@ -91,10 +88,7 @@ impl Source<'_> {
 
     /// The one number of an array, above zero; `None` for an array that is not there or empty.
     fn positive(&mut self, name: &str) -> Result<Option<f64>, FormatError> {
-        let values = match self.npz.has(name) {
-            true => self.list(name)?,
-            false => Vec::new(),
-        };
+        let values = if self.npz.has(name) { self.list(name)? } else { Vec::new() };
         match values[..] {
             [] => Ok(None),
             [value] if value > 0.0 && value.is_finite() => Ok(Some(value)),
@@ -105,8 +99,7 @@ impl Source<'_> {
     fn texts(&mut self, name: &str, count: usize) -> Result<Vec<String>, FormatError> {
         let read = self.npz.texts(name)?;
         if read.shape != [count] {
-            let expected = "as many entries as its array has rows";
-            return Err(self.npz.wrong_shape(name, expected, &read.shape));
+            return Err(self.npz.wrong_shape(name, "as many entries as its array has rows", &read.shape));
         }
         Ok(read.values)
     }
@@ -115,67 +108,50 @@ impl Source<'_> {
     fn vectors(&mut self, name: &str, count: usize) -> Result<Vec<[f64; 3]>, FormatError> {
         let read = self.npz.real(name)?;
         if read.shape != [count, 3] {
-            let expected = "three numbers for each of its nodes";
-            return Err(self.npz.wrong_shape(name, expected, &read.shape));
+            return Err(self.npz.wrong_shape(name, "three numbers for each of its nodes", &read.shape));
         }
         Ok(read.values.as_chunks::<3>().0.to_vec())
     }
 
-    fn interface(&mut self, order: usize) -> Result<Vec<DofLabel>, FormatError> {
-        if !self.npz.has("interface_dofs") {
-            return self.numbered(order);
-        }
-        self.labels(&INTERFACE, order)
-    }
-
     /// What the rows of `names` are, at most so many.
     fn labels(&mut self, names: &LabelArrays, most: usize) -> Result<Vec<DofLabel>, FormatError> {
-        let dofs = self.npz.whole(names.dofs)?;
+        let name = names.array("dofs");
+        let dofs = self.npz.whole(&name)?;
         let count = match dofs.shape.as_slice() {
             &[count, 2] => count,
             // NumPy's empty list
             &[0] => 0,
-            found => {
-                let expected = "a shape [interface, 2]";
-                return Err(self.npz.wrong_shape(names.dofs, expected, found));
-            }
+            found => return Err(self.npz.wrong_shape(&name, "a shape [interface, 2]", found)),
         };
         // labels take more memory than the numbers that they come from
         if count > most {
             let found = format!("{count} rows, where \"{}\" has {most}", names.matrix);
-            return Err(self.npz.wrong(names.dofs, names.expected, found));
+            return Err(self.npz.wrong(&name, names.expected, found));
         }
         let mut labels = Vec::with_capacity(count);
         for &[node, component] in dofs.values.as_chunks::<2>().0 {
-            let node = u64::try_from(node).map_err(|_| self.npz.wrong(names.dofs, "nodes >= 0", node))?;
+            let node = u64::try_from(node).map_err(|_| self.npz.wrong(&name, "nodes >= 0", node))?;
             let direction = DofDirection::of_component(component)
-                .ok_or_else(|| self.npz.wrong(names.dofs, "components 0 to 9", component))?;
-            labels.push(DofLabel {
-                body: DofBody::Housing,
-                node,
-                direction,
-                position: [f64::NAN; 3],
-                axis: unit_vector(direction),
-            });
+                .ok_or_else(|| self.npz.wrong(&name, "components 0 to 9", component))?;
+            let (body, axis) = (DofBody::Housing, unit_vector(direction));
+            labels.push(DofLabel { body, node, direction, position: [f64::NAN; 3], axis });
         }
-        if self.npz.has(names.bodies) {
-            for (label, name) in labels.iter_mut().zip(self.texts(names.bodies, count)?) {
+        let bodies = names.array("bodies");
+        if self.npz.has(&bodies) {
+            for (label, name) in labels.iter_mut().zip(self.texts(&bodies, count)?) {
                 label.body = DofBody::of_name(&name).ok_or_else(|| {
                     let expected = "\"housing\", \"ring\", \"interface\" or \"modal\"";
-                    self.npz.wrong(names.bodies, expected, format!("\"{name}\""))
+                    self.npz.wrong(&bodies, expected, format!("\"{name}\""))
                 })?;
             }
         }
-        if self.npz.has(names.positions) {
-            let positions = self.vectors(names.positions, count)?;
-            for (label, position) in labels.iter_mut().zip(positions) {
-                label.position = position;
-            }
-        }
-        if self.npz.has(names.axes) {
-            let axes = self.vectors(names.axes, count)?;
-            for (label, axis) in labels.iter_mut().zip(axes) {
-                label.axis = axis;
+        type Vector = fn(&mut DofLabel) -> &mut [f64; 3];
+        let [position, axis]: [Vector; 2] = [|label| &mut label.position, |label| &mut label.axis];
+        for (what, of) in [("positions", position), ("axes", axis)] {
+            let name = names.array(what);
+            if self.npz.has(&name) {
+                let read = self.vectors(&name, count)?;
+                labels.iter_mut().zip(read).for_each(|(label, vector)| *of(label) = vector);
             }
         }
         Ok(labels)
@@ -200,12 +176,10 @@ impl Source<'_> {
         let &[number] = read.values.as_slice() else {
             return Err(self.npz.wrong_shape(NAME, "one number", &read.shape));
         };
-        let count = usize::try_from(number).ok().filter(|&count| count <= order);
-        let Some(count) = count else {
-            let expected = "a number from 0 to that of the rows of \"k\"";
-            return Err(self.npz.wrong(NAME, expected, number));
-        };
-        Ok((0..count as u64).map(DofLabel::interface).collect())
+        if !(0..=order as i64).contains(&number) {
+            return Err(self.npz.wrong(NAME, "a number from 0 to that of the rows of \"k\"", number));
+        }
+        Ok((0..number as u64).map(DofLabel::interface).collect())
     }
 
     fn sensors(&mut self, order: usize) -> Result<Vec<SensorRow>, FormatError> {
@@ -229,11 +203,9 @@ impl Source<'_> {
         const TAGS: &str = "field_node_tags";
         let tags = self.npz.whole(TAGS)?;
         if tags.shape != [nodes] {
-            let expected = "a tag for three rows of \"field_recovery\"";
-            return Err(self.npz.wrong_shape(TAGS, expected, &tags.shape));
+            return Err(self.npz.wrong_shape(TAGS, "a tag for three rows of \"field_recovery\"", &tags.shape));
         }
-        let wrong = |tag: i64| self.npz.wrong(TAGS, "tags >= 0", tag);
-        let tag = |&tag: &i64| u64::try_from(tag).map_err(|_| wrong(tag));
+        let tag = |&tag: &i64| u64::try_from(tag).map_err(|_| self.npz.wrong(TAGS, "tags >= 0", tag));
         let node_tags = tags.values.iter().map(tag).collect::<Result<_, _>>()?;
         Ok(Some(FieldRecovery { node_tags, positions, recovery }))
     }

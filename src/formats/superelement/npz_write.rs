@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::SuperelementRecord;
 use super::check::{INTERFACE, LabelArrays, RECOVERED};
-use crate::files::Fault;
-use crate::formats::npz::npz_label;
+use crate::formats::npz::npz_labels;
 use crate::formats::{DofLabel, FormatError, NpzWriter};
 use crate::numerics::linalg::DenseMatrix;
 
@@ -63,10 +62,8 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
         npz.texts("sensor_names", &names.collect::<Vec<_>>())?;
     }
     if let Some(field) = &record.field {
-        let tags = field.node_tags.iter().copied().map(npz_label);
-        npz.array("field_node_tags", &tags.collect::<Result<Vec<i64>, Fault>>()?)?;
-        let positions = &field.positions;
-        npz.matrix("field_positions", positions.len(), 3, positions.as_flattened())?;
+        npz.array("field_node_tags", &npz_labels(field.node_tags.iter().copied())?)?;
+        npz.matrix("field_positions", field.positions.len(), 3, field.positions.as_flattened())?;
         matrix(&mut npz, "field_recovery", &field.recovery)?;
     }
     npz.finish()
@@ -74,17 +71,13 @@ pub fn write_superelement_npz(path: &Path, record: &SuperelementRecord) -> Resul
 
 /// What coordinates are.
 fn labels(npz: &mut NpzWriter, labels: &[DofLabel], names: &LabelArrays) -> Result<(), FormatError> {
-    let mut dofs = Vec::with_capacity(labels.len());
-    for dof in labels {
-        dofs.push([npz_label(dof.node)?, dof.direction.component()]);
-    }
-    npz.matrix(names.dofs, dofs.len(), 2, dofs.as_flattened())?;
-    let bodies: Vec<&str> = labels.iter().map(|dof| dof.body.name()).collect();
-    npz.texts(names.bodies, &bodies)?;
-    let positions: Vec<[f64; 3]> = labels.iter().map(|dof| dof.position).collect();
-    let axes: Vec<[f64; 3]> = labels.iter().map(|dof| dof.axis).collect();
-    for (name, vectors) in [(names.positions, positions), (names.axes, axes)] {
-        npz.matrix(name, vectors.len(), 3, vectors.as_flattened())?;
+    let nodes = npz_labels(labels.iter().map(|dof| dof.node))?;
+    let dofs = nodes.into_iter().zip(labels).map(|(node, dof)| [node, dof.direction.component()]);
+    npz.matrix(&names.array("dofs"), labels.len(), 2, dofs.collect::<Vec<_>>().as_flattened())?;
+    npz.texts(&names.array("bodies"), &labels.iter().map(|dof| dof.body.name()).collect::<Vec<_>>())?;
+    let (positions, axes): (Vec<_>, Vec<_>) = labels.iter().map(|dof| (dof.position, dof.axis)).unzip();
+    for (what, vectors) in [("positions", positions), ("axes", axes)] {
+        npz.matrix(&names.array(what), vectors.len(), 3, vectors.as_flattened())?;
     }
     Ok(())
 }

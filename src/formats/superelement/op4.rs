@@ -37,10 +37,7 @@ pub fn read_superelement_op4(path: &Path, interface: &[usize]) -> Result<Superel
             names if names.is_empty() => "none".to_owned(),
             names => names.join(", "),
         };
-        dense(name)?.ok_or_else(|| -> FormatError {
-            let fault = Fault::new(format!("a matrix \"{name}\""), known());
-            fault.of(path).into()
-        })
+        dense(name)?.ok_or_else(|| FormatError::from(Fault::new(format!("a matrix \"{name}\""), known()).of(path)))
     };
     let (stiffness, mass) = (required("KAA")?, required("MAA")?);
     let count = interface_of(&stiffness, interface);
@@ -88,9 +85,8 @@ pub fn write_superelement_op4(path: &Path, record: &SuperelementRecord, format: 
     let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
     matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
     matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));
-    let frequencies = [(BAND, record.band_hz), (COMPLETE, record.complete_hz)];
-    let frequencies = frequencies.map(|(name, hz)| (name, hz.map(|hz| DenseMatrix::full(1, 1, hz))));
-    let said = frequencies.iter();
-    matrices.extend(said.filter_map(|(name, hz)| Some((*name, hz.as_ref()?))));
+    let [band, complete] = [record.band_hz, record.complete_hz].map(|hz| hz.map(|hz| DenseMatrix::full(1, 1, hz)));
+    matrices.extend(band.iter().map(|hz| (BAND, hz)));
+    matrices.extend(complete.iter().map(|hz| (COMPLETE, hz)));
     write_op4(path, &matrices, format)
 }

@@ -27,15 +27,12 @@ pub(super) fn read_binary<'a>(cursor: &mut Cursor<'a>, head: &Line) -> Result<Bi
     let (Some(count_lines), Some(bytes)) = (number(3), number(4)) else {
         return Err(head.fault("lines and bytes of a dataset 58b"));
     };
-    let mut lines = Vec::new();
-    for _ in 0..usize::min(count_lines, 20) {
-        lines.push(cursor.expect("text of a dataset 58b")?);
-    }
+    let text = (0..usize::min(count_lines, 20)).map(|_| cursor.expect("text of a dataset 58b"));
+    let lines = text.collect::<Result<Vec<Line>, Fault>>()?;
     let form = lines.get(6).and_then(Form::read);
-    let mut sizes = vec![bytes];
-    sizes.extend(form.iter().flat_map(sizes_of));
-    let ends = sizes.iter().find(|&&bytes| cursor.delimiter_after(bytes));
-    let bytes = cursor.take(ends.copied().unwrap_or(bytes));
+    let mut sizes = std::iter::once(bytes).chain(form.iter().flat_map(sizes_of));
+    let ends = sizes.find(|&bytes| cursor.delimiter_after(bytes));
+    let bytes = cursor.take(ends.unwrap_or(bytes));
     cursor.skip()?;
     let order = if number(1) == Some(2) { ByteOrder::Big } else { ByteOrder::Little };
     Ok(Binary { lines, bytes, order, ieee: number(2) == Some(2) })

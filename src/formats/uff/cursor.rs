@@ -20,6 +20,11 @@ impl Line {
         Fault::new(expected, quoted(&self.text)).line(self.number)
     }
 
+    /// The line, unless it ends a dataset.
+    pub(super) fn within(self, expected: &'static str) -> Result<Self, Fault> {
+        if self.is_delimiter() { Err(self.fault(expected)) } else { Ok(self) }
+    }
+
     /// Whole numbers, in columns of 10 where they run together.
     pub(super) fn integers(&self, expected: &'static str) -> Result<Vec<i64>, Fault> {
         const WIDTH: usize = 10;
@@ -72,15 +77,16 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// The next line with text of a dataset; `None` at the line that ends it.
+    pub(super) fn entry(&mut self, expected: &'static str) -> Result<Option<Line>, Fault> {
+        Ok(Some(self.expect_text(expected)?).filter(|line| !line.is_delimiter()))
+    }
+
     /// Real numbers from one or more lines, `count` of them; what follows them in the last line is left out.
     pub(super) fn reals(&mut self, count: usize, width: usize, expected: &'static str) -> Result<Vec<f64>, Fault> {
         let mut numbers = Vec::new();
         while numbers.len() < count {
-            let line = self.expect_text(expected)?;
-            if line.is_delimiter() {
-                return Err(line.fault(expected));
-            }
-            numbers.extend(line.reals(width, expected)?);
+            numbers.extend(self.expect_text(expected)?.within(expected)?.reals(width, expected)?);
         }
         numbers.truncate(count);
         Ok(numbers)
@@ -95,12 +101,7 @@ impl<'a> Cursor<'a> {
     /// The line with the next dataset's number, if there is one; text between datasets means nothing.
     pub(super) fn next_dataset(&mut self) -> Option<Line> {
         while !self.next()?.is_delimiter() {}
-        loop {
-            let line = self.next()?;
-            if !line.text.trim().is_empty() {
-                return Some(line);
-            }
-        }
+        std::iter::from_fn(|| self.next()).find(|line| !line.text.trim().is_empty())
     }
 
     /// Whether a line that begins or ends a dataset follows so many bytes.

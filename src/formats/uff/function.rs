@@ -21,29 +21,41 @@ impl Units {
 
 /// Reads the units of a dataset 164, goes past others.
 pub(super) fn other_dataset(cursor: &mut Cursor, head: &Line, units: &mut Units) -> Result<(), Fault> {
-    match head.text.split_ascii_whitespace().next() {
-        Some("164") => *units = read_units(cursor)?,
-        Some(number) if number.parse::<u32>().is_ok() => cursor.skip()?,
-        _ => return Err(head.fault("the number of a dataset")),
+    if head.text.split_ascii_whitespace().next() != Some("164") {
+        return skip_dataset(cursor, head);
     }
+    let [per_metre, per_newton] = read_units(cursor, "units of length in a metre and of force in a newton, > 0")?;
+    *units = Units { per_metre, per_newton };
     Ok(())
 }
 
-fn read_units(cursor: &mut Cursor) -> Result<Units, Fault> {
-    const FACTORS: &str = "units of length in a metre and of force in a newton, > 0";
-    cursor.expect_text("the code of the units")?;
-    let line = cursor.expect_text(FACTORS)?;
-    match *line.reals(25, FACTORS)?.as_slice() {
-        [per_metre, per_newton, ..] if per_metre > 0.0 && per_newton > 0.0 => {
-            cursor.skip()?;
-            Ok(Units { per_metre, per_newton })
-        }
-        _ => Err(line.fault(FACTORS)),
+/// Goes past a dataset that has a number.
+pub(super) fn skip_dataset(cursor: &mut Cursor, head: &Line) -> Result<(), Fault> {
+    match head.text.split_ascii_whitespace().next() {
+        Some(number) if number.parse::<u32>().is_ok() => cursor.skip(),
+        _ => Err(head.fault("the number of a dataset")),
     }
 }
 
-/// What record 6 says.
-pub(super) struct Identification {
+/// The first factors of a dataset 164, all above zero.
+pub(super) fn read_units<const N: usize>(cursor: &mut Cursor, expected: &'static str) -> Result<[f64; N], Fault> {
+    cursor.expect_text("the code of the units")?;
+    let line = cursor.expect_text(expected)?;
+    let factors = line.reals(25, expected)?.first_chunk().copied();
+    let factors = factors.filter(|factors: &[f64; N]| factors.iter().all(|&factor| factor > 0.0));
+    let factors = factors.ok_or_else(|| line.fault(expected))?;
+    cursor.skip()?;
+    Ok(factors)
+}
+
+/// What record 6 says: function type, 1 a signal over time, 4 a frequency response; where it was measured, and from where;
+/// whether both are along axes, or not known.
+type Identification = (i64, ResponsePoint, ResponsePoint, bool);
+
+/// What a dataset 58 says before its values.
+pub(super) struct FunctionHead {
+    /// Identification lines.
+    pub(super) names: Vec<String>,
     /// Function type: 1 a signal over time, 4 a frequency response.
     pub(super) function: i64,
     /// Where it was measured.
@@ -51,14 +63,6 @@ pub(super) struct Identification {
     pub(super) from: ResponsePoint,
     /// Both along axes, or not known.
     pub(super) moves: bool,
-}
-
-/// What a dataset 58 says before its values.
-pub(super) struct FunctionHead {
-    /// Identification lines.
-    pub(super) names: Vec<String>,
-    /// Record 6.
-    pub(super) own: Identification,
     /// Record 7 and what it says.
     data: Line,
     pub(super) form: Form,
@@ -72,14 +76,12 @@ impl FunctionHead {
         const LINES: &str = "five identification lines";
         let mut names = Vec::new();
         for _ in 0..5 {
-            let line = next(LINES)?;
-            if line.is_delimiter() {
-                return Err(line.fault(LINES));
-            }
-            names.push(line.text.trim().to_owned());
+            names.push(next(LINES)?.within(LINES)?.text.trim().to_owned());
         }
         let line = next(POINTS)?;
-        let own = identification(&line)?;
+        let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
+        let points = point_fields(&fields(&line.text, &WIDTHS)).or_else(|| point_fields(&words));
+        let (function, to, from, moves) = points.ok_or_else(|| line.fault(POINTS))?;
         const FORM: &str = "type, number, spacing, first abscissa and step of the data";
         let data = next(FORM)?;
         let form = Form::read(&data).ok_or_else(|| data.fault(FORM))?;
@@ -91,7 +93,7 @@ impl FunctionHead {
             let kind: Option<i64> = kind.and_then(|word| word.parse().ok());
             axes.push((kind.ok_or_else(|| line.fault(AXIS))?, line));
         }
-        Ok(Self { names, own, data, form, axes })
+        Ok(Self { names, function, to, from, moves, data, form, axes })
     }
 
     /// What is wrong with record 7.
@@ -108,13 +110,8 @@ pub(super) fn axis_unit(line: &Line) -> &str {
 const POINTS: &str =
     "function, its number, version, load case, then name, node and direction of response and reference";
 
-/// Record 6, in its columns, else as words.
-fn identification(line: &Line) -> Result<Identification, Fault> {
-    const WIDTHS: [usize; 10] = [5, 10, 5, 10, 11, 10, 4, 11, 10, 4];
-    let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
-    let own = point_fields(&fields(&line.text, &WIDTHS)).or_else(|| point_fields(&words));
-    own.ok_or_else(|| line.fault(POINTS))
-}
+/// Columns of record 6; some programs have words there.
+const WIDTHS: [usize; 10] = [5, 10, 5, 10, 11, 10, 4, 11, 10, 4];
 
 fn point_fields(fields: &[&str]) -> Option<Identification> {
     let &[function, _, _, _, to, to_node, to_axis, from, from_node, from_axis] = fields else {
@@ -128,12 +125,9 @@ fn point_fields(fields: &[&str]) -> Option<Identification> {
             direction: ResponsePoint::direction_of(axis),
         })
     };
-    Some(Identification {
-        function: function.parse().ok()?,
-        to: point(to, to_node, to_axis)?,
-        from: point(from, from_node, from_axis)?,
-        moves: (-3..=3).contains(&to_axis) && (-3..=3).contains(&from_axis),
-    })
+    let moves = (-3..=3).contains(&to_axis) && (-3..=3).contains(&from_axis);
+    let (to, from) = (point(to, to_node, to_axis)?, point(from, from_node, from_axis)?);
+    Some((function.parse().ok()?, to, from, moves))
 }
 
 /// A name, where there is one.
@@ -186,27 +180,20 @@ impl Form {
     /// says of their number.
     pub(super) fn values(&self, cursor: &mut Cursor) -> Result<(Vec<f64>, Vec<[f64; 2]>), Fault> {
         const VALUES: &str = "as many values as the data has";
-        let mut frequencies = Vec::new();
-        let mut values = Vec::new();
-        let mut numbers = Vec::new();
+        let (mut frequencies, mut values, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
         loop {
             let line = cursor.expect_text("a value or -1")?;
             if line.is_delimiter() {
-                if values.len() == self.count && numbers.is_empty() {
-                    return Ok((frequencies, values));
-                }
-                let found = format!("{} of {}", values.len(), self.count);
-                return Err(Fault::new(VALUES, found).line(line.number));
+                let all = values.len() == self.count && numbers.is_empty();
+                Fault::unless(all, VALUES, format_args!("{} of {}", values.len(), self.count))
+                    .map_err(|fault| fault.line(line.number))?;
+                return Ok((frequencies, values));
             }
             numbers.extend(self.numbers(&line)?);
             let size = if self.even.is_some() { 2 } else { 3 };
             let whole = numbers.len() / size * size;
             for entry in numbers[..whole].chunks_exact(size) {
-                let frequency = match (self.even, entry) {
-                    (Some((first, step)), _) => first + step * values.len() as f64,
-                    (None, entry) => entry[0],
-                };
-                frequencies.push(frequency);
+                frequencies.push(self.even.map_or(entry[0], |(first, step)| first + step * values.len() as f64));
                 values.push([entry[size - 2], entry[size - 1]]);
             }
             numbers.drain(..whole);

@@ -20,10 +20,7 @@ const MOST_VALUES: i64 = 1000;
 pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
     const DEFINITION: &str = "six whole numbers that define the data";
     for _ in 0..5 {
-        let line = cursor.expect("five identification lines")?;
-        if line.is_delimiter() {
-            return Err(line.fault("five identification lines"));
-        }
+        cursor.expect("five identification lines")?.within("five identification lines")?;
     }
     let line = cursor.expect_text(DEFINITION)?;
     let &[_, analysis, characteristic, _, data, values, ..] = line.integers(DEFINITION)?.as_slice() else {
@@ -43,30 +40,19 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
         _ => return Err(line.fault("data type 2 or 4 (real), 5 or 6 (complex) (fifth number)")),
     };
     let eigenvalue = specific(cursor)?;
-    let needed = values as usize * if complex { 2 } else { 1 };
-    let mut shape = Vec::new();
-    let mut seen = HashSet::new();
-    let mut tags = Vec::new();
-    loop {
-        let line = cursor.expect_text("a node or -1")?;
-        if line.is_delimiter() {
-            break;
-        }
+    let step = if complex { 2 } else { 1 };
+    let width = if data == 2 || data == 5 { 13 } else { 25 };
+    let (mut shape, mut seen, mut tags) = (Vec::new(), HashSet::new(), Vec::new());
+    while let Some(line) = cursor.entry("a node or -1")? {
         const NODE: &str = "the label of a node, once a mode";
         let label = line.integers(NODE)?.first().copied().unwrap_or(-1);
         let tag = u64::try_from(label).map_err(|_| line.fault(NODE))?;
         if !seen.insert(tag) {
             return Err(line.fault(NODE));
         }
-        let width = if data == 2 || data == 5 { 13 } else { 25 };
-        let numbers = cursor.reals(needed, width, "values at a node")?;
-        let step = if complex { 2 } else { 1 };
-        let value = |axis: usize| {
-            let imaginary = if complex { numbers[axis * step + 1] } else { 0.0 };
-            [numbers[axis * step], imaginary]
-        };
+        let numbers = cursor.reals(values as usize * step, width, "values at a node")?;
         tags.push(tag);
-        shape.push([0, 1, 2].map(value));
+        shape.push([0, 1, 2].map(|axis| [numbers[axis * step], if complex { numbers[axis * step + 1] } else { 0.0 }]));
     }
     let frequency_hz = match (analysis, eigenvalue.as_slice()) {
         (2, &[frequency, ..]) => frequency,
@@ -81,22 +67,18 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
 
 /// Records 7 and 8: how many whole and real numbers, the whole ones, the real ones. Returns the real ones.
 fn specific(cursor: &mut Cursor) -> Result<Vec<f64>, Fault> {
+    const WHOLE: &str = "the mode's whole numbers";
     const COUNTS: &str = "how many whole numbers (1 to 10) and real numbers (1 to 12) the mode has";
     let line = cursor.expect_text(COUNTS)?;
     let counts = line.integers(COUNTS)?;
-    let &[whole, real, ref given @ ..] = counts.as_slice() else {
-        return Err(line.fault(COUNTS));
+    let (whole, real) = match counts[..] {
+        [whole, real, ..] if (1..=10).contains(&whole) && (1..=12).contains(&real) => (whole, real),
+        _ => return Err(line.fault(COUNTS)),
     };
-    if !(1..=10).contains(&whole) || !(1..=12).contains(&real) {
-        return Err(line.fault(COUNTS));
-    }
-    let mut missing = whole - given.len() as i64;
+    let mut missing = whole - (counts.len() - 2) as i64;
     while missing > 0 {
-        let line = cursor.expect_text("the mode's whole numbers")?;
-        if line.is_delimiter() {
-            return Err(line.fault("the mode's whole numbers"));
-        }
-        missing -= line.integers("the mode's whole numbers")?.len() as i64;
+        let line = cursor.expect_text(WHOLE)?.within(WHOLE)?;
+        missing -= line.integers(WHOLE)?.len() as i64;
     }
     cursor.reals(real as usize, 13, "the mode's real numbers, its frequency among them")
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::super::{FormatError, ModeShapes};
 use super::binary::read_binary;
 use super::cursor::{Cursor, Line};
+use super::function::{read_units, skip_dataset};
 use super::mode::{Mode, read_mode};
 use crate::files::{Fault, bytes_of};
 
@@ -72,27 +73,17 @@ fn read(bytes: &[u8]) -> Result<Content, Fault> {
     }
 }
 
-/// What a coordinate system begins with, and the line where that stands.
-struct System {
-    label: i64,
-    kind: i64,
-    line: Line,
-}
-
-impl System {
-    /// Reads label and type, passes over the name; `None` at the line that ends a dataset.
-    fn next(cursor: &mut Cursor, expected: &'static str) -> Result<Option<Self>, Fault> {
-        let line = cursor.expect_text(expected)?;
-        if line.is_delimiter() {
-            return Ok(None);
-        }
-        let numbers = line.integers(expected)?;
-        let &[label, kind, ..] = numbers.as_slice() else {
-            return Err(line.fault(expected));
-        };
-        cursor.expect("the name of a coordinate system")?;
-        Ok(Some(Self { label, kind, line }))
-    }
+/// Reads label and type of a coordinate system and the line where they stand, passes over the name; `None` at the line that
+/// ends a dataset.
+fn next_system(cursor: &mut Cursor, expected: &'static str) -> Result<Option<(i64, i64, Line)>, Fault> {
+    let Some(line) = cursor.entry(expected)? else {
+        return Ok(None);
+    };
+    let &[label, kind, ..] = line.integers(expected)?.as_slice() else {
+        return Err(line.fault(expected));
+    };
+    cursor.expect("the name of a coordinate system")?;
+    Ok(Some((label, kind, line)))
 }
 
 impl Content {
@@ -101,7 +92,11 @@ impl Content {
         match head.text.split_ascii_whitespace().next() {
             Some("2411" | "781") => self.nodes_on_two_lines(cursor),
             Some("15") => self.nodes_on_one_line(cursor),
-            Some("164") => self.units(cursor),
+            Some("164") => {
+                let [per_metre] = read_units(cursor, "units of length in a metre, > 0")?;
+                self.per_metre = Some(per_metre);
+                Ok(())
+            }
             Some("2420") => self.systems(cursor),
             Some("18") => self.old_systems(cursor),
             Some("55") => {
@@ -109,8 +104,7 @@ impl Content {
                 Ok(())
             }
             Some("58b") => read_binary(cursor, head).map(|_| ()),
-            Some(number) if number.parse::<u32>().is_ok() => cursor.skip(),
-            _ => Err(head.fault("the number of a dataset")),
+            _ => skip_dataset(cursor, head),
         }
     }
 
@@ -126,24 +120,17 @@ impl Content {
     }
 
     fn nodes_on_two_lines(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
-        loop {
-            let line = cursor.expect_text("a node or -1")?;
-            if line.is_delimiter() {
-                return Ok(());
-            }
+        while let Some(line) = cursor.entry("a node or -1")? {
             let numbers = line.integers("label, two coordinate systems and colour of a node")?;
             let point = cursor.reals(3, 25, "three coordinates of a node")?;
             self.node(&line, &numbers, [point[0], point[1], point[2]])?;
         }
+        Ok(())
     }
 
     fn nodes_on_one_line(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
         const NODE: &str = "label, two coordinate systems, colour and three coordinates of a node";
-        loop {
-            let line = cursor.expect_text("a node or -1")?;
-            if line.is_delimiter() {
-                return Ok(());
-            }
+        while let Some(line) = cursor.entry("a node or -1")? {
             // 4I10, 3E13.5
             let columns = line.text.split_at_checked(40);
             let words: Vec<&str> = line.text.split_ascii_whitespace().collect();
@@ -160,18 +147,7 @@ impl Content {
             };
             self.node(&line, &numbers, [x, y, z])?;
         }
-    }
-
-    fn units(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
-        const LENGTH: &str = "units of length in a metre, > 0";
-        cursor.expect_text("the code of the units")?;
-        let line = cursor.expect_text(LENGTH)?;
-        let factors = line.reals(25, LENGTH)?;
-        match factors.first() {
-            Some(&factor) if factor > 0.0 => self.per_metre = Some(factor),
-            _ => return Err(line.fault(LENGTH)),
-        }
-        cursor.skip()
+        Ok(())
     }
 
     /// Dataset 2420: part, name, then for each system its label, its name and four lines of a matrix, of which the first
@@ -180,11 +156,9 @@ impl Content {
         const SYSTEM: &str = "label, type and colour of a coordinate system";
         cursor.expect_text("the part of the coordinate systems")?;
         cursor.expect("the part's name")?;
-        while let Some(System { label, kind, .. }) = System::next(cursor, SYSTEM)? {
-            let mut matrix = Vec::new();
-            for _ in 0..4 {
-                matrix.extend(cursor.reals(3, 25, "three components of a coordinate system")?);
-            }
+        while let Some((label, kind, _)) = next_system(cursor, SYSTEM)? {
+            let mut row = || cursor.reals(3, 25, "three components of a coordinate system");
+            let matrix = [row()?, row()?, row()?, row()?].concat();
             // Axes written with few digits are still the global ones.
             let unit = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
             let same = matrix.iter().zip(unit).all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-5);
@@ -199,7 +173,7 @@ impl Content {
     /// numbers are origin, a point on +x and a point in the xz plane of the global axes.
     fn old_systems(&mut self, cursor: &mut Cursor) -> Result<(), Fault> {
         const SYSTEM: &str = "label and type of a coordinate system";
-        while let Some(System { label, kind, line }) = System::next(cursor, SYSTEM)? {
+        while let Some((label, kind, line)) = next_system(cursor, SYSTEM)? {
             let points = cursor.reals(9, 13, "nine numbers of a coordinate system")?;
             let [ox, oy, oz, ax, ay, az, _, py, _] = points[..] else {
                 return Err(line.fault(SYSTEM));

@@ -29,50 +29,36 @@ pub fn read_responses_uff(path: &Path) -> Result<Vec<FrequencyResponse>, FormatE
 /// # Errors
 /// As [`read_responses_uff`].
 pub fn responses_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<FrequencyResponse>, FormatError> {
-    let mut responses = read(bytes).map_err(|fault| fault.of(path))?;
-    if responses.list.is_empty() {
+    let (mut list, units) = read(bytes).map_err(|fault| fault.of(path))?;
+    if list.is_empty() {
         let expected =
             "frequency responses (dataset 58, function type 4, of displacement, velocity or acceleration by force)";
         return Err(Fault::new(expected, "none").of(path).into());
     }
-    let scale = responses.units.per_newton / responses.units.per_metre;
-    for (index, response) in responses.list.iter_mut().enumerate() {
-        for part in response.value.as_flattened_mut() {
-            *part *= scale;
-        }
+    let scale = units.per_newton / units.per_metre;
+    for (index, response) in list.iter_mut().enumerate() {
+        response.value.as_flattened_mut().iter_mut().for_each(|part| *part *= scale);
         response.check_as(index)?;
     }
-    Ok(responses.list)
+    Ok(list)
 }
 
-/// What a file has gathered so far.
-struct Content {
-    list: Vec<FrequencyResponse>,
-    units: Units,
-}
-
-fn read(bytes: &[u8]) -> Result<Content, Fault> {
+fn read(bytes: &[u8]) -> Result<(Vec<FrequencyResponse>, Units), Fault> {
     let mut cursor = Cursor::new(bytes);
-    let mut content = Content { list: Vec::new(), units: Units::SI };
+    let (mut list, mut units) = (Vec::new(), Units::SI);
     while let Some(head) = cursor.next_dataset() {
         match head.text.split_ascii_whitespace().next() {
-            Some("58") => content.list.extend(response(&mut cursor)?),
+            Some("58") => list.extend(response(&mut cursor)?),
             Some("58b") => {
-                if binary_is_response(&mut cursor, &head)? {
+                let is_response = |line: &Line| line.text.split_ascii_whitespace().next() == Some("4");
+                if read_binary(&mut cursor, &head)?.lines.get(5).is_some_and(is_response) {
                     return Err(head.fault("frequency responses as text (dataset 58)"));
                 }
             }
-            _ => other_dataset(&mut cursor, &head, &mut content.units)?,
+            _ => other_dataset(&mut cursor, &head, &mut units)?,
         }
     }
-    Ok(content)
-}
-
-/// Goes past a binary dataset and says whether it is a frequency response.
-fn binary_is_response(cursor: &mut Cursor, head: &Line) -> Result<bool, Fault> {
-    let binary = read_binary(cursor, head)?;
-    let function = |line: &Line| line.text.split_ascii_whitespace().next() == Some("4");
-    Ok(binary.lines.get(5).is_some_and(function))
+    Ok((list, units))
 }
 
 /// Reads a dataset after its number, to the line that ends it; `None` if it is no frequency response.
@@ -84,7 +70,7 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     const FUNCTION: i64 = 4;
     let kind = ResponseKind::of_numerator(*numerator);
     let force = matches!(denominator, 9 | 13);
-    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, head.own.function, head.own.moves) else {
+    let (Some(kind), 18, true, FUNCTION, true) = (kind, *abscissa, force, head.function, head.moves) else {
         cursor.skip()?;
         return Ok(None);
     };
@@ -94,14 +80,14 @@ fn response(cursor: &mut Cursor) -> Result<Option<FrequencyResponse>, Fault> {
     if !head.form.complex {
         return Err(head.data_fault("complex values of a frequency response"));
     }
-    let mut own = head.own;
+    let (mut from, mut to) = (head.from, head.to);
     let name_of = |line: &str, begin: &str, point: &mut ResponsePoint| {
         if let Some(name) = line.strip_prefix(begin) {
             point.name = named(name);
         }
     };
-    name_of(&head.names[3], REFERENCE, &mut own.from);
-    name_of(&head.names[4], RESPONSE, &mut own.to);
+    name_of(&head.names[3], REFERENCE, &mut from);
+    name_of(&head.names[4], RESPONSE, &mut to);
     let (frequency_hz, value) = head.form.values(cursor)?;
-    Ok(Some(FrequencyResponse { name: named(&head.names[0]), frequency_hz, value, kind, from: own.from, to: own.to }))
+    Ok(Some(FrequencyResponse { name: named(&head.names[0]), frequency_hz, value, kind, from, to }))
 }

@@ -58,12 +58,8 @@ pub fn times_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<TimeResponse>, 
         return Err(Fault::new(expected, "none").of(path).into());
     }
     let mut list: Vec<TimeResponse> = Vec::with_capacity(found.len());
-    for (quantity, mut response) in found {
-        let scale = match quantity {
-            Quantity::Motion => 1.0 / units.per_metre,
-            Quantity::Force => 1.0 / units.per_newton,
-            Quantity::Other => 1.0,
-        };
+    for (scale, mut response) in found {
+        let scale = scale(&units);
         response.values.iter_mut().for_each(|value| *value *= scale);
         let others = list.iter().filter(|other| {
             let rest = other.name.strip_prefix(response.name.as_str());
@@ -78,14 +74,10 @@ pub fn times_from_bytes(bytes: &[u8], path: &Path) -> Result<Vec<TimeResponse>, 
     Ok(list)
 }
 
-/// What a unit of the file applies to.
-enum Quantity {
-    Motion,
-    Force,
-    Other,
-}
+/// A signal with what makes it one in SI, which depends on the file's units.
+type InUnits = (fn(&Units) -> f64, TimeResponse);
 
-fn read(bytes: &[u8]) -> Result<(Vec<(Quantity, TimeResponse)>, Units), Fault> {
+fn read(bytes: &[u8]) -> Result<(Vec<InUnits>, Units), Fault> {
     let mut cursor = Cursor::new(bytes);
     let (mut list, mut units) = (Vec::new(), Units::SI);
     while let Some(head) = cursor.next_dataset() {
@@ -101,10 +93,10 @@ fn read(bytes: &[u8]) -> Result<(Vec<(Quantity, TimeResponse)>, Units), Fault> {
 /// Whether a function is a signal over time.
 fn is_time(head: &FunctionHead) -> bool {
     const TIME: i64 = 17;
-    matches!(head.own.function, 0 | 1) && head.axes.first().is_some_and(|axis| axis.0 == TIME)
+    matches!(head.function, 0 | 1) && head.axes.first().is_some_and(|axis| axis.0 == TIME)
 }
 
-fn text(cursor: &mut Cursor) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
+fn text(cursor: &mut Cursor) -> Result<Option<InUnits>, Fault> {
     let head = FunctionHead::read(|expected| cursor.expect(expected))?;
     if !is_time(&head) {
         cursor.skip()?;
@@ -120,13 +112,10 @@ fn text(cursor: &mut Cursor) -> Result<Option<(Quantity, TimeResponse)>, Fault> 
     }
 }
 
-fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<(Quantity, TimeResponse)>, Fault> {
+fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<InUnits>, Fault> {
     let found = read_binary(cursor, first)?;
-    let mut lines = found.lines.iter();
-    let head = FunctionHead::read(|expected| {
-        let line = lines.next().cloned();
-        line.ok_or_else(|| first.fault(expected))
-    })?;
+    let mut lines = found.lines.iter().cloned();
+    let head = FunctionHead::read(|expected| lines.next().ok_or_else(|| first.fault(expected)))?;
     if !is_time(&head) {
         return Ok(None);
     }
@@ -146,38 +135,40 @@ fn binary(cursor: &mut Cursor, first: &Line) -> Result<Option<(Quantity, TimeRes
 }
 
 /// The signal of these numbers; `end` is the line to name where they are too few or too many.
-fn signal(head: &FunctionHead, numbers: Vec<f64>, end: &Line) -> Result<(Quantity, TimeResponse), Fault> {
+fn signal(head: &FunctionHead, numbers: Vec<f64>, end: &Line) -> Result<InUnits, Fault> {
     if head.form.complex {
         return Err(head.data_fault("real values of a signal over time"));
     }
     let size = if head.form.even.is_some() { 1 } else { 2 };
-    if head.form.count.checked_mul(size) != Some(numbers.len()) {
-        let found = format!("{} of {}", numbers.len() / size, head.form.count);
-        return Err(Fault::new("as many values as the data has", found).line(end.number));
-    }
+    let found = format_args!("{} of {}", numbers.len() / size, head.form.count);
+    let all = head.form.count.checked_mul(size) == Some(numbers.len());
+    Fault::unless(all, "as many values as the data has", found).map_err(|fault| fault.line(end.number))?;
     let (axis, values) = match head.form.even {
         Some((start_s, step_s)) => (TimeAxis::Even { start_s, step_s }, numbers),
         None => {
-            let pairs = numbers.chunks_exact(2);
-            let (times, values) = pairs.map(|pair| (pair[0], pair[1])).unzip();
+            let (times, values) = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
             (TimeAxis::Uneven(times), values)
         }
     };
-    let unit = head.axes.get(1).map_or("", |(_, line)| axis_unit(line)).to_owned();
-    let in_g = unit.eq_ignore_ascii_case("g");
-    let (quantity, unit) = match head.axes.get(1).map(|(kind, _)| kind) {
-        Some(12) if in_g => (Quantity::Other, "g".to_owned()),
-        Some(8) => (Quantity::Motion, "m".to_owned()),
-        Some(11) => (Quantity::Motion, "m/s".to_owned()),
-        Some(12) => (Quantity::Motion, "m/s^2".to_owned()),
-        Some(9 | 13) => (Quantity::Force, "N".to_owned()),
-        _ => (Quantity::Other, named(&unit)),
+    let (kind, unit) = head.axes.get(1).map_or((0, ""), |(kind, line)| (*kind, axis_unit(line)));
+    let unit = match kind {
+        12 if unit.eq_ignore_ascii_case("g") => "g".to_owned(),
+        8 => "m".to_owned(),
+        11 => "m/s".to_owned(),
+        12 => "m/s^2".to_owned(),
+        9 | 13 => "N".to_owned(),
+        _ => named(unit),
     };
-    Ok((quantity, TimeResponse { name: name(head), unit, axis, values }))
+    let scale: fn(&Units) -> f64 = match kind {
+        8 | 11 | 12 if unit != "g" => |units| 1.0 / units.per_metre,
+        9 | 13 => |units| 1.0 / units.per_newton,
+        _ => |_| 1.0,
+    };
+    Ok((scale, TimeResponse { name: name(head), unit, axis, values }))
 }
 
 fn name(head: &FunctionHead) -> String {
-    let point = &head.own.to;
+    let point = &head.to;
     let own = head.names.first().map(|line| named(line)).unwrap_or_default();
     match (own.is_empty(), point.name.is_empty()) {
         (false, _) => own,

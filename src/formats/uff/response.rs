@@ -51,27 +51,18 @@ const UNIT_LIMIT: f64 = 1e-5;
 const AXIS_LIMIT: f64 = 1e-9;
 
 impl ResponseKind {
-    /// Its name, as identification lines have it.
-    pub fn name(self) -> &'static str {
+    /// Its name as identification lines have it; what responds, the format's number for that and its unit.
+    pub(super) fn numerator(self) -> (&'static str, &'static str, u32, &'static str) {
         match self {
-            Self::Receptance => "Receptance",
-            Self::Mobility => "Mobility",
-            Self::Accelerance => "Accelerance",
-        }
-    }
-
-    /// Unit of what responds, and the format's number for it.
-    pub(super) fn numerator(self) -> (&'static str, u32, &'static str) {
-        match self {
-            Self::Receptance => ("Displacement", 8, "m"),
-            Self::Mobility => ("Velocity", 11, "m/s"),
-            Self::Accelerance => ("Acceleration", 12, "m/s2"),
+            Self::Receptance => ("Receptance", "Displacement", 8, "m"),
+            Self::Mobility => ("Mobility", "Velocity", 11, "m/s"),
+            Self::Accelerance => ("Accelerance", "Acceleration", 12, "m/s2"),
         }
     }
 
     pub(super) fn of_numerator(number: i64) -> Option<Self> {
         let all = [Self::Receptance, Self::Mobility, Self::Accelerance];
-        all.into_iter().find(|kind| i64::from(kind.numerator().1) == number)
+        all.into_iter().find(|kind| i64::from(kind.numerator().2) == number)
     }
 }
 
@@ -104,33 +95,26 @@ impl FrequencyResponse {
     /// [`Fault`]: the first thing that does not fit.
     pub fn check(&self) -> Result<(), Fault> {
         let (frequencies, values) = (self.frequency_hz.len(), self.value.len());
-        if frequencies != values || frequencies == 0 {
-            let expected = "at least one frequency and a value for each";
-            let found = format!("{frequencies} frequencies and {values} values");
-            return Err(Fault::new(expected, found));
-        }
+        let found = format_args!("{frequencies} frequencies and {values} values");
+        let fits = frequencies == values && frequencies > 0;
+        Fault::unless(fits, "at least one frequency and a value for each", found)?;
         let mut last = None;
         for (place, &found) in self.frequency_hz.iter().enumerate() {
-            let ascends = last.is_none_or(|last| found > last);
-            if !ascends || found < 0.0 || !found.is_finite() {
-                let found = format!("{found} at [{place}]");
-                return Err(Fault::new("ascending frequencies >= 0 Hz", found));
-            }
+            let ascends = last.is_none_or(|last| found > last) && found >= 0.0 && found.is_finite();
+            Fault::unless(ascends, "ascending frequencies >= 0 Hz", format_args!("{found} at [{place}]"))?;
             last = Some(found);
         }
         let wrong = |value: &[f64; 2]| !value.iter().all(|part| part.is_finite());
         if let Some(place) = self.value.iter().position(wrong) {
-            let found = format!("{:?} at [{place}]", self.value[place]);
-            return Err(Fault::new("finite values", found));
+            return Err(Fault::new("finite values", format_args!("{:?} at [{place}]", self.value[place])));
         }
         for point in [&self.from, &self.to] {
             if let Some(found) = point.direction {
                 let length = found.iter().map(|part| part * part).sum::<f64>().sqrt();
                 // NaN is no length either
-                if !length.is_finite() || (length - 1.0).abs() > UNIT_LIMIT {
-                    let expected = format!("a unit vector as direction of \"{}\"", point.name);
-                    return Err(Fault::new(expected, format!("{found:?}")));
-                }
+                let is_unit = (length - 1.0).abs() <= UNIT_LIMIT;
+                let expected = format!("a unit vector as direction of \"{}\"", point.name);
+                Fault::unless(is_unit, expected, format_args!("{found:?}"))?;
             }
         }
         Ok(())
@@ -138,7 +122,6 @@ impl FrequencyResponse {
 
     /// As [`check`](Self::check), of the response with this place in a file, counted from 0.
     pub(super) fn check_as(&self, index: usize) -> Result<(), Fault> {
-        let of = |fault: Fault| fault.within(format!("frequency response {index}"));
-        self.check().map_err(of)
+        self.check().map_err(|fault| fault.within(format!("frequency response {index}")))
     }
 }

@@ -8,7 +8,7 @@ use super::super::fortran::exponential;
 use super::super::{FormatError, ModeShapes};
 use super::element::{Descriptor, descriptor};
 use crate::fe::mesh::{ElementId, Mesh};
-use crate::files::{AtomicFile, Fault, write_atomic};
+use crate::files::{Fault, write_atomic};
 
 /// Largest label of ten digits.
 const LAST_LABEL: u64 = 9_999_999_999;
@@ -16,12 +16,8 @@ const LAST_LABEL: u64 = 9_999_999_999;
 /// A node with its label.
 type Node = (u64, [f64; 3]);
 
-/// An element ready to be written.
-struct Element<'a> {
-    label: u64,
-    descriptor: Descriptor,
-    nodes: &'a [usize],
-}
+/// An element with its label, ready to be written.
+type Element<'a> = (u64, Descriptor, &'a [usize]);
 
 /// Writes mode shapes at some of the nodes of some elements of a mesh, whole or not at all: header, SI units, nodes,
 /// elements, then one dataset 55 a mode (real, modal mass 1, no damping, 6 digits as the format has it). `description` is
@@ -41,21 +37,12 @@ pub fn write_uff(
     let mut own = Vec::new();
     for id in elements {
         let block = mesh.blocks.get(id.block);
-        let found = block.and_then(|block| {
-            let nodes = block.element(id.index)?;
-            Some((block.kind, *block.tags.get(id.index)?, nodes))
-        });
-        let Some((kind, label, nodes)) = found else {
-            return Err(FormatError::no_element(id));
-        };
-        let Some(descriptor) = descriptor(kind) else {
-            let expected = "surface and solid elements";
-            return Err(Fault::new(expected, format!("a {}", kind.name())).into());
-        };
-        for &node in nodes {
-            used[node] = true;
-        }
-        own.push(Element { label, descriptor, nodes });
+        let found = block.and_then(|block| Some((block.kind, *block.tags.get(id.index)?, block.element(id.index)?)));
+        let (kind, label, nodes) = found.ok_or_else(|| FormatError::no_element(id))?;
+        let descriptor = descriptor(kind)
+            .ok_or_else(|| Fault::new("surface and solid elements", format_args!("a {}", kind.name())))?;
+        nodes.iter().for_each(|&node| used[node] = true);
+        own.push((label, descriptor, nodes));
     }
     let nodes: Vec<Node> =
         (0..used.len()).filter(|&node| used[node]).map(|node| (mesh.node_tags[node], mesh.nodes[node])).collect();
@@ -65,16 +52,15 @@ pub fn write_uff(
         let expected = "mode shapes at nodes of the elements";
         return Err(Fault::new(expected, format!("node {tag}")).into());
     }
-    let labels = known.iter().copied().chain(own.iter().map(|e| e.label));
+    let labels = known.iter().copied().chain(own.iter().map(|&(label, ..)| label));
     modes.check().map_err(|fault| fault.of(path))?;
     check_label(labels)?;
-    let write = |to: &mut AtomicFile| {
+    Ok(write_atomic(path, |to| {
         write_head(to, description)?;
         write_nodes(to, &nodes)?;
         write_elements(to, mesh, &own)?;
         write_modes(to, description, &tags, modes)
-    };
-    Ok(write_atomic(path, write)?)
+    })?)
 }
 
 /// Writes mode shapes without elements, and their points if they are known, whole or not at all. Points without labels are
@@ -88,21 +74,17 @@ pub fn write_modes_uff(path: &Path, description: &str, modes: &ModeShapes) -> Re
     check_label(tags.iter().copied())?;
     let points = modes.points.iter().flatten().copied();
     let nodes: Vec<Node> = tags.iter().copied().zip(points).collect();
-    let write = |to: &mut AtomicFile| {
+    Ok(write_atomic(path, |to| {
         write_head(to, description)?;
         if !nodes.is_empty() {
             write_nodes(to, &nodes)?;
         }
         write_modes(to, description, &tags, modes)
-    };
-    Ok(write_atomic(path, write)?)
+    })?)
 }
 
 fn tags_of(modes: &ModeShapes) -> Vec<u64> {
-    match &modes.node_tags {
-        Some(tags) => tags.clone(),
-        None => (1..=modes.count_points() as u64).collect(),
-    }
+    modes.node_tags.clone().unwrap_or_else(|| (1..=modes.count_points() as u64).collect())
 }
 
 /// Whether labels fit their column.
@@ -162,15 +144,11 @@ fn write_nodes(to: &mut impl Write, nodes: &[Node]) -> io::Result<()> {
 /// Dataset 2412; properties and materials are tables 1, which are not in the file.
 fn write_elements(to: &mut impl Write, mesh: &Mesh, elements: &[Element]) -> io::Result<()> {
     begin(to, 2412)?;
-    for element in elements {
-        let Descriptor { id, order } = element.descriptor;
-        let count = order.len();
-        writeln!(to, "{:>10}{id:>10}{:>10}{:>10}{:>10}{count:>10}", element.label, 1, 1, 7)?;
+    for (label, Descriptor { id, order }, nodes) in elements {
+        writeln!(to, "{label:>10}{id:>10}{:>10}{:>10}{:>10}{:>10}", 1, 1, 7, order.len())?;
         for line in order.chunks(8) {
-            for &place in line {
-                write!(to, "{:>10}", mesh.node_tags[element.nodes[place]])?;
-            }
-            writeln!(to)?;
+            let tags = line.iter().map(|&place| format!("{:>10}", mesh.node_tags[nodes[place]]));
+            writeln!(to, "{}", tags.collect::<String>())?;
         }
     }
     end(to)
@@ -190,11 +168,8 @@ fn write_modes(to: &mut impl Write, description: &str, tags: &[u64], modes: &Mod
         writeln!(to, "{:>10}{:>10}{:>10}{mode:>10}", 2, 4, 1)?;
         writeln!(to, "{}{}{2}{2}", number(frequency), number(1.0), number(0.0))?;
         for (tag, displacement) in tags.iter().zip(shape.chunks_exact(3)) {
-            writeln!(to, "{tag:>10}")?;
-            for &value in displacement {
-                write!(to, "{}", number(value))?;
-            }
-            writeln!(to)?;
+            let displacement: String = displacement.iter().map(|&value| number(value)).collect();
+            writeln!(to, "{tag:>10}\n{displacement}")?;
         }
         end(to)?;
     }

@@ -7,7 +7,7 @@ use super::super::FormatError;
 use super::super::fortran::exponential;
 use super::response::{FrequencyResponse, REFERENCE, RESPONSE, ResponsePoint};
 use super::write::{begin, check_label, end, identification, write_head};
-use crate::files::{AtomicFile, Fault, write_atomic};
+use crate::files::{Fault, write_atomic};
 
 /// Digits after the point of frequencies, which the format has in single precision.
 const DIGITS: usize = 5;
@@ -32,29 +32,20 @@ pub fn write_responses_uff(path: &Path, description: &str, responses: &[Frequenc
         let points = [&response.from, &response.to];
         check_label(points.into_iter().filter_map(|point| point.node))?;
         let frequencies = &response.frequency_hz;
-        let spacing = match spacing(frequencies) {
-            Some(even) => Some(even),
-            None => {
-                let mut pairs = frequencies.windows(2);
-                let same = pairs.position(|pair| rounded(pair[0]) >= rounded(pair[1]));
-                if let Some(place) = same {
-                    let expected = "uneven frequencies that differ in six digits";
-                    let fault = Fault::new(expected, format!("two like {} Hz", frequencies[place]));
-                    return Err(fault.within(format!("frequency response {index}")).into());
-                }
-                None
-            }
-        };
+        let spacing = spacing(frequencies);
+        let same = frequencies.windows(2).find(|pair| spacing.is_none() && rounded(pair[0]) >= rounded(pair[1]));
+        if let Some(pair) = same {
+            let expected = "uneven frequencies that differ in six digits";
+            let fault = Fault::new(expected, format_args!("two like {} Hz", pair[0]));
+            return Err(fault.within(format!("frequency response {index}")).into());
+        }
         spacings.push(spacing);
     }
-    let write = |to: &mut AtomicFile| {
+    Ok(write_atomic(path, |to| {
         write_head(to, description)?;
-        for (number, (response, spacing)) in responses.iter().zip(spacings).enumerate() {
-            write_response(to, number + 1, response, spacing)?;
-        }
-        Ok(())
-    };
-    Ok(write_atomic(path, write)?)
+        let mut responses = (1..).zip(responses.iter().zip(spacings));
+        responses.try_for_each(|(number, (response, spacing))| write_response(to, number, response, spacing))
+    })?)
 }
 
 impl FrequencyResponse {
@@ -85,18 +76,12 @@ fn rounded(value: f64) -> f64 {
 
 /// First frequency and step as the file has them, if they give every frequency.
 fn spacing(frequencies: &[f64]) -> Option<(f64, f64)> {
-    let (&first, &last) = (frequencies.first()?, frequencies.last()?);
-    let steps = frequencies.len() - 1;
-    if steps == 0 {
+    let &[first, .., last] = frequencies else {
         return None;
-    }
-    let (begin, step) = (rounded(first), rounded((last - first) / steps as f64));
-    let close = |(place, &own): (usize, &f64)| {
-        let found = begin + step * place as f64;
-        (found - own).abs() <= ROUNDING * own
     };
-    let even = frequencies.iter().enumerate().all(close);
-    even.then_some((begin, step))
+    let (begin, step) = (rounded(first), rounded((last - first) / (frequencies.len() - 1) as f64));
+    let close = |(place, &own): (usize, &f64)| (begin + step * place as f64 - own).abs() <= ROUNDING * own;
+    frequencies.iter().enumerate().all(close).then_some((begin, step))
 }
 
 fn write_response(
@@ -107,10 +92,10 @@ fn write_response(
 ) -> io::Result<()> {
     let single = |value| exponential(value, 13, DIGITS, 'E');
     let double = |value| exponential(value, 20, 12, 'E');
-    let (quantity, numerator, unit) = response.kind.numerator();
+    let (name, quantity, numerator, unit) = response.kind.numerator();
     begin(to, 58)?;
     writeln!(to, "{}", identification(&response.name))?;
-    writeln!(to, "{}, {unit}/N", response.kind.name())?;
+    writeln!(to, "{name}, {unit}/N")?;
     writeln!(to, "NONE")?;
     writeln!(to, "{REFERENCE}{}", identification(&response.from.name))?;
     writeln!(to, "{RESPONSE}{}", identification(&response.to.name))?;
@@ -119,10 +104,7 @@ fn write_response(
     for point in [&response.to, &response.from] {
         write_point(to, point)?;
     }
-    let (even, (first, step)) = match spacing {
-        Some(spacing) => (1, spacing),
-        None => (0, (0.0, 0.0)),
-    };
+    let (even, (first, step)) = (u8::from(spacing.is_some()), spacing.unwrap_or_default());
     let count = response.frequency_hz.len();
     // complex, double precision
     write!(to, "\n{:>10}{count:>10}{even:>10}", 6)?;

@@ -14,7 +14,7 @@ use base64::write::EncoderWriter;
 use super::super::FormatError;
 use super::cell::{cell_type, node_order};
 use crate::fe::mesh::{ElementId, ElementKind, Mesh};
-use crate::files::{AtomicFile, Fault, write_atomic};
+use crate::files::{Fault, write_atomic};
 
 /// Values of a field.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,22 +53,13 @@ impl<'a> Grid<'a> {
         for id in ids {
             let block = mesh.blocks.get(id.block);
             let found = block.and_then(|block| Some((block.kind, block.element(id.index)?)));
-            let Some((kind, nodes)) = found else {
-                return Err(FormatError::no_element(id));
-            };
-            for &node in nodes {
-                place[node] = 0;
-            }
+            let (kind, nodes) = found.ok_or_else(|| FormatError::no_element(id))?;
+            nodes.iter().for_each(|&node| place[node] = 0);
             elements.push((kind, nodes));
         }
-        if elements.is_empty() {
-            return Err(Fault::new("at least one element to write", "none").into());
-        }
-        let used = |&node: &usize| place[node] == 0;
-        let nodes: Vec<usize> = (0..mesh.nodes.len()).filter(used).collect();
-        for (new, &node) in nodes.iter().enumerate() {
-            place[node] = new as i64;
-        }
+        Fault::unless(!elements.is_empty(), "at least one element to write", "none")?;
+        let nodes: Vec<usize> = (0..mesh.nodes.len()).filter(|&node| place[node] == 0).collect();
+        (0..).zip(&nodes).for_each(|(new, &node)| place[node] = new);
         Ok(Self { mesh, elements, nodes, place })
     }
 
@@ -76,15 +67,12 @@ impl<'a> Grid<'a> {
     fn check(fields: &[Field], count: usize, what: &'static str) -> Result<(), FormatError> {
         for (index, field) in fields.iter().enumerate() {
             let name = field.name;
-            if name.is_empty() || name.chars().any(char::is_control) {
-                let expected = "a field's name without control characters";
-                return Err(Fault::new(expected, format!("{name:?}")).into());
-            }
+            let fits = !name.is_empty() && !name.chars().any(char::is_control);
+            Fault::unless(fits, "a field's name without control characters", format_args!("{name:?}"))?;
             if fields[..index].iter().any(|other| other.name == name) {
                 return Err(FormatError::Refused(format!("two fields are called \"{name}\"")));
             }
-            let expected = field.values.components() * count;
-            let found = field.values.len();
+            let (expected, found) = (field.values.components() * count, field.values.len());
             if found != expected {
                 return Err(FormatError::Refused(format!(
                     "field \"{name}\" takes {expected} values (a fixed number for each {what}), found {found}"
@@ -97,10 +85,7 @@ impl<'a> Grid<'a> {
 
 impl FieldValues<'_> {
     fn components(&self) -> usize {
-        match self {
-            Self::Vectors(_) => 3,
-            Self::Scalars(_) | Self::Integers(_) => 1,
-        }
+        if matches!(self, Self::Vectors(_)) { 3 } else { 1 }
     }
 
     fn len(&self) -> usize {
@@ -111,10 +96,7 @@ impl FieldValues<'_> {
     }
 
     fn type_name(&self) -> &'static str {
-        match self {
-            Self::Vectors(_) | Self::Scalars(_) => "Float64",
-            Self::Integers(_) => "Int64",
-        }
+        if matches!(self, Self::Integers(_)) { "Int64" } else { "Float64" }
     }
 
     /// Writes the values of one node or element.
@@ -183,8 +165,7 @@ pub fn write_vtu(
     let grid = Grid::new(mesh, elements)?;
     Grid::check(point_fields, mesh.nodes.len(), "node of the mesh")?;
     Grid::check(cell_fields, grid.elements.len(), "element written")?;
-    let write = |to: &mut AtomicFile| write_grid(to, &grid, point_fields, cell_fields);
-    Ok(write_atomic(path, write)?)
+    Ok(write_atomic(path, |to| write_grid(to, &grid, point_fields, cell_fields))?)
 }
 
 fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fields: &[Field]) -> io::Result<()> {
@@ -215,10 +196,8 @@ fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fie
         values.try_for_each(|value| to.write_all(&value.to_le_bytes()))
     })?;
     array(to, 8 * corners, |to| {
-        let mut places = grid.elements.iter().flat_map(|&(kind, nodes)| {
-            let own = node_order(kind).iter();
-            own.map(|&own| grid.place[nodes[own]])
-        });
+        let elements = grid.elements.iter();
+        let mut places = elements.flat_map(|&(kind, nodes)| node_order(kind).iter().map(|&own| grid.place[nodes[own]]));
         places.try_for_each(|place| to.write_all(&place.to_le_bytes()))
     })?;
     array(to, 8 * cells, |to| {
@@ -228,14 +207,10 @@ fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fie
             to.write_all(&end.to_le_bytes())
         })
     })?;
-    array(to, cells, |to| {
-        let mut kinds = grid.elements.iter();
-        kinds.try_for_each(|&(kind, _)| to.write_all(&[cell_type(kind)]))
-    })?;
+    array(to, cells, |to| grid.elements.iter().try_for_each(|&(kind, _)| to.write_all(&[cell_type(kind)])))?;
     for Field { values, .. } in point_fields {
         array(to, 8 * values.components() * points, |to| {
-            let mut nodes = grid.nodes.iter();
-            nodes.try_for_each(|&node| values.write(to, node))
+            grid.nodes.iter().try_for_each(|&node| values.write(to, node))
         })?;
     }
     for Field { values, .. } in cell_fields {

@@ -12,12 +12,6 @@ use crate::app::error::ComputeError;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::TimeWindow;
 
-/// Whether a file of signals has instants or a sampling rate.
-fn states_its_rate(path: &Path) -> Result<bool, CliError> {
-    let found = read(path, SignalRequest::default(), Unnamed::Every).map_err(ComputeError::from)?;
-    Ok(!found.missing.contains(&Missing::Rate))
-}
-
 /// The signals of `--baseline`, read once for all inputs.
 pub(super) struct Baseline {
     path: PathBuf,
@@ -35,8 +29,10 @@ impl Baseline {
             return Ok(None);
         };
         let mut rate = asked.baseline_rate;
-        if rate.is_none() && asked.rate.is_some() && !path.is_dir() && !states_its_rate(&path)? {
-            rate = asked.rate;
+        if rate.is_none() && asked.rate.is_some() && !path.is_dir() {
+            // what its file says goes before --rate
+            let found = read(&path, SignalRequest::default(), Unnamed::Every).map_err(ComputeError::from)?;
+            rate = asked.rate.filter(|_| found.missing.contains(&Missing::Rate));
         }
         // a run knows its speed itself
         let of_inputs = asked.speed.clone().filter(|_| !path.is_dir());
@@ -49,7 +45,7 @@ impl Baseline {
         };
         let mut source = Source::open(&own, &path, Unnamed::Every, options)?;
         if asked.baseline_speed.is_none() {
-            source.prefer_own_speed();
+            source.machine.own_first = true;
         }
         Ok(Some(Self { path, source, window: asked.baseline_window }))
     }
@@ -57,8 +53,7 @@ impl Baseline {
     /// What is to be said of its signals, as of those of an input.
     pub(super) fn doubts(&self) -> Vec<String> {
         let name = self.path.display();
-        let doubts = self.source.doubts.iter();
-        doubts.map(|text| format!("--baseline {name}: {text}")).collect()
+        self.source.doubts.iter().map(|text| format!("--baseline {name}: {text}")).collect()
     }
 
     /// Compares the analysed windows of a signal of an input with the baseline.
@@ -138,20 +133,28 @@ impl Baseline {
     fn window(&self, source: &Source, earlier: &MeasuredSignal, window: &WindowAnalysis) -> TimeWindow {
         let series = &earlier.series;
         let same = TimeWindow { from: window.from, to: window.to };
-        let samples = series.values().len();
-        let holds = |window: &TimeWindow| {
-            let inside = window.check_inside(series.start_s(), series.step_s(), samples);
-            !source.settings.windows.is_empty() && inside.is_ok()
-        };
-        let same = Some(same).filter(holds);
+        let inside = same.check_inside(series.start_s(), series.step_s(), series.values().len()).is_ok();
+        let same = Some(same).filter(|_| inside && !source.settings.windows.is_empty());
         self.window.or(same).unwrap_or_else(|| series.span())
     }
 
     /// Whether an input is the baseline.
     fn is(&self, input: &Path) -> bool {
-        match (fs::canonicalize(input), fs::canonicalize(&self.path)) {
-            (Ok(input), Ok(own)) => input == own,
-            _ => false,
-        }
+        fs::canonicalize(input).is_ok_and(|input| fs::canonicalize(&self.path).is_ok_and(|own| input == own))
     }
+}
+
+/// Analyses a signal of an input in every window, and compares these with the baseline, if there is one.
+///
+/// # Errors
+/// As [`Source::analyse`] and [`Baseline::compare`].
+pub(super) fn analyse(
+    baseline: Option<&Baseline>,
+    input: &Path,
+    source: &Source,
+    signal: &MeasuredSignal,
+) -> Result<Vec<WindowAnalysis>, CliError> {
+    let mut windows = source.analyse(input, signal)?;
+    baseline.map_or(Ok(()), |baseline| baseline.compare(input, source, signal, &mut windows))?;
+    Ok(windows)
 }

@@ -47,19 +47,12 @@ pub(super) fn orders(
 ) -> Result<Option<FaultOrders>, CliError> {
     let in_row = |row: Result<DefectOrders, BearingError>| row.map_err(ComputeError::bearing("bearing: "));
     let row: DefectOrders = match (&asked.orders, asked.balls, catalogue, case) {
-        (Some(given), ..) => {
-            return Ok(Some(FaultOrders::new(given.0, error).map_err(ComputeError::from)?));
-        }
+        (Some(given), ..) => return Ok(Some(FaultOrders::new(given.0, error).map_err(ComputeError::from)?)),
         // clap sees to it that all three numbers are there
-        (None, Some(balls), ..) => in_row(
-            BallRow::new(
-                balls,
-                asked.ball_diameter.unwrap_or(f64::NAN),
-                asked.pitch_diameter.unwrap_or(f64::NAN),
-                asked.contact_angle.to_radians(),
-            )
-            .map(|row| row.orders()),
-        )?,
+        (None, Some(balls), ..) => {
+            let [ball, pitch] = [asked.ball_diameter, asked.pitch_diameter].map(|given| given.unwrap_or(f64::NAN));
+            in_row(BallRow::new(balls, ball, pitch, asked.contact_angle.to_radians()).map(|row| row.orders()))?
+        }
         (None, None, Some(bearing), _) => in_row(catalogue_orders(bearing))?,
         (None, None, None, Some(case)) => {
             let geometry = bearing_geometry(case)?;
@@ -78,8 +71,7 @@ pub(in crate::app::cli) fn bearing_names() -> String {
 
 /// Orders of a bearing of the catalogue, without a contact angle.
 pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, BearingError> {
-    let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?;
-    Ok(row.orders())
+    Ok(BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?.orders())
 }
 
 /// What is taken for granted of a bearing of the catalogue.

@@ -1,6 +1,7 @@
 //! What could not be analysed among many files.
 
 use crate::app::cli::CliError;
+use crate::app::cli::output::extend_new;
 use crate::app::commands::analyze::FailureSummary;
 
 /// Most files that a message names.
@@ -23,13 +24,14 @@ impl Failure {
 
     /// The message, with the file in front if it does not say it.
     fn line(&self) -> String {
-        let channel = match self.channel.as_str() {
-            "" => String::new(),
-            channel => format!(", channel \"{channel}\""),
-        };
-        let message = self.error.to_string();
-        let named = message.starts_with(&self.input) || message.contains(&format!(" {}:", self.input));
-        if channel.is_empty() && named { message } else { format!("{}{channel}: {message}", self.input) }
+        let Self { input, channel, error } = self;
+        let message = error.to_string();
+        let named = message.starts_with(input) || message.contains(&format!(" {input}:"));
+        match channel.as_str() {
+            "" if named => message,
+            "" => format!("{input}: {message}"),
+            channel => format!("{input}, channel \"{channel}\": {message}"),
+        }
     }
 }
 
@@ -42,12 +44,8 @@ pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> Cli
     }
     let what = lines.join("\n");
     let mut helps: Vec<&str> = Vec::new();
-    for line in failures.iter().filter_map(|failure| failure.error.help.as_deref()).flat_map(str::lines) {
-        if !helps.contains(&line) && helps.len() < LISTED {
-            helps.push(line);
-        }
-    }
+    extend_new(&mut helps, failures.iter().filter_map(|failure| failure.error.help.as_deref()).flat_map(str::lines));
+    helps.truncate(LISTED);
     let is_input = failures.iter().any(|failure| failure.error.is_input);
-    let error = if is_input { CliError::input(what) } else { CliError::failed(what) };
-    if helps.is_empty() { error } else { error.with_help(helps.join("\n")) }
+    CliError { is_input, what, help: Some(helps.join("\n")).filter(|help| !help.is_empty()) }
 }

@@ -96,39 +96,34 @@ impl Machine {
     /// What is to be said where what was typed takes the place of what the file says of itself, or is less than it needs.
     pub(super) fn overruled(&self, signal: &MeasuredSignal, asked_rate: Option<(&str, f64)>) -> Vec<String> {
         let differ = |typed: f64, own: f64| (typed / own - 1.0).abs() > SAME;
+        let (mut said, span) = (Vec::new(), signal.series.span());
         let hz = |value: f64| significant(value, 6);
-        let rate = asked_rate.zip(signal.own_rate_hz);
-        let rate = rate.filter(|&((_, typed), own)| differ(typed, own));
-        let rate = rate.map(|((option, typed), own)| {
-            format!("{option} takes {} Hz for what the file says are {} Hz", hz(typed), hz(own))
-        });
-        let speed = self.typed.as_ref().filter(|_| !self.own_first);
-        let speed = speed.zip(own_speed(signal)).map(|(typed, own)| {
-            let span = signal.series.span();
-            let turns = typed.profile.angle(span.to) - typed.profile.angle(span.from);
-            (turns.abs() / std::f64::consts::TAU / (span.to - span.from), own)
-        });
-        let speed = speed.filter(|&(typed, own)| differ(typed, own));
-        let speed = speed.map(|(typed, own)| {
-            format!("--speed takes {} Hz, on the average, for what the file says are {} Hz", hz(typed), hz(own))
-        });
-        let span = signal.series.span();
-        let beyond = self.typed.iter().filter_map(|typed| {
-            let times: Vec<f64> = typed.profile.knot_times().collect();
-            let (&first, &last) = times.first().zip(times.last())?;
-            let covered = times.len() < 2 || (first <= span.from && span.to <= last);
-            let seconds = |value: f64| significant(value, 5);
-            (!covered).then(|| {
-                format!(
-                    "--speed says the speed from {} to {} s, and the signal lasts from {} to {} s: the speeds at the ends go on",
-                    seconds(first),
-                    seconds(last),
-                    seconds(span.from),
-                    seconds(span.to)
-                )
-            })
-        });
-        rate.into_iter().chain(speed).chain(beyond).collect()
+        if let (Some((option, typed)), Some(own)) = (asked_rate, signal.own_rate_hz)
+            && differ(typed, own)
+        {
+            said.push(format!("{option} takes {} Hz for what the file says are {} Hz", hz(typed), hz(own)));
+        }
+        let Some(GivenSpeed { profile, .. }) = &self.typed else {
+            return said;
+        };
+        let turns = (profile.angle(span.to) - profile.angle(span.from)).abs() / std::f64::consts::TAU;
+        let typed = turns / (span.to - span.from);
+        if let Some(own) = own_speed(signal).filter(|&own| !self.own_first && differ(typed, own)) {
+            said.push(format!(
+                "--speed takes {} Hz, on the average, for what the file says are {} Hz",
+                hz(typed),
+                hz(own)
+            ));
+        }
+        if let &[first, .., last] = profile.knot_times().collect::<Vec<f64>>().as_slice()
+            && !(first <= span.from && span.to <= last)
+        {
+            let [first, last, from, to] = [first, last, span.from, span.to].map(|value| significant(value, 5));
+            said.push(format!(
+                "--speed says the speed from {first} to {last} s, and the signal lasts from {from} to {to} s: the speeds at the ends go on"
+            ));
+        }
+        said
     }
 
     /// The shaft's speed and whose word it is: `--speed`, else the file's own, else the case's.

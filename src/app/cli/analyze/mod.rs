@@ -15,16 +15,24 @@ mod terminal;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 pub use arguments::AnalyzeArguments;
 pub(super) use bearing::{bearing_names, catalogue_orders};
 pub use orders::GivenOrders;
 pub use speed::GivenSpeed;
 
-use super::{CliError, Options, Outcome, OutputFolder, emit};
+use super::report_files::ReportFiles;
+use super::results::result_head;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, emit};
 use crate::app::case::EnvelopeBand;
 use crate::app::commands::analyze::{AnalysisRow, analysis_table};
+use crate::app::commands::result::ResultHead;
 use crate::app::shell_word::shell_word;
+use crate::numerics::series::TimeWindow;
+use crate::report::Report;
+use serde::Serialize;
+use serde_json::Value;
 
 /// Result file and report belong to this word.
 const RESULT: &str = "analysis";
@@ -50,78 +58,68 @@ fn warn(texts: &[String], options: &Options) {
     }
 }
 
-/// Writes `analysis.csv`.
-fn write_table(folder: &OutputFolder, rows: &[AnalysisRow]) -> Result<PathBuf, CliError> {
-    folder.write("analysis.csv", analysis_table(rows).to_csv().as_bytes())
+/// Writes the report, its tables, `analysis.csv` and, last, `analysis.json`; gives what this says, and the files.
+fn write_results<R: Serialize>(
+    folder: &OutputFolder,
+    progress: &Progress,
+    started: Instant,
+    report: Report,
+    rows: &[AnalysisRow],
+    result: impl FnOnce(ResultHead) -> R,
+) -> Result<(Value, Vec<PathBuf>), CliError> {
+    let files = ReportFiles::without_case(folder, RESULT, report)?;
+    let table = folder.write("analysis.csv", analysis_table(rows).to_csv().as_bytes())?;
+    let result = result(result_head("analyze", progress, started.elapsed().as_secs_f64(), Some(&files.tables)));
+    let (path, json) = folder.write_json("analysis.json", &result)?;
+    progress.finish();
+    Ok((json, [vec![path, table], files.paths].concat()))
 }
 
 /// `--out`, else the run's own folder, else `out/` and the file's name; of several inputs `out/analysis`.
 fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
-    if let Some(out) = &options.out {
-        return OutputFolder::at(out);
-    }
-    match asked.inputs.as_slice() {
-        [folder] if folder.is_dir() => OutputFolder::at(folder),
-        [file] => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
-        _ => OutputFolder::at(Path::new("out/analysis")),
+    match (&options.out, asked.inputs.as_slice()) {
+        (Some(out), _) => OutputFolder::at(out),
+        (None, [folder]) if folder.is_dir() => OutputFolder::at(folder),
+        (None, [file]) => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
+        (None, _) => OutputFolder::at(Path::new("out/analysis")),
     }
 }
 
 /// The command line that analyses this again.
 fn command(asked: &AnalyzeArguments) -> String {
-    let file = |path: &Path| shell_word(&path.to_string_lossy());
-    let mut words = vec!["plummer analyze".to_owned()];
-    words.extend(asked.inputs.iter().map(|input| file(input)));
-    let mut push = |key: &str, value: String| words.push(format!("--{key} {value}"));
-    for channel in &asked.channel {
-        push("channel", shell_word(channel));
-    }
-    let mut number = |key: &str, value: Option<f64>| {
-        if let Some(value) = value {
-            push(key, value.to_string());
-        }
-    };
-    number("rate", asked.rate);
-    number("balls", asked.balls.map(f64::from));
-    number("pitch-diameter", asked.pitch_diameter);
-    number("ball-diameter", asked.ball_diameter);
-    number("contact-angle", asked.balls.map(|_| asked.contact_angle));
-    number("high-pass", asked.high_pass);
-    number("geometry-error", asked.geometry_error);
-    if let Some(path) = &asked.bearing {
-        push("bearing", file(path));
-    }
-    if let Some(given) = &asked.orders {
-        push("orders", given.to_string());
-    }
-    if let Some(speed) = &asked.speed {
-        push("speed", shell_word(&speed.text));
-    }
-    match asked.band {
-        Some(EnvelopeBand::Between([from, to])) => push("band", format!("{from}:{to}")),
-        Some(EnvelopeBand::Kurtogram) => push("band", "kurtogram".to_owned()),
-        None => {}
-    }
-    for window in &asked.window {
-        push("window", format!("{}:{}", window.from, window.to));
-    }
-    if let Some(path) = &asked.baseline {
-        words.push(format!("--baseline {}", file(path)));
-    }
-    if let Some(speed) = &asked.baseline_speed {
-        words.push(format!("--baseline-speed {}", shell_word(&speed.text)));
-    }
-    if let Some(channel) = &asked.baseline_channel {
-        words.push(format!("--baseline-channel {}", shell_word(channel)));
-    }
-    if let Some(rate) = asked.baseline_rate {
-        words.push(format!("--baseline-rate {rate}"));
-    }
-    if let Some(window) = asked.baseline_window {
-        words.push(format!("--baseline-window {}:{}", window.from, window.to));
-    }
-    if asked.whiten {
-        words.push("--whiten".to_owned());
-    }
-    words.join(" ")
+    let file = |path: &PathBuf| shell_word(&path.to_string_lossy());
+    let number = |value: Option<f64>| value.map(|value| value.to_string());
+    let speed = |speed: &Option<GivenSpeed>| speed.as_ref().map(|speed| shell_word(&speed.text));
+    let window = |window: &TimeWindow| format!("{}:{}", window.from, window.to);
+    let band = asked.band.map(|band| match band {
+        EnvelopeBand::Between([from, to]) => format!("{from}:{to}"),
+        EnvelopeBand::Kurtogram => "kurtogram".to_owned(),
+    });
+    let channels = asked.channel.iter().map(|channel| ("channel", Some(shell_word(channel))));
+    let of_input = [
+        ("rate", number(asked.rate)),
+        ("balls", number(asked.balls.map(f64::from))),
+        ("pitch-diameter", number(asked.pitch_diameter)),
+        ("ball-diameter", number(asked.ball_diameter)),
+        ("contact-angle", number(asked.balls.map(|_| asked.contact_angle))),
+        ("high-pass", number(asked.high_pass)),
+        ("geometry-error", number(asked.geometry_error)),
+        ("bearing", asked.bearing.as_ref().map(file)),
+        ("orders", asked.orders.map(|given| given.to_string())),
+        ("speed", speed(&asked.speed)),
+        ("band", band),
+    ];
+    let windows = asked.window.iter().map(|asked| ("window", Some(window(asked))));
+    let of_baseline = [
+        ("baseline", asked.baseline.as_ref().map(file)),
+        ("baseline-speed", speed(&asked.baseline_speed)),
+        ("baseline-channel", asked.baseline_channel.as_deref().map(shell_word)),
+        ("baseline-rate", number(asked.baseline_rate)),
+        ("baseline-window", asked.baseline_window.as_ref().map(window)),
+    ];
+    let options = channels.chain(of_input).chain(windows).chain(of_baseline);
+    let options = options.filter_map(|(key, value)| Some(format!("--{key} {}", value?)));
+    let whiten = asked.whiten.then(|| "--whiten".to_owned());
+    let words = std::iter::once("plummer analyze".to_owned()).chain(asked.inputs.iter().map(file));
+    words.chain(options).chain(whiten).collect::<Vec<_>>().join(" ")
 }

@@ -7,9 +7,10 @@ use crate::signal::diagnosis::FaultOrders;
 
 /// Names of the orders, in the order of [`GivenOrders`].
 const NAMES: [&str; 4] = ["outer", "inner", "ball", "cage"];
-/// The other names, each with its place and what its number is multiplied by. BSF is the spin of a ball: a flaw on it strikes both
-/// races, twice a spin.
-const OTHER_NAMES: [(&str, usize, f64); 4] = [("bpfo", 0, 1.0), ("bpfi", 1, 1.0), ("bsf", 2, 2.0), ("ftf", 3, 1.0)];
+/// The other names.
+const OTHER_NAMES: [&str; 4] = ["BPFO", "BPFI", "BSF", "FTF"];
+/// What the number of the other name is multiplied by. BSF is the spin of a ball: a flaw on it strikes both races, twice a spin.
+const FACTORS: [f64; 4] = [1.0, 1.0, 2.0, 1.0];
 
 /// How near the sum of both races' orders must be to the number of balls, relative: printed orders are rounded.
 const WHOLE: f64 = 5e-3;
@@ -33,7 +34,9 @@ impl GivenOrders {
         let mut orders = [None; 4];
         for part in text.split(',') {
             let found = part.split_once('=').and_then(|(name, order)| {
-                let (place, factor) = place(&name.trim().to_ascii_lowercase())?;
+                let place = |names: [&str; 4]| names.iter().position(|known| known.eq_ignore_ascii_case(name.trim()));
+                let own = place(NAMES).map(|place| (place, 1.0));
+                let (place, factor) = own.or_else(|| place(OTHER_NAMES).map(|place| (place, FACTORS[place])))?;
                 Some((place, factor * number(order)?))
             });
             let Some((place, order)) = found else {
@@ -42,8 +45,7 @@ impl GivenOrders {
                 ));
             };
             if orders[place].replace(order).is_some() {
-                let other = OTHER_NAMES[place].0.to_ascii_uppercase();
-                return Err(format!("{} ({other}) is there twice", NAMES[place]));
+                return Err(format!("{} ({}) is there twice", NAMES[place], OTHER_NAMES[place]));
             }
         }
         FaultOrders::new(orders, 0.0).map_err(|error| error.to_string())?;
@@ -120,21 +122,8 @@ impl fmt::Display for GivenOrders {
 /// The first two orders that differ by less than a part of the larger one.
 fn nearest(orders: &[Option<f64>; 4], part: f64) -> Option<[usize; 2]> {
     let pairs = (0..4).flat_map(|first| (first + 1..4).map(move |second| [first, second]));
-    let mut near = pairs.filter(|&[first, second]| {
-        let pair = orders[first].zip(orders[second]);
-        pair.is_some_and(|(a, b)| (a - b).abs() <= part * a.max(b))
-    });
-    near.next()
-}
-
-/// Place of a name in small letters, and what its number is multiplied by.
-fn place(name: &str) -> Option<(usize, f64)> {
-    let own = NAMES.iter().position(|known| *known == name);
-    let own = own.map(|place| (place, 1.0));
-    own.or_else(|| {
-        let mut others = OTHER_NAMES.iter();
-        let &(_, place, factor) = others.find(|(known, ..)| *known == name)?;
-        Some((place, factor))
+    pairs.into_iter().find(|&[first, second]| {
+        orders[first].zip(orders[second]).is_some_and(|(a, b)| (a - b).abs() <= part * a.max(b))
     })
 }
 

@@ -94,38 +94,35 @@ pub(super) enum Missing {
 }
 
 impl Missing {
-    fn what(&self) -> &'static str {
-        match self {
-            Self::Channel { .. } => "which channel is meant",
-            Self::Rate => "how fast it was sampled",
-            Self::Bearing => "which bearing it is",
-            Self::Speed => "how fast the shaft turns",
-        }
-    }
-
-    /// What to type.
-    fn help(&self) -> String {
-        match self {
+    /// What it is, and what to type.
+    fn what_and_help(&self) -> (&'static str, String) {
+        let (what, help) = match self {
             Self::Channel { known } => {
                 let more = if known.len() > LISTED { ", ..." } else { "" };
-                format!("--channel NAME (repeatable), of {}{more}", first_channels(known))
+                let help = format!("--channel NAME (repeatable), of {}{more}", first_channels(known));
+                return ("which channel is meant", help);
             }
-            Self::Rate => "--rate HZ, the sampling rate".to_owned(),
-            Self::Bearing => "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)".to_owned(),
-            Self::Speed => "--speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...".to_owned(),
-        }
+            Self::Rate => ("how fast it was sampled", "--rate HZ, the sampling rate"),
+            Self::Bearing => (
+                "which bearing it is",
+                "--bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)",
+            ),
+            Self::Speed => {
+                ("how fast the shaft turns", "--speed 29.95Hz or 1797rpm, or over time --speed T:SPEED,T:SPEED,...")
+            }
+        };
+        (what, help.to_owned())
     }
 }
 
 /// The error of an input of which something is missing, with what to type for each.
 pub(super) fn nothing_says(input: &Path, missing: &[Missing]) -> CliError {
-    let words: Vec<&str> = missing.iter().map(Missing::what).collect();
+    let (words, help): (Vec<&str>, Vec<String>) = missing.iter().map(Missing::what_and_help).unzip();
     let listed = match words.split_last() {
         Some((last, [])) => (*last).to_owned(),
         Some((last, others)) => format!("{} and {last}", others.join(", ")),
         None => String::new(),
     };
-    let help: Vec<String> = missing.iter().map(Missing::help).collect();
     CliError::input(format!("{}: nothing says {listed}", input.display())).with_help(help.join("\n"))
 }
 

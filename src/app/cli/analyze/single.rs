@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use super::baseline::Baseline;
+use super::baseline::{Baseline, analyse};
 use super::read::Unnamed;
 use super::source::Source;
-use super::{AnalyzeArguments, RESULT, command, warn, write_table};
-use crate::app::cli::report_files::ReportFiles;
-use crate::app::cli::results::result_head;
+use super::{AnalyzeArguments, RESULT, command, warn, write_results};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
@@ -26,7 +24,7 @@ pub(super) fn single(
     folder: &OutputFolder,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     progress.stage("read");
     let source = Source::open(asked, input, Unnamed::Only, options)?;
     let baseline = Baseline::open(asked, options)?;
@@ -37,46 +35,29 @@ pub(super) fn single(
     progress.stage("analyse");
     let mut windows = Vec::new();
     for signal in &source.signals {
-        let mut analysed = source.analyse(input, signal)?;
-        if let Some(baseline) = &baseline {
-            baseline.compare(input, &source, signal, &mut analysed)?;
-        }
-        windows.extend(analysed);
+        windows.extend(analyse(baseline.as_ref(), input, &source, signal)?);
     }
     progress.stage("write");
     let name = input.display().to_string();
     let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);
-    let files = ReportFiles::without_case(folder, RESULT, report)?;
     let rows: Vec<AnalysisRow> = windows.iter().map(|window| AnalysisRow::of(&name, window)).collect();
-    let table = write_table(folder, &rows)?;
-    let result = AnalysisResult {
-        head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
+    let defect_orders = Some(source.defect_orders(input, windows.first())?);
+    let (result, written) = write_results(folder, &progress, started, report, &rows, |head| AnalysisResult {
+        head,
         input: InputSummary {
-            defect_orders: Some(source.defect_orders(input, windows.first())?),
+            defect_orders,
             case: source.case.as_ref().map(|path| path.display().to_string()),
             input: name,
         },
         windows: windows.iter().map(WindowAnalysis::summary).collect(),
-    };
-    let (path, json) = folder.write_json("analysis.json", &result)?;
-    progress.finish();
-    Ok(Outcome {
-        summary: summary(&windows),
-        result: json,
-        written: [vec![path, table], files.paths].concat(),
-        verdict: verdict(&windows),
-    })
-}
-
-fn judged(window: &WindowAnalysis) -> bool {
-    let diagnosis = window.diagnosis.as_ref();
-    diagnosis.is_ok_and(Diagnosis::is_judged)
+    })?;
+    Ok(Outcome { summary: summary(&windows), result, written, verdict: verdict(&windows) })
 }
 
 fn verdict(windows: &[WindowAnalysis]) -> Result<(), CliError> {
-    if windows.iter().any(judged) {
+    if windows.iter().any(|window| window.diagnosis.as_ref().is_ok_and(Diagnosis::is_judged)) {
         return Ok(());
     }
     let reason = windows.iter().find_map(|window| match &window.diagnosis {
@@ -124,11 +105,8 @@ fn summary(windows: &[WindowAnalysis]) -> String {
                     significant(diagnosis.spectrum.turns, 3),
                     diagnosis.sentence()
                 ));
-                for verdict in &diagnosis.faults {
-                    if verdict.conclusion != Conclusion::NotSeen {
-                        lines.push(format!("  {}: {}", verdict.fault.name(), verdict.why));
-                    }
-                }
+                let seen = diagnosis.faults.iter().filter(|verdict| verdict.conclusion != Conclusion::NotSeen);
+                lines.extend(seen.map(|verdict| format!("  {}: {}", verdict.fault.name(), verdict.why)));
             }
         }
         lines.extend(window.change.iter().flat_map(change_lines));

@@ -8,6 +8,7 @@ use super::machine::Machine;
 use super::read::{Missing, Unnamed, nothing_says, read};
 use crate::app::case::Case;
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
+use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis};
 use crate::app::error::ComputeError;
@@ -30,7 +31,7 @@ pub(super) struct Source {
     pub(super) assumptions: Vec<String>,
     /// What was typed against the file's own words, and what is wrong with the signals.
     pub(super) doubts: Vec<String>,
-    machine: Machine,
+    pub(super) machine: Machine,
 }
 
 impl Source {
@@ -45,7 +46,8 @@ impl Source {
         options: &Options,
     ) -> Result<Self, CliError> {
         let is_run = input.is_dir();
-        let mut request = SignalRequest { channels: once(&asked.channel), rate_hz: asked.rate };
+        let mut request = SignalRequest { channels: Vec::new(), rate_hz: asked.rate };
+        extend_new(&mut request.channels, asked.channel.iter().cloned());
         let (file, case) = if is_run {
             let case = case_of_results(input, RUN, &options.set)?;
             if request.channels.is_empty() {
@@ -89,24 +91,10 @@ impl Source {
         let mut doubts = Vec::new();
         for signal in &signals {
             let typed = machine.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            for text in typed.into_iter().chain(flaws(signal, &settings.windows)) {
-                if !doubts.contains(&text) {
-                    doubts.push(text);
-                }
-            }
-            let notes = machine.motion(signal).into_iter().flat_map(|(_, notes)| notes);
-            for note in notes {
-                if !assumptions.contains(&note) {
-                    assumptions.push(note);
-                }
-            }
+            extend_new(&mut doubts, typed.into_iter().chain(flaws(signal, &settings.windows)));
+            extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         Ok(Self { signals, settings, case: case.map(|case| case.source.path), assumptions, doubts, machine })
-    }
-
-    /// Lets a speed that the file states go before one that was typed.
-    pub(super) fn prefer_own_speed(&mut self) {
-        self.machine.own_first = true;
     }
 
     /// Analyses one of the signals in every window.
@@ -115,8 +103,7 @@ impl Source {
     /// [`CliError`]: a signal of this file without a speed, where another states one; as [`compute_analysis`].
     pub(super) fn analyse(&self, input: &Path, signal: &MeasuredSignal) -> Result<Vec<WindowAnalysis>, CliError> {
         let kinematics = self.kinematics(input, signal)?;
-        let alone = std::slice::from_ref(signal);
-        Ok(compute_analysis(alone, &self.settings, &kinematics, &Unwatched)?)
+        Ok(compute_analysis(std::slice::from_ref(signal), &self.settings, &kinematics, &Unwatched)?)
     }
 
     /// Orders in a window of the first signal, as results have them.
@@ -128,16 +115,11 @@ impl Source {
         input: &Path,
         window: Option<&WindowAnalysis>,
     ) -> Result<OrdersSummary, CliError> {
-        let orders = match (self.signals.first(), window) {
-            (Some(signal), Some(window)) => {
-                let (from, to) = (window.from, window.to);
-                let kinematics = self.kinematics(input, signal)?;
-                let orders = kinematics.orders(TimeWindow { from, to });
-                Some(orders.map_err(ComputeError::from)?)
-            }
-            _ => None,
+        let Some((signal, &WindowAnalysis { from, to, .. })) = self.signals.first().zip(window) else {
+            return Ok(OrdersSummary::of(None));
         };
-        Ok(OrdersSummary::of(orders))
+        let orders = self.kinematics(input, signal)?.orders(TimeWindow { from, to });
+        Ok(OrdersSummary::of(Some(orders.map_err(ComputeError::from)?)))
     }
 
     /// How the machine of a signal of this file moves.
@@ -169,17 +151,6 @@ fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), ComputeError> {
     Ok(())
 }
 
-/// Names without those that were there before.
-fn once(names: &[String]) -> Vec<String> {
-    let mut once = Vec::new();
-    for name in names {
-        if !once.contains(name) {
-            once.push(name.clone());
-        }
-    }
-    once
-}
-
 /// Share of clipped samples that is said: fewer are a spike or two.
 const CLIPPED: f64 = 1e-3;
 /// Share of a signal that may stand still, and fewest equal samples in a row that are said.
@@ -190,9 +161,8 @@ const STILL_SAMPLES: f64 = 100.0;
 fn flaws(signal: &MeasuredSignal, windows: &[TimeWindow]) -> Vec<String> {
     let all = [signal.series.span()];
     let windows = if windows.is_empty() { &all } else { windows };
-    let parts = windows.iter();
     // a window outside the signal is named where it is analysed
-    let parts = parts.filter_map(|window| signal.series.window(window.from, window.to).ok());
+    let parts = windows.iter().filter_map(|window| signal.series.window(window.from, window.to).ok());
     parts.flat_map(|part| flaws_of(&signal.name, &part)).collect()
 }
 
@@ -224,8 +194,7 @@ fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
     if !asked.window.is_empty() {
         settings.windows = asked.window.clone();
     }
-    let typed = asked.high_pass.map(AskedBand::HighPass);
-    let typed = typed.or(asked.band.map(AskedBand::from));
+    let typed = asked.high_pass.map(AskedBand::HighPass).or(asked.band.map(AskedBand::from));
     settings.band = typed.or(settings.band);
     settings.whiten |= asked.whiten;
     settings

@@ -28,17 +28,13 @@ impl GivenSpeed {
     /// # Errors
     /// What was found and what was expected: no number, another unit, speeds with and without a unit, times that do not increase.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let parts: Vec<&str> = text.split(',').collect();
-        let points: Vec<Point> = match parts.as_slice() {
-            [one] if !one.contains(':') => vec![Point::read(None, one)?],
-            parts => parts
-                .iter()
-                .map(|part| {
-                    let (time, speed) = part.split_once(':').ok_or_else(|| format!("{EXPECTED}, found \"{part}\""))?;
-                    Point::read(Some(time), speed)
-                })
-                .collect::<Result<_, String>>()?,
+        let alone = !text.contains([',', ':']);
+        let point = |part: &str| match part.split_once(':') {
+            Some((time, speed)) => Point::read(Some(time), speed),
+            None if alone => Point::read(None, part),
+            None => Err(format!("{EXPECTED}, found \"{part}\"")),
         };
+        let points = text.split(',').map(point).collect::<Result<Vec<Point>, String>>()?;
         let unitless = points.iter().filter(|point| !point.has_unit).count();
         if unitless > 0 && unitless < points.len() {
             return Err(format!("expected a unit behind every speed or behind none, found \"{text}\""));

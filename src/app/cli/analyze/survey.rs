@@ -1,23 +1,21 @@
 //! Many files and folders, analysed into one table.
 
-use super::baseline::Baseline;
+use super::baseline::{Baseline, analyse};
 use super::failures::{Failure, failure};
 use super::read::Unnamed;
 use super::single::no_part_judged;
 use super::source::Source;
 use super::terminal;
-use super::{AnalyzeArguments, RESULT, command, warn, write_table};
-use crate::app::cli::report_files::ReportFiles;
-use crate::app::cli::results::result_head;
+use super::{AnalyzeArguments, RESULT, command, warn, write_results};
+use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
-    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput, survey_report,
-    survey_section,
+    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowOfInput, survey_report, survey_section,
 };
 use crate::report::Section;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// What is kept of an input: what the table, the result and the report have of it.
@@ -46,7 +44,7 @@ pub(super) fn survey(
     let started = std::time::Instant::now();
     let baseline = Baseline::open(asked, options)?;
     folder.claim(RESULT, options.force)?;
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     progress.stage("analyse");
     let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     progress.count(0, inputs.len());
@@ -68,11 +66,7 @@ pub(super) fn survey(
         all.sections.extend(one.sections);
         all.warnings.extend(one.warnings);
         all.failures.extend(one.failures);
-        for text in one.assumptions {
-            if !all.assumptions.contains(&text) {
-                all.assumptions.push(text);
-            }
-        }
+        extend_new(&mut all.assumptions, one.assumptions);
     }
     if all.windows.is_empty() {
         progress.finish();
@@ -83,23 +77,17 @@ pub(super) fn survey(
     all.warnings.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&all.warnings, options);
     report.warnings.extend(all.warnings);
-    let files = ReportFiles::without_case(folder, RESULT, report)?;
-    let table = write_table(folder, &all.rows)?;
-    let result = SurveyResult {
-        head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
+    let (result, written) = write_results(folder, &progress, started, report, &all.rows, |head| SurveyResult {
+        head,
         inputs: of_inputs,
         failures: all.failures.iter().map(Failure::summary).collect(),
         windows: all.windows,
+    })?;
+    let verdict = match failed {
+        0 => verdict(&all.rows),
+        failed => Err(failure(&all.failures, failed, inputs.len())),
     };
-    let error = (failed > 0).then(|| failure(&all.failures, failed, inputs.len()));
-    let (path, json) = folder.write_json("analysis.json", &result)?;
-    progress.finish();
-    Ok(Outcome {
-        summary: terminal::table(&all.rows),
-        result: json,
-        written: [vec![path, table], files.paths].concat(),
-        verdict: verdict(&all.rows, error),
-    })
+    Ok(Outcome { summary: terminal::table(&all.rows), result, written, verdict })
 }
 
 impl Analysed {
@@ -124,13 +112,7 @@ impl Analysed {
         analysed.warnings.extend(source.doubts.iter().map(named));
         let mut orders = None;
         for signal in &source.signals {
-            let compared = |mut windows: Vec<WindowAnalysis>| {
-                if let Some(baseline) = baseline {
-                    baseline.compare(input, &source, signal, &mut windows)?;
-                }
-                Ok::<_, CliError>(windows)
-            };
-            let windows = match source.analyse(input, signal).and_then(compared) {
+            let windows = match analyse(baseline, input, &source, signal) {
                 Ok(windows) => windows,
                 Err(error) => {
                     analysed.fail(&name, &signal.name, error);
@@ -166,16 +148,13 @@ impl Analysed {
     }
 }
 
-/// Good where all was analysed and a part was judged in any window.
-fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Result<(), CliError> {
-    if let Some(error) = error {
-        return Err(error);
-    }
+/// Good where a part was judged in any window.
+fn verdict(rows: &[AnalysisRow]) -> Result<(), CliError> {
     let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
-    if rows.iter().any(judged) {
-        return Ok(());
+    match rows.iter().any(judged) {
+        true => Ok(()),
+        false => Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark))),
     }
-    Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark)))
 }
 
 /// Does `work` on each item, as many at a time as there are threads to compute with, and returns what it gives in the order of the
@@ -185,22 +164,16 @@ fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Result<(), CliError
 /// would be more items in memory than threads.
 fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
-    thread::scope(|scope| {
-        for _ in 0..rayon::current_num_threads().min(items.len()) {
-            scope.spawn(|| {
-                loop {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(place) else {
-                        break;
-                    };
-                    let result = work(item);
-                    done.lock().unwrap_or_else(PoisonError::into_inner).push((place, result));
-                }
-            });
-        }
+    let in_turn = || {
+        let places = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        places.map_while(|place| Some((place, work(items.get(place)?)))).collect::<Vec<_>>()
+    };
+    let mut done = thread::scope(|scope| {
+        let threads = 0..rayon::current_num_threads().min(items.len());
+        let threads: Vec<_> = threads.map(|_| scope.spawn(in_turn)).collect();
+        let results = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        results.flatten().collect::<Vec<_>>()
     });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.sort_by_key(|(place, _)| *place);
     done.into_iter().map(|(_, result)| result).collect()
 }

@@ -24,19 +24,11 @@ pub(super) fn table(rows: &[AnalysisRow]) -> String {
         }
     }
     let line = |row: &[String; 8]| {
-        let mut line = String::new();
-        for (place, (cell, width)) in row.iter().zip(widths).enumerate() {
-            let fill = " ".repeat(width.saturating_sub(cell.chars().count()));
-            if NUMBERS.contains(&place) {
-                line.push_str(&fill);
-                line.push_str(cell);
-            } else {
-                line.push_str(cell);
-                line.push_str(&fill);
-            }
-            line.push_str(GAP);
-        }
-        line.trim_end().to_owned()
+        let cells = row.iter().zip(widths).enumerate().map(|(place, (cell, width))| match NUMBERS.contains(&place) {
+            true => format!("{cell:>width$}"),
+            false => format!("{cell:<width$}"),
+        });
+        cells.collect::<Vec<_>>().join(GAP).trim_end().to_owned()
     };
     let mut lines: Vec<String> = cells.iter().map(line).collect();
     lines.extend(rows.iter().filter_map(grown));
@@ -46,11 +38,9 @@ pub(super) fn table(rows: &[AnalysisRow]) -> String {
 /// What grew since the baseline, in a line.
 fn grown(row: &AnalysisRow) -> Option<String> {
     let change = row.found.as_ref().ok()?.change.as_ref()?;
-    (!change.grew.is_empty()).then(|| {
-        let grew = change.grew.join(", ");
-        let text = format!("{} {}: grew since {}: {grew}", row.input, row.channel, change.baseline);
-        one_line(&text)
-    })
+    let grew = change.grew.join(", ");
+    let text = format!("{} {}: grew since {}: {grew}", row.input, row.channel, change.baseline);
+    (!change.grew.is_empty()).then(|| one_line(&text))
 }
 
 fn cells(row: &AnalysisRow) -> [String; 8] {
@@ -58,10 +48,9 @@ fn cells(row: &AnalysisRow) -> [String; 8] {
     let figures = match &row.found {
         Ok(figures) => figures,
         Err(why) => {
+            let none = String::new;
             let said = format!("not analysed: {}", one_line(why));
-            let mut cells = [const { String::new() }; 8];
-            [cells[0], cells[1], cells[2]] = [input, channel, said];
-            return cells;
+            return [input, channel, said, none(), none(), none(), none(), none()];
         }
     };
     let not_enough = match (&figures.parts, figures.is_judged()) {

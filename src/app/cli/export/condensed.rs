@@ -1,9 +1,8 @@
 //! The condensed housing for finite-element and multibody programs.
 
-use super::record::WrittenFile;
 use super::{CliError, Export};
 use crate::app::case::{Case, Interface, InterfaceModes};
-use crate::app::cli::{ExportFormat, OutputFolder, Progress};
+use crate::app::cli::{ExportFormat, OutputFolder, Progress, word};
 use crate::app::commands::condense::superelement_record;
 use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
@@ -17,6 +16,7 @@ use crate::formats::{
 /// # Errors
 /// [`CliError`] that says what the case has instead.
 pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), CliError> {
+    let to = word(to);
     let tied = case.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
     let found = if case.superelement().is_some() {
         "a superelement, which is condensed already"
@@ -26,17 +26,15 @@ pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), CliError
         "a housing that nothing is attached to"
     } else if case.condense.interface_modes != InterfaceModes::None {
         return Err(CliError::input(format!(
-            "--to {} writes the displacements of an interface, by which others attach it: expected \
-             condense.interface_modes = \"none\", found modes in their place",
-            to.name()
+            "--to {to} writes the displacements of an interface, by which others attach it: expected \
+             condense.interface_modes = \"none\", found modes in their place"
         ))
         .with_help("--set 'condense.interface_modes=\"none\"'; superelement.npz of `plummer condense` has the modes"));
     } else {
         return Ok(());
     };
     Err(CliError::input(format!(
-        "--to {} writes a condensed housing: expected [housing] with a mesh, and ring.tie or condense.interface, found {found}",
-        to.name()
+        "--to {to} writes a condensed housing: expected [housing] with a mesh, and ring.tie or condense.interface, found {found}"
     ))
     .with_help("--to mtx and --to npz write matrices that are not condensed"))
 }
@@ -44,12 +42,8 @@ pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), CliError
 /// `superelement.op4`, `superelement_dofs.csv`.
 pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let record = condensed(case, progress)?;
-    let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), CliError> {
-        write_superelement_op4(&at("superelement.op4"), &record, Op4Format::Binary)?;
-        Ok(write_dofs_csv(&at("superelement_dofs.csv"), &record.labels())?)
-    };
-    write()?;
+    write_superelement_op4(&folder.path.join("superelement.op4"), &record, Op4Format::Binary)?;
+    write_dofs_csv(&folder.path.join("superelement_dofs.csv"), &record.labels())?;
     let damping = record.damping.as_ref().map(|_| "BAA");
     let structural = record.structural.as_ref().map(|_| "K4AA");
     let matrices: Vec<&str> = ["KAA", "MAA"].into_iter().chain(damping).chain(structural).collect();
@@ -57,12 +51,9 @@ pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Re
     let order = record.order();
     let of_matrices =
         format!("{matrices} [{order} x {order}] of the condensed housing, interface first, SI; binary OUTPUT4");
-    let of_rows = "which row is which coordinate: row from 0, mtx_row from 1";
+    let of_rows = "which row is which coordinate: row from 0, mtx_row from 1".to_owned();
     Ok(Export {
-        files: vec![
-            WrittenFile::new(folder.path(), "superelement.op4", &of_matrices)?,
-            WrittenFile::new(folder.path(), "superelement_dofs.csv", of_rows)?,
-        ],
+        files: vec![("superelement.op4", of_matrices), ("superelement_dofs.csv", of_rows)],
         summary: format!("{}: {matrices}", counts(&record)),
     })
 }
@@ -71,24 +62,19 @@ pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Re
 pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let record = condensed(case, progress)?;
     let reference = reference(&record.interface);
-    let path = folder.path().join("superelement.fem");
-    let written = write_mbdyn_fem(&path, &record, reference).map_err(of_mbdyn)?;
+    let written = write_mbdyn_fem(&folder.path.join("superelement.fem"), &record, reference).map_err(of_mbdyn)?;
     let joint = match (written.mass, reference) {
         (None, _) => "held by its supports: `clamped` in MBDyn's joint".to_owned(),
         (Some(mass), MbdynReference::Node { body, node }) => format!(
             "free, {mass:.6e} kg, shapes relative to {} node {node}: `origin node` in MBDyn's joint",
             body.name()
         ),
-        (Some(mass), MbdynReference::Floating) => {
-            format!("free, {mass:.6e} kg, free-free shapes")
-        }
+        (Some(mass), MbdynReference::Floating) => format!("free, {mass:.6e} kg, free-free shapes"),
     };
     let what =
         format!("{} modes at {} nodes for MBDyn's modal joint, SI; {joint}", written.frequency_hz.len(), written.nodes);
-    Ok(Export {
-        files: vec![WrittenFile::new(folder.path(), "superelement.fem", &what)?],
-        summary: format!("{}\n{what}", counts(&record)),
-    })
+    let summary = format!("{}\n{what}", counts(&record));
+    Ok(Export { files: vec![("superelement.fem", what)], summary })
 }
 
 /// What cannot be written for MBDyn: wrong input, unless the file or the eigenvalue problem failed.

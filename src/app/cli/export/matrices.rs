@@ -1,8 +1,5 @@
 //! Stiffness and mass for numerical programs.
 
-use std::path::Path;
-
-use super::record::WrittenFile;
 use super::source::Source;
 use super::{CliError, Export};
 use crate::app::case::Case;
@@ -25,37 +22,30 @@ pub(super) fn mtx(case: &Case, folder: &OutputFolder, progress: &Progress) -> Re
             case.source.path.display()
         )
     };
-    let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), CliError> {
-        write_matrix_market(&at("stiffness.mtx"), &system.stiffness, &comment(STIFFNESS))?;
-        write_matrix_market(&at("mass.mtx"), &system.mass, &comment(MASS))?;
-        Ok(write_dofs_csv(&at("dofs.csv"), &system.rows)?)
-    };
-    write()?;
+    let at = |name: &str| folder.path.join(name);
+    write_matrix_market(&at("stiffness.mtx"), &system.stiffness, &comment(STIFFNESS))?;
+    write_matrix_market(&at("mass.mtx"), &system.mass, &comment(MASS))?;
+    write_dofs_csv(&at("dofs.csv"), &system.rows)?;
     let files = [
         ("stiffness.mtx", STIFFNESS),
         ("mass.mtx", MASS),
         ("dofs.csv", "which row is which degree of freedom: row from 0, mtx_row from 1"),
     ];
-    Ok(Export { files: listed(folder.path(), &files)?, summary: summary(&system) })
+    Ok(Export { files: files.map(|(name, what)| (name, what.to_owned())).into(), summary: summary(&system) })
 }
 
 /// `stiffness.npz`, `mass.npz`, `dofs.npz` and `modes.npz`, which stays if it is the source itself.
 pub(super) fn npz(source: &Source, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
-    let system = FreeSystem::build(source.case(), progress)?;
+    let system = FreeSystem::build(&source.case, progress)?;
     let (_, shapes) = source.shapes(progress)?;
     progress.stage("write");
-    let at = |name: &str| folder.path().join(name);
-    let write = || -> Result<(), CliError> {
-        write_sparse_npz(&at("stiffness.npz"), &system.stiffness)?;
-        write_sparse_npz(&at("mass.npz"), &system.mass)?;
-        write_dofs_npz(&at("dofs.npz"), &system.rows)?;
-        if source.folder() != Some(folder.path()) {
-            write_modes_npz(&at("modes.npz"), &shapes)?;
-        }
-        Ok(())
-    };
-    write()?;
+    let at = |name: &str| folder.path.join(name);
+    write_sparse_npz(&at("stiffness.npz"), &system.stiffness)?;
+    write_sparse_npz(&at("mass.npz"), &system.mass)?;
+    write_dofs_npz(&at("dofs.npz"), &system.rows)?;
+    if source.folder.as_ref() != Some(&folder.path) {
+        write_modes_npz(&at("modes.npz"), &shapes)?;
+    }
     let files = [
         ("stiffness.npz", STIFFNESS),
         ("mass.npz", MASS),
@@ -63,14 +53,9 @@ pub(super) fn npz(source: &Source, folder: &OutputFolder, progress: &Progress) -
         ("modes.npz", "frequencies (Hz) and mode shapes at all nodes, those of the ring after those of the mesh"),
     ];
     Ok(Export {
-        files: listed(folder.path(), &files)?,
+        files: files.map(|(name, what)| (name, what.to_owned())).into(),
         summary: format!("{}, {} modes", summary(&system), shapes.count_modes()),
     })
-}
-
-fn listed(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<WrittenFile>, CliError> {
-    let file = |&(name, what): &(&str, &str)| WrittenFile::new(folder, name, what);
-    files.iter().map(file).collect()
 }
 
 fn summary(system: &FreeSystem) -> String {

@@ -11,8 +11,8 @@ mod source;
 
 use std::path::{Path, PathBuf};
 
-use super::results::{result_head, result_of_case, warnings};
-use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress};
+use super::results::{Job, warnings};
+use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, word};
 use crate::app::case::Case;
 use crate::app::scene::{doubts_of_case, mesh_digests};
 pub(super) use record::ExportSummary;
@@ -21,8 +21,8 @@ use source::Source;
 
 /// What an export wrote.
 struct Export {
-    /// Its files, in the order of writing.
-    files: Vec<WrittenFile>,
+    /// Names of its files and what they hold, in the order of writing.
+    files: Vec<(&'static str, String)>,
     /// A line for a reader.
     summary: String,
 }
@@ -33,28 +33,29 @@ struct Export {
 /// [`CliError`] when the input is wrong, an earlier file would be replaced, the computation fails or a file cannot be
 /// written.
 pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result<Outcome, CliError> {
+    let progress = Progress::new(options.shows_progress());
     let started = std::time::Instant::now();
     let source = Source::open(from, options)?;
-    let case = source.case();
+    let case = &source.case;
     if let ExportFormat::Op4 | ExportFormat::Mbdyn = to {
         condensed::can_condense(case, to)?;
     }
-    let folder = match (&options.out, source.folder()) {
-        (None, Some(folder)) => OutputFolder::at(folder),
-        _ => OutputFolder::of(case, options),
-    };
+    let mut job = Job { started, ..Job::new("export", case, options, &progress) };
+    if let (None, Some(folder)) = (&options.out, &source.folder) {
+        job.folder = OutputFolder::at(folder);
+    }
+    let folder = &job.folder;
     // what `plummer modes` left in the folder is a source, not in the way
-    let stays = |name: &&str| !(*name == "modes.npz" && source.folder() == Some(folder.path()));
+    let stays = |name: &&str| !(*name == "modes.npz" && source.folder.as_ref() == Some(&folder.path));
     let names: Vec<&str> = to.files(case).into_iter().filter(stays).collect();
     folder.claim_files(&names, options.force)?;
-    let progress = Progress::new(options.visibility());
     let exported = match to {
-        ExportFormat::Mtx => matrices::mtx(case, &folder, &progress),
-        ExportFormat::Npz => matrices::npz(&source, &folder, &progress),
-        ExportFormat::Vtu => shapes::vtu(&source, &folder, &progress),
-        ExportFormat::Uff => shapes::uff(&source, &folder, &progress),
-        ExportFormat::Op4 => condensed::op4(case, &folder, &progress),
-        ExportFormat::Mbdyn => condensed::mbdyn(case, &folder, &progress),
+        ExportFormat::Mtx => matrices::mtx(case, folder, &progress),
+        ExportFormat::Npz => matrices::npz(&source, folder, &progress),
+        ExportFormat::Vtu => shapes::vtu(&source, folder, &progress),
+        ExportFormat::Uff => shapes::uff(&source, folder, &progress),
+        ExportFormat::Op4 => condensed::op4(case, folder, &progress),
+        ExportFormat::Mbdyn => condensed::mbdyn(case, folder, &progress),
     };
     progress.finish();
     let Export { files, summary } = exported?;
@@ -62,19 +63,18 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     let lines = warnings(&doubts).chain(std::iter::once(summary));
     let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
-    let wall_s = started.elapsed().as_secs_f64();
+    let files = files.into_iter().map(|(name, what)| WrittenFile::new(&folder.path, name, what));
+    let to = word(to);
     let record = ExportSummary {
-        to: to.name(),
-        results: source.folder(),
+        results: source.folder.as_deref(),
         warnings: &doubts,
-        earlier: record::earlier(folder.path(), to.name()),
-        files,
+        files: files.collect::<Result<_, _>>()?,
+        earlier: record::earlier(&folder.path, &to),
+        to,
     };
-    let head = result_head("export", &progress, wall_s, None);
-    let record = result_of_case(head, case, &meshes, record);
+    let record = job.record(&meshes, None, record);
     // what stayed as it was is listed, not written
-    let written = names.iter().map(|name| folder.path().join(name));
-    let mut written: Vec<PathBuf> = written.collect();
+    let mut written: Vec<PathBuf> = names.iter().map(|name| folder.path.join(name)).collect();
     let (path, result) = folder.write_json("export.json", &record)?;
     written.push(path);
     Ok(Outcome { summary, result, written, verdict: Ok(()) })

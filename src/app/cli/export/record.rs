@@ -13,7 +13,7 @@ use crate::files::FileError;
 #[derive(Debug, Serialize, JsonSchema)]
 pub(in crate::app::cli) struct ExportSummary<'a> {
     /// The format.
-    pub(super) to: &'static str,
+    pub(super) to: String,
     /// Folder of the results that were exported; `None` for a case.
     pub(super) results: Option<&'a Path>,
     /// What of the model may be meant otherwise, a sentence each.
@@ -39,11 +39,11 @@ impl WrittenFile {
     /// A file that was written into a folder.
     ///
     /// # Errors
-    /// [`CliError::File`] if it is not there.
-    pub(super) fn new(folder: &Path, name: &str, what: &str) -> Result<Self, CliError> {
+    /// [`CliError`] if it is not there.
+    pub(super) fn new(folder: &Path, name: &str, what: String) -> Result<Self, CliError> {
         let path = folder.join(name);
         let found = fs::metadata(&path).map_err(FileError::write(&path))?;
-        Ok(Self { file: name.to_owned(), bytes: found.len(), what: what.to_owned() })
+        Ok(Self { file: name.to_owned(), bytes: found.len(), what })
     }
 }
 

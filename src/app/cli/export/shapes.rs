@@ -1,9 +1,8 @@
 //! Mode shapes for programs that show and compare them. The ring, which is no part of the mesh, gets a file of its own.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use super::record::WrittenFile;
 use super::source::Source;
 use super::{CliError, Export};
 use crate::app::case::Case;
@@ -24,20 +23,20 @@ pub(super) fn vtu(source: &Source, folder: &OutputFolder, progress: &Progress) -
     let mut files = Vec::new();
     if let Some((mesh, shapes)) = &bodies.housing {
         let elements = volumes(mesh);
-        let (parts, names) = part_numbers(source.case(), mesh, &elements);
+        let (parts, names) = part_numbers(&source.case, mesh, &elements);
         let part = Field { name: "part", values: FieldValues::Integers(&parts) };
         write_grid(folder, "modes.vtu", mesh, &elements, shapes, &[part])?;
         let what = format!(
             "elements of the housing, a point field a mode (displacements along the mesh's axes); cell field part: {names}"
         );
-        files.push(WrittenFile::new(folder.path(), "modes.vtu", &what)?);
+        files.push(("modes.vtu", what));
     }
     if let Some(shapes) = &bodies.ring {
         let mesh = ring_line(shapes);
         let elements: Vec<ElementId> = mesh.element_ids(1).collect();
         write_grid(folder, "ring.vtu", &mesh, &elements, shapes, &[])?;
         let what = "the ring's line, a point field a mode (displacements along the mesh's axes)";
-        files.push(WrittenFile::new(folder.path(), "ring.vtu", what)?);
+        files.push(("ring.vtu", what.to_owned()));
     }
     Ok(bodies.exported(files))
 }
@@ -46,21 +45,19 @@ pub(super) fn vtu(source: &Source, folder: &OutputFolder, progress: &Progress) -
 pub(super) fn uff(source: &Source, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
     let bodies = Bodies::of(source, progress)?;
     progress.stage("write");
-    let title = &source.case().title;
+    let title = &source.case.title;
     let mut files = Vec::new();
     if let Some((mesh, shapes)) = &bodies.housing {
         let elements = volumes(mesh);
         let own = at_used_nodes(mesh, &elements, shapes);
-        let path = folder.path().join("modes.uff");
-        write_uff(&path, title, mesh, elements, &own)?;
+        write_uff(&folder.path.join("modes.uff"), title, mesh, elements, &own)?;
         let what = "nodes, elements and mode shapes (dataset 55) of the housing, SI, labels of the mesh";
-        files.push(WrittenFile::new(folder.path(), "modes.uff", what)?);
+        files.push(("modes.uff", what.to_owned()));
     }
     if let Some(shapes) = &bodies.ring {
-        let path = folder.path().join("ring.uff");
-        write_modes_uff(&path, title, shapes)?;
+        write_modes_uff(&folder.path.join("ring.uff"), title, shapes)?;
         let what = "nodes and mode shapes (dataset 55) of the ring, SI, labels from 1";
-        files.push(WrittenFile::new(folder.path(), "ring.uff", what)?);
+        files.push(("ring.uff", what.to_owned()));
     }
     Ok(bodies.exported(files))
 }
@@ -81,7 +78,7 @@ impl Bodies {
         Ok(Self { housing, ring })
     }
 
-    fn exported(&self, files: Vec<WrittenFile>) -> Export {
+    fn exported(&self, files: Vec<(&'static str, String)>) -> Export {
         let of_ring = self.ring.as_ref();
         let shapes = self.housing.as_ref().map(|(_, shapes)| shapes).or(of_ring);
         let modes = shapes.map_or(0, ModeShapes::count_modes);
@@ -130,8 +127,7 @@ fn write_grid(
         .zip(&shapes.shapes)
         .map(|(name, shape)| Field { name, values: FieldValues::Vectors(shape) })
         .collect();
-    let path = folder.path().join(name);
-    Ok(write_vtu(&path, mesh, elements.iter().copied(), &fields, cells)?)
+    Ok(write_vtu(&folder.path.join(name), mesh, elements.iter().copied(), &fields, cells)?)
 }
 
 /// A closed line of straight elements through the ring's nodes.
@@ -140,30 +136,16 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
     let count = nodes.len();
     let tags: Vec<u64> = (1..=count as u64).collect();
     let ends = (0..count).flat_map(|node| [node, (node + 1) % count]);
-    Mesh {
-        node_tags: tags.clone(),
-        blocks: vec![ElementBlock {
-            kind: ElementKind::Line2,
-            tags,
-            connectivity: ends.collect(),
-            entity: Entity { dimension: 1, tag: 1 },
-        }],
-        nodes,
-        groups: Vec::new(),
-        format: MshFormat { version: MshVersion::V41, binary: false },
-        source: PathBuf::new(),
-    }
+    let (node_tags, entity) = (tags.clone(), Entity { dimension: 1, tag: 1 });
+    let line = ElementBlock { kind: ElementKind::Line2, tags, connectivity: ends.collect(), entity };
+    let format = MshFormat { version: MshVersion::V41, binary: false };
+    Mesh { node_tags, blocks: vec![line], nodes, groups: Vec::new(), format, source: PathBuf::new() }
 }
 
 /// Shapes at those nodes of a mesh that its elements use, with their labels.
 fn at_used_nodes(mesh: &Mesh, elements: &[ElementId], shapes: &ModeShapes) -> ModeShapes {
-    let mut used = vec![false; mesh.nodes.len()];
-    for id in elements {
-        for &node in mesh.blocks[id.block].element(id.index).unwrap_or_default() {
-            used[node] = true;
-        }
-    }
-    let nodes: Vec<usize> = (0..used.len()).filter(|&node| used[node]).collect();
+    let of_element = |id: &ElementId| mesh.blocks[id.block].element(id.index).unwrap_or_default();
+    let nodes: BTreeSet<usize> = elements.iter().flat_map(of_element).copied().collect();
     let of_nodes = |shape: &Vec<f64>| {
         let values = nodes.iter().flat_map(|&node| &shape[3 * node..3 * node + 3]);
         values.copied().collect()

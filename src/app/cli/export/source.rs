@@ -26,8 +26,9 @@ const MODES_AGAIN: &str = "run `plummer modes` again with --force, or name the c
 
 /// A case, and the folder with its results if they are to be taken from there.
 pub(super) struct Source {
-    case: Case,
-    folder: Option<PathBuf>,
+    pub(super) case: Case,
+    /// The folder with results; `None`: they are to be computed.
+    pub(super) folder: Option<PathBuf>,
 }
 
 impl Source {
@@ -40,31 +41,16 @@ impl Source {
             let case = Case::load(from, &options.set)?;
             return Ok(Self { case, folder: None });
         }
-        let folder = from.to_owned();
         if !options.set.is_empty() {
             return Err(CliError::input(format!(
                 "--set changes the case, but {} holds results of it as it was",
-                folder.display()
+                from.display()
             ))
             .with_help("name the case file to compute it again"));
         }
         let case = case_of_results(from, MODES, &[])?;
         same_meshes(&case, &from.join("modes.json"))?;
-        Ok(Self { case, folder: Some(folder) })
-    }
-
-    pub(super) fn case(&self) -> &Case {
-        &self.case
-    }
-
-    /// The folder with results; `None`: they are to be computed.
-    pub(super) fn folder(&self) -> Option<&Path> {
-        self.folder.as_deref()
-    }
-
-    /// The file with the mode shapes of earlier results.
-    pub(super) fn modes_npz(&self) -> Option<PathBuf> {
-        self.folder().map(|folder| folder.join(MODES.arrays))
+        Ok(Self { case, folder: Some(from.to_owned()) })
     }
 
     /// The mesh, if the case has one, and the mode shapes: at the mesh's nodes, then at the ring's.
@@ -72,7 +58,7 @@ impl Source {
     /// # Errors
     /// [`CliError`] of the computation, or if earlier results cannot be read or are of another mesh.
     pub(super) fn shapes(&self, progress: &Progress) -> Result<(Option<Mesh>, ModeShapes), CliError> {
-        let Some(path) = self.modes_npz() else {
+        let Some(folder) = &self.folder else {
             let (mesh, shapes) = compute_mode_shapes(&self.case, progress)?;
             shapes.check().map_err(|fault| {
                 CliError::input(format!("mode shapes: {fault}")).with_help("ask for more modes in [modes]")
@@ -80,6 +66,7 @@ impl Source {
             return Ok((mesh, shapes));
         };
         progress.stage("read");
+        let path = folder.join(MODES.arrays);
         let shapes =
             read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();

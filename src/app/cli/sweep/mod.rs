@@ -4,19 +4,20 @@ mod arguments;
 mod points;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use arguments::{Share, SweepArguments};
 
 use super::output::json;
 use super::report_files::ReportFiles;
-use super::results::{case_result, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt, write_atomic};
-use crate::app::case::{Case, CaseError};
+use super::results::{Job, warnings};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, command_line, interrupt, resuming, write_atomic};
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, ScriptsSummary, SweepResult, TaskSummary, slurm_scripts, sweep_report, write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepResult, SweptCommand, TaskSummary, slurm_scripts, sweep_report,
+    write_sweep_npz,
 };
 use crate::report::Document;
 use points::Workers;
@@ -36,14 +37,14 @@ const POINTS_KEPT: &str = "the points so far and checkpoints of the others are";
 /// # Errors
 /// [`CliError`] when the input is wrong, no point is a valid case, the sweep was interrupted or a file cannot be written.
 pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome, CliError> {
-    let progress = Progress::new(options.visibility());
+    let progress = Progress::new(options.shows_progress());
     let outcome = if let Some(share) = asked.task {
         task(&asked.from, share, options, &progress)
     } else if asked.merge {
         let folder = OutputFolder::at(&asked.from);
         let plan = read_plan(&folder)?;
         folder.claim("sweep", options.force)?;
-        merge(plan, &folder, &progress)
+        merge(plan, folder, options, &progress)
     } else {
         whole(asked, options, &progress)
     };
@@ -58,7 +59,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
     check_points(&plan, &case)?;
     let folder = OutputFolder::of(&case, options);
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     if asked.resume {
         if options.force {
             return Err(CliError::resume_anew());
@@ -66,7 +67,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
         if !changes.is_empty() {
-            return Err(changed(folder.path(), &changes).into());
+            return Err(changed(&folder.path, &changes).into());
         }
     } else {
         begin(&plan, &folder, options.force)?;
@@ -81,9 +82,10 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
     if let Some(done) = stopped {
         let what = format!("interrupted at {done} of {} points", plan.count());
-        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again(&case, asked, options)));
+        let line = sweep_line(&case, asked.vary.iter().cloned(), asked.command);
+        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &resuming(&line, options)));
     }
-    merge(plan, &folder, progress)
+    merge(plan, folder, options, progress)
 }
 
 /// One share of the points, of the sweep in a folder.
@@ -93,9 +95,9 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     let case = Case::load(&plan.case, &plan.set)?;
     let changes = plan.changes(&Plan::new(&case, plan.command, plan.axes.clone())?);
     if !changes.is_empty() {
-        return Err(changed(folder.path(), &changes).into());
+        return Err(changed(&folder.path, &changes).into());
     }
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     progress.stage("points");
     let stop = interrupt::stop_request()?;
     let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
@@ -108,14 +110,14 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
         return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again));
     }
     let result = SweepResult::collect(plan, &points)?;
-    let mut lines = Vec::new();
-    for point in result.points.iter().filter(|point| share.has(point.point.number)) {
+    let of_share = result.points.iter().filter(|point| share.has(point.point.number));
+    let lines = of_share.map(|point| {
         let message = point.record.as_ref().map_or("", |record| record.message.as_str());
         let line = format!("point {}: {} {message}", point.point.number, point.state.name());
-        lines.push(line.trim_end().to_owned());
-    }
+        line.trim_end().to_owned()
+    });
     Ok(Outcome {
-        summary: lines.join("\n"),
+        summary: lines.collect::<Vec<_>>().join("\n"),
         result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: numbers })?,
         written: vec![points],
         verdict: Ok(()),
@@ -124,27 +126,23 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
 
 /// Checks that at least one point is a valid case: a misspelled key is an error before anything is computed.
 fn check_points(plan: &Plan, case: &Case) -> Result<(), CliError> {
-    let mut first = None;
-    for point in plan.points() {
-        match plan.case_at(&point, &case.source.text) {
-            Ok(_) => return Ok(()),
-            Err(error) => {
-                first.get_or_insert((point.number, error));
-            }
-        }
+    let mut errors = plan.points().map(|point| (point.number, plan.case_at(&point, &case.source.text).err()));
+    let Some((number, Some(error))) = errors.next() else {
+        return Ok(());
+    };
+    if errors.any(|(_, error)| error.is_none()) {
+        return Ok(());
     }
-    first.map_or(Ok(()), |(number, error): (usize, CaseError)| {
-        let what = format!("no point of the sweep is a valid case; point {number}: {error}");
-        Err(ComputeError::Input { what, help: error.help() }.into())
-    })
+    let what = format!("no point of the sweep is a valid case; point {number}: {error}");
+    Err(CliError { help: error.help(), ..CliError::input(what) })
 }
 
 /// Writes the plan into an empty folder of points.
 fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError> {
-    let points = folder.path().join(POINTS);
+    let points = folder.path.join(POINTS);
     let file = points.join(PLAN);
     if file.exists() && !force {
-        return Err(in_the_way(folder.path()).into());
+        return Err(in_the_way(&folder.path).into());
     }
     folder.claim("sweep", force)?;
     if file.exists() {
@@ -157,18 +155,13 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
 }
 
 fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
-    let plan = folder.path().join(POINTS).join(PLAN);
-    let text = match fs::read(&plan) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(no_plan(folder.path(), &plan));
-        }
-        Err(error) => return Err(ComputeError::io(&plan)(error)),
-    };
-    serde_json::from_slice(&text).map_err(|error| {
-        let what = format!("{} is no plan of a sweep: {error}", plan.display());
-        ComputeError::Input { what, help: None }
-    })
+    let plan = folder.path.join(POINTS).join(PLAN);
+    let text = fs::read(&plan).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => no_plan(&folder.path, &plan),
+        _ => ComputeError::io(&plan)(error),
+    })?;
+    serde_json::from_slice(&text)
+        .map_err(|error| ComputeError::wrong(format!("{} is no plan of a sweep: {error}", plan.display())))
 }
 
 /// The error of a folder that holds a sweep already.
@@ -197,21 +190,21 @@ fn no_plan(folder: &Path, plan: &Path) -> ComputeError {
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
-fn merge(plan: Plan, folder: &OutputFolder, progress: &Progress) -> Result<Outcome, CliError> {
-    let started = std::time::Instant::now();
+fn merge(plan: Plan, folder: OutputFolder, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
     progress.stage("write");
     let case = Case::load(&plan.case, &plan.set)?;
-    let result = SweepResult::collect(plan, &folder.path().join(POINTS))?;
+    let job = Job { folder, ..Job::new("sweep", &case, options, progress) };
+    let folder = &job.folder;
+    let result = SweepResult::collect(plan, &folder.path.join(POINTS))?;
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
-    let npz = folder.path().join("sweep.npz");
+    let npz = folder.path.join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
-    let command = command_line(&result.plan);
+    let axes = result.plan.axes.iter().map(|axis| format!("{}={}", axis.key, axis.values.join(",")));
+    let command = sweep_line(&case, axes, result.plan.command);
     let document = Document::new().case(case.source.path.display().to_string());
     let report = sweep_report(&case.title, &result, &command).document(document);
     let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = case_result("sweep", &case, progress, wall_s, &files, result.summary());
-    let (path, json) = folder.write_json("sweep.json", &record)?;
+    let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -267,14 +260,15 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
-    let scripts = slurm_scripts(&program, &absolute(folder.path())?, tasks, threads);
-    let mut written: Vec<PathBuf> = Vec::new();
-    for (name, text) in
-        [("array.sbatch", &scripts.array), ("merge.sbatch", &scripts.merge), ("submit.sh", &scripts.submit)]
-    {
-        written.push(folder.write_below(&format!("{POINTS}/{name}"), text.as_bytes())?);
-    }
-    let submit = folder.path().join(POINTS).join("submit.sh");
+    let scripts = slurm_scripts(&program, &absolute(&folder.path)?, tasks, threads);
+    folder.make_below(Path::new(POINTS))?;
+    let write = |name: &str, text: &str| folder.write(&format!("{POINTS}/{name}"), text.as_bytes());
+    let written = vec![
+        write("array.sbatch", &scripts.array)?,
+        write("merge.sbatch", &scripts.merge)?,
+        write("submit.sh", &scripts.submit)?,
+    ];
+    let submit = folder.path.join(POINTS).join("submit.sh");
     Ok(Outcome {
         summary: format!(
             "{} points in {tasks} tasks; submit them by: sh {}",
@@ -287,34 +281,16 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     })
 }
 
-/// The command line of a plan.
-fn command_line(plan: &Plan) -> String {
-    let file = shell_word(&plan.case.to_string_lossy());
-    let mut words = vec![format!("plummer sweep {file}")];
-    words.extend(plan.set.iter().map(|set| format!("--set {}", shell_word(set))));
-    for axis in &plan.axes {
-        let values = format!("{}={}", axis.key, axis.values.join(","));
-        words.push(format!("--vary {}", shell_word(&values)));
+/// The command line of a sweep over these keys and values.
+fn sweep_line(case: &Case, vary: impl IntoIterator<Item = String>, command: SweptCommand) -> String {
+    let mut line = command_line("sweep", case);
+    for vary in vary {
+        line.push_str(&format!(" --vary {}", shell_word(&vary)));
     }
-    if plan.command != crate::app::studies::sweep::SweptCommand::default() {
-        words.push(format!("--command {}", plan.command.name()));
+    if command != SweptCommand::default() {
+        line.push_str(&format!(" --command {}", command.name()));
     }
-    words.join(" ")
-}
-
-/// The command line that goes on with a sweep.
-fn again(case: &Case, asked: &SweepArguments, options: &Options) -> String {
-    let mut line = options.command_line("sweep", case);
-    for vary in &asked.vary {
-        line.push_str(&format!(" --vary {}", shell_word(vary)));
-    }
-    if asked.command != crate::app::studies::sweep::SweptCommand::default() {
-        line.push_str(&format!(" --command {}", asked.command.name()));
-    }
-    if let Some(out) = &options.out {
-        line.push_str(&format!(" --out {}", shell_word(&out.to_string_lossy())));
-    }
-    line + " --resume"
+    line
 }
 
 #[cfg(test)]

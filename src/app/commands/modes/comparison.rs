@@ -3,7 +3,7 @@
 use crate::app::case::{Case, ComparedModes};
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModalSurvey, ModePair, ModeSet};
+use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModalError, ModalSurvey, ModePair, ModeSet};
 use crate::fe::model::HousingModel;
 use crate::formats::{ModeShapes, read_mode_shapes};
 use crate::numerics::linalg::DenseMatrix;
@@ -156,7 +156,7 @@ impl<'c> ComparedFile<'c> {
     /// Compares with what was computed.
     ///
     /// # Errors
-    /// [`ComputeError::PointsUnknown`], [`ComputeError::Compared`] for points that do not meet the model's.
+    /// [`ComputeError::Input`] for points that do not meet the model's.
     pub(crate) fn compare(
         &self,
         survey: &ModalSurvey,
@@ -166,7 +166,12 @@ impl<'c> ComparedFile<'c> {
         let covered = [check.above_hz.unwrap_or(0.0), check.below_hz];
         let own = &Side { set: survey.mode_set(housing), covers_hz: covered };
         let there = placed(&asked.file, &self.modes, housing.map(|(mesh, _)| mesh))?;
-        let compared = |source| ComputeError::Compared { file: asked.file.clone(), source: Box::new(source) };
+        let compared = |source: ModalError| ComputeError::Input {
+            what: format!("{}: {source}", asked.file.display()),
+            help: matches!(source, ModalError::TooFewPoints { .. }).then(|| {
+                "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned()
+            }),
+        };
         let mut options = ComparisonOptions::default();
         // what passes must be paired
         options.least_mac = options.least_mac.min(asked.mac);
@@ -276,9 +281,10 @@ impl Judge<'_> {
 /// Modes of a file at points: its own, or those of the nodes of `mesh` that it names.
 ///
 /// # Errors
-/// [`ComputeError::PointsUnknown`] if neither gives their places.
+/// [`ComputeError::Input`] if neither gives their places.
 fn placed(file: &Path, modes: &ModeShapes, mesh: Option<&Mesh>) -> Result<ModeSet, ComputeError> {
-    let unknown = |found| ComputeError::PointsUnknown { file: file.to_owned(), found };
+    let unknown =
+        |found: &str| ComputeError::wrong(format!("{}: expected mode shapes at points, found {found}", file.display()));
     // index in the file of each point, and where it is
     let (rows, points): (Vec<usize>, Vec<[f64; 3]>) = match (&modes.points, &modes.node_tags, mesh) {
         (Some(points), ..) => (0..points.len()).zip(points.iter().copied()).unzip(),

@@ -58,7 +58,10 @@ impl MeshSequence {
             // also false for a size that is no number
             let same = (found - own).abs() <= SAME_BODY * own;
             if !same {
-                return Err(at(index, path, ComputeError::OtherBody { own, found }));
+                let what = format!(
+                    "expected a mesh of the same body, of area or volume {own:.4e} (m^2, m^3), found {found:.4e}"
+                );
+                return Err(at(index, path, ComputeError::wrong(what)));
             }
             levels.push(other);
         }

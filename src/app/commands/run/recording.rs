@@ -59,11 +59,11 @@ impl Recording for RunRecord {
 
 impl Recording for ColumnFiles {
     fn sensors(&self) -> Vec<String> {
-        self.sensors().to_vec()
+        self.sensors.clone()
     }
 
     fn balls(&self) -> usize {
-        self.balls()
+        self.balls
     }
 
     fn rows(&self) -> usize {

@@ -103,7 +103,7 @@ impl RingBody {
     /// ed., section 16).
     ///
     /// # Errors
-    /// [`ComputeError::Material`].
+    /// [`ComputeError::Input`].
     pub(crate) fn material_in(&self, plane: Option<PlaneModel>) -> Result<Material, ComputeError> {
         let Some(plane) = plane else {
             return Ok(self.material);
@@ -118,7 +118,7 @@ impl RingBody {
         };
         let part = self.ring.width / plane.thickness;
         Material::new(part * young, poisson, part * density)
-            .map_err(|source| ComputeError::Material { name: "the solid ring's".to_owned(), source })
+            .map_err(|source| ComputeError::wrong(format!("materials.the solid ring's: {source}")))
     }
 }
 

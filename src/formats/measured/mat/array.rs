@@ -51,15 +51,6 @@ impl Array {
     pub(super) fn scope_and_name(&self) -> (&str, &str) {
         self.path.rsplit_once('.').unwrap_or(("", &self.path))
     }
-
-    /// Signals in it.
-    pub(super) fn signals(&self) -> usize {
-        match self.shape {
-            Shape::Scalar(_) => 0,
-            Shape::Vector(_) => 1,
-            Shape::Matrix { rows, columns } => rows.min(columns),
-        }
-    }
 }
 
 /// Looks for arrays.
@@ -75,13 +66,8 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The arrays of a variable.
-    pub(super) fn variable(&mut self, part: Range<usize>) -> Result<(), Fault> {
-        self.array(part, None, 0)
-    }
-
     /// An array: a variable, or a field of this path. Cells, text, objects, functions and sparse arrays are passed over.
-    fn array(&mut self, part: Range<usize>, field: Option<String>, depth: usize) -> Result<(), Fault> {
+    pub(super) fn array(&mut self, part: Range<usize>, field: Option<String>, depth: usize) -> Result<(), Fault> {
         let mut parts = Elements::new(self.whole, part, self.order);
         // an empty field has nothing at all
         if parts.is_empty() {
@@ -91,17 +77,14 @@ impl Search<'_> {
         let flags = parts.take("flags of an array")?;
         let flags = &self.whole[flags.data];
         if flags.len() < 8 {
-            let found = format!("{} bytes", flags.len());
-            return Err(fault(at, "8 bytes of flags of an array", found));
+            return Err(fault(at, "8 bytes of flags of an array", format_args!("{} bytes", flags.len())));
         }
         let flags = self.order.u32(flags);
         let class = flags & 0xff;
         match class {
             2 | 6..=15 => {}
             1 | 3..=5 | 16 | 17 => return Ok(()),
-            _ => {
-                return Err(fault(at, "a class of arrays from 1 to 17", class));
-            }
+            _ => return Err(fault(at, "a class of arrays from 1 to 17", class)),
         }
         let at = parts.place();
         let sizes = parts.take("sizes of an array")?;
@@ -135,8 +118,7 @@ impl Search<'_> {
     fn structs(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, depth: usize) -> Result<(), Fault> {
         let at = parts.place();
         if depth == DEEPEST {
-            let expected = format!("structs in structs, up to {DEEPEST} deep");
-            return Err(fault(at, expected, "a deeper one"));
+            return Err(fault(at, format!("structs in structs, up to {DEEPEST} deep"), "a deeper one"));
         }
         let length = parts.take("the length of field names")?;
         let length = self.order.u32(&self.whole[length.data]) as usize;
@@ -145,20 +127,16 @@ impl Search<'_> {
         if names.is_empty() {
             return Ok(());
         }
-        let usual = (1..=LONGEST_FIELD).contains(&length);
-        if !usual || !names.len().is_multiple_of(length) {
+        if !(1..=LONGEST_FIELD).contains(&length) || !names.len().is_multiple_of(length) {
             let expected = format!("field names of 1 to {LONGEST_FIELD} bytes each");
-            let found = format!("{} bytes of names of {length}", names.len());
-            return Err(fault(at, expected, found));
+            return Err(fault(at, expected, format_args!("{} bytes of names of {length}", names.len())));
         }
         let fields = names.len() / length;
-        let count = product(sizes);
         // a field takes a tag at least
         let room = parts.left() / 8 / fields;
-        let Some(count) = count.filter(|&count| count <= room) else {
-            let found = format!("{fields} fields in {} bytes", parts.left());
-            return Err(fault(at, format!("structs of sizes {sizes:?}"), found));
-        };
+        let count = product(sizes).filter(|&count| count <= room).ok_or_else(|| {
+            fault(at, format!("structs of sizes {sizes:?}"), format_args!("{fields} fields in {} bytes", parts.left()))
+        })?;
         for number in 1..=count {
             let one = match count {
                 1 => path.to_owned(),
@@ -168,8 +146,7 @@ impl Search<'_> {
                 let at = parts.place();
                 let element = parts.take("a field of a struct")?;
                 if element.kind != MATRIX {
-                    let found = format!("an element of type {}", element.kind);
-                    return Err(fault(at, "a field of a struct", found));
+                    return Err(fault(at, "a field of a struct", format_args!("an element of type {}", element.kind)));
                 }
                 // names are looked at only for fields that have something
                 if element.data.is_empty() {
@@ -188,23 +165,16 @@ impl Search<'_> {
     fn numbers(&mut self, mut parts: Elements<'_>, sizes: &[usize], path: &str, complex: bool) -> Result<(), Fault> {
         let at = parts.place();
         let element = parts.take("numbers")?;
-        let Some(numbers) = number_type(element.kind) else {
-            let found = format!("an element of type {}", element.kind);
-            return Err(fault(at, "numbers", found));
-        };
-        let bytes = element.data.len();
-        let count = product(sizes).filter(|count| count.checked_mul(numbers.width()) == Some(bytes));
-        let Some(count) = count else {
-            let expected = format!("{} bytes each for sizes {sizes:?}", numbers.width());
-            return Err(fault(at, expected, format!("{bytes} bytes")));
-        };
+        let numbers = number_type(element.kind)
+            .ok_or_else(|| fault(at, "numbers", format_args!("an element of type {}", element.kind)))?;
+        let (bytes, width) = (element.data.len(), numbers.width());
+        let count = product(sizes).filter(|count| count.checked_mul(width) == Some(bytes)).ok_or_else(|| {
+            fault(at, format!("{width} bytes each for sizes {sizes:?}"), format_args!("{bytes} bytes"))
+        })?;
         let mut long = sizes.iter().copied().filter(|&size| size != 1);
         let shape = match (long.next(), long.next(), long.next()) {
             _ if count == 0 => return Ok(()),
-            (None, ..) => {
-                let bytes = &self.whole[element.data.clone()];
-                Shape::Scalar(numbers.value(bytes, self.order))
-            }
+            (None, ..) => Shape::Scalar(numbers.value(&self.whole[element.data.clone()], self.order)),
             (Some(length), None, _) => Shape::Vector(length),
             (Some(rows), Some(columns), None) => Shape::Matrix { rows, columns },
             // no more than a table is
@@ -212,13 +182,13 @@ impl Search<'_> {
         };
         let array =
             Array { path: path.to_owned(), variable: self.variable, shape, complex, numbers, data: element.data };
-        if matches!(shape, Shape::Scalar(_)) && !says_something(&array) {
-            return Ok(());
-        }
-        *self.count += array.signals().max(1);
+        *self.count += match shape {
+            Shape::Scalar(_) if !says_something(&array) => return Ok(()),
+            Shape::Scalar(_) | Shape::Vector(_) => 1,
+            Shape::Matrix { rows, columns } => rows.min(columns),
+        };
         if *self.count > MOST {
-            let expected = format!("at most {MOST} signals");
-            return Err(fault(at, expected, "more"));
+            return Err(fault(at, format!("at most {MOST} signals"), "more"));
         }
         self.found.push(array);
         Ok(())

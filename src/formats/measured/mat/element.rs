@@ -24,10 +24,7 @@ pub(super) fn fault(at: usize, expected: impl Into<Cow<'static, str>>, found: im
 /// The same, of an array; the innermost one stays.
 pub(super) fn of_array(fault: Fault, array: &str) -> Fault {
     match &fault.place {
-        Place::At(place) => {
-            let place = format!("array \"{array}\", {place}");
-            fault.within(place)
-        }
+        Place::At(place) => Fault { place: Place::In(format!("array \"{array}\", {place}")), ..fault },
         _ => fault,
     }
 }
@@ -83,8 +80,7 @@ impl<'a> Elements<'a> {
         if small != 0 {
             let size = small as usize;
             if size > SMALL {
-                let found = format!("{size} bytes in four");
-                return Err(fault(at, expected, found));
+                return Err(fault(at, expected, format_args!("{size} bytes in four")));
             }
             self.at += TAG;
             let start = at + TAG - SMALL;
@@ -93,16 +89,14 @@ impl<'a> Elements<'a> {
         let size = self.order.u32(&tag[SMALL..]) as usize;
         let start = at + TAG;
         if size > left - TAG {
-            let found = format!("{size} bytes, of which {} are there", left - TAG);
-            return Err(fault(at, expected, found));
+            return Err(fault(at, expected, format_args!("{size} bytes, of which {} are there", left - TAG)));
         }
-        let end = start + size;
         // elements that hold others are as long as they say; the last one may lack its padding
         let padded = match word {
             MATRIX | COMPRESSED => size,
             _ => size.next_multiple_of(TAG).min(left - TAG),
         };
         self.at = start + padded;
-        Ok(Element { kind: word, data: start..end })
+        Ok(Element { kind: word, data: start..start + size })
     }
 }

@@ -16,13 +16,12 @@ const HDF5_PLACES: [usize; 2] = [0, 512];
 pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, MeasuredError> {
     let version = |found: &str| {
         let (path, name) = (path.display(), path.file_stem().unwrap_or_default().to_string_lossy());
-        MeasuredError::Refused {
-            message: format!("{path}: expected a MATLAB file of version 5 to 7, found version {found}"),
-            help: Some(format!(
-                "write it again as version 7: in MATLAB m = load('{name}.mat'); save('{name}-v7.mat', '-struct', 'm', '-v7'), \
-                 or in Python scipy.io.savemat('{name}-v7.mat', {{'x': x}})"
-            )),
-        }
+        let help = format!(
+            "write it again as version 7: in MATLAB m = load('{name}.mat'); save('{name}-v7.mat', '-struct', 'm', '-v7'), \
+             or in Python scipy.io.savemat('{name}-v7.mat', {{'x': x}})"
+        );
+        let message = format!("{path}: expected a MATLAB file of version 5 to 7, found version {found}");
+        MeasuredError::refused_with(message, &help)
     };
     let hdf5 = |&place: &usize| bytes.get(place..).is_some_and(|at| at.starts_with(HDF5));
     if HDF5_PLACES.iter().any(hdf5) || bytes.starts_with(b"MATLAB 7.3") {
@@ -40,8 +39,7 @@ pub(super) fn byte_order(bytes: &[u8], path: &Path) -> Result<ByteOrder, Measure
                 None => format!("a file of {} bytes", bytes.len()),
             };
             let fault = Fault::new("the head of a MATLAB file, which ends in IM or MI", found);
-            let place = format!("byte {}", HEAD - 2);
-            return Err(fault.within(place).of(path).into());
+            return Err(fault.within(format!("byte {}", HEAD - 2)).of(path).into());
         }
     };
     match number {

@@ -9,8 +9,9 @@ use super::super::clock::Clock;
 use super::super::{MeasuredError, MeasuredSignal, SignalRequest};
 use super::array::{Array, Search, Shape};
 use super::beside::{Taken, is_time, speed_hz, taken};
+use super::element::{COMPRESSED, Element};
 use super::header::byte_order;
-use super::variable::{Variable, variables};
+use super::variable::{open, variables};
 use crate::files::{self, Fault, bytes_of};
 use crate::formats::bytes::ByteOrder;
 
@@ -19,24 +20,18 @@ struct MatFile<'a> {
     bytes: &'a [u8],
     path: &'a Path,
     order: ByteOrder,
-    variables: Vec<Variable>,
+    variables: Vec<Element>,
     arrays: Vec<Array>,
 }
 
 /// A signal: an array, or a column or row of it.
 #[derive(Debug, Clone, Copy)]
-struct Place {
-    array: usize,
+struct Place<'a> {
+    array: &'a Array,
     /// First of its numbers in the array, the step between them, how many.
     start: usize,
     step: usize,
     count: usize,
-}
-
-impl Place {
-    fn numbers(self) -> (usize, usize, usize) {
-        (self.start, self.step, self.count)
-    }
 }
 
 /// The variable that was unpacked last.
@@ -56,9 +51,7 @@ pub fn signals_from_mat(
     path: &Path,
     request: &SignalRequest,
 ) -> Result<Vec<MeasuredSignal>, MeasuredError> {
-    let channels = channels(bytes, path, request)?;
-    let made = channels.into_iter().map(|channel| channel.signal(path, request));
-    made.collect()
+    channels(bytes, path, request)?.into_iter().map(|channel| channel.signal(path, request)).collect()
 }
 
 /// Reads the wanted channels.
@@ -70,7 +63,7 @@ fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Ch
     let mut found = Vec::new();
     for chosen in choose(path, &names, request)? {
         let place = places[chosen];
-        let array = &file.arrays[place.array];
+        let array = place.array;
         if array.complex {
             return Err(MeasuredError::array(path, &names[chosen], "a signal of real numbers", "complex numbers"));
         }
@@ -79,7 +72,8 @@ fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Ch
             // signals beside each other have one time
             (Taken::Times(times, ..), Some((path, clock))) if *path == times.path => Rc::clone(clock),
             (Taken::Times(times, unit, stated), _) => {
-                let mut times = file.values(&mut opened, times, (0, 1, place.count))?;
+                let instants = Place { array: times, start: 0, step: 1, count: place.count };
+                let mut times = file.values(&mut opened, instants)?;
                 times.iter_mut().for_each(|time| *time *= unit);
                 let own = Clock::Times { times, first_row: 0 };
                 own.agrees(path, stated)?;
@@ -94,7 +88,7 @@ fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Ch
         found.push(Channel {
             name: names[chosen].clone(),
             unit: String::new(),
-            values: file.values(&mut opened, array, place.numbers())?,
+            values: file.values(&mut opened, place)?,
             clock: own,
             speed_hz: speed_hz(&file.arrays, array),
         });
@@ -109,9 +103,9 @@ impl<'a> MatFile<'a> {
         let variables = variables(bytes, order).map_err(|fault| wrong(path, None, fault))?;
         let (mut arrays, mut count) = (Vec::new(), 0);
         for (variable, own) in variables.iter().enumerate() {
-            let searched = own.open(bytes, order).and_then(|(whole, part)| {
+            let searched = open(own, bytes, order).and_then(|(whole, part)| {
                 let mut search = Search { whole: &whole, order, variable, found: &mut arrays, count: &mut count };
-                search.variable(part)
+                search.array(part, None, 0)
             });
             searched.map_err(|fault| wrong(path, Some(own), fault))?;
         }
@@ -119,16 +113,16 @@ impl<'a> MatFile<'a> {
     }
 
     /// Names and places of all signals. Those of a table run along its longer side: `x(:,1)` is a column, `x(1,:)` a row.
-    fn signals(&self) -> (Vec<String>, Vec<Place>) {
+    fn signals(&self) -> (Vec<String>, Vec<Place<'_>>) {
         let (mut names, mut places) = (Vec::new(), Vec::new());
-        for (array, own) in self.arrays.iter().enumerate() {
+        for array in &self.arrays {
             let mut add = |name: String, start: usize, step: usize, count: usize| {
                 names.push(name);
                 places.push(Place { array, start, step, count });
             };
-            let path = &own.path;
-            match own.shape {
-                Shape::Vector(count) if is_time(own).is_none() => add(path.clone(), 0, 1, count),
+            let path = &array.path;
+            match array.shape {
+                Shape::Vector(count) if is_time(array).is_none() => add(path.clone(), 0, 1, count),
                 Shape::Scalar(_) | Shape::Vector(_) => {}
                 Shape::Matrix { rows, columns } if columns > rows => {
                     for row in 0..rows {
@@ -145,26 +139,21 @@ impl<'a> MatFile<'a> {
         (names, places)
     }
 
-    /// Numbers of an array: from `start` on, in steps, so many.
-    fn values(
-        &self,
-        opened: &mut Opened<'a>,
-        array: &Array,
-        (start, step, count): (usize, usize, usize),
-    ) -> Result<Vec<f64>, MeasuredError> {
+    /// The numbers of a signal.
+    fn values(&self, opened: &mut Opened<'a>, place: Place<'_>) -> Result<Vec<f64>, MeasuredError> {
+        let Place { array, start, step, count } = place;
         let variable = &self.variables[array.variable];
         if opened.as_ref().is_none_or(|(last, _)| *last != array.variable) {
             // what was unpacked before is let go first
             *opened = None;
-            let open = variable.open(self.bytes, self.order);
-            let (whole, _) = open.map_err(|fault| wrong(self.path, Some(variable), fault))?;
+            let (whole, _) =
+                open(variable, self.bytes, self.order).map_err(|fault| wrong(self.path, Some(variable), fault))?;
             *opened = Some((array.variable, whole));
         }
         let whole = opened.as_ref().map_or(&[][..], |(_, whole)| whole);
         let width = array.numbers.width();
         let bytes = whole.get(array.data.clone()).unwrap_or_default();
-        let numbers = bytes.chunks_exact(width).skip(start);
-        let numbers = numbers.step_by(step).take(count);
+        let numbers = bytes.chunks_exact(width).skip(start).step_by(step).take(count);
         let mut values = Vec::with_capacity(count);
         values.extend(numbers.map(|bytes| array.numbers.value(bytes, self.order)));
         Ok(values)
@@ -172,9 +161,9 @@ impl<'a> MatFile<'a> {
 }
 
 /// A fault of a variable or of the file, with its place.
-fn wrong(path: &Path, variable: Option<&Variable>, fault: Fault) -> MeasuredError {
-    let packed = variable.and_then(Variable::packed_at);
-    let packed = packed.map(|packed| format!(" of what byte {packed} packs")).unwrap_or_default();
+fn wrong(path: &Path, variable: Option<&Element>, fault: Fault) -> MeasuredError {
+    let packed = variable.filter(|variable| variable.kind == COMPRESSED);
+    let packed = packed.map(|packed| format!(" of what byte {} packs", packed.data.start)).unwrap_or_default();
     let place = match &fault.place {
         files::Place::At(place) | files::Place::In(place) => format!("{place}{packed}"),
         files::Place::Whole | files::Place::Line(_) => packed,

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use flate2::read::ZlibDecoder;
 
-use super::element::{COMPRESSED, Elements, MATRIX, fault};
+use super::element::{COMPRESSED, Element, Elements, MATRIX, fault};
 use super::header::HEAD;
 use crate::files::Fault;
 use crate::formats::bytes::ByteOrder;
@@ -18,60 +18,44 @@ const PACKING: usize = 1032;
 /// Bytes of the tag before what was packed.
 const TAG: usize = 8;
 
-/// Where a variable is in the file.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Variable {
-    data: Range<usize>,
-    packed: bool,
-}
-
-/// All variables, none of them unpacked.
-pub(super) fn variables(file: &[u8], order: ByteOrder) -> Result<Vec<Variable>, Fault> {
+/// All variables, none of them unpacked: [`MATRIX`] or [`COMPRESSED`].
+pub(super) fn variables(file: &[u8], order: ByteOrder) -> Result<Vec<Element>, Fault> {
     let mut elements = Elements::new(file, HEAD..file.len(), order);
     let mut found = Vec::new();
     while !elements.is_empty() {
         let at = elements.place();
         let element = elements.take("a variable")?;
-        let packed = match element.kind {
-            MATRIX => false,
-            COMPRESSED => true,
-            other => {
-                let found = format!("an element of type {other}");
-                return Err(fault(at, "a variable", found));
-            }
-        };
-        found.push(Variable { data: element.data, packed });
+        if !matches!(element.kind, MATRIX | COMPRESSED) {
+            return Err(fault(at, "a variable", format_args!("an element of type {}", element.kind)));
+        }
+        found.push(element);
     }
     Ok(found)
 }
 
-impl Variable {
-    /// First byte in the file, if it is packed.
-    pub(super) fn packed_at(&self) -> Option<usize> {
-        self.packed.then_some(self.data.start)
+/// The bytes that a variable lies in, and where: all of the file, or what was unpacked.
+pub(super) fn open<'a>(
+    variable: &Element,
+    file: &'a [u8],
+    order: ByteOrder,
+) -> Result<(Cow<'a, [u8]>, Range<usize>), Fault> {
+    if variable.kind == MATRIX {
+        return Ok((Cow::Borrowed(file), variable.data.clone()));
     }
-
-    /// The bytes that the variable lies in, and where: all of the file, or what was unpacked.
-    pub(super) fn open<'a>(&self, file: &'a [u8], order: ByteOrder) -> Result<(Cow<'a, [u8]>, Range<usize>), Fault> {
-        if !self.packed {
-            return Ok((Cow::Borrowed(file), self.data.clone()));
-        }
-        let packed = file.get(self.data.clone()).unwrap_or_default();
-        let bytes = unpack(packed, order)?;
-        let all = 0..bytes.len();
-        Ok((Cow::Owned(bytes), all))
-    }
+    let bytes = unpack(file.get(variable.data.clone()).unwrap_or_default(), order)?;
+    let all = 0..bytes.len();
+    Ok((Cow::Owned(bytes), all))
 }
 
 /// What was packed, without its tag. Neither the size in the tag nor the length of the stream is believed alone.
 fn unpack(packed: &[u8], order: ByteOrder) -> Result<Vec<u8>, Fault> {
-    let damaged = |error: io::Error| fault(0, "a compressed variable", error.to_string());
+    let wrong = |found: String| fault(0, "a compressed variable", found);
+    let damaged = |error: io::Error| wrong(error.to_string());
     let mut from = ZlibDecoder::new(packed);
     let mut tag = [0; TAG];
     from.read_exact(&mut tag).map_err(damaged)?;
     if order.u32(&tag) != MATRIX {
-        let found = format!("an element of type {}", order.u32(&tag));
-        return Err(fault(0, "a compressed variable", found));
+        return Err(wrong(format!("an element of type {}", order.u32(&tag))));
     }
     let size = order.u32(&tag[4..]) as usize;
     if size > LARGEST || size / PACKING > packed.len() {
@@ -83,13 +67,11 @@ fn unpack(packed: &[u8], order: ByteOrder) -> Result<Vec<u8>, Fault> {
     let part = from.by_ref().take(size as u64).read_to_end(&mut bytes);
     part.map_err(damaged)?;
     if bytes.len() < size {
-        let found = format!("{size} bytes, of which {} are there", bytes.len());
-        return Err(fault(0, "a compressed variable", found));
+        return Err(wrong(format!("{size} bytes, of which {} are there", bytes.len())));
     }
     // reading on to the end also compares the checksum
     if from.read(&mut tag).map_err(damaged)? > 0 {
-        let found = "more than its size".to_owned();
-        return Err(fault(size, "the end of a compressed variable", found));
+        return Err(fault(size, "the end of a compressed variable", "more than its size"));
     }
     Ok(bytes)
 }

@@ -72,17 +72,12 @@ pub fn write_mbdyn_fem(
     };
     if let (Some(_), MbdynReference::Node { body, node }) = (&inertia, reference) {
         let mut free = all;
-        let held = |&row: &usize| {
-            let label = record.interface.get(row);
-            label.is_some_and(|label| (label.body, label.node) == (body, node))
-        };
-        free.retain(|row| !held(row));
+        let held = |row: usize| record.interface.get(row).is_some_and(|label| (label.body, label.node) == (body, node));
+        free.retain(|&row| !held(row));
         let found = record.order() - free.len();
-        if found != 6 {
-            let body = body.name();
-            let expected = format!("six coordinates of the interface at {body} node {node}, which is to be held");
-            return Err(Fault::new(expected, found).into());
-        }
+        let body = body.name();
+        let expected = format!("six coordinates of the interface at {body} node {node}, which is to be held");
+        Fault::unless(found == 6, expected, found)?;
         let found;
         (modes, found) = eigenmodes(record, &free)?;
         if found != 0 {
@@ -90,21 +85,12 @@ pub fn write_mbdyn_fem(
         }
     }
     let (eigenvalues, vectors) = modes;
-    if eigenvalues.is_empty() {
-        return Err(Fault::new("at least one mode that is not rigid", "none").into());
-    }
+    Fault::unless(!eigenvalues.is_empty(), "at least one mode that is not rigid", "none")?;
     let nodes = nodes(record);
-    if nodes.is_empty() {
-        let expected = "a node with a known position and three displacements, in the interface or in the field";
-        return Err(Fault::new(expected, "none").into());
-    }
-    let body = Body {
-        damping: record.damping.as_ref().map(|damping| vectors.transpose() * damping * &vectors),
-        eigenvalues,
-        vectors,
-        nodes,
-        inertia,
-    };
+    let expected = "a node with a known position and three displacements, in the interface or in the field";
+    Fault::unless(!nodes.is_empty(), expected, "none")?;
+    let damping = record.damping.as_ref().map(|damping| vectors.transpose() * damping * &vectors);
+    let body = Body { nodes, eigenvalues, vectors, damping, inertia };
     write(path, &body)?;
     let hertz = |value: &f64| value.sqrt() / std::f64::consts::TAU;
     Ok(MbdynSummary {
@@ -134,10 +120,7 @@ fn eigenmodes(record: &SuperelementRecord, free: &[usize]) -> Result<(Modes, usi
         .collect();
     let diagonal = |matrix: &DenseMatrix| -> Vec<f64> {
         let product = matrix * &spectrum.vectors;
-        let sum = |&mode: &usize| {
-            let rows = (0..free.len()).map(|row| (row, mode));
-            rows.map(|place| spectrum.vectors[place] * product[place]).sum()
-        };
+        let sum = |&mode: &usize| (0..free.len()).map(|row| spectrum.vectors[(row, mode)] * product[(row, mode)]).sum();
         kept.iter().map(sum).collect()
     };
     let (stiffness, mass) = (diagonal(&stiffness), diagonal(&mass));

@@ -23,9 +23,7 @@ const RIGHT_ANGLE: f64 = 1e-6;
 
 /// Nodes of the interface whose displacements are all known, then those of the field.
 pub(super) fn nodes(record: &SuperelementRecord) -> Vec<Node> {
-    let mut seen = HashSet::new();
-    let mut nodes = Vec::new();
-    let mut housing = HashSet::new();
+    let (mut nodes, mut seen, mut housing) = (Vec::new(), HashSet::new(), HashSet::new());
     for label in &record.interface {
         if !seen.insert((label.body, label.node)) {
             continue;
@@ -37,22 +35,13 @@ pub(super) fn nodes(record: &SuperelementRecord) -> Vec<Node> {
             nodes.push(node);
         }
     }
-    let Some(field) = &record.field else {
-        return nodes;
-    };
-    for (place, (&tag, &position)) in field.node_tags.iter().zip(&field.positions).enumerate() {
-        if housing.contains(&tag) {
-            continue;
+    if let Some(field) = &record.field {
+        let of_field = field.node_tags.iter().zip(&field.positions).enumerate();
+        for (place, (tag, &position)) in of_field.filter(|(_, (tag, _))| !housing.contains(tag)) {
+            let row = |axis: usize| field.recovery.row(3 * place + axis).iter().copied().enumerate().collect();
+            let motions = [row(0), row(1), row(2), Vec::new(), Vec::new(), Vec::new()];
+            nodes.push(Node { name: tag.to_string(), position, motions });
         }
-        let row = |axis: usize| {
-            let values = field.recovery.row(3 * place + axis);
-            values.iter().copied().enumerate().collect::<Motion>()
-        };
-        nodes.push(Node {
-            name: tag.to_string(),
-            position,
-            motions: [row(0), row(1), row(2), Vec::new(), Vec::new(), Vec::new()],
-        });
     }
     nodes
 }
@@ -94,10 +83,6 @@ fn interface_node(record: &SuperelementRecord, of: &DofLabel) -> Option<Node> {
 
 fn at_right_angles(axes: &[[f64; 3]]) -> bool {
     let product = |a: &[f64; 3], b: &[f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    (0..axes.len()).all(|i| {
-        (0..=i).all(|j| {
-            let expected = if i == j { 1.0 } else { 0.0 };
-            (product(&axes[i], &axes[j]) - expected).abs() <= RIGHT_ANGLE
-        })
-    })
+    let mut pairs = (0..axes.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    pairs.all(|(i, j)| (product(&axes[i], &axes[j]) - if i == j { 1.0 } else { 0.0 }).abs() <= RIGHT_ANGLE)
 }

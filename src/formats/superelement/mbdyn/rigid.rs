@@ -16,14 +16,7 @@ pub(super) struct Inertia {
     pub(super) moments: [[f64; 3]; 3],
 }
 
-const MOTIONS: [&str; 6] = [
-    "displacement along x",
-    "displacement along y",
-    "displacement along z",
-    "rotation about x",
-    "rotation about y",
-    "rotation about z",
-];
+const MOTIONS: [&str; 2] = ["displacement along", "rotation about"];
 
 /// Forces of a rigid motion, against the largest sum of their parts, are below this where labels belong to the matrices:
 /// positions in single precision leave 1e-7.
@@ -52,8 +45,7 @@ pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, FormatErro
 fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, FormatError> {
     let mut motions = DenseMatrix::zeros(record.order(), 6);
     for (coordinate, label) in record.interface.iter().enumerate() {
-        let known = label.position.iter().chain(&label.axis);
-        let known = known.into_iter().all(|part| part.is_finite());
+        let known = label.position.iter().chain(&label.axis).all(|part| part.is_finite());
         let ([x, y, z], [a, b, c]) = (label.position, label.axis);
         let row = match label.direction {
             // axis . (t + w x p) = axis . t + (p x axis) . w
@@ -77,7 +69,7 @@ fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, FormatError
 
 fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<(), Fault> {
     let forces = &record.stiffness * motions;
-    for (motion, name) in MOTIONS.into_iter().enumerate() {
+    for motion in 0..6 {
         let (mut largest, mut sums) = (0.0_f64, 0.0_f64);
         for row in 0..record.order() {
             let parts =
@@ -90,7 +82,8 @@ fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<()
                 "{:e} of the stiffness's magnitude: positions or axes of the interface do not belong to the matrices",
                 largest / sums
             );
-            return Err(Fault::new(format!("no forces in {name} of a free body"), found));
+            let (kind, axis) = (MOTIONS[motion / 3], ["x", "y", "z"][motion % 3]);
+            return Err(Fault::new(format!("no forces in {kind} {axis} of a free body"), found));
         }
     }
     Ok(())

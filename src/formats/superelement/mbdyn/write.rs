@@ -35,9 +35,7 @@ pub(super) fn write(path: &Path, body: &Body) -> Result<(), FileError> {
         writeln!(to, "**")?;
         for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
             head(to, 5 + axis, &format!("NODAL {name} COORDINATES"))?;
-            for node in &body.nodes {
-                line(to, &[node.position[axis]])?;
-            }
+            body.nodes.iter().try_for_each(|node| line(to, &[node.position[axis]]))?;
             writeln!(to, "**")?;
         }
         shapes(to, body)?;
@@ -52,9 +50,7 @@ pub(super) fn write(path: &Path, body: &Body) -> Result<(), FileError> {
             head(to, 12, "GLOBAL INERTIA PROPERTIES")?;
             line(to, &[inertia.mass])?;
             line(to, &inertia.centre)?;
-            for row in &inertia.moments {
-                line(to, row)?;
-            }
+            inertia.moments.iter().try_for_each(|row| line(to, row))?;
             writeln!(to, "**")?;
         }
         if let Some(damping) = &body.damping {

@@ -3,7 +3,6 @@
 use super::*;
 use crate::app::case::Source;
 use crate::app::commands::modes::{ModesResult, compute_modes};
-use crate::fe::modal::ModalError;
 use crate::numerics::Unwatched;
 use std::path::Path;
 
@@ -230,8 +229,7 @@ fn points_are_known_by_place_or_by_label() {
         modes.points.iter_mut().flatten().flatten().for_each(|x| *x *= 1e3);
     };
     let error = against(&result, far).expect_err("refused");
-    assert!(matches!(&error, ComputeError::Compared { source, .. }
-        if matches!(**source, ModalError::TooFewPoints { matched: 0, .. })));
+    assert!(error.to_string().starts_with("bench.csv: only 0 points of the two sets of modes coincide"), "{error}");
     assert!(error.is_input() && error.help().is_some());
 }
 
