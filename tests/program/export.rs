@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
-use nalgebra_sparse::io::load_coo_from_matrix_market_file;
+use sprs::TriMat;
+use sprs::io::read_matrix_market;
 use plummer::files::FileDigest;
 use plummer::formats::{
     Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz, write_superelement_npz,
@@ -78,7 +79,9 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 fn mtx(path: &Path) -> DMatrix<f64> {
-    DMatrix::from(&load_coo_from_matrix_market_file::<f64, _>(path).unwrap())
+    let matrix: TriMat<f64> = read_matrix_market(path).unwrap();
+    let dense = matrix.to_csr::<usize>().to_dense();
+    DMatrix::from_fn(dense.nrows(), dense.ncols(), |row, column| dense[(row, column)])
 }
 
 /// An array of an archive by the reader `npyz`.

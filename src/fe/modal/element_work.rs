@@ -23,7 +23,7 @@ pub(super) fn sum_over_elements(
     [rows, columns]: [usize; 2],
     add: impl Fn(&ElementWork, usize, &HousingElement, &mut DenseMatrix) + Sync,
 ) -> Result<DenseMatrix, ModelError> {
-    let chunks = model.elements.as_slice().par_chunks(CHUNK).enumerate();
+    let chunks = model.elements.list.par_chunks(CHUNK).enumerate();
     let sums: Vec<Result<DenseMatrix, ModelError>> = chunks
         .map(|(chunk, elements)| {
             let mut sum = DenseMatrix::zeros(rows, columns);

@@ -175,9 +175,9 @@ impl EnergyShares {
             let own = ring.strain_products(&shapes.subcols(mode, 1).to_owned());
             strain.ring = Some(own.beams[(0, 0)]);
             kinetic.ring = Some(shapes.col(mode).transpose() * heavy.col(mode));
-            strain.springs.extend(!ring.springs.is_empty().then(|| own.springs[(0, 0)]));
+            strain.springs.extend((!ring.springs.is_empty()).then(|| own.springs[(0, 0)]));
         }
-        self.springs.extend(!ring.springs.is_empty().then(|| RING_SPRINGS.to_owned()));
+        self.springs.extend((!ring.springs.is_empty()).then(|| RING_SPRINGS.to_owned()));
         Ok(())
     }
 }

@@ -217,7 +217,7 @@ impl Points {
 
     /// Modes of a body of continuum elements at the nodes.
     pub(crate) fn of_body(&self, modes: &FullModes, model: &HousingModel) -> ModeSet {
-        let (moved, dimension) = (modes.motions().housing(model, &modes.over_all_rows()), model.dimension());
+        let (moved, dimension) = (modes.motions.housing(model, &modes.over_all_rows()), model.dimension());
         let shapes = DenseMatrix::from_fn(3 * self.nodes.len(), moved.ncols(), |row, mode| match row % 3 < dimension {
             true => moved[(dimension * self.nodes[row / 3] + row % 3, mode)],
             false => 0.0,
