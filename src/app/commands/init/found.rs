@@ -16,9 +16,10 @@ use crate::fe::mesh::{Mesh, MeshError};
 use crate::numerics::units::LengthUnit;
 
 /// What is asked for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct DraftRequest<'a> {
     /// The mesh file.
+    #[serde(skip)]
     pub mesh: &'a Path,
     /// How the case file names it.
     pub mesh_in_case: &'a str,
@@ -52,6 +53,7 @@ pub struct FoundCylinder {
 }
 
 /// Everything that the text is written from; lengths in m.
+#[derive(Serialize)]
 pub(crate) struct Found<'a> {
     pub(crate) request: DraftRequest<'a>,
     pub(crate) plane: bool,

@@ -1,6 +1,7 @@
 //! What the groups of a mesh are for, by dimension and name.
 
 use crate::fe::mesh::{Mesh, PhysicalGroup};
+use serde::Serialize;
 
 /// Parts of names of what is held.
 const SUPPORTS: [&str; 11] =
@@ -28,7 +29,7 @@ fn says(name: &str, words: &[&str]) -> bool {
 }
 
 /// A part with its material.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct PartGuess {
     /// Name of the group.
     pub group: String,
@@ -39,7 +40,7 @@ pub(crate) struct PartGuess {
 }
 
 /// A group that is left to the user.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Other {
     /// Name of the group.
     pub group: String,
@@ -50,7 +51,7 @@ pub(crate) struct Other {
 }
 
 /// What the groups are for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub(crate) struct Groups {
     /// Parts of the housing that share no element.
     pub parts: Vec<PartGuess>,
