@@ -215,12 +215,13 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
         });
         // a line that the speed smears over Hz is not looked for
         let shown = !result.scene.outer_race_is_sound() && window.smeared_above.is_none();
-        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().filter(|_| shown)) {
-            lines.push(match found {
+        for (harmonic, line) in (1..).zip(window.outer.iter().filter(|_| shown)) {
+            let expected = line.expected_hz;
+            lines.push(match line.found_hz.zip(line.amplitude) {
                 Some((hz, amplitude)) => format!(
                     "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {} {}",
                     100.0 * (hz / expected - 1.0),
-                    significant(*amplitude, 3),
+                    significant(amplitude, 3),
                     window.spectrum.unit
                 ),
                 None => format!("  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"),

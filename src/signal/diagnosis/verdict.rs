@@ -160,7 +160,7 @@ pub struct CageLines {
 }
 
 impl FaultVerdict {
-    pub(super) fn new(fault: Fault, expected_order: f64, side_spacing: Option<f64>) -> Self {
+    pub(crate) fn new(fault: Fault, expected_order: f64, side_spacing: Option<f64>) -> Self {
         Self {
             fault,
             conclusion: Conclusion::NotEnough,

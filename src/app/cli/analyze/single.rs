@@ -13,7 +13,7 @@ use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
 use crate::report::significant;
-use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
+use crate::signal::diagnosis::{ChangeConclusion, Conclusion, change_words};
 
 /// Analyses an input into a folder.
 ///
@@ -49,16 +49,18 @@ pub(super) fn single(
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);
     let files = ReportFiles::without_case(folder, RESULT, report)?;
-    let rows: Vec<AnalysisRow> = windows.iter().map(|window| AnalysisRow::of(&name, window)).collect();
+    let orders = source.defect_orders(input, windows.first())?;
+    let rows: Vec<AnalysisRow> = windows.into_iter().map(|window| AnalysisRow::of(&name, window)).collect();
+    let windows: Vec<&WindowAnalysis> = rows.iter().filter_map(|row| row.found.as_ref().ok()).collect();
     let table = write_table(folder, &rows)?;
     let result = AnalysisResult {
         head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
         input: InputSummary {
-            defect_orders: Some(source.defect_orders(input, windows.first())?),
+            defect_orders: Some(orders),
             case: source.case.as_ref().map(|path| path.display().to_string()),
             input: name,
         },
-        windows: windows.iter().map(WindowAnalysis::summary).collect(),
+        windows: windows.clone(),
     };
     let (path, json) = folder.write_json("analysis.json", &result)?;
     progress.finish();
@@ -70,13 +72,8 @@ pub(super) fn single(
     })
 }
 
-fn judged(window: &WindowAnalysis) -> bool {
-    let diagnosis = window.diagnosis.as_ref();
-    diagnosis.is_ok_and(Diagnosis::is_judged)
-}
-
-fn verdict(windows: &[WindowAnalysis]) -> Result<(), CliError> {
-    if windows.iter().any(judged) {
+fn verdict(windows: &[&WindowAnalysis]) -> Result<(), CliError> {
+    if windows.iter().any(|window| window.is_judged()) {
         return Ok(());
     }
     let reason = windows.iter().find_map(|window| match &window.diagnosis {
@@ -110,7 +107,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
     lines
 }
 
-fn summary(windows: &[WindowAnalysis]) -> String {
+fn summary(windows: &[&WindowAnalysis]) -> String {
     let mut lines = Vec::new();
     for window in windows {
         let place =

@@ -27,7 +27,6 @@ struct Analysed {
     input: Option<InputSummary>,
     assumptions: Vec<String>,
     rows: Vec<AnalysisRow>,
-    windows: Vec<WindowOfInput>,
     sections: Vec<Section>,
     warnings: Vec<String>,
     failures: Vec<Failure>,
@@ -64,7 +63,6 @@ pub(super) fn survey(
         failed += usize::from(!one.failures.is_empty());
         of_inputs.extend(one.input);
         all.rows.extend(one.rows);
-        all.windows.extend(one.windows);
         all.sections.extend(one.sections);
         all.warnings.extend(one.warnings);
         all.failures.extend(one.failures);
@@ -74,7 +72,7 @@ pub(super) fn survey(
             }
         }
     }
-    if all.windows.is_empty() {
+    if all.rows.iter().all(|row| row.found.is_err()) {
         progress.finish();
         return Err(failure(&all.failures, failed, inputs.len()));
     }
@@ -89,7 +87,7 @@ pub(super) fn survey(
         head: result_head("analyze", &progress, started.elapsed().as_secs_f64(), Some(&files.tables)),
         inputs: of_inputs,
         failures: all.failures.iter().map(Failure::summary).collect(),
-        windows: all.windows,
+        windows: all.rows.iter().filter_map(window_of_input).collect(),
     };
     let error = (failed > 0).then(|| failure(&all.failures, failed, inputs.len()));
     let (path, json) = folder.write_json("analysis.json", &result)?;
@@ -137,18 +135,17 @@ impl Analysed {
                     continue;
                 }
             };
-            for window in &windows {
-                analysed.rows.push(AnalysisRow::of(&name, window));
+            if orders.is_none() {
+                orders = source.defect_orders(input, windows.first()).ok();
+            }
+            for window in windows {
                 for text in window.change.iter().flat_map(|change| &change.warnings) {
                     analysed.warnings.push(format!("{name}: {text}"));
                 }
-                analysed.windows.push(WindowOfInput { input: name.clone(), window: window.summary() });
                 if shown.fetch_add(1, Ordering::Relaxed) < SHOWN_WINDOWS {
-                    analysed.sections.push(survey_section(&name, window));
+                    analysed.sections.push(survey_section(&name, &window));
                 }
-            }
-            if orders.is_none() {
-                orders = source.defect_orders(input, windows.first()).ok();
+                analysed.rows.push(AnalysisRow::of(&name, window));
             }
         }
         analysed.input = Some(InputSummary {
@@ -161,8 +158,9 @@ impl Analysed {
     }
 
     fn fail(&mut self, input: &str, channel: &str, error: CliError) {
-        self.rows.push(AnalysisRow::failed(input, channel, error.to_string()));
-        self.failures.push(Failure { input: input.to_owned(), channel: channel.to_owned(), error });
+        let (input, channel) = (input.to_owned(), channel.to_owned());
+        self.rows.push(AnalysisRow { input: input.clone(), channel: channel.clone(), found: Err(error.to_string()) });
+        self.failures.push(Failure { input, channel, error });
     }
 }
 
@@ -171,11 +169,17 @@ fn verdict(rows: &[AnalysisRow], error: Option<CliError>) -> Result<(), CliError
     if let Some(error) = error {
         return Err(error);
     }
-    let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
+    let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(WindowAnalysis::is_judged);
     if rows.iter().any(judged) {
         return Ok(());
     }
-    Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark)))
+    let reason = rows.first().map_or_else(|| "no windows".to_owned(), AnalysisRow::remark);
+    Err(no_part_judged(&reason))
+}
+
+fn window_of_input(row: &AnalysisRow) -> Option<WindowOfInput<'_>> {
+    let window = row.found.as_ref().ok()?;
+    Some(WindowOfInput { input: &row.input, window })
 }
 
 /// Does `work` on each item, as many at a time as there are threads to compute with, and returns what it gives in the order of the

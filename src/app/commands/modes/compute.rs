@@ -126,7 +126,7 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Com
     if let Some(sequence) = sequence {
         result.doubts.extend(sequence.doubts());
         let housing = result.mesh_and_model();
-        result.convergence = mesh_convergence(case, &sequence, &result.survey, housing, watch)?;
+        result.convergence = mesh_convergence(case, sequence, &result.survey, housing, watch)?;
     }
     Ok(result)
 }

@@ -7,7 +7,7 @@ use super::simulation::RunEnd;
 use crate::app::case::Case;
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::survey_report::{counts, verdicts};
-use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
+use crate::app::commands::analyze::{AnalysisRow, OuterRaceLine, SHOWN_WINDOWS};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::commands::parts::drawing::draw;
 use crate::app::commands::parts::statics_report::statics_section;
@@ -31,10 +31,10 @@ pub(crate) fn run_report<R: Recording>(
 ) -> Result<Report, ComputeError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
-    let windows = result.windows.iter();
+    let few = result.windows.len() <= SHOWN_WINDOWS;
     let name = case.source.path.display().to_string();
-    let rows: Vec<AnalysisRow> = windows.map(|window| AnalysisRow::of(&name, window)).collect();
-    let few = rows.len() <= SHOWN_WINDOWS;
+    let of_many = result.windows.iter().filter(|_| !few);
+    let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
     report = match few {
         true => verdict_headlines(report, &result.windows),
         false => counts(report, &rows),
@@ -91,8 +91,8 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
     // a window in which the speed smears no line over Hz
     let mut windows = result.windows.iter();
     if let Some(window) = windows.find(|window| window.smeared_above.is_none()) {
-        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
-            if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
+        for (harmonic, &OuterRaceLine { expected_hz: expected, found_hz, .. }) in (1..).zip(&window.outer) {
+            if let (Some(hz), false) = (found_hz, result.scene.outer_race_is_sound()) {
                 report = report.headline(
                     format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
                     format!("{} Hz", significant(hz, 4)),
