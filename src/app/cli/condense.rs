@@ -5,8 +5,7 @@ use super::results::{case_result, warnings};
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::condense::{
-    Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
-    superelement_record,
+    Comparison, CondenseResult, Coordinates, compute_condense, condense_report, imported_report,
 };
 use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
@@ -41,10 +40,8 @@ pub(crate) fn condense(
     let report = condense_report(case, &result, &command);
     let files = ReportFiles::write(&folder, "condense", case, report, progress)?;
     let element = folder.path().join("superelement.npz");
-    let record = match &result.interface {
-        Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
-        None => superelement_record(case, &result.stage)?,
-    };
+    let reduction = result.interface.as_ref().map(|interface| &interface.reduction);
+    let record = Coordinates { stage: &result.stage, reduction }.record(case)?;
     write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
     let wall_s = started.elapsed().as_secs_f64();
     let record = case_result("condense", case, progress, wall_s, &files, result.summary());

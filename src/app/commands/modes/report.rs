@@ -152,7 +152,7 @@ fn frequencies(result: &ModesResult) -> Section {
     let Some(loaded) = &result.base.loaded else {
         return section;
     };
-    let table = mode_table(&result.base.unloaded_hz, Some(loaded));
+    let table = mode_table(&result.base.unloaded_hz, loaded);
     section.table(condensation(&result.base).into_iter().fold(table, Table::footnote))
 }
 

@@ -146,7 +146,7 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     if !expected.is_empty() {
         section = section.table(expected_table(&expected));
     }
-    section.table(mode_table(&unloaded, Some(&result.loaded)))
+    section.table(mode_table(&unloaded, &result.loaded))
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {

@@ -78,20 +78,6 @@ impl Simulation {
         Self::kept_from_rest(scene, model, span, false, &mut InMemory, fraction)
     }
 
-    /// Steps a system of a model through `span` from a state.
-    ///
-    /// # Errors
-    /// As [`from_rest`](Self::from_rest).
-    pub(crate) fn from_state(
-        system: CoupledSystem,
-        state: State,
-        model: &RunModel,
-        span: Span,
-        fraction: impl Fn(f64),
-    ) -> Result<Self, ComputeError> {
-        Self::kept(system, state, model, span, false, &mut InMemory, fraction)
-    }
-
     /// A sensor's acceleration as a series, m/s^2.
     ///
     /// # Errors
@@ -126,8 +112,8 @@ impl<R: Recording> Simulation<R> {
         Self::kept(system, state, model, span, energy, checkpoints, fraction)
     }
 
-    /// The same from any state.
-    fn kept(
+    /// The same of a system of a model from any state.
+    pub(crate) fn kept(
         mut system: CoupledSystem,
         state: State,
         model: &RunModel,

@@ -1,7 +1,7 @@
 //! The signals of one run, ready to be compared, or why there are none.
 
 use super::Settings;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::numerics::ode::State;
@@ -145,7 +145,7 @@ pub(super) fn simulate(
     model: &RunModel,
     span: Span,
 ) -> Result<Simulation, Failure> {
-    let simulation = Simulation::from_state(system, state, model, span, |_| ())?;
+    let simulation = Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ())?;
     match simulation.end {
         RunEnd::Complete => Ok(simulation),
         RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),

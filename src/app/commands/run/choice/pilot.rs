@@ -10,7 +10,7 @@ use super::model_choice::Measured;
 use super::quantities::fastest_change;
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::bearing::Race;
@@ -235,7 +235,7 @@ fn stretch(scene: &Scene, model: &RunModel, span: Span, begin: f64, band_hz: f64
     let rest = rest.map_err(|error| error.to_string())?;
     let system = scene.system(model).map_err(|error| error.to_string())?;
     let state = system.state_at(begin, &rest, &scene.stage.modes);
-    let run = Simulation::from_state(system, state, model, span, |_| ());
+    let run = Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ());
     let run = run.map_err(|error| error.to_string())?;
     if let RunEnd::BlewUp(error) = &run.end {
         return Err(error.to_string());
