@@ -2,8 +2,7 @@
 
 use super::loaded_errors::LoadedErrors;
 use super::model_choice::ChosenPart;
-use super::quantities::{ball_frequency, hertz};
-use crate::app::scene::Scene;
+use super::quantities::{RunTask, ball_hz};
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation};
 
@@ -30,15 +29,13 @@ pub(crate) fn needed(error: Option<f64>) -> (BallsInertia, ChosenPart) {
 /// As `given`, or balls with inertia unless all of them stay pressed onto both races and vibrate there far above the band: a motion of
 /// frequency f then loses `(f / f_ball)^2`, and the mass that ring and shaft lack shifts their phase more and more.
 pub(crate) fn chosen(
+    RunTask { scene, band_hz, target, .. }: RunTask<'_>,
     given: Option<BallsInertia>,
-    scene: &Scene,
-    band_hz: f64,
-    target: f64,
     loaded: &LoadedErrors,
 ) -> (BallsInertia, ChosenPart) {
     let balls = scene.equilibrium.balls.iter();
     let pressed = balls.clone().all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    let slowest = balls.map(|ball| hertz(ball_frequency(scene, ball.inner, ball.outer))).fold(f64::INFINITY, f64::min);
+    let slowest = balls.map(|ball| ball_hz(scene, ball.inner, ball.outer)).fold(f64::INFINITY, f64::min);
     let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls()));
     let setup = &scene.setup;
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();

@@ -16,7 +16,7 @@
 //! under an impact, and it counts [`ADDS_UP`] times.
 
 use super::loaded_errors::LoadedErrors;
-use super::quantities::{IMPACT, ball_frequency, hertz, judged, participations, radial_forces};
+use super::quantities::{IMPACT, ball_hz, judged, participations, radial_forces};
 use crate::app::scene::Scene;
 use crate::system::ModeDamping;
 use std::f64::consts::TAU;
@@ -154,7 +154,7 @@ fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.
 pub(crate) fn undamped_ball_hz(scene: &Scene) -> Option<f64> {
     let force = IMPACT * largest_force(scene);
-    (scene.setup.contact_damping <= 0.0).then(|| hertz(ball_frequency(scene, force, force)))
+    (scene.setup.contact_damping <= 0.0).then(|| ball_hz(scene, force, force))
 }
 
 fn largest_force(scene: &Scene) -> f64 {

@@ -7,7 +7,7 @@
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
 use super::model_choice::Measured;
-use super::quantities::fastest_change;
+use super::quantities::{RunTask, fastest_change};
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
 use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
@@ -60,11 +60,9 @@ pub(crate) const SAFETY: f64 = 1.5;
 /// # Errors
 /// Why a stretch says nothing.
 pub(crate) fn measured(
-    asked: &case::Transient,
+    RunTask { scene, asked, band_hz, .. }: RunTask<'_>,
     model: &RunModel,
     finer: RunModel,
-    scene: &Scene,
-    band_hz: f64,
     strikes: bool,
 ) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
@@ -138,13 +136,8 @@ pub(crate) fn stretch_s(asked: &case::Transient, band_hz: f64) -> f64 {
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn finer(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    target: f64,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<Option<RunModel>, ComputeError> {
+pub(crate) fn finer(task: RunTask<'_>, model: &RunModel) -> Result<Option<RunModel>, ComputeError> {
+    let scene = task.scene;
     if scene.setup.formulation == Formulation::Printed {
         return Ok(None);
     }
@@ -152,7 +145,7 @@ pub(crate) fn finer(
         (Method::ExponentialAdams { tolerance: Some(tolerance) }, _) => (stepping::adams(FINER * tolerance), true),
         (Method::Exponential, _) => (Method::Exponential, true),
         (_, ModeSelection::All) => (Method::Exponential, false),
-        _ => (stepping::adams(FINER * stepping::tolerance(target)), false),
+        _ => (stepping::adams(FINER * stepping::tolerance(task.target)), false),
     };
     let count = scene.stage.modes.count();
     let mut finer = RunModel {
@@ -166,7 +159,7 @@ pub(crate) fn finer(
     };
     // what of the steps the tolerance does not govern follows the added modes
     if !(as_the_model && method == Method::Exponential) {
-        let (step, _) = stepping::own_step(asked, &finer, scene, heaviest)?;
+        let (step, _) = stepping::own_step(task, &finer)?;
         finer.step = if as_the_model { step.min(model.step) } else { step };
     }
     finer.step *= SHORTER;
@@ -299,8 +292,9 @@ mod tests {
         let choice = ModelChoice::of_case(run, &scene).unwrap();
         let model = RunModel { method: Method::ExponentialAdams { tolerance: Some(tolerance) }, ..choice.model };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
-        let finer = finer(asked, &model, &scene, 1e-2, None).unwrap();
-        let measured = measured(asked, &model, finer.unwrap(), &scene, 40e3, true);
+        let task = RunTask { scene: &scene, asked, band_hz: 40e3, target: 1e-2, heaviest: None };
+        let finer = finer(task, &model).unwrap();
+        let measured = measured(task, &model, finer.unwrap(), true);
         (measured.unwrap().error, begin)
     }
 

@@ -17,6 +17,19 @@ pub(crate) const USUAL_BAND: f64 = 40e3;
 /// Sensors at most that the estimates of modes look at: each costs some milliseconds.
 pub(crate) const JUDGED_SENSORS: usize = 64;
 
+/// A run that a model is chosen for: the scene, and what is asked of it.
+#[derive(Clone, Copy)]
+pub(crate) struct RunTask<'a> {
+    pub scene: &'a Scene,
+    pub asked: &'a case::Transient,
+    /// Top of the band, Hz.
+    pub band_hz: f64,
+    /// `accuracy.target`.
+    pub target: f64,
+    /// The instant (s) of the heaviest load and the equilibrium under it; `None` where nothing is heavier than at the start.
+    pub heaviest: Option<&'a (f64, Equilibrium)>,
+}
+
 /// The sensors that the estimates of modes look at: all, or every so many of them.
 pub(crate) fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
     let sensors = scene.stage.structure.sensors();
@@ -24,17 +37,12 @@ pub(crate) fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
     sensors.iter().step_by(apart)
 }
 
-/// Angular frequency of a ball with these forces between its contacts, rad/s.
-pub(crate) fn ball_frequency(scene: &Scene, inner: f64, outer: f64) -> f64 {
+/// Frequency of a ball with these forces between its contacts, Hz.
+pub(crate) fn ball_hz(scene: &Scene, inner: f64, outer: f64) -> f64 {
     let stiffness = &scene.setup.stiffness;
     let tangent = |stiffness: f64, force: f64| 1.5 * stiffness.cbrt().powi(2) * force.cbrt();
     let sum = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
-    (sum / scene.setup.geometry.ball_mass()).sqrt()
-}
-
-/// Hz.
-pub(crate) fn hertz(angular: f64) -> f64 {
-    angular / TAU
+    (sum / scene.setup.geometry.ball_mass()).sqrt() / TAU
 }
 
 pub(crate) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Method and step: what a step jumps over, such as a defect under a ball, no control of its error can see.
 
 use super::model_choice::ChosenPart;
-use super::quantities::IMPACT;
+use super::quantities::{IMPACT, RunTask};
 use crate::app::case::{self, StepLength};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
@@ -64,7 +64,7 @@ pub(crate) fn adams(tolerance: f64) -> Method {
 
 /// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
 /// no limit there.
-pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> (Method, ChosenPart) {
+pub(crate) fn method(RunTask { asked, target, .. }: RunTask<'_>, model: &RunModel) -> (Method, ChosenPart) {
     let by_steps = asked.step == StepLength::Auto;
     let adams = |given: Option<f64>| Method::ExponentialAdams {
         tolerance: given.or_else(|| by_steps.then(|| tolerance(target))),
@@ -89,14 +89,12 @@ pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> 
         }
         (true, _) => "one evaluation a step, the linear part and the balls' contacts as springs exactly, order and steps by the error of each".to_owned(),
     };
+    let with = |tolerance: f64| format!("{}, tolerance {}", method.name(), significant(tolerance, 2));
     let (text, estimated_error) = match method {
-        Method::ExponentialAdams { tolerance: Some(tolerance) } => (
-            format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
-            Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(ADAMS_ORDER)),
-        ),
-        Method::Dop853 { tolerance, .. } => {
-            (format!("{}, tolerance {}", method.name(), significant(tolerance, 2)), None)
+        Method::ExponentialAdams { tolerance: Some(tolerance) } => {
+            (with(tolerance), Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(ADAMS_ORDER)))
         }
+        Method::Dop853 { tolerance, .. } => (with(tolerance), None),
         _ => (method.name().to_owned(), None),
     };
     let part = ChosenPart { what: "method", chosen: text, why, estimated_error };
@@ -107,15 +105,11 @@ pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> 
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene, [`ComputeError::Transient`] for a step that no run takes.
-pub(crate) fn step(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, ChosenPart), ComputeError> {
+pub(crate) fn step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, ChosenPart), ComputeError> {
+    let asked = task.asked;
     let (step, why) = match asked.step {
         StepLength::Auto => {
-            let (step, why) = own_step(asked, model, scene, heaviest)?;
+            let (step, why) = own_step(task, model)?;
             (step, why.to_owned())
         }
         StepLength::Seconds(given) => {
@@ -143,12 +137,8 @@ pub(crate) fn step(
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn own_step(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, &'static str), ComputeError> {
+pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'static str), ComputeError> {
+    let RunTask { scene, asked, heaviest, .. } = task;
     let system = scene.system(model)?;
     let interval = 1.0 / asked.output_hz;
     let highest = system.highest_squared_frequency().sqrt();
@@ -195,12 +185,9 @@ pub(crate) fn own_step(
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn stable_below(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-) -> Result<Option<f64>, ComputeError> {
-    if asked.step == StepLength::Auto {
+pub(crate) fn stable_below(task: RunTask<'_>, model: &RunModel) -> Result<Option<f64>, ComputeError> {
+    let scene = task.scene;
+    if task.asked.step == StepLength::Auto {
         return Ok(None);
     }
     let mut system = scene.system(model)?;
@@ -211,14 +198,9 @@ pub(crate) fn stable_below(
 
 /// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of
 /// `model` does not: the error falls with the square of the step, as long as it is above `resolved` times [`SHORTEST`].
-pub(crate) fn shorter(
-    asked: &case::Transient,
-    model: &RunModel,
-    error: f64,
-    target: f64,
-    resolved: f64,
-) -> Option<f64> {
-    let chosen = asked.step == StepLength::Auto && model.method == Method::Exponential;
+pub(crate) fn shorter(task: RunTask<'_>, model: &RunModel, error: f64, resolved: f64) -> Option<f64> {
+    let target = task.target;
+    let chosen = task.asked.step == StepLength::Auto && model.method == Method::Exponential;
     let least = SHORTEST * resolved;
     if !chosen || error <= SHARE * target || model.step <= least {
         return None;
