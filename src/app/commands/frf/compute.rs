@@ -141,19 +141,17 @@ fn rank(
         let values = response.frequencies_hz().iter().zip(response.receptance());
         values.map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm()).collect()
     };
-    let all =
-        || std::iter::once(("as given", own)).chain(others.iter().map(|(what, response)| (what.as_str(), response)));
+    let others = others.iter().map(|(what, response)| (what.as_str(), response));
+    let all: Vec<(&str, &FrequencyResponse)> = std::iter::once(("as given", own)).chain(others).collect();
     let mut ranking = Vec::with_capacity(paths.len());
     for (path, transfer) in paths.iter().enumerate() {
-        let magnitudes: Vec<Vec<f64>> = all().map(|(_, response)| accelerance(response, transfer.place)).collect();
-        let variants: Vec<BandVariant<'_>> = all()
-            .zip(&magnitudes)
-            .map(|((name, response), magnitudes)| BandVariant {
-                name,
-                frequencies_hz: response.frequencies_hz(),
-                magnitudes,
-            })
-            .collect();
+        let magnitudes: Vec<Vec<f64>> = all.iter().map(|(_, response)| accelerance(response, transfer.place)).collect();
+        let variants = all.iter().zip(&magnitudes).map(|((name, response), magnitudes)| BandVariant {
+            name,
+            frequencies_hz: response.frequencies_hz(),
+            magnitudes,
+        });
+        let variants: Vec<BandVariant<'_>> = variants.collect();
         ranking.push(RankedPath { path, variants: rank_in_band(&variants, band_hz, 1.0)? });
     }
     Ok(ranking)

@@ -288,14 +288,12 @@ fn frequencies(
 /// Housing and ring, with the case's damping.
 fn system(case: &Case, housing: &FrfHousing) -> Result<ReducedSystem, ComputeError> {
     let element = housing.element();
+    // the ring's coordinates come first
     let with_ring = |own: &DenseMatrix, ring: Option<&DenseMatrix>| {
         let mut sum = own.clone();
         if let Some(ring) = ring {
-            for column in 0..ring.ncols() {
-                for row in 0..ring.nrows() {
-                    sum[(row, column)] += ring[(row, column)];
-                }
-            }
+            let mut part = sum.submatrix_mut(0, 0, ring.nrows(), ring.ncols());
+            part += ring;
         }
         sum
     };

@@ -23,7 +23,8 @@ const MATERIALS: [(&str, &str); 6] = [
 /// What a part is made of where its name says nothing.
 const USUAL_MATERIAL: &str = "aluminium";
 
-fn says(name: &str, words: &[&str]) -> bool {
+/// Whether a name has one of these words.
+pub(crate) fn says(name: &str, words: &[&str]) -> bool {
     let name = name.to_lowercase();
     words.iter().any(|word| name.contains(word))
 }
@@ -159,8 +160,7 @@ impl Groups {
 }
 
 fn part(name: &str) -> PartGuess {
-    let lower = name.to_lowercase();
-    let known = MATERIALS.iter().find(|(word, _)| lower.contains(word));
+    let known = MATERIALS.iter().find(|(word, _)| says(name, &[*word]));
     PartGuess {
         group: name.to_owned(),
         material: known.map_or(USUAL_MATERIAL, |(_, material)| material),

@@ -115,11 +115,10 @@ pub struct FileComparison {
 impl FileComparison {
     /// Modes of this case that agree, and those that were judged.
     pub(crate) fn agreeing(&self) -> [usize; 2] {
-        let count =
-            |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize { pairs.map(|pair| pair.here.len()).sum() };
-        let passed = count(&mut self.pairs.iter().filter(|pair| pair.misses.is_empty()));
+        let of = |pair: &ComparedPair| pair.here.len();
+        let passed = self.pairs.iter().filter(|pair| pair.misses.is_empty()).map(of).sum();
         let missing = self.lone_here.iter().filter(|mode| mode.missing).count();
-        [passed, count(&mut self.pairs.iter()) + missing]
+        [passed, self.pairs.iter().map(of).sum::<usize>() + missing]
     }
 
     /// Modes of the file that this case should have and has not.

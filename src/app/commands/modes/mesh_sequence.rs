@@ -1,7 +1,7 @@
 //! The other meshes of a case: what they are, and the modes on each.
 
 use crate::app::case::{Case, Housing, HousingSource};
-use crate::app::commands::inspect::{elements_of, size};
+use crate::app::commands::inspect::size;
 use crate::app::error::ComputeError;
 use crate::app::scene::free_system::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
@@ -126,10 +126,9 @@ fn read(case: &Case, housing: &Housing, path: &Path) -> Result<(SequenceMesh, us
     let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
     on_mesh(case, path.to_owned()).check_groups(&groups)?;
     let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);
-    let all = elements_of(&mesh, dimension);
     let kinds = || mesh.blocks.iter().map(|block| block.kind).filter(|kind| kind.dimension() == dimension);
     let names: BTreeSet<&str> = kinds().map(ElementKind::name).collect();
-    let (elements, measure) = (all.clone().count(), size(&mesh, all));
+    let (elements, measure) = (mesh.element_ids(dimension).count(), size(&mesh, mesh.element_ids(dimension)));
     let found = SequenceMesh {
         mesh: path.to_owned(),
         elements,

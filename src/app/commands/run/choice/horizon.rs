@@ -4,7 +4,7 @@
 //! [`pilot`](super::pilot) has the error of modes and steps along the way: on `examples/scenes` it found that of a run with all modes within
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
-use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT};
+use super::model_choice::{CONDENSATION, Measured, ModelChoice, SUPERELEMENT};
 use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
 use super::quantities::USUAL_BAND;
 use crate::app::case::RunCase;
@@ -39,15 +39,8 @@ impl Horizon {
         let asked = run.transient;
         let (start_s, run_s) = (asked.start, asked.end - asked.start);
         if choice.growth <= 1.0 {
-            let measured = choice.measured?;
-            return Some(Self {
-                from_s: measured.from_s,
-                held_s: measured.length_s,
-                looked_s: measured.length_s,
-                start_s,
-                run_s,
-                strikes: false,
-            });
+            let Measured { from_s, length_s: looked_s, .. } = choice.measured?;
+            return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false });
         }
         let band_hz = run.case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let finer = choice.measured?.finer;

@@ -162,21 +162,20 @@ pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'st
             "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
         ),
     };
-    if let Some(stable) = stable_step(model, scene, heaviest, system)
-        && stable < chosen.0
-    {
-        chosen = (
-            stable,
+    let limits = [
+        (
+            stable_step(model, scene, heaviest, system),
             "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
-        );
-    }
-    if let Some(passing) = longest_step(asked, scene)
-        && passing < chosen.0
-    {
-        chosen = (
-            passing,
+        ),
+        (
+            longest_step(asked, scene),
             "eight while a ball passes the shortest defect or wave at the highest speed; halved where a tolerance asks for it",
-        );
+        ),
+    ];
+    for (limit, why) in limits {
+        if let Some(shorter) = limit.filter(|limit| *limit < chosen.0) {
+            chosen = (shorter, why);
+        }
     }
     Ok(chosen)
 }
