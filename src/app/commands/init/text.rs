@@ -3,7 +3,7 @@
 use super::found::{Found, FoundCylinder};
 use super::page::{COMPUTED_DIGITS, ORIGIN, list, number, numbers, page, quoted};
 use super::run_text::Window;
-use super::scene::{BALANCE, BearingNumbers, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
+use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, context};
@@ -25,14 +25,12 @@ fn unit_origin(found: &Found<'_>) -> String {
 /// "a cylinder of radius 6 mm about z, all round, its nodes within ..."
 fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let what = if plane { "circle" } else { "cylinder" };
-    let millimetre = |metres: f64| number(1e3 * metres, 6);
-    let [x, y, z] = cylinder.axis;
-    let axis = super::scene::Directions::of(cylinder.axis).axis;
-    let about = ["x", "y", "z"]
-        .into_iter()
-        .zip(axis)
-        .find(|(_, part)| part.abs() > 1.0 - 1e-12)
-        .map_or_else(|| format!("({}, {}, {})", number(x, 4), number(y, 4), number(z, 4)), |(name, _)| name.to_owned());
+    let axis = Directions::of(cylinder.axis).axis;
+    let along = ["x", "y", "z"].into_iter().zip(axis).find(|(_, part)| part.abs() > 1.0 - 1e-12);
+    let about = match along {
+        Some((name, _)) => name.to_owned(),
+        None => format!("({})", cylinder.axis.map(|part| number(part, 4)).join(", ")),
+    };
     let turn = if cylinder.turn > 0.999 {
         "all round".to_owned()
     } else {
@@ -43,7 +41,7 @@ fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     } else {
         format!("its nodes within {} m of it (rms {} m)", number(cylinder.farthest_m, 2), number(cylinder.rms_m, 2))
     };
-    format!("a {what} of radius {} mm about {about}, {turn}, {off}", millimetre(cylinder.radius_m))
+    format!("a {what} of radius {} mm about {about}, {turn}, {off}", number(1e3 * cylinder.radius_m, 6))
 }
 
 fn names(cylinders: &[FoundCylinder]) -> String {

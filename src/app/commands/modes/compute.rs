@@ -5,7 +5,7 @@ use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
 use crate::app::case::{Case, Linearise};
-use crate::app::commands::parts::tables::ExpectedMode;
+use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::contact_limits::accept_contacts;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};

@@ -25,58 +25,33 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
         Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
     ];
     if let Some(asked) = &case.ring {
-        facts.push(Fact::new(
-            "Element",
-            format!(
-                "{}, shear {}, rotary inertia {}",
-                match asked.element {
-                    RingInterpolation::ExactArc => "exact circular arc",
-                    RingInterpolation::Raveendranath => "Raveendranath's polynomials",
-                },
-                on(asked.shear),
-                on(asked.rotary_inertia)
-            ),
-        ));
+        let on = |value: bool| if value { "on" } else { "off" };
+        let element = match asked.element {
+            RingInterpolation::ExactArc => "exact circular arc",
+            RingInterpolation::Raveendranath => "Raveendranath's polynomials",
+        };
+        let (shear, inertia) = (on(asked.shear), on(asked.rotary_inertia));
+        facts.push(Fact::new("Element", format!("{element}, shear {shear}, rotary inertia {inertia}")));
     }
+    let modes = stage.fixed_interface_modes;
     if let Some(imported) = &stage.imported {
-        facts.push(Fact::new("Superelement", imported.path.display().to_string()));
-        facts.push(Fact::new(
-            "Its coordinates",
-            format!("{} ring displacements and {} modes", imported.element.interface_dof, stage.fixed_interface_modes),
-        ));
+        let interface_dof = imported.element.interface_dof;
+        facts.extend([
+            Fact::new("Superelement", imported.path.display().to_string()),
+            Fact::new("Its coordinates", format!("{interface_dof} ring displacements and {modes} modes")),
+        ]);
     }
     if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
+        let (model, mass) = (&housing.model, significant(housing.matrices.total_mass(), 5));
+        let (nodes, elements) = (model.dof() / model.dimension(), model.elements().len());
         facts.extend([
             Fact::new("Housing mesh", asked.mesh.display().to_string()),
-            Fact::new(
-                "Housing",
-                format!(
-                    "{} nodes, {} elements, {} kg",
-                    housing.model.dof() / housing.model.dimension(),
-                    housing.model.elements().len(),
-                    significant(housing.matrices.total_mass(), 5)
-                ),
-            ),
+            Fact::new("Housing", format!("{nodes} nodes, {elements} elements, {mass} kg")),
         ]);
-        if condensed {
-            facts.push(
-                Fact::new(
-                    "Condensed to",
-                    format!(
-                        "{} ring displacements and {} fixed-interface modes",
-                        ring.dof(),
-                        stage.fixed_interface_modes
-                    ),
-                )
-                .note("Craig-Bampton"),
-            );
-        }
+        let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
+        facts.extend(condensed.then(|| Fact::new("Condensed to", coordinates).note("Craig-Bampton")));
     }
     facts
-}
-
-fn on(value: bool) -> &'static str {
-    if value { "on" } else { "off" }
 }
 
 /// Loaded and unloaded frequencies side by side.
@@ -143,13 +118,11 @@ pub(crate) fn expected_table(expected: &[ExpectedMode]) -> Table {
 fn damping_words(damping: &Damping) -> String {
     let percent = |ratio: f64| format!("{} % of critical", significant(100.0 * ratio, 3));
     match damping {
-        Damping::Ratios([low, high]) => format!(
-            "{} at {} Hz and {} at {} Hz (Rayleigh)",
-            percent(low.ratio),
-            significant(low.frequency_hz, 4),
-            percent(high.ratio),
-            significant(high.frequency_hz, 4)
-        ),
+        Damping::Ratios(points) => {
+            let points =
+                points.each_ref().map(|at| format!("{} at {} Hz", percent(at.ratio), significant(at.frequency_hz, 4)));
+            format!("{} (Rayleigh)", points.join(" and "))
+        }
         Damping::Rayleigh { alpha, beta } => format!(
             "Rayleigh, {} 1/s times the mass and {} s times the stiffness",
             significant(*alpha, 4),

@@ -173,17 +173,12 @@ impl<R: Recording> RunResult<R> {
         for (index, name) in self.simulation.record.sensors().iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
             let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
-            match analyse(name, &settings, read, &kinematics) {
-                Ok(windows) => self.windows.extend(windows),
-                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
-            }
-            let Some(window) = case.analysis.scalogram else {
-                continue;
-            };
-            match SensorScalogram::of(&self.simulation, index, window) {
-                Ok(scalogram) => self.scalograms.push(scalogram),
-                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
-            }
+            let mut failed = |error: ComputeError| self.not_analysed.push(format!("{name}: {error}"));
+            let windows = analyse(name, &settings, read, &kinematics);
+            self.windows.extend(windows.map_err(&mut failed).unwrap_or_default());
+            let asked = case.analysis.scalogram;
+            let scalogram = asked.map(|window| SensorScalogram::of(&self.simulation, index, window));
+            self.scalograms.extend(scalogram.and_then(|found| found.map_err(&mut failed).ok()));
         }
     }
 }

@@ -8,11 +8,7 @@ use crate::app::case::Case;
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::survey_report::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, OuterRaceLine, SHOWN_WINDOWS};
-use crate::app::commands::parts::ExpectedMode;
-use crate::app::commands::parts::drawing::draw;
-use crate::app::commands::parts::statics_report::statics_section;
-use crate::app::commands::parts::tables::{expected_table, mode_table};
-use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::commands::parts::{self, ExpectedMode};
 use crate::app::error::ComputeError;
 use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant};
 use crate::system::Column;
@@ -56,7 +52,9 @@ pub(crate) fn run_report<R: Recording>(
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     let (stage, setup) = (&result.scene.stage, &result.scene.setup);
-    let model = Section::new("Model").drawing(draw(case, stage, Some(setup))).facts(model_facts(case, stage, true));
+    let model = Section::new("Model")
+        .drawing(parts::draw(case, stage, Some(setup)))
+        .facts(parts::model_facts(case, stage, true));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
         .table(result.choice.table());
@@ -64,11 +62,11 @@ pub(crate) fn run_report<R: Recording>(
         .section(model)
         .section(choice)
         .section(Section::new("Bearing").table(result.bearing_table()))
-        .section(statics_section(setup, &result.statics))
+        .section(parts::statics_section(setup, &result.statics))
         .section(Section::new("Computation").facts(computation(result)));
     let imported = result.scene.stage.imported.iter();
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
-    report.assumptions.extend(assumptions(case, Some(&result.scene.setup)));
+    report.assumptions.extend(parts::assumptions(case, Some(&result.scene.setup)));
     Ok(report.assumption(
         "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
     ))
@@ -144,9 +142,9 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let expected: Vec<ExpectedMode> = expected.collect();
     let mut section = Section::new("Eigenfrequencies");
     if !expected.is_empty() {
-        section = section.table(expected_table(&expected));
+        section = section.table(parts::expected_table(&expected));
     }
-    section.table(mode_table(&unloaded, &result.loaded))
+    section.table(parts::mode_table(&unloaded, &result.loaded))
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {

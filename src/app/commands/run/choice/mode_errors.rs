@@ -16,7 +16,7 @@
 //! under an impact, and it counts [`ADDS_UP`] times.
 
 use super::loaded_errors::LoadedErrors;
-use super::quantities::{IMPACT, ball_hz, judged, participations, radial_forces};
+use super::quantities::{IMPACT, ball_hz, judged, participations, radial_forces, tangent};
 use crate::app::scene::Scene;
 use crate::system::ModeDamping;
 use std::f64::consts::TAU;
@@ -166,8 +166,7 @@ fn largest_force(scene: &Scene) -> f64 {
 fn in_series(scene: &Scene) -> f64 {
     let largest = largest_force(scene);
     let stiffness = &scene.setup.stiffness;
-    let softness = |stiffness: f64| 1.0 / (1.5 * stiffness.cbrt().powi(2) * largest.cbrt());
-    1.0 / (softness(stiffness.inner()) + softness(stiffness.outer()))
+    1.0 / (1.0 / tangent(stiffness.inner(), largest) + 1.0 / tangent(stiffness.outer(), largest))
 }
 
 #[cfg(test)]

@@ -37,10 +37,14 @@ pub(crate) fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
     sensors.iter().step_by(apart)
 }
 
+/// Stiffness `k' = 3/2 k^(2/3) F^(1/3)` of a contact `F = k x^(3/2)` under a force (N), N/m.
+pub(crate) fn tangent(stiffness: f64, force: f64) -> f64 {
+    1.5 * stiffness.cbrt().powi(2) * force.cbrt()
+}
+
 /// Frequency of a ball with these forces between its contacts, Hz.
 pub(crate) fn ball_hz(scene: &Scene, inner: f64, outer: f64) -> f64 {
     let stiffness = &scene.setup.stiffness;
-    let tangent = |stiffness: f64, force: f64| 1.5 * stiffness.cbrt().powi(2) * force.cbrt();
     let sum = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
     (sum / scene.setup.geometry.ball_mass()).sqrt() / TAU
 }

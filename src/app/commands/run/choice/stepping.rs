@@ -1,7 +1,7 @@
 //! Method and step: what a step jumps over, such as a defect under a ball, no control of its error can see.
 
 use super::model_choice::ChosenPart;
-use super::quantities::{IMPACT, RunTask};
+use super::quantities::{IMPACT, RunTask, tangent};
 use crate::app::case::{self, StepLength};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
@@ -229,14 +229,9 @@ fn stable_step(
 /// `h = PHASE / sqrt((k_i' + k_o') / m_b)`, or without the balls' inertia that of race and shaft on both in series.
 fn resolved(model: &RunModel, scene: &Scene, system: &CoupledSystem) -> f64 {
     let setup = &scene.setup;
-    let largest = scene
-        .equilibrium
-        .balls
-        .iter()
-        .map(|ball| ball.inner.max(ball.outer))
-        .fold(setup.geometry.ball_mass() * 9.81, f64::max);
-    let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (IMPACT * largest).cbrt();
-    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(tangent);
+    let forces = scene.equilibrium.balls.iter().map(|ball| ball.inner.max(ball.outer));
+    let largest = forces.fold(setup.geometry.ball_mass() * 9.81, f64::max);
+    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(|k| tangent(k, IMPACT * largest));
     let stiffness = match model.balls_inertia {
         BallsInertia::Dynamic => inner + outer,
         BallsInertia::QuasiStatic => inner * outer / (inner + outer),
