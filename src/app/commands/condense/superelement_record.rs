@@ -139,10 +139,7 @@ impl Coordinates<'_> {
 /// Up to which frequency a basis has all vectors of the interior, Hz: the first that was left out, or the highest of all.
 fn complete_hz(basis: &InteriorBasis) -> Option<f64> {
     let below = basis.complete_below();
-    let end = match below.is_finite() {
-        true => Some(below),
-        false => basis.values().iter().copied().reduce(f64::max),
-    };
+    let end = if below.is_finite() { Some(below) } else { basis.values().iter().copied().reduce(f64::max) };
     end.map(|value| value.sqrt() / TAU)
 }
 

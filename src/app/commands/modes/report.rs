@@ -80,8 +80,9 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
     }
     report = headlines(report, result);
     let basis = &result.survey.basis;
-    let modes = format!("{} of {}", basis.count_check.found, basis.count_check.counted);
-    report = report.headline("Modes found of those that exist", modes, tables::complete(&result.survey));
+    let (found, counted) = (basis.count_check.found, basis.count_check.counted);
+    let modes = format!("{found} of {counted}");
+    report = report.headline("Modes found of those that exist", modes, Verdict::of(found == counted));
     if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
         let first = format!("{} Hz", significant(*first, 5));
         report = report.headline("First elastic mode", first, Verdict::None);

@@ -4,7 +4,7 @@ use super::compute::ModesResult;
 use super::shape_view::shown_places;
 use crate::app::case::{Case, Material};
 use crate::fe::modal::{MassDistribution, MassProperties, ModalSurvey, Participation};
-use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, fixed, significant};
+use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, significant};
 
 /// Direction of a column of a participation, by the number of columns.
 fn directions(columns: usize) -> &'static [&'static str] {
@@ -177,12 +177,6 @@ pub(crate) fn free_motions(result: &ModesResult) -> Vec<String> {
     sentences
 }
 
-/// The verdict on completeness for the head of the report.
-pub(crate) fn complete(survey: &ModalSurvey) -> Verdict {
-    let check = survey.basis.count_check;
-    Verdict::of(check.counted == check.found)
-}
-
 /// Shares below this are not listed by number.
 const LISTED_SHARE: f64 = 0.005;
 
@@ -194,17 +188,14 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
     };
     let groups: Vec<usize> =
         (0..found.groups.len()).filter(|&group| !found.parts.contains(&found.groups[group])).collect();
-    let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| {
+    let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| -> Vec<f64> {
         let groups = groups.iter().map(|&group| by_group[group]);
-        let whole = parts.iter().copied().chain(ring).chain(attached.iter().copied());
-        whole.chain(groups).collect::<Vec<f64>>()
+        parts.iter().copied().chain(ring).chain(attached.iter().copied()).chain(groups).collect()
     };
-    let has_ring = survey.ring.is_some();
-    let names = |attached: &[String]| {
-        let ring = has_ring.then(|| "the ring".to_owned());
-        let whole = found.parts.iter().cloned().chain(ring).chain(attached.iter().cloned());
+    let names = |attached: &[String]| -> Vec<String> {
+        let ring = survey.ring.is_some().then(|| "the ring".to_owned());
         let groups = groups.iter().map(|&group| format!("in {}", found.groups[group]));
-        whole.chain(groups).collect::<Vec<String>>()
+        found.parts.iter().chain(&ring).chain(attached).cloned().chain(groups).collect()
     };
     let strain = found.modes.iter().map(|mode| {
         let own = mode.strain.as_ref()?;
@@ -217,9 +208,9 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
     let strain = energy_table("Strain energy", survey, &names(&found.springs), strain);
     let kinetic = energy_table("Kinetic energy", survey, &names(&found.masses), kinetic);
     let noted = |table: Table| {
-        match groups.is_empty() {
-        true => table,
-        false => table.footnote("Columns named \"in\" a group show once more what part of the whole is in that group; groups may overlap. The other columns add up to 100 %."),
+        match groups.as_slice() {
+        [] => table,
+        _ => table.footnote("Columns named \"in\" a group show once more what part of the whole is in that group; groups may overlap. The other columns add up to 100 %."),
     }
     };
     strain.into_iter().chain(kinetic).map(noted).collect()

@@ -31,10 +31,7 @@ pub(crate) fn run_report<R: Recording>(
     let name = case.source.path.display().to_string();
     let of_many = result.windows.iter().filter(|_| !few);
     let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
-    report = match few {
-        true => verdict_headlines(report, &result.windows),
-        false => counts(report, &rows),
-    };
+    report = if few { verdict_headlines(report, &result.windows) } else { counts(report, &rows) };
     report = headlines(report, result);
     if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));

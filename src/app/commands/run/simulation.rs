@@ -350,11 +350,9 @@ fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
     for value in linear.chain(start.y.iter().copied()).chain(force) {
         hasher.update(value.to_bits().to_le_bytes());
     }
-    let mut words = [0; 4];
-    for (word, bytes) in words.iter_mut().zip(hasher.finalize().chunks_exact(8)) {
-        *word = bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
-    }
-    words
+    let digest: [u8; 32] = hasher.finalize().into();
+    let (words, _) = digest.as_chunks();
+    std::array::from_fn(|word| u64::from_be_bytes(words[word]))
 }
 
 /// Everything that was read is the same as of the unfinished run, and what was computed from it is not.

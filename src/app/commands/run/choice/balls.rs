@@ -49,10 +49,7 @@ pub(crate) fn chosen(
         None if !supported => (BallsInertia::Dynamic, "contact damping and the printed equations need it".to_owned()),
         None => {
             let enough = lost.is_some_and(|lost| lost <= SHARE * target);
-            let inertia = match enough {
-                true => BallsInertia::QuasiStatic,
-                false => BallsInertia::Dynamic,
-            };
+            let inertia = if enough { BallsInertia::QuasiStatic } else { BallsInertia::Dynamic };
             let why = format!(
                 "the slowest ball vibrates between its races at {} kHz; without the balls' mass the phases of the band's modes err by {} in the end",
                 significant(slowest / 1e3, 3),

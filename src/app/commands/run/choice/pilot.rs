@@ -67,10 +67,7 @@ pub(crate) fn measured(
 ) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
     let length_s = if strikes { first_s } else { (LONG * first_s).min(run_s) };
-    let from_s = match strikes {
-        true => begin(asked, scene, run_s - length_s),
-        false => long_begin(asked, scene, length_s),
-    };
+    let from_s = if strikes { begin(asked, scene, run_s - length_s) } else { long_begin(asked, scene, length_s) };
     let change = fastest_change(asked, scene).map(|[from, to]| {
         let latest = asked.start + run_s - first_s;
         let begin = from.max(to - first_s).min(latest);
@@ -248,10 +245,7 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let speed = |t: f64| setup.cage.motion(t).speed.abs();
     let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
     let instants = (1..=SPEEDS).map(at);
-    let fastest = instants.fold(asked.start, |best, t| match speed(t) > speed(best) {
-        true => t,
-        false => best,
-    });
+    let fastest = instants.fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
     let Some(defect) = setup.race_defects.first() else {
         return fastest;
     };
@@ -271,10 +265,7 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
     let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing());
     let until = edge / passing.abs();
-    match until <= spare - (fastest - asked.start) {
-        true => fastest + until,
-        false => fastest,
-    }
+    if until <= spare - (fastest - asked.start) { fastest + until } else { fastest }
 }
 
 #[cfg(test)]

@@ -126,10 +126,7 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     let rests = heaviest.into_iter().chain([&scene.equilibrium]);
     let mut balls = rests.flat_map(|rest| &rest.balls);
     let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
-        true => 1.0,
-        false => IMPACTS_GROWTH,
-    }
+    if pressed && setup.race_defects.is_empty() && setup.flats.is_empty() { 1.0 } else { IMPACTS_GROWTH }
 }
 
 /// What a superelement from a file or the condensed housing lacks, by [`left_out`].

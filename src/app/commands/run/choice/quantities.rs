@@ -92,10 +92,7 @@ pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<
         let speed = setup.cage.shaft().motion(t).speed;
         at_rest(t) + setup.shaft.unbalance.abs() * speed * speed
     };
-    let most = evenly.chain(knots).fold(asked.start, |most, t| match force(t) > force(most) {
-        true => t,
-        false => most,
-    });
+    let most = evenly.chain(knots).fold(asked.start, |most, t| if force(t) > force(most) { t } else { most });
     if at_rest(most) <= 0.0 || force(most) <= HEAVIER * at_rest(asked.start) {
         return Ok(None);
     }

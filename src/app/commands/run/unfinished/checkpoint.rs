@@ -96,12 +96,8 @@ impl Checkpoint {
         let line = rest.iter().position(|&byte| byte == b'\n');
         let (head, words) = rest.split_at(line.unwrap_or(rest.len()));
         let head: Self = serde_json::from_slice(head).map_err(|error| error.to_string())?;
-        let words = words.get(1..).unwrap_or_default().chunks_exact(8);
-        let words = words.map(|chunk| {
-            let bytes = chunk.iter().rev();
-            bytes.fold(0, |word, &byte| word << 8 | u64::from(byte))
-        });
-        let words: Vec<u64> = words.collect();
+        let (words, _) = words.get(1..).unwrap_or_default().as_chunks();
+        let words: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
         if words.len() != head.words {
             return Err(format!("{} words of {}", words.len(), head.words));
         }
