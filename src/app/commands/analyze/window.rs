@@ -90,8 +90,7 @@ pub struct WindowAnalysis {
     /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
     pub kurtosis: Option<f64>,
     /// Band that the envelope is of.
-    #[serde(flatten, serialize_with = "band_summary")]
-    #[schemars(with = "BandSummary")]
+    #[serde(flatten)]
     pub band: UsedBand,
     /// The outer race's line and its second harmonic; empty where its order is not known.
     #[serde(rename = "outer_race")]
@@ -129,30 +128,6 @@ pub struct OuterRaceLine {
     pub found_hz: Option<f64>,
     /// Its amplitude, in the spectrum's unit.
     pub amplitude: Option<f64>,
-}
-
-/// The band before an envelope as results have it.
-#[derive(Serialize, JsonSchema)]
-struct BandSummary {
-    /// Corner of the high-pass before the envelope, Hz; `None`: none.
-    high_pass_hz: Option<f64>,
-    /// Band of the envelope, Hz; `None`: not a band between two frequencies.
-    band_hz: Option<[f64; 2]>,
-    /// Spectral kurtosis of the band that was searched for.
-    kurtosis_of_band: Option<f64>,
-    /// What noise alone stays below.
-    kurtosis_limit: Option<f64>,
-}
-
-fn band_summary<S: Serializer>(band: &UsedBand, to: S) -> Result<S::Ok, S::Error> {
-    let best = band.found().map(|search| &search.best);
-    let summary = BandSummary {
-        high_pass_hz: band.high_pass_hz,
-        band_hz: band.band_hz(),
-        kurtosis_of_band: best.map(|best| best.kurtosis),
-        kurtosis_limit: best.map(|best| best.limit),
-    };
-    summary.serialize(to)
 }
 
 /// A verdict, or why there is none.

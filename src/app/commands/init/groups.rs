@@ -109,53 +109,37 @@ impl Groups {
             if bore.is_some_and(|bore| bore.name == group.name) {
                 continue;
             }
-            found.sort_in(mesh, group, dimension, bore, &on_housing);
+            let name = group.name.as_str();
+            let mut leave = |note| {
+                found.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
+            };
+            // both lists are sorted
+            let touches_bore = bore.is_some_and(|bore| {
+                let mut nodes = group.nodes.iter();
+                nodes.any(|node| bore.nodes.binary_search(node).is_ok())
+            });
+            let whole = group.nodes.iter().all(|&node| on_housing[node]);
+            if group.elements.is_empty() {
+                leave(Some("has no elements"));
+            } else if !usable(mesh, group) {
+                leave(Some("another group has this name too: give each its own in gmsh"));
+            } else if group.dimension < dimension && says(name, &SUPPORTS) {
+                if !whole {
+                    leave(Some("looks like a support, but lies on no part"));
+                } else if touches_bore {
+                    leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
+                    found.at_bore.push(name.to_owned());
+                } else {
+                    found.supports.push(name.to_owned());
+                }
+            } else if group.dimension == 0 && found.sensor.is_none() && says(name, &SENSORS) && whole {
+                found.sensor = Some(name.to_owned());
+            } else if group.dimension < dimension {
+                let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+                leave(touches_bore.then_some(note));
+            }
         }
         found
-    }
-
-    fn sort_in(
-        &mut self,
-        mesh: &Mesh,
-        group: &PhysicalGroup,
-        dimension: usize,
-        bore: Option<&PhysicalGroup>,
-        on_housing: &[bool],
-    ) {
-        let name = group.name.as_str();
-        let mut leave = |note| {
-            self.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
-        };
-        if group.elements.is_empty() {
-            return leave(Some("has no elements"));
-        }
-        if !usable(mesh, group) {
-            return leave(Some("another group has this name too: give each its own in gmsh"));
-        }
-        if group.dimension >= dimension {
-            return;
-        }
-        // both lists are sorted
-        let touches_bore = bore.is_some_and(|bore| {
-            let mut nodes = group.nodes.iter();
-            nodes.any(|node| bore.nodes.binary_search(node).is_ok())
-        });
-        let whole = group.nodes.iter().all(|&node| on_housing[node]);
-        if says(name, &SUPPORTS) {
-            if !whole {
-                leave(Some("looks like a support, but lies on no part"));
-            } else if touches_bore {
-                leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
-                self.at_bore.push(name.to_owned());
-            } else {
-                self.supports.push(name.to_owned());
-            }
-        } else if group.dimension == 0 && self.sensor.is_none() && says(name, &SENSORS) && whole {
-            self.sensor = Some(name.to_owned());
-        } else {
-            let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
-            leave(touches_bore.then_some(note));
-        }
     }
 }
 

@@ -55,11 +55,6 @@ pub(crate) struct RingNumbers {
 }
 
 impl RingNumbers {
-    /// Width of the bearing, scaled, m.
-    pub(crate) fn section_width(&self) -> f64 {
-        self.of.width * self.scale
-    }
-
     /// Lengths grow with the bore, areas with its square, second moments with its fourth power.
     pub(crate) fn of(bearing: &'static CatalogueBearing, bore_diameter: f64) -> Self {
         let scale = bore_diameter / bearing.outer_diameter;

@@ -193,7 +193,7 @@ pub(crate) fn case_text(found: &Found<'_>) -> Result<String, minijinja::Error> {
         axes => if found.plane { r#""x", "y""# } else { r#""x", "y", "z""# },
         springs => if found.plane { "x = 1e8, y = 1e8" } else { "x = 1e8, y = 1e8, z = 1e8" },
         surface => found.surface().unwrap_or("GROUP"),
-        width => found.ring.section_width(),
+        width => found.ring.of.width * found.ring.scale,
         outer_radius => bore.map_or(0.5 * found.ring.of.outer_diameter, |bore| bore.radius_m),
         tie => context! {
             group => bore.map_or("GROUP", |bore| &bore.group),

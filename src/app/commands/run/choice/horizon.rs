@@ -5,7 +5,7 @@
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
 use super::model_choice::{CONDENSATION, Measured, ModelChoice, SUPERELEMENT};
-use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
+use super::pilot::{LONG, SAFETY, compared, held_s, long_begin, stretch_s};
 use super::quantities::USUAL_BAND;
 use crate::app::case::RunCase;
 use crate::app::commands::run::Span;
@@ -52,10 +52,10 @@ impl Horizon {
             let looked_s = (length * first_s).min(run_s);
             let span = Span { duration: looked_s, output_hz: asked.output_hz };
             let models = [&choice.model, &finer];
-            let Ok(compared) = Compared::over(scene, models, span, from_s, band_hz) else {
+            let Ok(signals) = compared(scene, models, span, from_s, band_hz) else {
                 break;
             };
-            let held_s = compared.held_s(most, first_s);
+            let held_s = held_s(&signals, most, first_s);
             horizon = Some(Self { from_s, start_s, held_s: held_s.min(looked_s), looked_s, run_s, strikes: true });
             if held_s < looked_s || looked_s >= run_s {
                 break;

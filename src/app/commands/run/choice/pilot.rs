@@ -76,7 +76,7 @@ pub(crate) fn measured(
     let (mut most, mut rms) = (0.0_f64, 0.0_f64);
     for (begin, duration) in [Some((from_s, length_s)), change].into_iter().flatten() {
         let span = Span { duration, output_hz: asked.output_hz };
-        let [run, finer] = Compared::over(scene, [model, &finer], span, begin, band_hz)?.signals;
+        let [run, finer] = compared(scene, [model, &finer], span, begin, band_hz)?;
         for (run, finer) in run.iter().zip(&finer) {
             let error = relative_difference(run, finer).map_err(|error| error.to_string())?;
             most = most.max(error);
@@ -163,59 +163,51 @@ pub(crate) fn finer(task: RunTask<'_>, model: &RunModel) -> Result<Option<RunMod
     Ok(Some(finer))
 }
 
-/// The sensors' signals in the band by two models, over a stretch that begins at rest.
-pub(crate) struct Compared {
-    signals: [Vec<TimeSeries>; 2],
+/// The sensors' signals in the band by two models, over a stretch that begins at rest, stepped side by side.
+///
+/// # Errors
+/// Why one of them cannot be stepped.
+pub(crate) fn compared(
+    scene: &Scene,
+    [model, finer]: [&RunModel; 2],
+    span: Span,
+    begin: f64,
+    band_hz: f64,
+) -> Result<[Vec<TimeSeries>; 2], String> {
+    let steps = span.duration / finer.step;
+    if steps > MOST_STEPS {
+        return Err(format!("it would take {} steps", significant(steps, 2)));
+    }
+    let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
+    let (run, finer) = rayon::join(|| signals(model), || signals(finer));
+    Ok([run?, finer?])
 }
 
-impl Compared {
-    /// Steps both, side by side.
-    ///
-    /// # Errors
-    /// Why one of them cannot be stepped.
-    pub(crate) fn over(
-        scene: &Scene,
-        [model, finer]: [&RunModel; 2],
-        span: Span,
-        begin: f64,
-        band_hz: f64,
-    ) -> Result<Self, String> {
-        let steps = span.duration / finer.step;
-        if steps > MOST_STEPS {
-            return Err(format!("it would take {} steps", significant(steps, 2)));
-        }
-        let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
-        let (run, finer) = rayon::join(|| signals(model), || signals(finer));
-        Ok(Self { signals: [run?, finer?] })
-    }
-
-    /// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
-    /// none is. It is looked at every eighth of `first_s` (s), and counts from `first_s` on: a short beginning may be nearly still.
-    pub(crate) fn held_s(&self, most: f64, first_s: f64) -> f64 {
-        let [run, finer] = &self.signals;
-        let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
-        let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
-            let (mut apart, mut size) = (0.0, 0.0);
-            let (mut next, mut held) = (1, 0.0);
-            for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
-                apart += (a - b) * (a - b);
-                size += b * b;
-                // half a sample for round-off
-                if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
-                    continue;
-                }
-                if apart <= most * most * size {
-                    held = instant(next);
-                } else if next >= INSTANTS {
-                    return held;
-                }
-                next += 1;
+/// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
+/// none is. It is looked at every eighth of `first_s` (s), and counts from `first_s` on: a short beginning may be nearly still.
+pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f64) -> f64 {
+    let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
+    let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
+        let (mut apart, mut size) = (0.0, 0.0);
+        let (mut next, mut held) = (1, 0.0);
+        for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
+            apart += (a - b) * (a - b);
+            size += b * b;
+            // half a sample for round-off
+            if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
+                continue;
             }
-            f64::INFINITY
-        };
-        let sensors = run.iter().zip(finer).map(of_sensor);
-        sensors.fold(f64::INFINITY, f64::min)
-    }
+            if apart <= most * most * size {
+                held = instant(next);
+            } else if next >= INSTANTS {
+                return held;
+            }
+            next += 1;
+        }
+        f64::INFINITY
+    };
+    let sensors = run.iter().zip(finer).map(of_sensor);
+    sensors.fold(f64::INFINITY, f64::min)
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.

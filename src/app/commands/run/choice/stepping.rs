@@ -8,7 +8,7 @@ use crate::app::scene::{RunModel, Scene};
 use crate::bearing::Race;
 use crate::numerics::ode::{Method, Schedule};
 use crate::report::significant;
-use crate::system::{BallsInertia, CoupledSystem, Equilibrium, ModeSelection};
+use crate::system::{BallsInertia, CoupledSystem, ModeSelection};
 use std::f64::consts::TAU;
 
 /// Tolerance of exponential-adams for a target of one percent, and the error that it makes: on the dented bearing of
@@ -138,7 +138,7 @@ pub(crate) fn step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, ChosenPa
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
 pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'static str), ComputeError> {
-    let RunTask { scene, asked, heaviest, .. } = task;
+    let RunTask { scene, asked, .. } = task;
     let system = scene.system(model)?;
     let interval = 1.0 / asked.output_hz;
     let highest = system.highest_squared_frequency().sqrt();
@@ -164,7 +164,7 @@ pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'st
     };
     let limits = [
         (
-            stable_step(model, scene, heaviest, system),
+            stable_step(task, model, system),
             "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
         ),
         (
@@ -209,12 +209,8 @@ pub(crate) fn shorter(task: RunTask<'_>, model: &RunModel, error: f64, resolved:
 
 /// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers
 /// to the largest force, and would let them; the shorter of those at the start and under the heaviest load. None for other methods.
-fn stable_step(
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-    mut system: CoupledSystem,
-) -> Option<f64> {
+fn stable_step(task: RunTask<'_>, model: &RunModel, mut system: CoupledSystem) -> Option<f64> {
+    let RunTask { scene, heaviest, .. } = task;
     let Method::ExponentialAdams { tolerance: Some(_) } = model.method else {
         return None;
     };
