@@ -88,15 +88,15 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
     let size = || Axis::new("Acceleration over force", "1/kg").log();
-    let mut magnitude =
-        Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve("reduced", &reduced, |h| h.norm()));
-    let degrees = |h: c64| h.arg().to_degrees();
-    let mut phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
-        .curve(curve("reduced", &reduced, degrees));
-    if !full.is_empty() {
-        magnitude = magnitude.curve(curve("full", &full, |h| h.norm()).style(CurveStyle::Points));
-        phase = phase.curve(curve("full", &full, degrees).style(CurveStyle::Points));
-    }
+    let plot = |title: &str, y: Axis, of: fn(c64) -> f64| {
+        let plot = Plot::new(title, frequency(), y).curve(curve("reduced", &reduced, of));
+        match full.as_slice() {
+            [] => plot,
+            full => plot.curve(curve("full", full, of).style(CurveStyle::Points)),
+        }
+    };
+    let magnitude = plot("Accelerance, magnitude", size(), |h| h.norm());
+    let phase = plot("Accelerance, phase", Axis::new("Phase", "deg"), |h| h.arg().to_degrees());
     let mut parts =
         Plot::new("Accelerance of the modes that carry most", frequency(), size())
             .curve(curve("all", &reduced, |h| h.norm()));

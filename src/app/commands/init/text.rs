@@ -90,17 +90,17 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
         format!("{} of {} ({sure})", quoted(&part.group), part.material)
     });
     lines.push(format!("Parts: {}.", list(&parts.collect::<Vec<_>>())));
-    let supports: Vec<String> = found.groups.supports.iter().map(|name| quoted(name)).collect();
-    let at_bore: Vec<String> = found.groups.at_bore.iter().map(|name| quoted(name)).collect();
-    lines.push(match (supports.is_empty(), at_bore.is_empty()) {
-        (false, _) => format!("Held, by their names: {}.", list(&supports)),
-        (true, true) => "Nothing is held: no group is named like a support.".to_owned(),
-        (true, false) => "Nothing is held.".to_owned(),
+    let all = |names: &[String]| list(&names.iter().map(|name| quoted(name)).collect::<Vec<_>>());
+    let (supports, at_bore) = (&found.groups.supports[..], &found.groups.at_bore[..]);
+    lines.push(match (supports, at_bore) {
+        ([], []) => "Nothing is held: no group is named like a support.".to_owned(),
+        ([], _) => "Nothing is held.".to_owned(),
+        _ => format!("Held, by their names: {}.", all(supports)),
     });
     if !at_bore.is_empty() {
         lines.push(format!(
             "Not held: {} shares nodes with the bore, and these follow the ring. Give it faces beside the bore in gmsh, or hold it by springs.",
-            list(&at_bore)
+            all(at_bore)
         ));
     }
     if found.groups.without_part > 0 {

@@ -67,27 +67,24 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
         let texts: Vec<String> = values.iter().map(|value| fixed(scale * value, 4)).collect();
         format!("({})", texts.join(", "))
     };
-    let centroid = |centroid: &[f64]| Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
-    let mut facts = vec![Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)))];
-    match &mass.distribution {
-        MassDistribution::Plane { centroid: place, polar } => facts.extend([
-            centroid(place),
-            Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)))
-                .note("about the axis along z through the centroid"),
-        ]),
-        MassDistribution::Space { centroid: place, .. } => {
-            facts.push(centroid(place));
-            if let Some(principal) = mass.principal() {
+    let (centroid, more) = match &mass.distribution {
+        MassDistribution::Plane { centroid, polar } => {
+            let moment = Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)));
+            (&centroid[..], vec![moment.note("about the axis along z through the centroid")])
+        }
+        MassDistribution::Space { centroid, .. } => {
+            let principal = mass.principal().map(|principal| {
                 let moments = principal.moments.map(|moment| significant(moment, 5)).join(", ");
                 let axes = principal.axes.map(|axis| vector(&axis, 1.0)).join(", ");
-                facts.extend([
-                    Fact::new("Principal moments", format!("{moments} kg m^2")).note("about the centroid"),
-                    Fact::new("Principal axes", axes),
-                ]);
-            }
+                let moments = Fact::new("Principal moments", format!("{moments} kg m^2")).note("about the centroid");
+                vec![moments, Fact::new("Principal axes", axes)]
+            });
+            (&centroid[..], principal.unwrap_or_default())
         }
-    }
-    facts
+    };
+    let centroid = Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
+    let whole = Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)));
+    [vec![whole, centroid], more].concat()
 }
 
 /// Materials that the case's parts and sections use.

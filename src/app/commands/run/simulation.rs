@@ -145,7 +145,9 @@ impl<R: Recording> Simulation<R> {
             }
             Some(snapshot) => {
                 let integration = stepping.recall(&system, model.method, schedule, &snapshot)?;
-                integration.ok_or_else(another_model)?
+                // all that was read is the same, and what was computed from it is not
+                let another = "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor";
+                integration.ok_or_else(|| ComputeError::input(another, ComputeError::ANEW))?
             }
         };
         let end = stepping.go(&mut system, &mut integration, schedule, checkpoints, fraction)?;
@@ -353,12 +355,4 @@ fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
     let digest: [u8; 32] = hasher.finalize().into();
     let (words, _) = digest.as_chunks();
     std::array::from_fn(|word| u64::from_be_bytes(words[word]))
-}
-
-/// Everything that was read is the same as of the unfinished run, and what was computed from it is not.
-fn another_model() -> ComputeError {
-    ComputeError::input(
-        "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor",
-        ComputeError::ANEW,
-    )
 }

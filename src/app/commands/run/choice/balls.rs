@@ -36,7 +36,7 @@ pub(crate) fn chosen(
     let balls = scene.equilibrium.balls.iter();
     let pressed = balls.clone().all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
     let slowest = balls.map(|ball| ball_hz(scene, ball.inner, ball.outer)).fold(f64::INFINITY, f64::min);
-    let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls()));
+    let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls));
     let setup = &scene.setup;
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
@@ -53,7 +53,7 @@ pub(crate) fn chosen(
             let why = format!(
                 "the slowest ball vibrates between its races at {} kHz; without the balls' mass the phases of the band's modes err by {} in the end",
                 significant(slowest / 1e3, 3),
-                significant(loaded.without_balls(), 2)
+                significant(loaded.without_balls, 2)
             );
             (inertia, why)
         }

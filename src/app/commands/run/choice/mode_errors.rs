@@ -44,7 +44,9 @@ impl ModeErrors {
     /// For a band up to `band_hz`, with what the loaded system loses.
     pub(crate) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
         let modes = &scene.stage.modes;
-        let contacts = at_raceway(scene);
+        let count = PLACES * scene.setup.balls();
+        // all round the raceway
+        let contacts = radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64));
         let sensors: Vec<Vec<f64>> = judged(scene).map(|sensor| participations(modes, &sensor.row)).collect();
         let stiffness = in_series(scene);
         let frequencies: Vec<f64> = (1..=FREQUENCIES).map(|k| TAU * band_hz * k as f64 / FREQUENCIES as f64).collect();
@@ -143,12 +145,6 @@ fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] 
     let whole = [stiff / size, -damp / size];
     let softness = 1.0 / squared_frequency.max(f64::MIN_POSITIVE);
     [whole, [whole[0] - softness, whole[1]]]
-}
-
-/// Participations of radial forces at places all round the raceway.
-fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
-    let count = PLACES * scene.setup.balls();
-    radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64))
 }
 
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.

@@ -65,12 +65,8 @@ impl ModelChoice {
         };
         let parts = self.parts.iter().map(|part| row(part.what, &part.chosen, &part.why, part.estimated_error));
         let together = "root of the sum of squares, relative, in the band, while nearby solutions stay together";
-        Table::new("The model, and why it is this one", columns).rows(parts).row(row(
-            "together",
-            "",
-            together,
-            self.estimated_error,
-        ))
+        let together = row("together", "", together, self.estimated_error);
+        Table::new("The model, and why it is this one", columns).rows(parts).row(together)
     }
 
     fn missed(&self) -> Option<String> {
