@@ -7,6 +7,7 @@ use super::results::{case_result, warnings, write_scalograms, write_signals};
 use super::{CliError, Options, Outcome, OutputFolder, Progress, interrupt};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
+use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
@@ -180,7 +181,8 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
 }
 
 fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
-    let mut lines = vec![result.bearing_table().plain()];
+    let scene = &result.scene;
+    let mut lines = vec![bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)).plain()];
     lines.push(format!(
         "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
         significant(result.simulation.simulated_s, 4),

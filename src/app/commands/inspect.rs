@@ -100,10 +100,18 @@ impl Inspection {
         let bodies = Bodies::of_mesh(mesh);
         let overlapping = bodies.overlaps();
         let (touching, crossing) = bodies.unconnected(|_| false, &overlapping);
+        let groups = mesh.groups.iter().filter(|group| group.dimension > 0);
+        let group_sizes = groups.map(|group| GroupSize {
+            name: group.name.clone(),
+            dimension: group.dimension,
+            size: size(mesh, group.elements.iter().copied()),
+        });
+        let dimension = inventory.dimension;
+        let ids = || mesh.element_ids(dimension);
         let mut found = Self {
             length_unit: unit,
-            size: 0.0,
-            group_sizes: Vec::new(),
+            size: size(mesh, ids()),
+            group_sizes: group_sizes.collect(),
             worst: None,
             invalid_elements: 0,
             invalid: Vec::new(),
@@ -114,19 +122,7 @@ impl Inspection {
             touching,
             inventory,
         };
-        let dimension = found.inventory.dimension;
-        found.size = size(mesh, mesh.element_ids(dimension));
-        mesh.element_ids(dimension).for_each(|id| found.look_at(mesh, id));
-        found.group_sizes = mesh
-            .groups
-            .iter()
-            .filter(|group| group.dimension > 0)
-            .map(|group| GroupSize {
-                name: group.name.clone(),
-                dimension: group.dimension,
-                size: size(mesh, group.elements.iter().copied()),
-            })
-            .collect();
+        ids().for_each(|id| found.look_at(mesh, id));
         found
     }
 

@@ -168,19 +168,16 @@ fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
             ChangeConclusion::AsBefore if indicated && verdict.fault == Fault::OuterRace => format!(
                 "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
             ),
-            ChangeConclusion::AsBefore if indicated || unclear => {
-                format!("It was as strong in the earlier signal: {words}.")
-            }
-            ChangeConclusion::Fell if indicated || unclear => {
-                format!("It was stronger in the earlier signal: {words}.")
-            }
-            ChangeConclusion::NotCertain if indicated || unclear => {
-                format!("Whether it grew since the earlier signal is not certain: {words}.")
-            }
             ChangeConclusion::NotCompared if indicated => {
                 format!("It cannot be compared with the earlier signal. {}", line.why)
             }
-            _ => continue,
+            _ if !indicated && !unclear => continue,
+            ChangeConclusion::AsBefore => format!("It was as strong in the earlier signal: {words}."),
+            ChangeConclusion::Fell => format!("It was stronger in the earlier signal: {words}."),
+            ChangeConclusion::NotCertain => {
+                format!("Whether it grew since the earlier signal is not certain: {words}.")
+            }
+            ChangeConclusion::NotCompared => continue,
         };
         verdict.why = format!("{} {text}", verdict.why);
     }

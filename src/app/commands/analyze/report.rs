@@ -107,9 +107,15 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
             significant(window.spectrum.zero_padding, 3)
         )),
     ];
+    let title = format!("{} and its envelope", window.sensor);
+    let [signal, envelope] = window.shown.clone();
     section = section
         .plot(envelope_plot(window))
-        .plot(time_plot(window))
+        .plot(
+            Plot::new(title, Axis::new("Time", "s"), Axis::new("Amplitude", &window.unit))
+                .curve(signal)
+                .curve(envelope),
+        )
         .facts(facts.into_iter().chain(band_facts(&window.band)))
         .table(peak_table(window));
     if let Some(text) = smeared(window) {
@@ -144,16 +150,6 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
     ))
 }
 
-fn time_plot(window: &WindowAnalysis) -> Plot {
-    let plot = Plot::new(
-        format!("{} and its envelope", window.sensor),
-        Axis::new("Time", "s"),
-        Axis::new("Amplitude", &window.unit),
-    );
-    let [signal, envelope] = window.shown.clone();
-    plot.curve(signal).curve(envelope)
-}
-
 fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     let spectrum = &diagnosis.spectrum;
     let mut plot = Plot::new(
@@ -166,17 +162,14 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     .marker(Marker::new(1.0, "shaft").family(0));
     plot.families = families(diagnosis, 1.0);
     for (family, verdict) in (1..).zip(&diagnosis.faults) {
-        let order = place(verdict);
         let name = verdict.fault.name();
-        plot = plot.marker(Marker::new(order, name).family(family));
+        plot = plot.marker(Marker::new(place(verdict), name).family(family));
         // where a part was not found its harmonics would only cover others
-        let found = verdict.harmonics.iter().filter(|h| h.side == 0);
-        for harmonic in found.skip(1).filter(|_| verdict.order.is_some()) {
-            if harmonic.order < last_order(spectrum) {
-                let label = format!("{}x {name}", harmonic.harmonic);
-                plot = plot.marker(Marker::new(harmonic.order, label).family(family));
-            }
-        }
+        let found = verdict.harmonics.iter().filter(|h| h.side == 0 && verdict.order.is_some()).skip(1);
+        let shown = found.filter(|harmonic| harmonic.order < last_order(spectrum));
+        plot.markers.extend(
+            shown.map(|harmonic| Marker::new(harmonic.order, format!("{}x {name}", harmonic.harmonic)).family(family)),
+        );
     }
     plot
 }
@@ -290,13 +283,11 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
         None => plot.families.extend(window.diagnosis.iter().flat_map(|found| families(found, window.speed_hz))),
     }
     for (family, line) in window.lines.iter().enumerate() {
-        for harmonic in 1..=line.harmonics() {
-            let at = f64::from(harmonic) * line.frequency_hz();
-            if at < top {
-                let label = if harmonic == 1 { line.name().to_owned() } else { format!("{harmonic}x {}", line.name()) };
-                plot = plot.marker(Marker::new(at, label).family(family));
-            }
-        }
+        let harmonics = (1..=line.harmonics()).map(|harmonic| (harmonic, f64::from(harmonic) * line.frequency_hz()));
+        plot.markers.extend(harmonics.filter(|(_, at)| *at < top).map(|(harmonic, at)| {
+            let times = if harmonic == 1 { String::new() } else { format!("{harmonic}x ") };
+            Marker::new(at, format!("{times}{}", line.name())).family(family)
+        }));
     }
     plot
 }

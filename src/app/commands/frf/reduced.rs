@@ -148,8 +148,14 @@ impl<'c> ReducedPaths<'c> {
             file.0.accept()?;
             return Self::of(case, frf, FrfHousing::File(Box::new(file)), band_hz);
         }
-        let stage = CondensedHousing::with_basis(case, first_choice(choice, band_hz[1]), watch)?
-            .ok_or(ComputeError::NothingToCondense)?;
+        let first = match choice.size {
+            // the fixed-interface modes of the band, which resonate whatever is attached: the estimated error says what else is needed
+            BasisSize::Auto(_) => {
+                BasisChoice { size: BasisSize::UpTo(band_hz[1]), enhanced: false, band_hz: band_hz[1] }
+            }
+            _ => BasisChoice { band_hz: band_hz[1], ..choice },
+        };
+        let stage = CondensedHousing::with_basis(case, first, watch)?.ok_or(ComputeError::NothingToCondense)?;
         // static response to every force and, as the path back is the same, to a force at every sensor
         let places = places(&stage, &ends(case, frf).concat())?;
         let dof = stage.housing.model.dof();
@@ -249,15 +255,6 @@ impl<'c> ReducedPaths<'c> {
             }
         }
         Ok(paths)
-    }
-}
-
-/// What `auto` begins with: the fixed-interface modes of the band, which resonate whatever is attached. The estimated error
-/// of the responses says what else it needs.
-fn first_choice(choice: BasisChoice, band_hz: f64) -> BasisChoice {
-    match choice.size {
-        BasisSize::Auto(_) => BasisChoice { size: BasisSize::UpTo(band_hz), enhanced: false, band_hz },
-        _ => BasisChoice { band_hz, ..choice },
     }
 }
 

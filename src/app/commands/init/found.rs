@@ -208,13 +208,3 @@ pub(crate) fn fitting(
     let chosen = fits.iter().find(common).or(fits.first()).copied();
     Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))
 }
-
-impl Found<'_> {
-    /// A group one dimension below the housing that may be held, for a template.
-    pub(crate) fn surface(&self) -> Option<&str> {
-        let below = if self.plane { 1 } else { 2 };
-        let mut others = self.groups.others.iter();
-        let other = others.find(|other| other.dimension == below && other.note.is_none());
-        other.map(|other| other.group.as_str())
-    }
-}

@@ -2,6 +2,7 @@
 
 use crate::fe::mesh::{Mesh, PhysicalGroup};
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// Parts of names of what is held.
 const SUPPORTS: [&str; 11] =
@@ -77,15 +78,14 @@ impl Groups {
     /// Looks at every group; `bore` is the one that the ring sits in.
     pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
         let mut found = Self::default();
-        let counts = mesh.blocks.iter().map(|block| vec![false; block.len()]);
-        let mut taken: Vec<Vec<bool>> = counts.collect();
+        let mut taken = HashSet::new();
         let mut on_housing = vec![false; mesh.nodes.len()];
         // large groups first: of two that overlap the one that holds more is the part
         let mut solids: Vec<&PhysicalGroup> =
             mesh.groups.iter().filter(|group| group.dimension == dimension && usable(mesh, group)).collect();
         solids.sort_by_key(|group| std::cmp::Reverse(group.elements.len()));
         for group in solids {
-            if group.elements.iter().any(|id| taken[id.block][id.index]) {
+            if group.elements.iter().any(|id| taken.contains(id)) {
                 found.others.push(Other {
                     group: group.name.clone(),
                     dimension,
@@ -93,17 +93,20 @@ impl Groups {
                 });
                 continue;
             }
-            for id in &group.elements {
-                taken[id.block][id.index] = true;
-            }
+            taken.extend(group.elements.iter().copied());
             for &node in &group.nodes {
                 on_housing[node] = true;
             }
-            found.parts.push(part(&group.name));
+            let known = MATERIALS.iter().find(|(word, _)| says(&group.name, &[*word]));
+            found.parts.push(PartGuess {
+                group: group.name.clone(),
+                material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
+                by_name: known.is_some(),
+            });
         }
         let order = |name: &str| mesh.groups.iter().position(|group| group.name == name);
         found.parts.sort_by_key(|part| order(&part.group));
-        found.without_part = mesh.element_ids(dimension).filter(|id| !taken[id.block][id.index]).count();
+        found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         for group in &mesh.groups {
             if bore.is_some_and(|bore| bore.name == group.name) {
@@ -140,14 +143,5 @@ impl Groups {
             }
         }
         found
-    }
-}
-
-fn part(name: &str) -> PartGuess {
-    let known = MATERIALS.iter().find(|(word, _)| says(name, &[*word]));
-    PartGuess {
-        group: name.to_owned(),
-        material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
-        by_name: known.is_some(),
     }
 }

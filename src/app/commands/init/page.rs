@@ -3,9 +3,6 @@
 /// Widest line of a note.
 const WIDTH: usize = 118;
 
-/// Significant digits of what is computed or guessed.
-pub(crate) const COMPUTED_DIGITS: usize = 4;
-
 /// Mark between a value and where it comes from. Names of a mesh are quoted and do not have it.
 pub(crate) const ORIGIN: &str = "\u{1f}";
 

@@ -1,7 +1,6 @@
 //! The window that a case file's run is analysed in.
 
 use super::found::Found;
-use super::page::{COMPUTED_DIGITS, number};
 use super::scene::SPEED_HZ;
 use crate::bearing::kinematics::BallRow;
 use crate::signal::diagnosis::{Fault, FaultOrders};
@@ -17,37 +16,30 @@ const FEWEST_TURNS: f64 = 12.5;
 pub(crate) struct Window {
     from_s: f64,
     end_s: f64,
-    words: String,
+    /// Its length in turns of the shaft.
+    turns: f64,
+    /// How many turns tell the lines of the outer race from the shaft's; `None`: no number of them does.
+    needed: Option<f64>,
+    /// Order of the outer race; `None` where it is not known.
+    outer: Option<f64>,
 }
 
 impl Window {
     /// Long enough for the lines of the outer race, which the draft dents.
     pub(crate) fn of(found: &Found<'_>) -> Self {
         let bearing = found.bearing.map_or(found.ring.of, |numbers| numbers.bearing);
-        let of = |turns: f64, words: String| Self { from_s: SETTLED_S, end_s: SETTLED_S + turns / SPEED_HZ, words };
-        let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0);
-        let Ok(orders) = row.map(|row| row.orders()) else {
-            return of(FEWEST_TURNS, "guess, s".to_owned());
-        };
-        let needed = FaultOrders::of(&orders, 0.0).map(|exact| exact.turns_to_judge(Fault::OuterRace));
-        let (needed, outer) = (needed.ok().flatten(), number(orders.outer, COMPUTED_DIGITS));
-        let turns = needed.map_or(FEWEST_TURNS, f64::ceil);
-        match needed {
-            Some(needed) if needed <= FEWEST_TURNS => {
-                of(FEWEST_TURNS, format!("{FEWEST_TURNS} turns; the lines of the outer race need {turns:.0} at least"))
-            }
-            Some(_) => of(
-                turns,
-                format!(
-                    "{turns:.0} turns: fewer do not tell the lines of the outer race, {outer} a turn, from the shaft's"
-                ),
-            ),
-            None => of(
-                turns,
-                format!(
-                    "{turns} turns; no window tells the lines of this outer race, {outer} a turn, from the shaft's"
-                ),
-            ),
+        let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0).ok();
+        let orders = row.map(|row| row.orders());
+        let exact = orders.and_then(|orders| FaultOrders::of(&orders, 0.0).ok());
+        let needed = exact.and_then(|exact| exact.turns_to_judge(Fault::OuterRace));
+        let turns = needed.filter(|needed| *needed > FEWEST_TURNS).map_or(FEWEST_TURNS, f64::ceil);
+        let end_s = SETTLED_S + turns / SPEED_HZ;
+        Self {
+            from_s: SETTLED_S,
+            end_s,
+            turns,
+            needed: needed.map(f64::ceil),
+            outer: orders.map(|orders| orders.outer),
         }
     }
 }

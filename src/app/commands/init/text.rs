@@ -1,7 +1,7 @@
 //! The case file's text, and the findings in sentences.
 
 use super::found::{Found, FoundCylinder};
-use super::page::{COMPUTED_DIGITS, ORIGIN, list, number, numbers, page, quoted};
+use super::page::{ORIGIN, list, number, numbers, page, quoted};
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use minijinja::syntax::SyntaxConfig;
@@ -12,8 +12,7 @@ use minijinja::{Environment, UndefinedBehavior, context};
 const ROUND_OFF: f64 = 1e-9;
 
 fn unit_origin(found: &Found<'_>) -> String {
-    let sides = found.extent.map(|side| number(side, 3));
-    let [x, y, z] = &sides;
+    let [x, y, z] = found.extent.map(|side| number(side, 3));
     let size = format!("the mesh is {x} x {y} x {z} units wide");
     match found.unit_from {
         UnitFrom::Given => format!("given; {size}"),
@@ -129,21 +128,6 @@ fn others(found: &Found<'_>) -> Vec<String> {
     others.collect()
 }
 
-fn section_origin(found: &Found<'_>) -> String {
-    let ring = &found.ring;
-    let shape = if ring.of.shoulder_diameter.is_some() {
-        "down to its shoulders, less the groove"
-    } else {
-        "down to the groove's bottom: its shoulders are not published"
-    };
-    let scale = number(ring.scale, COMPUTED_DIGITS);
-    let scaled = match scale.as_str() {
-        "1" => String::new(),
-        scale => format!(", scaled by {scale} to the bore"),
-    };
-    format!("catalogue: the outer ring of {}, {shape}{scaled} (m^2, m^4, m)", ring.of.name)
-}
-
 fn bearing_origin(found: &Found<'_>, numbers: &BearingNumbers) -> String {
     let bearing = numbers.bearing;
     let mut words = format!(
@@ -172,39 +156,24 @@ fn bearing_origin(found: &Found<'_>, numbers: &BearingNumbers) -> String {
 pub(crate) fn case_text(found: &Found<'_>) -> Result<String, minijinja::Error> {
     let of_bearing = found.bearing.unwrap_or_else(|| BearingNumbers::of(found.ring.of));
     let bearing = of_bearing.bearing;
-    let bore = found.bore.as_ref();
     let shaft_bore = found.bearing.map_or(found.ring.of.bore * found.ring.scale, |_| bearing.bore);
     let [mass, unbalance] = shaft(shaft_bore);
+    // a group one dimension below the housing that may be held
+    let below = if found.plane { 1 } else { 2 };
+    let surface = found.groups.others.iter().find(|other| other.dimension == below && other.note.is_none());
     let values = context! {
         found => Serde(found),
         numbers => Serde(of_bearing),
-        bearing => Serde(bearing),
-        section => Serde(found.ring.section),
+        citation => bearing.source.citation(),
+        races => Serde([bearing.inner_race_diameter(), bearing.outer_race_diameter()]),
         unit_origin => unit_origin(found),
         bore_sentence => bore_sentence(found),
-        section_origin => section_origin(found),
         bearing_origin => bearing_origin(found, &of_bearing),
-        pitch_origin => match bearing.pitch_published {
-            true => "catalogue: pitch and ball diameter",
-            false => "catalogue's ball diameter on the mean of bore and outer diameter (a guess: no pitch diameter is published)",
-        },
-        citation => bearing.source.citation(),
         others => others(found),
-        axes => if found.plane { r#""x", "y""# } else { r#""x", "y", "z""# },
-        springs => if found.plane { "x = 1e8, y = 1e8" } else { "x = 1e8, y = 1e8, z = 1e8" },
-        surface => found.surface().unwrap_or("GROUP"),
-        width => found.ring.of.width * found.ring.scale,
-        outer_radius => bore.map_or(0.5 * found.ring.of.outer_diameter, |bore| bore.radius_m),
-        tie => context! {
-            group => bore.map_or("GROUP", |bore| &bore.group),
-            centre => Serde(bore.map_or([0.0; 3], |bore| bore.centre_m)),
-            // a billionth of the radius is round-off of the fit
-            round_off => 1e-9 * bore.map_or(1.0, |bore| bore.radius_m),
-        },
+        surface => surface.map_or("GROUP", |other| &other.group),
+        // a billionth of a length is round-off of the fit
         round_off => 1e-9,
         spot_round_off => 1e-9 * found.unit.to_metres() * found.extent.into_iter().fold(0.0, f64::max),
-        scale => if found.bearing.is_some() { 1.0 } else { found.ring.scale },
-        races => Serde([bearing.inner_race_diameter(), bearing.outer_race_diameter()]),
         shaft => context! { bore => shaft_bore, mass, unbalance, lengths => SHAFT_LENGTHS, balance => BALANCE },
         speed_hz => SPEED_HZ,
         window => Serde(Window::of(found)),

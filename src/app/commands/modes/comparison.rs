@@ -128,12 +128,6 @@ impl FileComparison {
     }
 }
 
-fn ascending(modes: &[usize]) -> Vec<usize> {
-    let mut modes = modes.to_vec();
-    modes.sort_unstable();
-    modes
-}
-
 /// A file that was read, with what is asked of it.
 pub(crate) struct ComparedFile<'c> {
     asked: &'c ComparedModes,
@@ -253,10 +247,15 @@ fn compared(asked: &ComparedModes, pair: &ModePair, [own, there]: [&Side; 2], ri
         Ordering::Less => own.covers(there_hz, within),
         Ordering::Greater => there.covers(here_hz, within),
     };
+    let [here, there] = [&pair.here, &pair.there].map(|modes| {
+        let mut modes = modes.clone();
+        modes.sort_unstable();
+        modes
+    });
     let misses = [(pair.mac < asked.mac, Miss::Mac), (!agrees, Miss::Frequency), (short, Miss::Count)];
     ComparedPair {
-        here: ascending(&pair.here),
-        there: ascending(&pair.there),
+        here,
+        there,
         here_hz,
         there_hz,
         relative_difference: difference,

@@ -146,13 +146,12 @@ fn patch_rows(contacts: &RaceContacts, equilibrium: &Equilibrium) -> [Row; 4] {
 fn drops(geometry: &BearingGeometry, stiffness: ContactStiffness, defect: &RaceDefect) -> Vec<(&'static str, f64)> {
     let race = defect.race();
     let in_plane = |shape: &DentShape| {
-        let dent = Dent::new(geometry, race, *shape, stiffness).ok()?;
-        Some(("Drop of a ball in the dent, in the plane", dent.ball_drop()))
+        let dent = Dent::new(geometry, race, *shape, stiffness).ok();
+        dent.map(|dent| ("Drop of a ball in the dent, in the plane", dent.ball_drop()))
     };
     let surface = |shape: &DentShape| {
-        let dent = SurfaceDent::new(geometry, race, *shape, stiffness).ok()?;
-        let name = "Drop of a ball in the dent, in its surface";
-        Some((name, dent.ball_drop()))
+        let dent = SurfaceDent::new(geometry, race, *shape, stiffness).ok();
+        dent.map(|dent| ("Drop of a ball in the dent, in its surface", dent.ball_drop()))
     };
     let used = |name| Some((name, defect.ball_drop()));
     let both = match defect {

@@ -52,13 +52,14 @@ pub(crate) fn run_report<R: Recording>(
     let model = Section::new("Model")
         .drawing(parts::draw(case, stage, Some(setup)))
         .facts(parts::model_facts(case, stage, true));
+    let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
         .table(result.choice.table());
     report = report
         .section(model)
         .section(choice)
-        .section(Section::new("Bearing").table(result.bearing_table()))
+        .section(Section::new("Bearing").table(bearing))
         .section(parts::statics_section(setup, &result.statics))
         .section(Section::new("Computation").facts(computation(result)));
     let imported = result.scene.stage.imported.iter();

@@ -66,8 +66,8 @@ pub struct ModelSummary<'a> {
     pub of_modes: usize,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
-    /// "dynamic" or "quasi-static".
-    pub balls: &'static str,
+    /// How balls follow their radial motion.
+    pub balls: BallsInertia,
     /// Whether the static residual of the other modes was in use.
     pub residual: bool,
     /// Its parts, and why they are these.
@@ -167,10 +167,7 @@ impl<R: Recording> RunResult<R> {
                 modes: simulation.modes,
                 of_modes: scene.stage.structure.dof(),
                 fixed_interface_modes: scene.stage.fixed_interface_modes,
-                balls: match self.choice.model.balls_inertia {
-                    BallsInertia::Dynamic => "dynamic",
-                    BallsInertia::QuasiStatic => "quasi-static",
-                },
+                balls: self.choice.model.balls_inertia,
                 residual: simulation.residual,
                 why: &self.choice.parts,
             },

@@ -100,10 +100,7 @@ impl ModelChoice {
     /// What the measured error of modes and steps may be while the estimate of all parts holds, relative; `None` without an estimate.
     fn share_of_steps(&self) -> Option<f64> {
         let together = self.estimated_error?;
-        let part = |what: &str| {
-            let part = self.parts.iter().find(|part| part.what == what);
-            part.and_then(|part| part.estimated_error)
-        };
+        let part = |what: &str| self.parts.iter().find(|part| part.what == what)?.estimated_error;
         let measured = part("method")?;
         let unseen = [SUPERELEMENT, CONDENSATION].map(|what| part(what).unwrap_or(0.0));
         let unseen = unseen[0].hypot(unseen[1]);

@@ -240,20 +240,15 @@ impl<'a> Loaded<'a> {
         };
         let entries = FREQUENCIES * pushing;
         let mut lost = vec![[0.0; 2]; sensors * entries];
-        let mut whole = lost.clone();
-        for sensor in 0..sensors {
-            for frequency in 0..FREQUENCIES {
-                for place in 0..pushing {
-                    let column = 2 * (sensors + place);
-                    let entry = &mut whole[sensor * entries + frequency * pushing + place];
-                    *entry = [0, 1].map(|part| {
-                        let modes = 0..self.modes.len();
-                        let column = frequency * width + column + part;
-                        modes.map(|i| participations[(i, sensor)] * right[(i, column)]).sum()
-                    });
-                }
-            }
-        }
+        let whole = (0..sensors * entries).map(|number| -> Complex {
+            let (sensor, entry) = (number / entries, number % entries);
+            let column = entry / pushing * width + 2 * (sensors + entry % pushing);
+            [0, 1].map(|part| {
+                let modes = 0..self.modes.len();
+                modes.map(|i| participations[(i, sensor)] * right[(i, column + part)]).sum()
+            })
+        });
+        let whole: Vec<Complex> = whole.collect();
         let relative = |lost: &[Complex]| -> f64 {
             let of_sensor = |sensor: usize| {
                 let range: Range<usize> = sensor * entries..(sensor + 1) * entries;

@@ -84,10 +84,7 @@ impl ModelChoice {
         if together <= target {
             return None;
         }
-        let given = |what: &str| {
-            let mut parts = self.parts.iter().filter(|part| part.what == what);
-            parts.any(|part| part.why.starts_with("given"))
-        };
+        let given = |what: &str| self.parts.iter().any(|part| part.what == what && part.why.starts_with("given"));
         // what the program chooses keeps the linear estimate below the target
         let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {

@@ -6,6 +6,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::system::{Equilibrium, Sensor, StaticCondition, StructureModes};
 use std::f64::consts::TAU;
+use std::iter::successors;
 
 /// Largest ball force to prepare for, in units of the largest static one: impacts in a dent of the source's size reach five to
 /// ten times.
@@ -103,14 +104,11 @@ pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<
 
 /// Where a load begins to change its slope between start and end, s.
 fn knots(asked: &case::Transient, scene: &Scene) -> Vec<f64> {
-    let mut knots = Vec::new();
-    for load in &scene.setup.shaft.loads {
-        let mut t = load.next_knot(asked.start);
-        while t <= asked.end {
-            knots.push(t);
-            t = load.next_knot(t);
-        }
-    }
+    let of_load = scene.setup.shaft.loads.iter().flat_map(|load| {
+        let all = successors(Some(load.next_knot(asked.start)), |t| Some(load.next_knot(*t)));
+        all.take_while(|t| *t <= asked.end)
+    });
+    let mut knots: Vec<f64> = of_load.collect();
     knots.sort_by(f64::total_cmp);
     knots
 }

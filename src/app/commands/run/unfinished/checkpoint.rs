@@ -124,12 +124,11 @@ impl RunIdentity {
     pub fn of(case: &Case) -> Result<Self, ComputeError> {
         let mut files = mesh_digests(case)?;
         let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects);
-        for defect in defects {
-            if let Defect::Measured(measured) = defect {
-                // one that cannot be read is named where it is needed
-                files.extend(FileDigest::of_file(&measured.profile.csv));
-            }
-        }
+        // one that cannot be read is named where it is needed
+        files.extend(defects.filter_map(|defect| match defect {
+            Defect::Measured(measured) => FileDigest::of_file(&measured.profile.csv).ok(),
+            _ => None,
+        }));
         Ok(Self {
             plummer: env!("CARGO_PKG_VERSION").to_owned(),
             case_sha256: files::hex(Sha256::new_with_prefix(&case.source.text)),
@@ -155,8 +154,8 @@ impl RunIdentity {
         if self.set != now.set {
             changes.push(format!("{}, now {}", set_text(&self.set), set_text(&now.set)));
         }
-        let hashes = |files: &[FileDigest]| -> Vec<String> { files.iter().map(|file| file.sha256.clone()).collect() };
-        if hashes(&self.files) != hashes(&now.files) {
+        let [then, current] = [self, now].map(|run| run.files.iter().map(|file| &file.sha256));
+        if then.ne(current) {
             let pairs = self.files.iter().zip(&now.files);
             let other = pairs.filter(|(then, now)| then.sha256 != now.sha256);
             let mut names: Vec<String> = other.map(|(_, now)| now.path.display().to_string()).collect();
