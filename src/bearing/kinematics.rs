@@ -11,6 +11,8 @@
 //! Convention: a defect on a ball meets a race twice a spin; "ball defect" counts both.
 
 use super::error::BearingError;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 /// A row of balls: count, diameters and contact angle, checked.
@@ -22,7 +24,7 @@ pub struct BallRow {
 }
 
 /// Events per shaft turn; multiply by the shaft's frequency to get Hz.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct DefectOrders {
     /// Turns of the cage, `(1 − γ) / 2`; between 0 and 1/2.
     pub cage: f64,
@@ -31,8 +33,10 @@ pub struct DefectOrders {
     /// Balls that pass a point of the inner race.
     pub inner: f64,
     /// Turns of a ball about its own axis, relative to the cage.
+    #[serde(skip)]
     pub ball_spin: f64,
     /// Meetings of a point on a ball with either race: twice the spin.
+    #[serde(rename = "ball")]
     pub ball_defect: f64,
 }
 

@@ -3,6 +3,8 @@
 use super::{BearingSetup, Equilibrium, LoadedModes, StaticCondition, Structure, StructureModes, SystemError};
 use crate::numerics::Watch;
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
 
 /// Cage angles over one ball spacing, both ends included.
 const ANGLES: usize = 29;
@@ -11,21 +13,29 @@ const ANGLES: usize = 29;
 const LOADS: usize = 17;
 
 /// Loaded modes at one cage angle or load.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LoadedPoint {
     /// Angle that the cage is turned on by, rad, or load in units of the case's.
     pub at: f64,
-    /// `None` where no equilibrium was found.
+    /// `None` where no equilibrium was found. Results have the frequencies alone, Hz.
+    #[serde(rename = "frequencies_hz", serialize_with = "frequencies_alone")]
+    #[schemars(with = "Option<Vec<f64>>")]
     pub modes: Option<LoadedModes>,
 }
 
 /// Loaded modes over a ball pass and over the load.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LoadedPass {
-    /// Over one ball spacing.
+    /// Over one ball spacing, each at an angle of the cage, rad.
+    #[serde(rename = "over_angle_rad")]
     pub over_angle: Vec<LoadedPoint>,
     /// From a tenth of the force on the shaft to ten times.
     pub over_load: Vec<LoadedPoint>,
+}
+
+fn frequencies_alone<S: Serializer>(modes: &Option<LoadedModes>, to: S) -> Result<S::Ok, S::Error> {
+    let frequencies = modes.as_ref().map(|loaded| loaded.modes.iter().map(|mode| mode.frequency_hz));
+    frequencies.map(Iterator::collect::<Vec<f64>>).serialize(to)
 }
 
 impl LoadedPass {

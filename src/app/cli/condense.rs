@@ -4,8 +4,7 @@ use super::report_files::ReportFiles;
 use super::results::{Job, warnings};
 use super::{CliError, Outcome};
 use crate::app::commands::condense::{
-    Comparison, CondenseResult, compute_condense, condense_report, imported_report, reduced_superelement_record,
-    superelement_record,
+    Comparison, CondenseResult, Coordinates, compute_condense, condense_report, imported_report,
 };
 use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
@@ -34,10 +33,8 @@ pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, Cli
     let report = condense_report(case, &result, &command);
     let files = ReportFiles::write(&job.folder, "condense", case, report, progress)?;
     let element = job.folder.path.join("superelement.npz");
-    let record = match &result.interface {
-        Some(interface) => reduced_superelement_record(case, &result.stage, &interface.reduction)?,
-        None => superelement_record(case, &result.stage)?,
-    };
+    let reduction = result.interface.as_ref().map(|interface| &interface.reduction);
+    let record = Coordinates { stage: &result.stage, reduction }.record(case)?;
     write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {

@@ -95,10 +95,10 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         line("mass", masses(found, density));
     }
     if let Some(worst) = &found.worst {
-        let [x, y, z] = worst.position.map(|at| significant(at, 5));
+        let [x, y, z] = worst.shape.position.map(|at| significant(at, 5));
         let shape = format!(
             "Jacobian ratio {} at element {} ({}), ({x}, {y}, {z}) {unit}",
-            significant(worst.scaled_jacobian, 3),
+            significant(worst.shape.scaled_jacobian, 3),
             worst.tag,
             worst.kind.name()
         );

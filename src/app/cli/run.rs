@@ -6,6 +6,7 @@ use super::results::{Job, warnings, write_scalograms, write_signals};
 use super::{CliError, Outcome, OutputFolder, interrupt, resuming};
 use crate::app::case::{Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
+use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
 use crate::app::error::ComputeError;
@@ -158,8 +159,8 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
 }
 
 fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
-    let mut lines = vec![result.bearing_table().plain()];
-    let simulation = &result.simulation;
+    let (scene, simulation) = (&result.scene, &result.simulation);
+    let mut lines = vec![bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)).plain()];
     lines.push(format!(
         "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
         significant(simulation.simulated_s, 4),
@@ -190,12 +191,13 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
         });
         // a line that the speed smears over Hz is not looked for
         let shown = !result.scene.outer_race_is_sound() && window.smeared_above.is_none();
-        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().filter(|_| shown)) {
-            lines.push(match found {
+        for (harmonic, line) in (1..).zip(window.outer.iter().filter(|_| shown)) {
+            let expected = line.expected_hz;
+            lines.push(match line.found_hz.zip(line.amplitude) {
                 Some((hz, amplitude)) => format!(
                     "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {} {}",
                     100.0 * (hz / expected - 1.0),
-                    significant(*amplitude, 3),
+                    significant(amplitude, 3),
                     window.spectrum.unit
                 ),
                 None => format!("  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"),

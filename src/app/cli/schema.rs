@@ -54,7 +54,7 @@ impl ResultOf {
             Self::Condense => of::<CaseResult<'_, Either<CondenseSummary<'_>, ImportedSummary<'_>>>>(self),
             Self::Frf => of::<CaseResult<'_, FrfSummary<'_>>>(self),
             Self::Run => of::<Either<CaseResult<'_, RunSummary<'_>>, ExplainSummary<'_>>>(self),
-            Self::Analyze => of::<Either<AnalysisResult, SurveyResult>>(self),
+            Self::Analyze => of::<Either<AnalysisResult<'_>, SurveyResult<'_>>>(self),
             Self::Chart => of::<ChartResult<'_>>(self),
             Self::Stability => of::<CaseResult<'_, Stability>>(self),
             Self::Sweep => {

@@ -1,6 +1,6 @@
 //! `plummer inspect`: what a mesh contains, how large it is and how well its elements are shaped.
 
-use crate::fe::element::continuum::{measure, quality, surface_weights};
+use crate::fe::element::continuum::{ShapeQuality, measure, quality, surface_weights};
 use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
 use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching};
 use crate::numerics::units::LengthUnit;
@@ -19,13 +19,9 @@ pub struct ElementShape {
     pub tag: u64,
     /// Its kind.
     pub kind: ElementKind,
-    /// Smallest Jacobian determinant over the largest: 1 for parallel edges, 0 and below for a folded or
-    /// inverted element.
-    pub scaled_jacobian: f64,
-    /// Smallest determinant, m^2 or m^3.
-    pub smallest_determinant: f64,
-    /// Where that is, m.
-    pub position: [f64; 3],
+    /// Its Jacobian.
+    #[serde(flatten)]
+    pub shape: ShapeQuality,
 }
 
 /// Length (m), area (m^2) or volume (m^3) of a group of curves, surfaces or volumes.
@@ -104,10 +100,18 @@ impl Inspection {
         let bodies = Bodies::of_mesh(mesh);
         let overlapping = bodies.overlaps();
         let (touching, crossing) = bodies.unconnected(|_| false, &overlapping);
+        let groups = mesh.groups.iter().filter(|group| group.dimension > 0);
+        let group_sizes = groups.map(|group| GroupSize {
+            name: group.name.clone(),
+            dimension: group.dimension,
+            size: size(mesh, group.elements.iter().copied()),
+        });
+        let dimension = inventory.dimension;
+        let ids = || mesh.element_ids(dimension);
         let mut found = Self {
             length_unit: unit,
-            size: 0.0,
-            group_sizes: Vec::new(),
+            size: size(mesh, ids()),
+            group_sizes: group_sizes.collect(),
             worst: None,
             invalid_elements: 0,
             invalid: Vec::new(),
@@ -118,19 +122,7 @@ impl Inspection {
             touching,
             inventory,
         };
-        let all = elements_of(mesh, found.inventory.dimension);
-        found.size = size(mesh, all.clone());
-        all.for_each(|id| found.look_at(mesh, id));
-        found.group_sizes = mesh
-            .groups
-            .iter()
-            .filter(|group| group.dimension > 0)
-            .map(|group| GroupSize {
-                name: group.name.clone(),
-                dimension: group.dimension,
-                size: size(mesh, group.elements.iter().copied()),
-            })
-            .collect();
+        ids().for_each(|id| found.look_at(mesh, id));
         found
     }
 
@@ -141,31 +133,18 @@ impl Inspection {
         let Ok(shape) = quality(kind, &coordinates(mesh, id)) else {
             return;
         };
-        let shape = ElementShape {
-            tag: block.tags[id.index],
-            kind: block.kind,
-            scaled_jacobian: shape.scaled_jacobian,
-            smallest_determinant: shape.smallest_determinant,
-            position: shape.position,
-        };
+        let shape = ElementShape { tag: block.tags[id.index], kind, shape };
         if measure(kind, &coordinates(mesh, id)).is_err() {
             self.invalid_elements += 1;
             if self.invalid.len() < LISTED {
                 self.invalid.push(shape.clone());
             }
         }
-        let worse = |worst: &ElementShape| shape.scaled_jacobian < worst.scaled_jacobian;
+        let worse = |worst: &ElementShape| shape.shape.scaled_jacobian < worst.shape.scaled_jacobian;
         if self.worst.as_ref().is_none_or(worse) {
             self.worst = Some(shape);
         }
     }
-}
-
-pub(crate) fn elements_of(mesh: &Mesh, dimension: usize) -> impl Iterator<Item = ElementId> + Clone + '_ {
-    let blocks = mesh.blocks.iter().enumerate();
-    blocks
-        .filter(move |(_, block)| block.kind.dimension() == dimension)
-        .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
 }
 
 fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {

@@ -1,5 +1,8 @@
 //! A bearing of a catalogue, and where its numbers are published.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 /// A maker's catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
@@ -35,30 +38,38 @@ impl Source {
 pub const GROOVES: [f64; 2] = [0.52, 0.53];
 
 /// A deep groove ball bearing as its maker publishes it. Lengths in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct CatalogueBearing {
     /// Designation by ISO 15 dimensions, without suffixes.
     pub name: &'static str,
-    /// Bore diameter d.
+    /// Bore diameter d, m.
+    #[serde(rename = "bore_m")]
     pub bore: f64,
-    /// Outer diameter D.
+    /// Outer diameter D, m.
+    #[serde(rename = "outer_diameter_m")]
     pub outer_diameter: f64,
-    /// Width B.
+    /// Width B, m.
+    #[serde(rename = "width_m")]
     pub width: f64,
     /// Number of balls.
     pub balls: u32,
-    /// Ball diameter.
+    /// Ball diameter, m.
+    #[serde(rename = "ball_diameter_m")]
     pub ball_diameter: f64,
-    /// Diameter of the circle of the balls' centres.
+    /// Diameter of the circle of the balls' centres, m.
+    #[serde(rename = "pitch_diameter_m")]
     pub pitch_diameter: f64,
     /// Whether the maker publishes the pitch diameter; if not, it is (d + D)/2, which is within 2 % of the published ones of the
     /// series 60 and 62.
     pub pitch_published: bool,
-    /// Diameter of the outer ring's shoulders; `None`: not published.
+    /// Diameter of the outer ring's shoulders, m; `None`: not published.
+    #[serde(rename = "shoulder_diameter_m")]
     pub shoulder_diameter: Option<f64>,
     /// Mass of the whole bearing, kg.
+    #[serde(rename = "mass_kg")]
     pub mass: f64,
     /// Where all of this is published.
+    #[serde(skip)]
     pub source: Source,
 }
 

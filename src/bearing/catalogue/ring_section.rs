@@ -1,9 +1,10 @@
 //! Cross-section of an outer ring: a rectangle less the groove.
 
 use super::entry::{CatalogueBearing, GROOVES};
+use serde::Serialize;
 
 /// Cross-section of an outer ring, without chamfers and seal grooves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct OuterRingSection {
     /// Area A, m^2.
     pub area: f64,

@@ -1,6 +1,8 @@
 //! Modes of a structure with everything that proves them.
 
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Error bounds below which an eigenvalue counts as zero: the bound itself is an estimate.
@@ -11,7 +13,7 @@ const ZERO: f64 = 4.0;
 const NEAR_ZERO: f64 = 1e4;
 
 /// Which modes.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ModeRange {
     /// The lowest so many, at least 1.
@@ -39,7 +41,7 @@ impl ModeRange {
 }
 
 /// The proof that no mode is missing: Sylvester's law of inertia at one or two shifts.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct FrequencyCount {
     /// Frequency above which was counted, Hz; `None`: from zero.
     pub above_hz: Option<f64>,
@@ -52,33 +54,37 @@ pub struct FrequencyCount {
 }
 
 /// Modes Phi of `K phi = lambda M phi`, mass-normalised, with what is known of their accuracy.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ModalBasis {
     /// Eigenvalues lambda, 1/s^2, ascending.
+    #[serde(skip)]
     pub eigenvalues: Vec<f64>,
-    /// Frequencies `sqrt(lambda) / 2 pi`, Hz; zero for an eigenvalue that round-off made negative.
+    /// Frequencies `sqrt(lambda) / 2 pi`, Hz, ascending; zero for an eigenvalue that round-off made negative.
     pub frequencies_hz: Vec<f64>,
     /// How far each frequency may be from that of the same matrices in exact arithmetic, Hz.
     pub error_bounds_hz: Vec<f64>,
+    /// Modes without strain energy: those whose energy `phi^T K phi = lambda` is zero within four times its error
+    /// bound. They come first. How small an energy can be told from zero depends on how it was summed.
+    pub rigid_modes: usize,
     /// `|K phi - lambda M phi|` relative to its terms.
     pub residuals: Vec<f64>,
     /// Shapes [n x count], `Phi^T M Phi = 1`.
+    #[serde(skip)]
     pub shapes: DenseMatrix,
     /// Largest entry of `Phi^T M Phi - 1`.
     pub orthogonality: f64,
-    /// Modes without strain energy: those whose energy `phi^T K phi = lambda` is zero within four times its error
-    /// bound. They come first. How small an energy can be told from zero depends on how it was summed: see
-    /// [`ModalBasis::sharpen`].
-    pub rigid_modes: usize,
-    /// The proof of completeness.
+    /// The proof that no mode is missing.
     pub count_check: FrequencyCount,
     /// Shift of the factorisation, 1/s^2.
     pub shift: f64,
-    /// Where the time went.
+    /// Wall time of the eigenvalue computation, s.
+    #[serde(rename = "eigen_s")]
     pub times: EigenTimes,
     /// How far each eigenvalue may be from that of the same matrices in exact arithmetic, 1/s^2.
+    #[serde(skip)]
     bounds: Vec<f64>,
     /// Part of the bound that is round-off of `phi^T K phi`, 1/s^2.
+    #[serde(skip)]
     rounding: Vec<f64>,
 }
 

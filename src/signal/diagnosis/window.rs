@@ -14,33 +14,42 @@ use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::WhiteSpectrum;
+use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
 
 /// Relative change of a given speed that is said.
 const SAID_CHANGE: f64 = 0.01;
 
 /// What is said of a window.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Diagnosis {
+    /// The envelope that shows most.
+    pub envelope: String,
+    /// How many were judged.
+    pub envelopes: usize,
+    /// Spectrum of that envelope over the shaft's angle. Results have nothing of it but the turns of the shaft in the window.
+    #[serde(rename = "turns", serialize_with = "turns_alone")]
+    #[schemars(with = "f64", description = "Turns of the shaft in the window.")]
+    pub spectrum: EnvelopeOrderSpectrum,
     /// Mean shaft speed, Hz: the given one, sharpened where the signal shows it.
     pub speed_hz: f64,
     /// The mean speed that was given, Hz.
     pub given_speed_hz: f64,
     /// Relative uncertainty of the speed.
+    #[serde(rename = "speed_relative_error")]
     pub speed_error: f64,
-    /// What shows it.
+    /// What shows the speed.
     pub speed_source: SpeedSource,
-    /// The envelope that shows most.
-    pub envelope: String,
-    /// How many were judged.
-    pub envelopes: usize,
-    /// Spectrum of that envelope over the shaft's angle.
-    pub spectrum: EnvelopeOrderSpectrum,
     /// One verdict a fault whose order is known, in the order of [`Fault::ALL`](super::Fault::ALL).
     pub faults: Vec<FaultVerdict>,
     /// Impacts that belong to no part.
     pub unexplained: Vec<UnexplainedImpacts>,
-    /// Faults that the signal alone indicates and something else speaks against, `doubt`.
+    /// Faults that the signal alone indicates and something else speaks against.
     pub by_signal_alone: Vec<Fault>,
+}
+
+fn turns_alone<S: Serializer>(spectrum: &EnvelopeOrderSpectrum, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_f64(spectrum.turns)
 }
 
 impl Diagnosis {

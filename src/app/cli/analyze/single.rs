@@ -11,7 +11,7 @@ use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
 use crate::report::significant;
-use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
+use crate::signal::diagnosis::{ChangeConclusion, Conclusion, change_words};
 
 /// Analyses an input into a folder.
 ///
@@ -42,22 +42,23 @@ pub(super) fn single(
     let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);
-    let rows: Vec<AnalysisRow> = windows.iter().map(|window| AnalysisRow::of(&name, window)).collect();
-    let defect_orders = Some(source.defect_orders(input, windows.first())?);
+    let orders = source.defect_orders(input, windows.first())?;
+    let rows: Vec<AnalysisRow> = windows.into_iter().map(|window| AnalysisRow::of(&name, window)).collect();
+    let windows: Vec<&WindowAnalysis> = rows.iter().filter_map(|row| row.found.as_ref().ok()).collect();
     let (result, written) = write_results(folder, &progress, started, report, &rows, |head| AnalysisResult {
         head,
         input: InputSummary {
-            defect_orders,
+            defect_orders: Some(orders),
             case: source.case.as_ref().map(|path| path.display().to_string()),
             input: name,
         },
-        windows: windows.iter().map(WindowAnalysis::summary).collect(),
+        windows: windows.clone(),
     })?;
     Ok(Outcome { summary: summary(&windows), result, written, verdict: verdict(&windows) })
 }
 
-fn verdict(windows: &[WindowAnalysis]) -> Result<(), CliError> {
-    if windows.iter().any(|window| window.diagnosis.as_ref().is_ok_and(Diagnosis::is_judged)) {
+fn verdict(windows: &[&WindowAnalysis]) -> Result<(), CliError> {
+    if windows.iter().any(|window| window.is_judged()) {
         return Ok(());
     }
     let reason = windows.iter().find_map(|window| match &window.diagnosis {
@@ -91,7 +92,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
     lines
 }
 
-fn summary(windows: &[WindowAnalysis]) -> String {
+fn summary(windows: &[&WindowAnalysis]) -> String {
     let mut lines = Vec::new();
     for window in windows {
         let place =

@@ -25,7 +25,6 @@ struct Analysed {
     input: Option<InputSummary>,
     assumptions: Vec<String>,
     rows: Vec<AnalysisRow>,
-    windows: Vec<WindowOfInput>,
     sections: Vec<Section>,
     warnings: Vec<String>,
     failures: Vec<Failure>,
@@ -62,13 +61,12 @@ pub(super) fn survey(
         failed += usize::from(!one.failures.is_empty());
         of_inputs.extend(one.input);
         all.rows.extend(one.rows);
-        all.windows.extend(one.windows);
         all.sections.extend(one.sections);
         all.warnings.extend(one.warnings);
         all.failures.extend(one.failures);
         extend_new(&mut all.assumptions, one.assumptions);
     }
-    if all.windows.is_empty() {
+    if all.rows.iter().all(|row| row.found.is_err()) {
         progress.finish();
         return Err(failure(&all.failures, failed, inputs.len()));
     }
@@ -81,7 +79,7 @@ pub(super) fn survey(
         head,
         inputs: of_inputs,
         failures: all.failures.iter().map(Failure::summary).collect(),
-        windows: all.windows,
+        windows: all.rows.iter().filter_map(window_of_input).collect(),
     })?;
     let verdict = match failed {
         0 => verdict(&all.rows),
@@ -119,18 +117,17 @@ impl Analysed {
                     continue;
                 }
             };
-            for window in &windows {
-                analysed.rows.push(AnalysisRow::of(&name, window));
+            if orders.is_none() {
+                orders = source.defect_orders(input, windows.first()).ok();
+            }
+            for window in windows {
                 for text in window.change.iter().flat_map(|change| &change.warnings) {
                     analysed.warnings.push(format!("{name}: {text}"));
                 }
-                analysed.windows.push(WindowOfInput { input: name.clone(), window: window.summary() });
                 if shown.fetch_add(1, Ordering::Relaxed) < SHOWN_WINDOWS {
-                    analysed.sections.push(survey_section(&name, window));
+                    analysed.sections.push(survey_section(&name, &window));
                 }
-            }
-            if orders.is_none() {
-                orders = source.defect_orders(input, windows.first()).ok();
+                analysed.rows.push(AnalysisRow::of(&name, window));
             }
         }
         analysed.input = Some(InputSummary {
@@ -143,18 +140,24 @@ impl Analysed {
     }
 
     fn fail(&mut self, input: &str, channel: &str, error: CliError) {
-        self.rows.push(AnalysisRow::failed(input, channel, error.to_string()));
-        self.failures.push(Failure { input: input.to_owned(), channel: channel.to_owned(), error });
+        let (input, channel) = (input.to_owned(), channel.to_owned());
+        self.rows.push(AnalysisRow { input: input.clone(), channel: channel.clone(), found: Err(error.to_string()) });
+        self.failures.push(Failure { input, channel, error });
     }
 }
 
 /// Good where a part was judged in any window.
 fn verdict(rows: &[AnalysisRow]) -> Result<(), CliError> {
-    let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| figures.is_judged());
+    let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(WindowAnalysis::is_judged);
     match rows.iter().any(judged) {
         true => Ok(()),
-        false => Err(no_part_judged(rows.first().map_or("no windows", AnalysisRow::remark))),
+        false => Err(no_part_judged(&rows.first().map_or_else(|| "no windows".to_owned(), AnalysisRow::remark))),
     }
+}
+
+fn window_of_input(row: &AnalysisRow) -> Option<WindowOfInput<'_>> {
+    let window = row.found.as_ref().ok()?;
+    Some(WindowOfInput { input: &row.input, window })
 }
 
 /// Does `work` on each item, as many at a time as there are threads to compute with, and returns what it gives in the order of the

@@ -7,6 +7,8 @@ use crate::signal::diagnosis::{FaultOrders, JUDGED_HARMONICS};
 use crate::signal::{
     Butterworth, DEFAULT_ORDER, FilterBand, Kurtogram, KurtogramBand, SignalError, kurtogram, usual_high_pass_hz,
 };
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Multiples of the shaft's speed that a machine's own lines may reach, which are not to be taken for a resonance: unbalance,
 /// couplings, blades, teeth of a first gear.
@@ -66,13 +68,21 @@ impl From<EnvelopeBand> for AskedBand {
 }
 
 /// The band before the envelope as it was used.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct UsedBand {
-    /// Corner of the high-pass, Hz; `None`: none.
+    /// Corner of the high-pass before the envelope, Hz; `None`: none.
     pub high_pass_hz: Option<f64>,
     /// End of the band, Hz; `None`: that of the signal.
+    #[serde(skip)]
     pub low_pass_hz: Option<f64>,
+    /// Band that a search found or that was asked for, Hz; `None`: not a band between two frequencies.
+    pub band_hz: Option<[f64; 2]>,
+    /// Spectral kurtosis of the best band of a search.
+    pub kurtosis_of_band: Option<f64>,
+    /// What noise alone stays below.
+    pub kurtosis_limit: Option<f64>,
     /// The search that it is from, or why there was none; `None`: not asked for.
+    #[serde(skip)]
     pub search: Option<Result<BandSearch, String>>,
 }
 
@@ -94,7 +104,9 @@ impl UsedBand {
         match asked {
             None => Ok(Self::default()),
             Some(AskedBand::HighPass(corner)) => Ok(Self::above(corner)),
-            Some(AskedBand::Between([from, to])) => Ok(Self { low_pass_hz: Some(to), ..Self::above(from) }),
+            Some(AskedBand::Between([from, to])) => {
+                Ok(Self { low_pass_hz: Some(to), band_hz: Some([from, to]), ..Self::above(from) })
+            }
             Some(AskedBand::Kurtogram) => {
                 let limits = SearchLimits::new(speed_hz, orders);
                 let stretch = read(window, margin_s(limits.from_hz))?;
@@ -105,10 +117,17 @@ impl UsedBand {
                     |band| {
                         let [from, to] = band.edges_hz();
                         let ends = to > (1.0 - 1e-9) * 0.5 * stretch.rate_hz();
-                        Self { low_pass_hz: (!ends).then_some(to), ..Self::above(from) }
+                        let low_pass_hz = (!ends).then_some(to);
+                        Self { low_pass_hz, band_hz: Some([from, to]), ..Self::above(from) }
                     },
                 );
-                Ok(Self { search: Some(search), ..used })
+                let best = search.as_ref().ok().map(|search| search.best);
+                Ok(Self {
+                    kurtosis_of_band: best.map(|best| best.kurtosis),
+                    kurtosis_limit: best.map(|best| best.limit),
+                    search: Some(search),
+                    ..used
+                })
             }
         }
     }
@@ -122,14 +141,6 @@ impl UsedBand {
         self.high_pass_hz.map_or(0.0, margin_s)
     }
 
-    /// The band that a search found or that was asked for, Hz; `None` where there is a corner at most.
-    #[must_use]
-    pub(crate) fn band_hz(&self) -> Option<[f64; 2]> {
-        let found = self.found().and_then(BandSearch::chosen);
-        let asked = self.high_pass_hz.zip(self.low_pass_hz);
-        found.map(KurtogramBand::edges_hz).or(asked.map(<[f64; 2]>::from))
-    }
-
     /// The band that a verdict is sought in, Hz: what was asked for and found, of a simulated signal no higher than `good_to_hz`, where it
     /// is accurate, unless that end was asked for. `None`: all.
     #[must_use]
@@ -140,7 +151,7 @@ impl UsedBand {
             Some(AskedBand::HighPass(corner)) => Some([corner, end_hz]),
             Some(AskedBand::Between(edges)) => Some(edges),
             Some(AskedBand::Kurtogram) => {
-                let [from, to] = self.band_hz()?;
+                let [from, to] = self.band_hz?;
                 Some([from, to.min(end_hz)])
             }
         }

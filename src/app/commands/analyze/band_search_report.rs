@@ -59,7 +59,8 @@ fn search_facts(search: &BandSearch) -> [Fact; 2] {
 
 /// Kurtosis over frequency and width of the band.
 pub(crate) fn kurtogram_plot(sensor: &str, search: &BandSearch) -> Plot {
-    let levels = levels(&search.kurtogram.bands);
+    // by width, widest first
+    let levels: Vec<&[KurtogramBand]> = search.kurtogram.bands.chunk_by(|a, b| a.bands == b.bands).collect();
     let widest = levels.first().map_or(1.0, |level| level[0].width_hz);
     let narrowest = levels.last().map_or(1.0, |level| level[0].width_hz);
     let octaves = (widest / narrowest).log2() + 2.0 * BORDER;
@@ -102,9 +103,4 @@ pub(crate) fn kurtogram_plot(sensor: &str, search: &BandSearch) -> Plot {
     .curve(Curve::new(name, edges, vec![search.best.width_hz; 2]))
     .marker(Marker::new(search.from_hz, "bands may begin"))
     .caption("Kurtosis of the envelope in bands of many widths, less 2: 0 for Gaussian noise, -1 for a tone, large for impacts. A single large pulse has a large one too.")
-}
-
-/// The bands by their width, widest first.
-fn levels(bands: &[KurtogramBand]) -> Vec<&[KurtogramBand]> {
-    bands.chunk_by(|a, b| a.bands == b.bands).collect()
 }

@@ -5,10 +5,9 @@ use crate::app::error::ComputeError;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
-use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{
-    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, LineChange, level_changes,
-    line_changes,
+    ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, Kinematics, LineChange,
+    level_changes, line_changes,
 };
 
 /// Speeds that differ by more than this part excite resonances differently.
@@ -43,8 +42,7 @@ impl WindowChange {
         self.speed_hz = then.diagnosis.speed_hz;
         self.lines = line_changes(now, then)?;
         if let Some(band_hz) = shown_band(now.diagnosis, &self.lines) {
-            let spectra = [now, then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
-            let [now, then] = spectra;
+            let [now, then] = [now, then].map(|one| one.order_spectrum(band_hz, SHOWN_ORDER));
             self.spectra = Some((band_hz, [now?, then?]));
         }
         let compared = |line: &LineChange| line.conclusion != ChangeConclusion::NotCompared;
@@ -113,10 +111,9 @@ pub(crate) fn compare_window(
             Err(error) => return Err(error.into()),
         }
     }
-    if part.kurtosis().is_none() {
-        change
-            .warnings
-            .push(format!("The earlier signal, {}, is constant: nothing can be compared with it.", change.channel));
+    if change.kurtosis.is_none() {
+        let channel = &change.channel;
+        change.warnings.push(format!("The earlier signal, {channel}, is constant: nothing can be compared with it."));
     }
     let whole_db = change.levels.first().and_then(|level| level.change_db);
     if let Some(db) = whole_db.filter(|db| db.abs() > ANOTHER_SCALE_DB) {
@@ -168,24 +165,19 @@ fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
         let unclear = verdict.conclusion == Conclusion::NotEnough;
         let text = match line.conclusion {
             ChangeConclusion::Grew => format!("It grew since the earlier signal: {words}."),
-            ChangeConclusion::AsBefore if indicated && verdict.fault == Fault::OuterRace => {
-                format!(
-                    "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
-                )
-            }
-            ChangeConclusion::AsBefore if indicated || unclear => {
-                format!("It was as strong in the earlier signal: {words}.")
-            }
-            ChangeConclusion::Fell if indicated || unclear => {
-                format!("It was stronger in the earlier signal: {words}.")
-            }
-            ChangeConclusion::NotCertain if indicated || unclear => {
-                format!("Whether it grew since the earlier signal is not certain: {words}.")
-            }
+            ChangeConclusion::AsBefore if indicated && verdict.fault == Fault::OuterRace => format!(
+                "It was as strong in the earlier signal: {words}. If the bearing was sound then, these are balls that enter the load zone."
+            ),
             ChangeConclusion::NotCompared if indicated => {
                 format!("It cannot be compared with the earlier signal. {}", line.why)
             }
-            _ => continue,
+            _ if !indicated && !unclear => continue,
+            ChangeConclusion::AsBefore => format!("It was as strong in the earlier signal: {words}."),
+            ChangeConclusion::Fell => format!("It was stronger in the earlier signal: {words}."),
+            ChangeConclusion::NotCertain => {
+                format!("Whether it grew since the earlier signal is not certain: {words}.")
+            }
+            ChangeConclusion::NotCompared => continue,
         };
         verdict.why = format!("{} {text}", verdict.why);
     }

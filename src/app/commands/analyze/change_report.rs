@@ -1,10 +1,7 @@
 //! What a report says of a window beside an earlier signal, and the curve of an envelope's lines over orders.
 
-use super::window::WindowAnalysis;
-use super::window::WindowChange;
-use crate::report::{
-    Axis, Cell, Column, Curve, CurveStyle, Marker, Plot, Report, Section, Table, Verdict, significant,
-};
+use super::window::{WindowAnalysis, WindowChange};
+use crate::report::{Abscissa, Axis, Cell, Column, Curve, Marker, Plot, Report, Section, Table, Verdict, significant};
 use crate::signal::diagnosis::{ChangeConclusion, EnvelopeOrderSpectrum, change_words};
 
 /// What grew in each window, on top of a report, and what makes a comparison doubtful.
@@ -38,10 +35,6 @@ pub(crate) fn change_section(mut section: Section, window: &WindowAnalysis) -> S
     section.table(level_table(window, change))
 }
 
-fn number(value: Option<f64>, digits: usize) -> Cell {
-    value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits))
-}
-
 fn judged(conclusion: ChangeConclusion) -> Cell {
     let verdict = match conclusion {
         ChangeConclusion::Grew => Verdict::Bad,
@@ -51,73 +44,66 @@ fn judged(conclusion: ChangeConclusion) -> Cell {
 }
 
 fn line_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
-    let mut table = Table::new(
-        format!("What grew since {}", change.baseline),
-        [
-            Column::text("Part"),
-            Column::text("Change"),
-            Column::text("95 % interval"),
-            Column::number("Level, earlier", &window.unit),
-            Column::number("Level, now", &window.unit),
-            Column::number("Its band as a whole", "dB"),
-            Column::text("Band"),
-            Column::number("Order, earlier", ""),
-            Column::number("Order, now", ""),
-            Column::text("How it was compared, and why not"),
-        ],
-    );
-    for line in &change.lines {
+    let columns = [
+        Column::text("Part"),
+        Column::text("Change"),
+        Column::text("95 % interval"),
+        Column::number("Level, earlier", &window.unit),
+        Column::number("Level, now", &window.unit),
+        Column::number("Its band as a whole", "dB"),
+        Column::text("Band"),
+        Column::number("Order, earlier", ""),
+        Column::number("Order, now", ""),
+        Column::text("How it was compared, and why not"),
+    ];
+    Table::new(format!("What grew since {}", change.baseline), columns).rows(change.lines.iter().map(|line| {
         let band = line.band_hz.map(|[from, to]| format!("{} to {} Hz", significant(from, 4), significant(to, 4)));
-        table = table.row([
-            Cell::text(line.name.clone()),
+        [
+            Cell::text(&line.name),
             judged(line.conclusion),
             Cell::text(line.words()),
-            number(line.earlier, 3),
-            number(line.now, 3),
-            number(line.band_change_db, 3),
+            Cell::number_or(line.earlier, 3, ""),
+            Cell::number_or(line.now, 3, ""),
+            Cell::number_or(line.band_change_db, 3, ""),
             Cell::text(band.unwrap_or_default()),
-            number(line.order_earlier, 5),
-            number(line.order_now, 5),
-            Cell::text(line.why.clone()),
-        ]);
-    }
-    table
+            Cell::number_or(line.order_earlier, 5, ""),
+            Cell::number_or(line.order_now, 5, ""),
+            Cell::text(&line.why),
+        ]
+    }))
 }
 
 fn level_table(window: &WindowAnalysis, change: &WindowChange) -> Table {
-    let mut table = Table::new(
-        "RMS, earlier and now",
-        [
-            Column::text("What"),
-            Column::number("Earlier", &window.unit),
-            Column::number("Now", &window.unit),
-            Column::text("Change"),
-            Column::text("95 % interval"),
-        ],
-    );
-    for level in &change.levels {
+    let columns = [
+        Column::text("What"),
+        Column::number("Earlier", &window.unit),
+        Column::number("Now", &window.unit),
+        Column::text("Change"),
+        Column::text("95 % interval"),
+    ];
+    let levels = change.levels.iter().map(|level| {
         let what = match level.centre_hz {
             Some(hz) => format!("octave about {} Hz", significant(hz, 3)),
             None => "the whole signal".to_owned(),
         };
-        table = table.row([
+        [
             Cell::text(what),
             Cell::number(level.earlier, 3),
             Cell::number(level.now, 3),
             judged(level.conclusion),
             Cell::text(change_words(level.change_db, level.interval_db)),
-        ]);
-    }
+        ]
+    });
     let plain = |what: &str, earlier: Option<f64>, now: Option<f64>| {
         let ratio = earlier.zip(now).filter(|(earlier, _)| *earlier > 0.0);
         let ratio = ratio.map(|(earlier, now)| format!("{} times", significant(now / earlier, 3)));
-        [Cell::text(what), number(earlier, 3), number(now, 3), Cell::text(ratio.unwrap_or_default()), Cell::text("")]
+        let [earlier, now] = [earlier, now].map(|value| Cell::number_or(value, 3, ""));
+        [Cell::text(what), earlier, now, Cell::text(ratio.unwrap_or_default()), Cell::text("")]
     };
-    table.row(plain("peak", Some(change.peak), Some(window.peak))).row(plain(
-        "kurtosis (no unit)",
-        change.kurtosis,
-        window.kurtosis,
-    ))
+    Table::new("RMS, earlier and now", columns)
+        .rows(levels)
+        .row(plain("peak", Some(change.peak), Some(window.peak)))
+        .row(plain("kurtosis (no unit)", change.kurtosis, window.kurtosis))
 }
 
 fn change_plot(
@@ -160,8 +146,7 @@ pub(crate) fn order_curve(name: &str, spectrum: &EnvelopeOrderSpectrum) -> Curve
     let group = count.div_ceil(DRAWN_POINTS).max(1);
     let largest = |group: &[f64]| group.iter().fold(0.0_f64, |most, &value| most.max(value));
     let drawn = spectrum.amplitude[..count].chunks(group).map(largest).collect();
-    let even = crate::report::Abscissa::Even { start: 0.5 * (group - 1) as f64 * step, step: group as f64 * step };
-    Curve::new(name, even, drawn).style(CurveStyle::Line)
+    Curve::new(name, Abscissa::Even { start: 0.5 * (group - 1) as f64 * step, step: group as f64 * step }, drawn)
 }
 
 /// Where the drawing of an order spectrum ends.

@@ -17,12 +17,9 @@ pub use band_search::{AskedBand, BandSearch, UsedBand};
 pub use change::EarlierSignal;
 pub(crate) use change::compare_window;
 pub(crate) use report::analysis_report;
-pub use summary::{
-    AnalysisResult, DiagnosisSummary, FailureSummary, InputSummary, OrdersSummary, OuterRaceLine, SurveyResult,
-    VerdictSummary, WindowOfInput, WindowSummary,
-};
+pub use summary::{AnalysisResult, FailureSummary, InputSummary, OrdersSummary, SurveyResult, WindowOfInput};
 pub use survey_report::SHOWN_WINDOWS;
 pub(crate) use survey_report::{survey_report, survey_section};
-pub(crate) use table::analysis_table;
-pub use table::{AnalysisRow, ChangeFigures, PartFigures, WindowFigures};
-pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse, compute_analysis};
+pub use table::AnalysisRow;
+pub(crate) use table::{analysis_table, unexplained};
+pub use window::{AnalysisSettings, OuterRaceLine, WindowAnalysis, WindowChange, analyse, compute_analysis};

@@ -17,35 +17,30 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
         return Vec::new();
     };
     let play = (bearing.play() > 0.0).then(|| format!("the play is {} um", significant(1e6 * bearing.play(), 2)));
-    let damaged: Vec<Fault> = bearing.defects.iter().map(part_of).collect();
-    let mut reasons = Vec::new();
-    for fault in [Fault::OuterRace, Fault::InnerRace, Fault::Ball] {
-        let play = play.as_ref().filter(|_| fault == Fault::OuterRace);
-        let reason = match (damaged.contains(&fault), play) {
-            (false, Some(play)) => format!("The case has no damage there, and {play}."),
-            (false, None) => "The case has no damage there.".to_owned(),
-            (true, Some(play)) => match ball_weights(case) {
-                Some(weights) if weights >= STRIKING_LOAD => format!(
-                    "This cannot be told from damage: {play}, and shaft and loads weigh up to {} times a ball. Compare with a run without the damage (--baseline).",
-                    significant(weights, 2)
-                ),
-                _ => continue,
-            },
-            (true, None) => continue,
-        };
-        reasons.push((fault, reason));
-    }
-    reasons
-}
-
-fn part_of(defect: &Defect) -> Fault {
-    match defect {
+    let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
             Race::Outer => Fault::OuterRace,
             Race::Inner => Fault::InnerRace,
         },
         Defect::Flat(_) => Fault::Ball,
-    }
+    });
+    let damaged: Vec<Fault> = damaged.collect();
+    let reasons = [Fault::OuterRace, Fault::InnerRace, Fault::Ball].into_iter().filter_map(|fault| {
+        let play = play.as_ref().filter(|_| fault == Fault::OuterRace);
+        let reason = match (damaged.contains(&fault), play) {
+            (false, Some(play)) => format!("The case has no damage there, and {play}."),
+            (false, None) => "The case has no damage there.".to_owned(),
+            (true, play) => {
+                let (play, weights) = (play?, ball_weights(case).filter(|weights| *weights >= STRIKING_LOAD)?);
+                format!(
+                    "This cannot be told from damage: {play}, and shaft and loads weigh up to {} times a ball. Compare with a run without the damage (--baseline).",
+                    significant(weights, 2)
+                )
+            }
+        };
+        Some((fault, reason))
+    });
+    reasons.collect()
 }
 
 /// The largest load of the bearing over the weight of a ball.

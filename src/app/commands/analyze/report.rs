@@ -4,7 +4,8 @@ use super::band_search_report::{band_facts, kurtogram_plot};
 use super::change_report::{change_headlines, change_section, last_order, order_curve};
 use super::window::WindowAnalysis;
 use crate::report::{
-    Axis, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, significant,
+    Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict,
+    significant,
 };
 use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource};
 
@@ -15,69 +16,57 @@ pub(crate) fn analysis_report(
     windows: &[WindowAnalysis],
     command: &str,
 ) -> Report {
-    let mut report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
+    let report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
-    report = verdict_headlines(report, windows);
-    report = change_headlines(report, windows);
-    for window in windows {
-        if let Err(reason) = &window.diagnosis {
-            report = report.warning(format!("{}: no verdict: {reason}", window.sensor));
-        }
-        report = report.section(window_section(window));
-    }
-    for text in assumptions {
-        report = report.assumption(text.clone());
-    }
+    let mut report = change_headlines(verdict_headlines(report, windows), windows);
+    report.warnings.extend(windows.iter().filter_map(|window| {
+        let reason = window.diagnosis.as_ref().err()?;
+        Some(format!("{}: no verdict: {reason}", window.sensor))
+    }));
+    report.sections.extend(windows.iter().map(window_section));
+    report.assumptions.extend_from_slice(assumptions);
     report
 }
 
 /// The verdict on each window, on top of a report.
 pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) -> Report {
     for window in windows {
-        if let Ok(diagnosis) = &window.diagnosis {
-            let named: Vec<&str> = diagnosis.named().map(|v| v.fault.name()).collect();
-            let text = match (named.is_empty(), diagnosis.is_judged(), diagnosis.unexplained.first()) {
-                (false, ..) => format!("fault indicated: {}", named.join(", ")),
-                (true, _, Some(impacts)) => format!(
-                    "impacts at {} Hz belong to no part: check bearing and speed",
-                    significant(impacts.frequency_hz, 4)
-                ),
-                (true, true, None) => match uncertain(diagnosis).as_slice() {
-                    [] if diagnosis.speed_doubt().is_some() => {
-                        "no fault indicated at this speed, which is doubtful".to_owned()
-                    }
-                    [] => "no fault indicated".to_owned(),
-                    parts => format!("not enough evidence: {}", parts.join(", ")),
-                },
-                (true, false, None) => "too short for a verdict".to_owned(),
-            };
-            let names = |faults: Vec<Fault>| {
-                let names = faults.into_iter().map(Fault::name);
-                names.collect::<Vec<_>>().join(", ")
-            };
-            let not_judged: Vec<Fault> = diagnosis.not_judged().map(|v| v.fault).collect();
-            let mut text = text;
-            if diagnosis.is_judged() && !not_judged.is_empty() {
-                text = format!("{text}; not judged: {}", names(not_judged));
+        let Ok(diagnosis) = &window.diagnosis else { continue };
+        // chance does not make their lines, and they are not indicated
+        let uncertain = window.parts(Conclusion::NotEnough);
+        let uncertain = uncertain.filter(|verdict| verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW));
+        let [named, uncertain, not_judged, alone] = [
+            names(diagnosis.named().map(|verdict| verdict.fault)),
+            names(uncertain.map(|verdict| verdict.fault)),
+            names(diagnosis.not_judged().map(|verdict| verdict.fault)),
+            names(diagnosis.by_signal_alone.iter().copied()),
+        ];
+        let mut text = match (named.as_str(), diagnosis.unexplained.first(), uncertain.as_str()) {
+            ("", Some(impacts), _) => format!(
+                "impacts at {} Hz belong to no part: check bearing and speed",
+                significant(impacts.frequency_hz, 4)
+            ),
+            ("", ..) if !diagnosis.is_judged() => "too short for a verdict".to_owned(),
+            ("", _, "") if diagnosis.speed_doubt().is_some() => {
+                "no fault indicated at this speed, which is doubtful".to_owned()
             }
-            if !diagnosis.by_signal_alone.is_empty() {
-                let alone = names(diagnosis.by_signal_alone.clone());
-                text = format!("{text}; by the signal alone: {alone}");
-            }
-            let what = format!("{}, {}-{} s", window.sensor, round(window.from), round(window.to));
-            report = report.headline(what, text, Verdict::None);
+            ("", _, "") => "no fault indicated".to_owned(),
+            ("", _, parts) => format!("not enough evidence: {parts}"),
+            (named, ..) => format!("fault indicated: {named}"),
+        };
+        if diagnosis.is_judged() && !not_judged.is_empty() {
+            text += &format!("; not judged: {not_judged}");
         }
+        if !alone.is_empty() {
+            text += &format!("; by the signal alone: {alone}");
+        }
+        report = report.headline(place_and_time(window), text, Verdict::None);
     }
     report
 }
 
-/// Parts whose lines chance does not make, and that are not indicated.
-fn uncertain(diagnosis: &Diagnosis) -> Vec<&'static str> {
-    let faults = diagnosis.faults.iter();
-    let uncertain = faults.filter(|verdict| {
-        verdict.conclusion == Conclusion::NotEnough && verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW)
-    });
-    uncertain.map(|verdict| verdict.fault.name()).collect()
+fn names(faults: impl Iterator<Item = Fault>) -> String {
+    faults.map(Fault::name).collect::<Vec<_>>().join(", ")
 }
 
 /// With a capital first letter.
@@ -86,21 +75,19 @@ pub(crate) fn capital(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }
 
-fn round(time: f64) -> String {
-    significant(time, 4)
+/// Sensor and window of time.
+fn place_and_time(window: &WindowAnalysis) -> String {
+    format!("{}, {}-{} s", window.sensor, significant(window.from, 4), significant(window.to, 4))
 }
 
 /// All about a window.
 pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
     let amount = |value: f64| format!("{} {}", significant(value, 3), window.unit);
-    let mut section = Section::new(format!("{}, {}-{} s", window.sensor, round(window.from), round(window.to)));
-    if let Ok(diagnosis) = &window.diagnosis {
-        section = section.table(verdict_table(diagnosis));
-        section = change_section(section, window);
-        section = section.plot(order_plot(window, diagnosis));
-    } else {
-        section = change_section(section, window);
-    }
+    let diagnosis = window.diagnosis.as_ref();
+    let mut section = Section::new(place_and_time(window));
+    section.blocks.extend(diagnosis.ok().map(|found| Block::Table(verdict_table(found))));
+    section = change_section(section, window);
+    section.blocks.extend(diagnosis.ok().map(|found| Block::Plot(Box::new(order_plot(window, found)))));
     let facts = [
         speed_fact(window),
         Fact::new("RMS", amount(window.rms)),
@@ -120,9 +107,15 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
             significant(window.spectrum.zero_padding, 3)
         )),
     ];
+    let title = format!("{} and its envelope", window.sensor);
+    let [signal, envelope] = window.shown.clone();
     section = section
         .plot(envelope_plot(window))
-        .plot(time_plot(window))
+        .plot(
+            Plot::new(title, Axis::new("Time", "s"), Axis::new("Amplitude", &window.unit))
+                .curve(signal)
+                .curve(envelope),
+        )
         .facts(facts.into_iter().chain(band_facts(&window.band)))
         .table(peak_table(window));
     if let Some(text) = smeared(window) {
@@ -131,7 +124,7 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
     if let Some(search) = window.band.found() {
         section = section.plot(kurtogram_plot(&window.sensor, search));
     }
-    match &window.diagnosis {
+    match diagnosis {
         Ok(diagnosis) => section.table(harmonic_table(diagnosis)),
         Err(reason) => section.paragraph(format!("No verdict: {reason}.")),
     }
@@ -157,47 +150,26 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
     ))
 }
 
-fn time_plot(window: &WindowAnalysis) -> Plot {
-    let plot = Plot::new(
-        format!("{} and its envelope", window.sensor),
-        Axis::new("Time", "s"),
-        Axis::new("Amplitude", &window.unit),
-    );
-    let [signal, envelope] = window.shown.clone();
-    plot.curve(signal).curve(envelope)
-}
-
 fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
     let spectrum = &diagnosis.spectrum;
     let mut plot = Plot::new(
-        format!(
-            "{} over the shaft's angle, {}, {}-{} s",
-            capital(&diagnosis.envelope),
-            window.sensor,
-            round(window.from),
-            round(window.to)
-        ),
+        format!("{} over the shaft's angle, {}", capital(&diagnosis.envelope), place_and_time(window)),
         Axis::new("Order", "").range(0.0, last_order(spectrum)),
         Axis::new("Amplitude", &spectrum.unit),
     )
     .curve(order_curve("envelope", spectrum))
-    .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.");
-    plot = plot.marker(Marker::new(1.0, "shaft").family(0));
-    for family in families(diagnosis, 1.0) {
-        plot = plot.family(family);
-    }
+    .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.")
+    .marker(Marker::new(1.0, "shaft").family(0));
+    plot.families = families(diagnosis, 1.0);
     for (family, verdict) in (1..).zip(&diagnosis.faults) {
-        let order = place(verdict);
         let name = verdict.fault.name();
-        plot = plot.marker(Marker::new(order, name).family(family));
+        plot = plot.marker(Marker::new(place(verdict), name).family(family));
         // where a part was not found its harmonics would only cover others
-        let found = verdict.harmonics.iter().filter(|h| h.side == 0);
-        for harmonic in found.skip(1).filter(|_| verdict.order.is_some()) {
-            if harmonic.order < last_order(spectrum) {
-                let label = format!("{}x {name}", harmonic.harmonic);
-                plot = plot.marker(Marker::new(harmonic.order, label).family(family));
-            }
-        }
+        let found = verdict.harmonics.iter().filter(|h| h.side == 0 && verdict.order.is_some()).skip(1);
+        let shown = found.filter(|harmonic| harmonic.order < last_order(spectrum));
+        plot.markers.extend(
+            shown.map(|harmonic| Marker::new(harmonic.order, format!("{}x {name}", harmonic.harmonic)).family(family)),
+        );
     }
     plot
 }
@@ -222,36 +194,32 @@ fn families(diagnosis: &Diagnosis, scale: f64) -> Vec<Family> {
 }
 
 fn verdict_table(diagnosis: &Diagnosis) -> Table {
-    let mut table = Table::new(
-        "Verdict",
-        [
-            Column::text("Part"),
-            Column::text("Verdict"),
-            Column::number("Probability by chance", ""),
-            Column::number("Order, expected", ""),
-            Column::number("Order, found", ""),
-            Column::number("Line", "Hz"),
-            Column::text("Evidence, and why not more"),
-        ],
-    );
-    let number = |value: Option<f64>, digits| value.map_or_else(|| Cell::text(""), |value| Cell::number(value, digits));
-    for verdict in &diagnosis.faults {
+    let columns = [
+        Column::text("Part"),
+        Column::text("Verdict"),
+        Column::number("Probability by chance", ""),
+        Column::number("Order, expected", ""),
+        Column::number("Order, found", ""),
+        Column::number("Line", "Hz"),
+        Column::text("Evidence, and why not more"),
+    ];
+    let parts = diagnosis.faults.iter().map(|verdict| {
         let judged = match verdict.conclusion {
             Conclusion::Named => Verdict::Bad,
             Conclusion::NotEnough | Conclusion::NotSeen => Verdict::None,
         };
-        table = table.row([
+        [
             Cell::text(format!("{} ({})", verdict.fault.name(), verdict.fault.line())),
             Cell::text(verdict.conclusion.words()).judged(judged),
-            number(verdict.false_alarm, 2),
+            Cell::number_or(verdict.false_alarm, 2, ""),
             Cell::number(verdict.expected_order, 5),
-            number(verdict.order, 5),
-            number(verdict.frequency_hz, 4),
-            Cell::text(verdict.why.clone()),
-        ]);
-    }
-    for impacts in &diagnosis.unexplained {
-        table = table.row([
+            Cell::number_or(verdict.order, 5, ""),
+            Cell::number_or(verdict.frequency_hz, 4, ""),
+            Cell::text(&verdict.why),
+        ]
+    });
+    let unexplained = diagnosis.unexplained.iter().map(|impacts| {
+        [
             Cell::text("none of these"),
             Cell::text("impacts").judged(Verdict::Bad),
             Cell::number(impacts.false_alarm, 2),
@@ -262,55 +230,46 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
                 "{} harmonics stand out. These impacts belong to no part of this bearing: check bearing and speed, and what else turns.",
                 impacts.harmonics_seen
             )),
-        ]);
-    }
-    table
+        ]
+    });
+    Table::new("Verdict", columns).rows(parts.chain(unexplained))
 }
 
 fn harmonic_table(diagnosis: &Diagnosis) -> Table {
-    let mut table = Table::new(
-        "Harmonics",
-        [
-            Column::text("Line"),
-            Column::number("Order", ""),
-            Column::number("Frequency", "Hz"),
-            Column::number("Of the mean envelope", "%"),
-            Column::number("Above the floor", "dB"),
-            Column::text("Remark"),
-        ],
-    );
-    let harmonics = diagnosis.faults.iter().flat_map(|verdict: &FaultVerdict| {
+    let columns = [
+        Column::text("Line"),
+        Column::number("Order", ""),
+        Column::number("Frequency", "Hz"),
+        Column::number("Of the mean envelope", "%"),
+        Column::number("Above the floor", "dB"),
+        Column::text("Remark"),
+    ];
+    let harmonics = diagnosis.faults.iter().flat_map(|verdict| {
         let cage = verdict.cage_lines.iter();
         verdict.harmonics.iter().chain(cage.flat_map(|lines| &lines.harmonics))
     });
-    for harmonic in harmonics {
+    Table::new("Harmonics", columns).rows(harmonics.map(|harmonic| {
         let remark = match &harmonic.coincides_with {
             Some(other) => format!("coincides with {other}: does not count"),
             None if harmonic.seen => "stands out".to_owned(),
             None => String::new(),
         };
-        table = table.row([
-            Cell::text(harmonic.name.clone()),
+        [
+            Cell::text(&harmonic.name),
             Cell::number(harmonic.order, 5),
             Cell::number(harmonic.frequency_hz, 4),
             Cell::number(100.0 * harmonic.depth, 2),
             Cell::number(harmonic.above_floor_db, 3),
             Cell::text(remark),
-        ]);
-    }
-    table
+        ]
+    }))
 }
 
 fn envelope_plot(window: &WindowAnalysis) -> Plot {
     let top = 14.0 * window.speed_hz;
+    let what = if window.whitened { "Squared envelope spectrum, whitened," } else { "Envelope spectrum" };
     let mut plot = Plot::new(
-        format!(
-            "{} of {}, {}-{} s",
-            if window.whitened { "Squared envelope spectrum, whitened," } else { "Envelope spectrum" },
-            window.sensor,
-            round(window.from),
-            round(window.to)
-        ),
+        format!("{what} of {}", place_and_time(window)),
         Axis::new("Frequency", "Hz").range(0.0, top.max(1.0)),
         Axis::new("Amplitude", &window.spectrum.unit),
     )
@@ -321,21 +280,14 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
     );
     match smeared(window) {
         Some(text) => plot = plot.caption(text),
-        None => {
-            let diagnosis = window.diagnosis.iter();
-            for family in diagnosis.flat_map(|found| families(found, window.speed_hz)) {
-                plot = plot.family(family);
-            }
-        }
+        None => plot.families.extend(window.diagnosis.iter().flat_map(|found| families(found, window.speed_hz))),
     }
     for (family, line) in window.lines.iter().enumerate() {
-        for harmonic in 1..=line.harmonics() {
-            let at = f64::from(harmonic) * line.frequency_hz();
-            if at < top {
-                let label = if harmonic == 1 { line.name().to_owned() } else { format!("{harmonic}x {}", line.name()) };
-                plot = plot.marker(Marker::new(at, label).family(family));
-            }
-        }
+        let harmonics = (1..=line.harmonics()).map(|harmonic| (harmonic, f64::from(harmonic) * line.frequency_hz()));
+        plot.markers.extend(harmonics.filter(|(_, at)| *at < top).map(|(harmonic, at)| {
+            let times = if harmonic == 1 { String::new() } else { format!("{harmonic}x ") };
+            Marker::new(at, format!("{times}{}", line.name())).family(family)
+        }));
     }
     plot
 }
@@ -351,35 +303,24 @@ fn smeared(window: &WindowAnalysis) -> Option<String> {
 }
 
 fn peak_table(window: &WindowAnalysis) -> Table {
-    let mut peaks = Table::new(
-        "Strongest peaks",
-        [
-            Column::number("Frequency", "Hz"),
-            Column::number("Amplitude", &window.spectrum.unit),
-            Column::number("Above the median within 5 / T", "dB"),
-            Column::text("Line"),
-            Column::number("Expected", "Hz"),
-            Column::number("Deviation", "%"),
-        ],
-    );
-    for peak in &window.peaks {
+    let columns = [
+        Column::number("Frequency", "Hz"),
+        Column::number("Amplitude", &window.spectrum.unit),
+        Column::number("Above the median within 5 / T", "dB"),
+        Column::text("Line"),
+        Column::number("Expected", "Hz"),
+        Column::number("Deviation", "%"),
+    ];
+    Table::new("Strongest peaks", columns).rows(window.peaks.iter().map(|peak| {
         let named = peak.line.as_ref().filter(|_| !peak.labels.is_empty());
-        let (name, expected, deviation) = match named {
-            Some(line) => (
-                peak.labels.join(", "),
-                Cell::number(line.expected_hz, 4),
-                Cell::text(format!("{:+.1}", 100.0 * line.deviation)).value(100.0 * line.deviation),
-            ),
-            None => ("–".to_owned(), Cell::text(""), Cell::text("")),
-        };
-        peaks = peaks.row([
+        let deviation = |deviation: f64| Cell::text(format!("{:+.1}", 100.0 * deviation)).value(100.0 * deviation);
+        [
             Cell::number(peak.frequency_hz, 4),
             Cell::number(peak.amplitude, 3),
             Cell::number(peak.above_median_db, 3),
-            Cell::text(name),
-            expected,
-            deviation,
-        ]);
-    }
-    peaks
+            Cell::text(named.map_or_else(|| "–".to_owned(), |_| peak.labels.join(", "))),
+            Cell::number_or(named.map(|line| line.expected_hz), 4, ""),
+            named.map_or_else(|| Cell::text(""), |line| deviation(line.deviation)),
+        ]
+    }))
 }

@@ -4,6 +4,7 @@ use super::report::window_section;
 use super::table::{AnalysisRow, analysis_table};
 use super::window::WindowAnalysis;
 use crate::report::{Report, Section, Verdict};
+use crate::signal::diagnosis::Conclusion;
 
 /// Most windows or sensors that a report shows with their plots.
 pub const SHOWN_WINDOWS: usize = 12;
@@ -35,9 +36,7 @@ pub(crate) fn survey_report(
     if windows(rows) <= SHOWN_WINDOWS {
         report.sections.extend(sections);
     }
-    for text in assumptions {
-        report = report.assumption(text.clone());
-    }
+    report.assumptions.extend_from_slice(assumptions);
     report
 }
 
@@ -47,16 +46,15 @@ fn windows(rows: &[AnalysisRow]) -> usize {
 
 /// How many windows there are, and what is said of how many, on top of a report.
 pub(crate) fn counts(report: Report, rows: &[AnalysisRow]) -> Report {
-    let count = |wanted: &dyn Fn(&AnalysisRow) -> bool| rows.iter().filter(|row| wanted(row)).count();
-    let indicated = |row: &AnalysisRow| {
-        let figures = row.found.as_ref();
-        figures.is_ok_and(|figures| !figures.names(crate::signal::diagnosis::Conclusion::Named).is_empty())
+    let count = |wanted: &dyn Fn(&WindowAnalysis) -> bool| {
+        let windows = rows.iter().filter_map(|row| row.found.as_ref().ok());
+        windows.filter(|window| wanted(window)).count().to_string()
     };
-    let unjudged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|figures| !figures.is_judged());
+    let indicated = |window: &WindowAnalysis| window.parts(Conclusion::Named).next().is_some();
     report
-        .headline("Windows analysed", windows(rows).to_string(), Verdict::None)
-        .headline("Windows with a fault indicated", count(&indicated).to_string(), Verdict::None)
-        .headline("Windows without a verdict", count(&unjudged).to_string(), Verdict::None)
+        .headline("Windows analysed", count(&|_| true), Verdict::None)
+        .headline("Windows with a fault indicated", count(&indicated), Verdict::None)
+        .headline("Windows without a verdict", count(&|window| !window.is_judged()), Verdict::None)
 }
 
 /// All windows in one table; `instead` says how to see one of them where they are too many to be shown.

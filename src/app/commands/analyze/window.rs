@@ -8,16 +8,16 @@ use crate::formats::MeasuredSignal;
 use crate::numerics::Watch;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner};
-use crate::signal::diagnosis::Kinematics;
 use crate::signal::diagnosis::{
-    Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, LevelChange, LineChange,
+    Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict, Kinematics,
+    LevelChange, LineChange,
 };
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch, band_limit,
     envelope_peaks, squared, usual_high_pass_hz, whiten,
 };
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Harmonics of each line that peaks are matched to; of a part that is named all that the verdict looks at. More of the others
 /// would name peaks by chance: within 3 % of k times a line are 6 k % of the distance of two of its harmonics.
@@ -68,13 +68,15 @@ fn good_to_hz(case: &Case) -> Option<f64> {
     Some(case.band_hz()?[1].min(passed))
 }
 
-/// A window of the signal, analysed.
-#[derive(Debug, Clone)]
+/// A window of the signal, analysed. Results have all of it but the curves.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct WindowAnalysis {
-    /// Sensor that it belongs to.
+    /// Sensor or channel that it belongs to.
     pub sensor: String,
     /// Unit of its signal.
     pub unit: String,
+    /// Whether the envelope spectrum is of the whitened signal's squared envelope.
+    pub whitened: bool,
     /// Start, s.
     pub from: f64,
     /// End, s.
@@ -87,27 +89,95 @@ pub struct WindowAnalysis {
     pub peak: f64,
     /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
     pub kurtosis: Option<f64>,
-    /// Signal and envelope over time, thinned.
-    pub shown: [Curve; 2],
     /// Band that the envelope is of.
+    #[serde(flatten)]
     pub band: UsedBand,
-    /// Whether that spectrum is of the whitened signal's squared envelope.
-    pub whitened: bool,
+    /// The outer race's line and its second harmonic; empty where its order is not known.
+    #[serde(rename = "outer_race")]
+    pub outer: Vec<OuterRaceLine>,
+    /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
+    #[serde(rename = "lines_smeared_above_order")]
+    pub smeared_above: Option<f64>,
+    /// Strongest peaks of the envelope spectrum.
+    #[serde(rename = "envelope_peaks")]
+    pub peaks: Vec<EnvelopePeak>,
+    /// Verdict on each part of the bearing, or why there is none.
+    #[serde(rename = "verdict", serialize_with = "verdict_summary")]
+    #[schemars(with = "VerdictSummary<'static>")]
+    pub diagnosis: Result<Diagnosis, String>,
+    /// What changed since an earlier signal; absent where none was named.
+    #[serde(rename = "changes", skip_serializing_if = "Option::is_none")]
+    pub change: Option<WindowChange>,
+    /// Signal and envelope over time, thinned.
+    #[serde(skip)]
+    pub shown: [Curve; 2],
     /// Envelope spectrum.
+    #[serde(skip)]
     pub spectrum: EnvelopeSpectrum,
     /// Fault lines and the shaft's, with those harmonics that the speed's change leaves sharp.
+    #[serde(skip)]
     pub lines: Vec<NamedLine>,
-    /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
-    pub smeared_above: Option<f64>,
-    /// Strongest peaks.
-    pub peaks: Vec<EnvelopePeak>,
-    /// For the outer race's line and its second harmonic: expected frequency, peak found within
-    /// three percent (Hz, amplitude); none where the line is smeared. Empty where its order is not known.
-    pub outer: Vec<(f64, Option<(f64, f64)>)>,
-    /// Verdict on each part of the bearing, or why there is none.
-    pub diagnosis: Result<Diagnosis, String>,
-    /// What changed since an earlier signal, where one was named.
-    pub change: Option<WindowChange>,
+}
+
+/// A line of the outer race in an envelope spectrum.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct OuterRaceLine {
+    /// Where it is expected, Hz.
+    pub expected_hz: f64,
+    /// Peak within three per cent, Hz; `None`: there is none, or the line is smeared.
+    pub found_hz: Option<f64>,
+    /// Its amplitude, in the spectrum's unit.
+    pub amplitude: Option<f64>,
+}
+
+/// A verdict, or why there is none.
+#[derive(Serialize, JsonSchema)]
+struct VerdictSummary<'a> {
+    /// In a sentence.
+    sentence: String,
+    /// What it rests on; absent where there is no verdict.
+    #[serde(flatten)]
+    diagnosis: Option<&'a Diagnosis>,
+}
+
+fn verdict_summary<S: Serializer>(diagnosis: &Result<Diagnosis, String>, to: S) -> Result<S::Ok, S::Error> {
+    let sentence = match diagnosis {
+        Ok(diagnosis) => diagnosis.sentence(),
+        Err(reason) => format!("no verdict: {reason}"),
+    };
+    VerdictSummary { sentence, diagnosis: diagnosis.as_ref().ok() }.serialize(to)
+}
+
+impl WindowAnalysis {
+    /// Whether any part was judged.
+    #[must_use]
+    pub(crate) fn is_judged(&self) -> bool {
+        self.diagnosis.as_ref().is_ok_and(Diagnosis::is_judged)
+    }
+
+    /// The parts of which this is said.
+    pub(crate) fn parts(&self, conclusion: Conclusion) -> impl Iterator<Item = &FaultVerdict> {
+        let verdicts = self.diagnosis.iter().flat_map(|found| &found.faults);
+        verdicts.filter(move |verdict| verdict.conclusion == conclusion)
+    }
+
+    /// Without the curves, which fill the memory where windows are many.
+    pub(crate) fn without_curves(mut self) -> Self {
+        let spectrum = &mut self.spectrum.spectrum;
+        let mut curves = vec![&mut spectrum.frequency_hz, &mut spectrum.amplitude];
+        curves.extend(self.shown.iter_mut().map(|curve| &mut curve.y));
+        if let Ok(diagnosis) = &mut self.diagnosis {
+            curves.extend([&mut diagnosis.spectrum.order, &mut diagnosis.spectrum.amplitude]);
+        }
+        curves.into_iter().for_each(|values| *values = Vec::new());
+        if let Some(Ok(search)) = &mut self.band.search {
+            search.kurtogram.bands = Vec::new();
+        }
+        if let Some(change) = &mut self.change {
+            change.spectra = None;
+        }
+        self
+    }
 }
 
 /// Analyses one sensor's signal in every window. `read` gives the stretch of it that holds a window (s), with
@@ -161,7 +231,11 @@ pub fn analyse(
                 let expected = harmonic * order * speed_hz;
                 let found = spectrum.peak_near(expected, LINE_TOLERANCE);
                 let found = found.filter(|_| harmonic * order <= sharp);
-                (expected, found.map(|peak| (peak.frequency_hz, peak.amplitude)))
+                OuterRaceLine {
+                    expected_hz: expected,
+                    found_hz: found.as_ref().map(|peak| peak.frequency_hz),
+                    amplitude: found.as_ref().map(|peak| peak.amplitude),
+                }
             };
             let outer = orders.order(Fault::OuterRace).into_iter();
             Ok(WindowAnalysis {

@@ -23,22 +23,10 @@ pub fn superelement_record(case: &Case, stage: &CondensedHousing) -> Result<Supe
     Coordinates { stage, reduction: None }.record(case)
 }
 
-/// The same on modes of its interface, with the way back to that.
-///
-/// # Errors
-/// As [`superelement_record`].
-pub(crate) fn reduced_superelement_record(
-    case: &Case,
-    stage: &CondensedHousing,
-    reduction: &InterfaceReduction,
-) -> Result<SuperelementRecord, ComputeError> {
-    Coordinates { stage, reduction: Some(reduction) }.record(case)
-}
-
-/// What the coordinates of a record are.
-struct Coordinates<'a> {
-    stage: &'a CondensedHousing,
-    reduction: Option<&'a InterfaceReduction>,
+/// What the coordinates of a record are: those of the condensed housing, or modes of its interface, with the way back to that.
+pub(crate) struct Coordinates<'a> {
+    pub(crate) stage: &'a CondensedHousing,
+    pub(crate) reduction: Option<&'a InterfaceReduction>,
 }
 
 impl Coordinates<'_> {
@@ -64,7 +52,11 @@ impl Coordinates<'_> {
         self.columns(column).col_as_slice(0).to_vec()
     }
 
-    fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
+    /// The superelement on these coordinates.
+    ///
+    /// # Errors
+    /// As [`superelement_record`].
+    pub(crate) fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
         let (stage, element) = (self.stage, self.element());
         let row = |sensor: &Sensor| {
             let row = self.row(&Place::new(stage.bodies(), sensor.into())?);
@@ -147,10 +139,7 @@ impl Coordinates<'_> {
 /// Up to which frequency a basis has all vectors of the interior, Hz: the first that was left out, or the highest of all.
 fn complete_hz(basis: &InteriorBasis) -> Option<f64> {
     let below = basis.complete_below;
-    let end = match below.is_finite() {
-        true => Some(below),
-        false => basis.values().iter().copied().reduce(f64::max),
-    };
+    let end = if below.is_finite() { Some(below) } else { basis.values().iter().copied().reduce(f64::max) };
     end.map(|value| value.sqrt() / TAU)
 }
 

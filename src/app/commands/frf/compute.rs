@@ -83,15 +83,15 @@ pub fn compute_frf(case: &Case, watch: &impl Watch) -> Result<FrfResult, Compute
     let (compared, not_compared) = compared::compare(case, asked, &reduced, &response, &paths, watch)?;
     let others = variants(case, watch)?;
     let ranking = rank(&response, &others, &paths, reduced.band_hz)?;
-    let of_mesh = match &reduced.housing {
-        FrfHousing::Mesh(stage) => Some((&stage.housing.mesh, &stage.housing.model)),
-        FrfHousing::File(_) => None,
+    let (of_mesh, of_file) = match &reduced.housing {
+        FrfHousing::Mesh(stage) => (Some((&stage.housing.mesh, &stage.housing.model)), None),
+        FrfHousing::File(file) => (None, Some(&file.0)),
     };
     let mut doubts = doubts(case, of_mesh, None)?;
-    if let FrfHousing::File(file) = &reduced.housing {
-        doubts.extend(file.0.doubt(reduced.band_hz[1]));
-        doubts.push(file.0.unknown_error());
-        doubts.extend(unused_damping(&file.0.path, &file.0.record));
+    if let Some(file) = of_file {
+        doubts.extend(file.doubt(reduced.band_hz[1]));
+        doubts.push(file.unknown_error());
+        doubts.extend(unused_damping(&file.path, &file.record));
     }
     Ok(FrfResult {
         doubts,
@@ -141,19 +141,17 @@ fn rank(
         let values = response.frequencies_hz().iter().zip(response.receptance());
         values.map(|(hz, receptance)| (TAU * hz).powi(2) * receptance[place].norm()).collect()
     };
-    let all =
-        || std::iter::once(("as given", own)).chain(others.iter().map(|(what, response)| (what.as_str(), response)));
+    let others = others.iter().map(|(what, response)| (what.as_str(), response));
+    let all: Vec<(&str, &FrequencyResponse)> = std::iter::once(("as given", own)).chain(others).collect();
     let mut ranking = Vec::with_capacity(paths.len());
     for (path, transfer) in paths.iter().enumerate() {
-        let magnitudes: Vec<Vec<f64>> = all().map(|(_, response)| accelerance(response, transfer.place)).collect();
-        let variants: Vec<BandVariant<'_>> = all()
-            .zip(&magnitudes)
-            .map(|((name, response), magnitudes)| BandVariant {
-                name,
-                frequencies_hz: response.frequencies_hz(),
-                magnitudes,
-            })
-            .collect();
+        let magnitudes: Vec<Vec<f64>> = all.iter().map(|(_, response)| accelerance(response, transfer.place)).collect();
+        let variants = all.iter().zip(&magnitudes).map(|((name, response), magnitudes)| BandVariant {
+            name,
+            frequencies_hz: response.frequencies_hz(),
+            magnitudes,
+        });
+        let variants: Vec<BandVariant<'_>> = variants.collect();
         ranking.push(RankedPath { path, variants: rank_in_band(&variants, band_hz, 1.0)? });
     }
     Ok(ranking)

@@ -148,8 +148,14 @@ impl<'c> ReducedPaths<'c> {
             file.0.accept()?;
             return Self::of(case, frf, FrfHousing::File(Box::new(file)), band_hz);
         }
-        let stage = CondensedHousing::with_basis(case, first_choice(choice, band_hz[1]), watch)?
-            .ok_or(ComputeError::NothingToCondense)?;
+        let first = match choice.size {
+            // the fixed-interface modes of the band, which resonate whatever is attached: the estimated error says what else is needed
+            BasisSize::Auto(_) => {
+                BasisChoice { size: BasisSize::UpTo(band_hz[1]), enhanced: false, band_hz: band_hz[1] }
+            }
+            _ => BasisChoice { band_hz: band_hz[1], ..choice },
+        };
+        let stage = CondensedHousing::with_basis(case, first, watch)?.ok_or(ComputeError::NothingToCondense)?;
         // static response to every force and, as the path back is the same, to a force at every sensor
         let places = places(&stage, &ends(case, frf).concat())?;
         let dof = stage.housing.model.dof();
@@ -252,15 +258,6 @@ impl<'c> ReducedPaths<'c> {
     }
 }
 
-/// What `auto` begins with: the fixed-interface modes of the band, which resonate whatever is attached. The estimated error
-/// of the responses says what else it needs.
-fn first_choice(choice: BasisChoice, band_hz: f64) -> BasisChoice {
-    match choice.size {
-        BasisSize::Auto(_) => BasisChoice { size: BasisSize::UpTo(band_hz), enhanced: false, band_hz },
-        _ => BasisChoice { band_hz, ..choice },
-    }
-}
-
 /// Equal steps of the band, its resonances, and where the full model is solved.
 fn frequencies(
     frf: &case::Frf,
@@ -288,14 +285,12 @@ fn frequencies(
 /// Housing and ring, with the case's damping.
 fn system(case: &Case, housing: &FrfHousing) -> Result<ReducedSystem, ComputeError> {
     let element = housing.element();
+    // the ring's coordinates come first
     let with_ring = |own: &DenseMatrix, ring: Option<&DenseMatrix>| {
         let mut sum = own.clone();
         if let Some(ring) = ring {
-            for column in 0..ring.ncols() {
-                for row in 0..ring.nrows() {
-                    sum[(row, column)] += ring[(row, column)];
-                }
-            }
+            let mut part = sum.submatrix_mut(0, 0, ring.nrows(), ring.ncols());
+            part += ring;
         }
         sum
     };

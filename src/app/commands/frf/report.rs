@@ -21,20 +21,17 @@ const LISTED: usize = 8;
 /// [`ComputeError::Frf`].
 pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Result<Report, ComputeError> {
     let mut report = signed_report(case, command, "Transfer paths");
-    let passes = |(_, error): (f64, f64)| Verdict::of(error <= result.target);
-    report = match (&result.estimate, result.largest_estimate()) {
-        (None, _) => report.headline("Estimated error", "not known", Verdict::None),
-        (Some(_), largest) => {
-            let largest = largest.unwrap_or_default();
-            let name = "Largest estimated error of a response";
-            report.headline(name, significant(largest.1, 2), passes(largest))
-        }
+    let judged = |report: Report, what: &str, error: f64| {
+        report.headline(what, significant(error, 2), Verdict::of(error <= result.target))
+    };
+    let estimate = result.estimate.as_ref().map(|estimate| estimate.largest().unwrap_or_default().1);
+    report = match estimate {
+        None => report.headline("Estimated error", "not known", Verdict::None),
+        Some(error) => judged(report, "Largest estimated error of a response", error),
     };
     report = match result.largest_difference() {
-        Some(largest) => {
-            report.headline("Largest difference from the full model", significant(largest.1, 2), passes(largest))
-        }
         None => report.headline("Difference from the full model", "not computed", Verdict::None),
+        Some((_, error)) => judged(report, "Largest difference from the full model", error),
     };
     report = report.section(model(result));
     for path in 0..result.paths.len() {
@@ -91,15 +88,15 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
     let size = || Axis::new("Acceleration over force", "1/kg").log();
-    let mut magnitude =
-        Plot::new("Accelerance, magnitude", frequency(), size()).curve(curve("reduced", &reduced, |h| h.norm()));
-    let degrees = |h: c64| h.arg().to_degrees();
-    let mut phase = Plot::new("Accelerance, phase", frequency(), Axis::new("Phase", "deg"))
-        .curve(curve("reduced", &reduced, degrees));
-    if !full.is_empty() {
-        magnitude = magnitude.curve(curve("full", &full, |h| h.norm()).style(CurveStyle::Points));
-        phase = phase.curve(curve("full", &full, degrees).style(CurveStyle::Points));
-    }
+    let plot = |title: &str, y: Axis, of: fn(c64) -> f64| {
+        let plot = Plot::new(title, frequency(), y).curve(curve("reduced", &reduced, of));
+        match full.as_slice() {
+            [] => plot,
+            full => plot.curve(curve("full", full, of).style(CurveStyle::Points)),
+        }
+    };
+    let magnitude = plot("Accelerance, magnitude", size(), |h| h.norm());
+    let phase = plot("Accelerance, phase", Axis::new("Phase", "deg"), |h| h.arg().to_degrees());
     let mut parts =
         Plot::new("Accelerance of the modes that carry most", frequency(), size())
             .curve(curve("all", &reduced, |h| h.norm()));

@@ -1,5 +1,6 @@
 //! Which group of a mesh is the bore: a cylindrical hole (in a plane mesh a round one).
 
+use super::groups::says;
 use std::collections::HashMap;
 
 use crate::fe::mesh::cylinder::{Cylinder, Facet, fit};
@@ -21,17 +22,6 @@ pub(crate) struct Candidate {
     pub group: String,
     /// What it lies on, in the mesh's unit.
     pub cylinder: Cylinder,
-}
-
-impl Candidate {
-    fn is_hole(&self) -> bool {
-        self.cylinder.hole == Some(true)
-    }
-
-    fn is_named(&self) -> bool {
-        let name = self.group.to_lowercase();
-        NAMES.iter().any(|part| name.contains(part))
-    }
 }
 
 /// What the surfaces of a mesh are.
@@ -110,31 +100,18 @@ pub(crate) fn cylinders(
     rim: &Rim,
     usable: impl Fn(&PhysicalGroup) -> bool,
 ) -> Cylinders {
-    let mut holes = Vec::new();
-    let mut outside = Vec::new();
-    let groups = mesh.groups.iter();
-    for group in groups.filter(|group| group.dimension + 1 == dimension && usable(group)) {
+    let groups = mesh.groups.iter().filter(|group| group.dimension + 1 == dimension && usable(group));
+    let found = groups.filter_map(|group| {
         let nodes: Vec<[f64; 3]> = group.nodes.iter().map(|&node| mesh.nodes[node]).collect();
-        let Some(cylinder) = fit(&facets(mesh, rim, group), &nodes) else {
-            continue;
-        };
-        if cylinder.farthest > TOLERANCE * cylinder.radius || cylinder.turn < LEAST_TURN {
-            continue;
-        }
-        let group = group.name.clone();
-        let candidate = Candidate { group, cylinder };
-        if candidate.is_hole() {
-            holes.push(candidate);
-        } else {
-            outside.push(candidate);
-        }
-    }
-    // a name before the surface itself: a bearing sits in one hole of many
-    let surface = |candidate: &Candidate| candidate.cylinder.radius * candidate.cylinder.turn;
-    holes.sort_by(|a, b| {
-        let named = b.is_named().cmp(&a.is_named());
-        named.then(surface(b).total_cmp(&surface(a)))
+        let cylinder = fit(&facets(mesh, rim, group), &nodes)?;
+        let rough = cylinder.farthest > TOLERANCE * cylinder.radius || cylinder.turn < LEAST_TURN;
+        (!rough).then(|| Candidate { group: group.name.clone(), cylinder })
     });
+    let (mut holes, outside): (Vec<_>, Vec<_>) = found.partition(|candidate| candidate.cylinder.hole == Some(true));
+    // a name before the surface itself: a bearing sits in one hole of many
+    let named = |candidate: &Candidate| says(&candidate.group, &NAMES);
+    let surface = |candidate: &Candidate| candidate.cylinder.radius * candidate.cylinder.turn;
+    holes.sort_by(|a, b| named(b).cmp(&named(a)).then(surface(b).total_cmp(&surface(a))));
     let bore = (!holes.is_empty()).then(|| holes.remove(0));
     Cylinders { bore, holes, outside }
 }

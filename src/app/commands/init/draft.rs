@@ -9,11 +9,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::found::{DraftRequest, Found, FoundCylinder, find};
-use super::page::Page;
-use super::run_text::run;
-use super::scene::UnitFrom;
-use super::text::{bearing, findings, head, housing, motion, ring, sensors};
+use super::found::{DraftRequest, FoundCylinder, find};
+use super::text::{case_text, findings};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
@@ -24,9 +21,6 @@ use crate::numerics::units::LengthUnit;
 pub struct Draft {
     /// Unit that the file says.
     pub length_unit: LengthUnit,
-    /// Where it comes from.
-    #[serde(skip)]
-    pub unit_from: UnitFrom,
     /// The bore that the ring is tied to; `None`: none was found.
     pub bore: Option<FoundCylinder>,
     /// Other round holes, best first.
@@ -53,30 +47,18 @@ impl Draft {
         let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mesh, &inspection)?;
-        Ok((write(&found), inspection))
-    }
-}
-
-fn write(found: &Found<'_>) -> Draft {
-    let findings = findings(found);
-    let mut page = Page::default();
-    head(&mut page, found);
-    housing(&mut page, found);
-    ring(&mut page, found);
-    bearing(&mut page, found);
-    motion(&mut page, found);
-    sensors(&mut page, found);
-    run(&mut page, found);
-    let parts = found.groups.parts.iter();
-    Draft {
-        length_unit: found.unit,
-        unit_from: found.unit_from,
-        bore: found.bore.clone(),
-        other_holes: found.holes.clone(),
-        bearing: found.bearing.map(|numbers| numbers.bearing.name),
-        parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
-        supports: found.groups.supports.clone(),
-        findings,
-        text: page.text(),
+        let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
+        let parts = found.groups.parts.iter();
+        let draft = Self {
+            length_unit: found.unit,
+            bearing: found.bearing.map(|numbers| numbers.bearing.name),
+            parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
+            findings: findings(&found),
+            text,
+            bore: found.bore,
+            other_holes: found.holes,
+            supports: found.groups.supports,
+        };
+        Ok((draft, inspection))
     }
 }

@@ -16,9 +16,10 @@ use crate::fe::mesh::{Mesh, MeshError};
 use crate::numerics::units::LengthUnit;
 
 /// What is asked for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct DraftRequest<'a> {
     /// The mesh file.
+    #[serde(skip)]
     pub mesh: &'a Path,
     /// How the case file names it.
     pub mesh_in_case: &'a str,
@@ -52,6 +53,7 @@ pub struct FoundCylinder {
 }
 
 /// Everything that the text is written from; lengths in m.
+#[derive(Serialize)]
 pub(crate) struct Found<'a> {
     pub(crate) request: DraftRequest<'a>,
     pub(crate) plane: bool,
@@ -81,10 +83,7 @@ pub(crate) fn find<'a>(
 ) -> Result<Found<'a>, ComputeError> {
     let inventory = &inspection.inventory;
     let dimension = inventory.dimension;
-    let wrong = |what: String, help: String| ComputeError::Input {
-        what: format!("{}: {what}", request.mesh.display()),
-        help: Some(help),
-    };
+    let wrong = |what: String, help: String| ComputeError::input(format!("{}: {what}", request.mesh.display()), help);
     if dimension < 2 {
         return Err(wrong(
             "found a mesh of curves or points, expected surfaces or volumes".to_owned(),
@@ -109,8 +108,8 @@ pub(crate) fn find<'a>(
         // a name that two groups share is no name
         let solids = mesh.groups.iter().filter(|group| group.dimension == dimension);
         let named = solids.map(|group| mesh.group(&group.name));
-        if let Some(shared) = named.filter_map(Result::err).find(|error| matches!(error, MeshError::AmbiguousGroup(_)))
-        {
+        let mut errors = named.filter_map(Result::err);
+        if let Some(shared) = errors.find(|error| matches!(error, MeshError::AmbiguousGroup(_))) {
             return Err(shared.into());
         }
         let (what, word) = if plane { ("surfaces", "Surface") } else { ("volumes", "Volume") };
@@ -187,36 +186,25 @@ pub(crate) fn fitting(
         if (bearing.outer_diameter / diameter - 1.0).abs() <= TOLERANCE {
             return Ok((Some(bearing), Vec::new()));
         }
-        let names = nearest
-            .iter()
-            .map(|(bearing, _)| format!("{} ({} mm)", bearing.name, page::number(1e3 * bearing.outer_diameter, 6)));
-        let nearest = names.collect::<Vec<_>>().join(", ");
-        return Err(ComputeError::Input {
-            what: format!(
-                "bearing {}: found an outer diameter of {:.4} mm, expected that of the bore \"{}\", {:.4} mm, within 1 %",
-                bearing.name,
-                1e3 * bearing.outer_diameter,
-                bore.group,
-                1e3 * diameter
-            ),
-            help: Some(format!(
-                "nearest of the catalogue: {nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"
-            )),
-        });
+        let named = |bearing: &CatalogueBearing| {
+            format!("{} ({} mm)", bearing.name, page::number(1e3 * bearing.outer_diameter, 6))
+        };
+        let nearest = nearest.iter().map(|(bearing, _)| named(bearing)).collect::<Vec<_>>().join(", ");
+        let what = format!(
+            "bearing {}: found an outer diameter of {:.4} mm, expected that of the bore \"{}\", {:.4} mm, within 1 %",
+            bearing.name,
+            1e3 * bearing.outer_diameter,
+            bore.group,
+            1e3 * diameter
+        );
+        let help = format!(
+            "nearest of the catalogue: {nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"
+        );
+        return Err(ComputeError::input(what, help));
     }
     let fits: Vec<&CatalogueBearing> =
         nearest.into_iter().filter(|(_, off)| off.abs() <= TOLERANCE).map(|(bearing, _)| bearing).collect();
     let common = |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
     let chosen = fits.iter().find(common).or(fits.first()).copied();
     Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))
-}
-
-impl Found<'_> {
-    /// A group one dimension below the housing that may be held, for a template.
-    pub(crate) fn surface(&self) -> Option<&str> {
-        let below = if self.plane { 1 } else { 2 };
-        let mut others = self.groups.others.iter();
-        let other = others.find(|other| other.dimension == below && other.note.is_none());
-        other.map(|other| other.group.as_str())
-    }
 }

@@ -1,6 +1,8 @@
 //! What the groups of a mesh are for, by dimension and name.
 
 use crate::fe::mesh::{Mesh, PhysicalGroup};
+use serde::Serialize;
+use std::collections::HashSet;
 
 /// Parts of names of what is held.
 const SUPPORTS: [&str; 11] =
@@ -22,13 +24,14 @@ const MATERIALS: [(&str, &str); 6] = [
 /// What a part is made of where its name says nothing.
 const USUAL_MATERIAL: &str = "aluminium";
 
-fn says(name: &str, words: &[&str]) -> bool {
+/// Whether a name has one of these words.
+pub(crate) fn says(name: &str, words: &[&str]) -> bool {
     let name = name.to_lowercase();
     words.iter().any(|word| name.contains(word))
 }
 
 /// A part with its material.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct PartGuess {
     /// Name of the group.
     pub group: String,
@@ -39,7 +42,7 @@ pub(crate) struct PartGuess {
 }
 
 /// A group that is left to the user.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Other {
     /// Name of the group.
     pub group: String,
@@ -50,7 +53,7 @@ pub(crate) struct Other {
 }
 
 /// What the groups are for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub(crate) struct Groups {
     /// Parts of the housing that share no element.
     pub parts: Vec<PartGuess>,
@@ -75,15 +78,14 @@ impl Groups {
     /// Looks at every group; `bore` is the one that the ring sits in.
     pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
         let mut found = Self::default();
-        let counts = mesh.blocks.iter().map(|block| vec![false; block.len()]);
-        let mut taken: Vec<Vec<bool>> = counts.collect();
+        let mut taken = HashSet::new();
         let mut on_housing = vec![false; mesh.nodes.len()];
         // large groups first: of two that overlap the one that holds more is the part
         let mut solids: Vec<&PhysicalGroup> =
             mesh.groups.iter().filter(|group| group.dimension == dimension && usable(mesh, group)).collect();
         solids.sort_by_key(|group| std::cmp::Reverse(group.elements.len()));
         for group in solids {
-            if group.elements.iter().any(|id| taken[id.block][id.index]) {
+            if group.elements.iter().any(|id| taken.contains(id)) {
                 found.others.push(Other {
                     group: group.name.clone(),
                     dimension,
@@ -91,78 +93,55 @@ impl Groups {
                 });
                 continue;
             }
-            for id in &group.elements {
-                taken[id.block][id.index] = true;
-            }
+            taken.extend(group.elements.iter().copied());
             for &node in &group.nodes {
                 on_housing[node] = true;
             }
-            found.parts.push(part(&group.name));
+            let known = MATERIALS.iter().find(|(word, _)| says(&group.name, &[*word]));
+            found.parts.push(PartGuess {
+                group: group.name.clone(),
+                material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
+                by_name: known.is_some(),
+            });
         }
         let order = |name: &str| mesh.groups.iter().position(|group| group.name == name);
         found.parts.sort_by_key(|part| order(&part.group));
-        found.without_part = mesh.element_ids(dimension).filter(|id| !taken[id.block][id.index]).count();
+        found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         for group in &mesh.groups {
             if bore.is_some_and(|bore| bore.name == group.name) {
                 continue;
             }
-            found.sort_in(mesh, group, dimension, bore, &on_housing);
+            let name = group.name.as_str();
+            let mut leave = |note| {
+                found.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
+            };
+            // both lists are sorted
+            let touches_bore = bore.is_some_and(|bore| {
+                let mut nodes = group.nodes.iter();
+                nodes.any(|node| bore.nodes.binary_search(node).is_ok())
+            });
+            let whole = group.nodes.iter().all(|&node| on_housing[node]);
+            if group.elements.is_empty() {
+                leave(Some("has no elements"));
+            } else if !usable(mesh, group) {
+                leave(Some("another group has this name too: give each its own in gmsh"));
+            } else if group.dimension < dimension && says(name, &SUPPORTS) {
+                if !whole {
+                    leave(Some("looks like a support, but lies on no part"));
+                } else if touches_bore {
+                    leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
+                    found.at_bore.push(name.to_owned());
+                } else {
+                    found.supports.push(name.to_owned());
+                }
+            } else if group.dimension == 0 && found.sensor.is_none() && says(name, &SENSORS) && whole {
+                found.sensor = Some(name.to_owned());
+            } else if group.dimension < dimension {
+                let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+                leave(touches_bore.then_some(note));
+            }
         }
         found
-    }
-
-    fn sort_in(
-        &mut self,
-        mesh: &Mesh,
-        group: &PhysicalGroup,
-        dimension: usize,
-        bore: Option<&PhysicalGroup>,
-        on_housing: &[bool],
-    ) {
-        let name = group.name.as_str();
-        let mut leave = |note| {
-            self.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
-        };
-        if group.elements.is_empty() {
-            return leave(Some("has no elements"));
-        }
-        if !usable(mesh, group) {
-            return leave(Some("another group has this name too: give each its own in gmsh"));
-        }
-        if group.dimension >= dimension {
-            return;
-        }
-        // both lists are sorted
-        let touches_bore = bore.is_some_and(|bore| {
-            let mut nodes = group.nodes.iter();
-            nodes.any(|node| bore.nodes.binary_search(node).is_ok())
-        });
-        let whole = group.nodes.iter().all(|&node| on_housing[node]);
-        if says(name, &SUPPORTS) {
-            if !whole {
-                leave(Some("looks like a support, but lies on no part"));
-            } else if touches_bore {
-                leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
-                self.at_bore.push(name.to_owned());
-            } else {
-                self.supports.push(name.to_owned());
-            }
-        } else if group.dimension == 0 && self.sensor.is_none() && says(name, &SENSORS) && whole {
-            self.sensor = Some(name.to_owned());
-        } else {
-            let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
-            leave(touches_bore.then_some(note));
-        }
-    }
-}
-
-fn part(name: &str) -> PartGuess {
-    let lower = name.to_lowercase();
-    let known = MATERIALS.iter().find(|(word, _)| lower.contains(word));
-    PartGuess {
-        group: name.to_owned(),
-        material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
-        by_name: known.is_some(),
     }
 }

@@ -15,5 +15,4 @@ pub(crate) mod text;
 
 pub use draft::Draft;
 pub use found::{DraftRequest, FoundCylinder};
-pub use scene::UnitFrom;
 pub use summary::{BearingSummary, CatalogueResult, DraftResult};

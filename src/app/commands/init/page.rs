@@ -3,75 +3,50 @@
 /// Widest line of a note.
 const WIDTH: usize = 118;
 
-/// Significant digits of what is computed or guessed.
-pub(crate) const COMPUTED_DIGITS: usize = 4;
+/// Mark between a value and where it comes from. Names of a mesh are quoted and do not have it.
+pub(crate) const ORIGIN: &str = "\u{1f}";
 
-/// The text so far.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Page {
-    text: String,
-    /// Whether what is written is commented out.
-    template: bool,
+/// The text of a case file from its lines in short: `~ words` is a note over as many lines as it takes; [`ORIGIN`] stands between
+/// `key = value`, or a row of a list, and where the value comes from. What is between `@template` and `@end` is commented out, by a mark
+/// without a blank, which notes have: a value to switch on.
+pub(crate) fn page(lines: &str) -> String {
+    let mut text = String::new();
+    let mut mark = "";
+    for line in lines.lines() {
+        match (line, line.split_once(ORIGIN)) {
+            ("@template", _) => mark = "#",
+            ("@end", _) => mark = "",
+            ("", _) => text.push('\n'),
+            (row, Some((item, origin))) if row.starts_with(' ') => text += &format!("{mark}{item:<58} # {origin}\n"),
+            (_, Some((pair, origin))) => {
+                let width = pair.chars().count() + origin.chars().count() + 44 - pair.len().min(42);
+                if width > WIDTH {
+                    text += &format!("{}{mark}{pair}\n", note(origin));
+                } else {
+                    text += &format!("{mark}{pair:<42} # {origin}\n");
+                }
+            }
+            (line, None) => match line.strip_prefix("~ ") {
+                Some(words) => text += &note(words),
+                None => text += &format!("{mark}{line}\n"),
+            },
+        }
+    }
+    text
 }
 
-impl Page {
-    pub fn text(self) -> String {
-        self.text
-    }
-
-    /// A line as it is; commented out in a template.
-    pub(crate) fn line(&mut self, line: &str) {
-        if self.template && !line.is_empty() {
-            self.text.push('#');
+/// A comment over as many lines as it takes.
+fn note(words: &str) -> String {
+    let (mut text, mut line) = (String::new(), String::from("#"));
+    for word in words.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            text += &format!("{line}\n");
+            line = String::from("#");
         }
-        self.text.push_str(line);
-        self.text.push('\n');
+        line.push(' ');
+        line.push_str(word);
     }
-
-    /// `key = value`.
-    pub(crate) fn value(&mut self, key: &str, value: impl AsRef<str>) {
-        self.line(&format!("{key} = {}", value.as_ref()));
-    }
-
-    /// `key = value`, and where the value comes from.
-    pub(crate) fn value_from(&mut self, key: &str, value: impl AsRef<str>, origin: &str) {
-        let pair = format!("{key} = {}", value.as_ref());
-        if pair.chars().count() + origin.chars().count() + 44 - pair.len().min(42) > WIDTH {
-            self.note(origin);
-            self.line(&pair);
-        } else {
-            self.line(&format!("{pair:<42} # {origin}"));
-        }
-    }
-
-    /// A comment over as many lines as it takes.
-    pub(crate) fn note(&mut self, words: &str) {
-        let mut line = String::from("#");
-        for word in words.split_whitespace() {
-            if line.chars().count() + 1 + word.chars().count() > WIDTH {
-                self.text.push_str(&line);
-                self.text.push('\n');
-                line = String::from("#");
-            }
-            line.push(' ');
-            line.push_str(word);
-        }
-        self.text.push_str(&line);
-        self.text.push('\n');
-    }
-
-    /// An empty line and the header of a table.
-    pub(crate) fn table(&mut self, header: &str) {
-        self.text.push('\n');
-        self.line(header);
-    }
-
-    /// What `write` writes is commented out if `template`, by a mark without a blank, which notes have: a value to switch on.
-    pub(crate) fn template(&mut self, template: bool, write: impl FnOnce(&mut Self)) {
-        let before = std::mem::replace(&mut self.template, template);
-        write(self);
-        self.template = before;
-    }
+    format!("{text}{line}\n")
 }
 
 /// A text as TOML writes it.
@@ -123,7 +98,7 @@ pub(crate) fn list(words: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Page, list, number, numbers, quoted};
+    use super::{ORIGIN, list, number, numbers, page, quoted};
 
     #[test]
     fn numbers_are_short_and_valid() {
@@ -157,14 +132,8 @@ mod tests {
 
     #[test]
     fn a_template_is_a_comment_that_can_be_taken_away() {
-        let mut page = Page::default();
-        page.template(true, |page| {
-            page.table("[a]");
-            page.value_from("b", "1", "why");
-            page.line("");
-        });
-        page.value("c", "2");
-        let text = page.text();
+        let lines = "@template\n\n[a]\nb = 1 ## why\n\n@end\nc = 2";
+        let text = page(&lines.replace(" ## ", ORIGIN));
         assert_eq!(text, "\n#[a]\n#b = 1                                      # why\n\nc = 2\n");
         let read: toml::Table = toml::from_str(&text).unwrap();
         assert_eq!(read.len(), 1);
@@ -175,10 +144,7 @@ mod tests {
 
     #[test]
     fn long_notes_are_folded() {
-        let mut page = Page::default();
-        page.note(&"word ".repeat(60));
-        page.value_from("a", "1", &"word ".repeat(30));
-        let text = page.text();
+        let text = page(&format!("~ {}\na = 1{ORIGIN}{}", "word ".repeat(60), "word ".repeat(30)));
         assert!(text.lines().all(|line| line.chars().count() <= 118), "{text}");
         assert!(text.lines().last() == Some("a = 1"), "{text}");
         assert_eq!(list(&[]), "none");

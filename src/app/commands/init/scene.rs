@@ -5,6 +5,7 @@ use super::bore::TOLERANCE;
 use crate::bearing::catalogue::{CatalogueBearing, GROOVES, OuterRingSection, normal_clearance};
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
+use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Speed of the shaft (Hz): a machine on a motor of four poles at 50 Hz mains, without its slip.
@@ -20,7 +21,7 @@ pub(crate) const SHAFT_LENGTHS: f64 = 10.0;
 const STEEL: f64 = 7850.0;
 
 /// The bearing as a case file has it. SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct BearingNumbers {
     pub bearing: &'static CatalogueBearing,
     /// Half the middle of the normal clearance.
@@ -44,7 +45,7 @@ impl BearingNumbers {
 }
 
 /// The ring's section, that of a bearing scaled to the bore.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct RingNumbers {
     /// Whose section it is.
     pub of: &'static CatalogueBearing,
@@ -54,11 +55,6 @@ pub(crate) struct RingNumbers {
 }
 
 impl RingNumbers {
-    /// Width of the bearing, scaled, m.
-    pub(crate) fn section_width(&self) -> f64 {
-        self.of.width * self.scale
-    }
-
     /// Lengths grow with the bore, areas with its square, second moments with its fourth power.
     pub(crate) fn of(bearing: &'static CatalogueBearing, bore_diameter: f64) -> Self {
         let scale = bore_diameter / bearing.outer_diameter;
@@ -87,8 +83,8 @@ pub(crate) fn shaft(diameter: f64) -> [f64; 2] {
 const LONGEST_METRES: f64 = 3.0;
 
 /// A unit of length and where it comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UnitFrom {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub(crate) enum UnitFrom {
     /// Said by the user.
     Given,
     /// The one in which the named bearing fits the bore.
@@ -121,7 +117,7 @@ pub(crate) fn unit_of(
 }
 
 /// Directions of a bearing in the mesh's axes, unit vectors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Directions {
     /// Along the shaft.
     pub axis: [f64; 3],

@@ -37,7 +37,7 @@ pub(crate) fn spot(
                 highest = Some(*corner);
             }
         }
-        if outwards(&facet).is_none_or(|normal| normal.dot(&up) < FACING) {
+        if outwards(&facet, &corners).is_none_or(|normal| normal.dot(&up) < FACING) {
             continue;
         }
         let near = corners.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
@@ -55,9 +55,8 @@ pub(crate) fn spot(
 }
 
 /// Unit normal of a face away from its element; `None` for a face without area.
-fn outwards(facet: &Facet) -> Option<Vector3<f64>> {
-    let corners: Vec<Vector3<f64>> = facet.corners.iter().map(|&c| Vector3::from(c)).collect();
-    let normal = match corners.as_slice() {
+fn outwards(facet: &Facet, corners: &[Vector3<f64>]) -> Option<Vector3<f64>> {
+    let normal = match corners {
         [a, b] => {
             let along = b - a;
             Vector3::new(along.y, -along.x, 0.0)

@@ -37,26 +37,9 @@ pub struct CatalogueResult {
 /// A bearing of the catalogue.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BearingSummary {
-    /// Designation.
-    pub name: &'static str,
-    /// Bore diameter, m.
-    pub bore_m: f64,
-    /// Outer diameter, m.
-    pub outer_diameter_m: f64,
-    /// Width, m.
-    pub width_m: f64,
-    /// Number of balls.
-    pub balls: u32,
-    /// Ball diameter, m.
-    pub ball_diameter_m: f64,
-    /// Diameter of the circle of the balls' centres, m.
-    pub pitch_diameter_m: f64,
-    /// Whether the maker publishes it; if not, it is the mean of bore and outer diameter.
-    pub pitch_published: bool,
-    /// Diameter of the outer ring's shoulders, m; `None`: not published.
-    pub shoulder_diameter_m: Option<f64>,
-    /// Mass, kg.
-    pub mass_kg: f64,
+    /// What its maker publishes.
+    #[serde(flatten)]
+    pub bearing: CatalogueBearing,
     /// Balls that pass a place of the outer race in a turn of the shaft, without contact angle.
     pub bpfo: Option<f64>,
     /// Balls that pass a place of the inner race.
@@ -76,16 +59,7 @@ impl BearingSummary {
     #[must_use]
     pub(crate) fn of(bearing: &CatalogueBearing, orders: Option<DefectOrders>) -> Self {
         Self {
-            name: bearing.name,
-            bore_m: bearing.bore,
-            outer_diameter_m: bearing.outer_diameter,
-            width_m: bearing.width,
-            balls: bearing.balls,
-            ball_diameter_m: bearing.ball_diameter,
-            pitch_diameter_m: bearing.pitch_diameter,
-            pitch_published: bearing.pitch_published,
-            shoulder_diameter_m: bearing.shoulder_diameter,
-            mass_kg: bearing.mass,
+            bearing: *bearing,
             bpfo: orders.map(|orders| orders.outer),
             bpfi: orders.map(|orders| orders.inner),
             bsf: orders.map(|orders| orders.ball_spin),

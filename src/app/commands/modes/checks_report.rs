@@ -5,9 +5,7 @@ use super::compute::ModesResult;
 use super::convergence::{MeshConvergence, ModeOnMeshes};
 use super::shape_view::shown_places;
 use crate::fe::modal::{MatchedBy, ModalSurvey};
-use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, Headline, Matrix, Plot, Section, Table, Verdict, significant,
-};
+use crate::report::{Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, significant};
 
 /// Modes in the plot over the mesh size: as many as have colours of their own.
 const PLOTTED: usize = 6;
@@ -43,33 +41,29 @@ pub(crate) fn misses_text(misses: &[Miss]) -> String {
 }
 
 /// The verdicts for the head of the report.
-pub(crate) fn headlines(result: &ModesResult) -> Vec<Headline> {
-    let of_comparison = |comparison: &FileComparison| {
+pub(crate) fn headlines(mut report: Report, result: &ModesResult) -> Report {
+    for comparison in &result.comparisons {
         let [agree, judged] = comparison.agreeing();
         let mut value = format!("{agree} of {judged} modes");
         if comparison.missing_here() > 0 {
-            value.push_str(&format!(", {} not found here", comparison.missing_here()));
+            value += &format!(", {} not found here", comparison.missing_here());
         }
-        let label = format!("Agreement with {}", comparison.what);
-        Headline { label, value, verdict: Verdict::of(comparison.ok) }
-    };
-    let mut found: Vec<Headline> = result.comparisons.iter().map(of_comparison).collect();
-    if let Some(convergence) = &result.convergence {
-        let unknown = convergence.without_limit();
-        let of = convergence.modes.len();
-        let value = match convergence.worst() {
-            None => "not known".to_owned(),
-            Some(mode) => {
-                let known = format!("{} (mode {})", error_text(mode), mode.mode + 1);
-                match unknown {
-                    0 => known,
-                    _ => format!("{known}; not known for {unknown} of {of} modes"),
-                }
-            }
-        };
-        found.push(Headline { label: "Largest error of the mesh".to_owned(), value, verdict: Verdict::None });
+        report = report.headline(format!("Agreement with {}", comparison.what), value, Verdict::of(comparison.ok));
     }
-    found
+    let Some(convergence) = &result.convergence else {
+        return report;
+    };
+    let value = match (convergence.worst(), convergence.without_limit()) {
+        (None, _) => "not known".to_owned(),
+        (Some(mode), 0) => format!("{} (mode {})", error_text(mode), mode.mode + 1),
+        (Some(mode), unknown) => format!(
+            "{} (mode {}); not known for {unknown} of {} modes",
+            error_text(mode),
+            mode.mode + 1,
+            convergence.modes.len()
+        ),
+    };
+    report.headline("Largest error of the mesh", value, Verdict::None)
 }
 
 /// Estimated error of the case's own mesh with its uncertainty, or what is known instead.
@@ -126,18 +120,15 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
     ];
     let pairs = comparison.pairs.iter().map(|pair| (pair.here_hz, pair.here.first().copied(), pair_row(pair)));
     let mut rows: Vec<(f64, Option<usize>, Vec<Cell>)> = pairs.collect();
-    let missing = |modes: &[LoneMode]| -> Vec<LoneMode> { modes.iter().copied().filter(|mode| mode.missing).collect() };
     let none = || [Cell::text("–"), Cell::text("–")];
-    let lone = |here: [Cell; 2], there: [Cell; 2]| -> Vec<Cell> {
+    let lone = |mode: &LoneMode, is_here: bool| {
+        let own = [Cell::text((mode.mode + 1).to_string()), Cell::number(mode.hz, 7)];
+        let [here, there] = if is_here { [own, none()] } else { [none(), own] };
         let misses = [Cell::text(Miss::Partner.describe()), Cell::badge(Verdict::Bad)];
-        [here, there, none(), misses].into_iter().flatten().collect()
+        (mode.hz, is_here.then_some(mode.mode), [here, there, none(), misses].concat())
     };
-    let of = |mode: &LoneMode| [Cell::text((mode.mode + 1).to_string()), Cell::number(mode.hz, 7)];
-    for mode in missing(&comparison.lone_here) {
-        rows.push((mode.hz, Some(mode.mode), lone(of(&mode), none())));
-    }
-    for mode in missing(&comparison.lone_there) {
-        rows.push((mode.hz, None, lone(none(), of(&mode))));
+    for (modes, is_here) in [(&comparison.lone_here, true), (&comparison.lone_there, false)] {
+        rows.extend(modes.iter().filter(|mode| mode.missing).map(|mode| lone(mode, is_here)));
     }
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     // what passes misses nothing
@@ -156,10 +147,8 @@ fn pair_table(comparison: &FileComparison, survey: &ModalSurvey) -> Table {
 }
 
 fn pair_row(pair: &ComparedPair) -> Vec<Cell> {
-    let missed = |miss| match pair.misses.contains(&miss) {
-        true => Verdict::Bad,
-        false => Verdict::None,
-    };
+    let passes = pair.misses.is_empty();
+    let missed = |miss| if pair.misses.contains(&miss) { Verdict::Bad } else { Verdict::None };
     let count = |modes: &[usize]| {
         let text = match modes.len() {
             1 => mode_numbers(modes),
@@ -178,8 +167,8 @@ fn pair_row(pair: &ComparedPair) -> Vec<Cell> {
         Cell::number(pair.there_hz, 7),
         difference.judged(missed(Miss::Frequency)),
         Cell::text(format!("{:.4}", pair.mac)).value(pair.mac).judged(missed(Miss::Mac)),
-        Cell::text(if pair.misses.is_empty() { String::new() } else { misses_text(&pair.misses) }),
-        Cell::badge(Verdict::of(pair.misses.is_empty())),
+        Cell::text(if passes { String::new() } else { misses_text(&pair.misses) }),
+        Cell::badge(Verdict::of(passes)),
     ]
 }
 

@@ -9,6 +9,7 @@ use crate::formats::{ModeShapes, read_mode_shapes};
 use crate::numerics::linalg::DenseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -115,23 +116,16 @@ pub struct FileComparison {
 impl FileComparison {
     /// Modes of this case that agree, and those that were judged.
     pub(crate) fn agreeing(&self) -> [usize; 2] {
-        let count =
-            |pairs: &mut dyn Iterator<Item = &ComparedPair>| -> usize { pairs.map(|pair| pair.here.len()).sum() };
-        let passed = count(&mut self.pairs.iter().filter(|pair| pair.misses.is_empty()));
+        let of = |pair: &ComparedPair| pair.here.len();
+        let passed = self.pairs.iter().filter(|pair| pair.misses.is_empty()).map(of).sum();
         let missing = self.lone_here.iter().filter(|mode| mode.missing).count();
-        [passed, count(&mut self.pairs.iter()) + missing]
+        [passed, self.pairs.iter().map(of).sum::<usize>() + missing]
     }
 
     /// Modes of the file that this case should have and has not.
     pub(crate) fn missing_here(&self) -> usize {
         self.lone_there.iter().filter(|mode| mode.missing).count()
     }
-}
-
-fn ascending(modes: &[usize]) -> Vec<usize> {
-    let mut modes = modes.to_vec();
-    modes.sort_unstable();
-    modes
 }
 
 /// A file that was read, with what is asked of it.
@@ -166,7 +160,7 @@ impl<'c> ComparedFile<'c> {
         let covered = [check.above_hz.unwrap_or(0.0), check.below_hz];
         let own = &Side { set: survey.mode_set(housing), covers_hz: covered };
         let there = placed(&asked.file, &self.modes, housing.map(|(mesh, _)| mesh))?;
-        let compared = |source: ModalError| ComputeError::Input {
+        let failed = |source: ModalError| ComputeError::Input {
             what: format!("{}: {source}", asked.file.display()),
             help: matches!(source, ModalError::TooFewPoints { .. }).then(|| {
                 "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned()
@@ -178,15 +172,16 @@ impl<'c> ComparedFile<'c> {
         if let Some(distance) = asked.points_within {
             options.point_tolerance = (distance / own.set.diagonal()).min(1.0);
         }
-        let found = ModalComparison::new(&own.set, &there, options).map_err(compared)?;
+        let found = ModalComparison::new(&own.set, &there, options).map_err(failed)?;
         let frequencies = there.frequencies_hz.iter();
         let ends = [f64::INFINITY, f64::NEG_INFINITY];
         let covered = frequencies.fold(ends, |[low, high], &hz| [low.min(hz), high.max(hz)]);
         let there = Side { set: there, covers_hz: covered };
-        let judge = Judge { asked, own, there: &there, rigid: survey.basis.rigid_modes };
-        let pairs: Vec<ComparedPair> = found.pairs.iter().map(|pair| judge.pair(pair)).collect();
-        let lone_here = judge.lone(&found.unpaired_here, own, &there);
-        let lone_there = judge.lone(&found.unpaired_there, &there, own);
+        let rigid = survey.basis.rigid_modes;
+        let pairs = found.pairs.iter().map(|pair| compared(asked, pair, [own, &there], rigid));
+        let pairs: Vec<ComparedPair> = pairs.collect();
+        let lone_here = own.lone(&found.unpaired_here, &there, asked.within);
+        let lone_there = there.lone(&found.unpaired_there, own, asked.within);
         let missing = lone_here.iter().chain(&lone_there).any(|mode| mode.missing);
         let passed = pairs.iter().all(|pair| pair.misses.is_empty());
         Ok(FileComparison {
@@ -225,56 +220,53 @@ impl Side {
         hz >= low && hz * (1.0 + within) <= high
     }
 
+    /// Those of its modes without a partner among those of the `other` side.
+    fn lone(&self, modes: &[usize], other: &Self, within: f64) -> Vec<LoneMode> {
+        let of = |&mode: &usize| {
+            let hz = self.set.frequencies_hz[mode];
+            LoneMode { mode, hz, missing: other.covers(hz, within) }
+        };
+        modes.iter().map(of).collect()
+    }
+
     fn mean(&self, modes: &[usize]) -> f64 {
         let sum: f64 = modes.iter().map(|&mode| self.set.frequencies_hz[mode]).sum();
         sum / modes.len().max(1) as f64
     }
 }
 
-struct Judge<'a> {
-    asked: &'a ComparedModes,
-    own: &'a Side,
-    there: &'a Side,
-    /// Modes of this case without stiffness: the first ones.
-    rigid: usize,
-}
-
-impl Judge<'_> {
-    fn pair(&self, pair: &ModePair) -> ComparedPair {
-        let within = self.asked.within;
-        let [here_hz, there_hz] = [self.own.mean(&pair.here), self.there.mean(&pair.there)];
-        let rigid = pair.here.iter().all(|&mode| mode < self.rigid);
-        let difference = (!rigid && there_hz > 0.0).then(|| here_hz / there_hz - 1.0);
-        // a motion without stiffness has a frequency of round-off: it must be small beside the first elastic one
-        let first = self.own.set.frequencies_hz.get(self.rigid);
-        let agrees = match difference {
-            Some(difference) => difference.abs() <= within,
-            None => rigid && first.is_none_or(|first| there_hz <= within * first),
-        };
-        let short = match pair.here.len().cmp(&pair.there.len()) {
-            std::cmp::Ordering::Equal => false,
-            std::cmp::Ordering::Less => self.own.covers(there_hz, within),
-            std::cmp::Ordering::Greater => self.there.covers(here_hz, within),
-        };
-        let misses = [(pair.mac < self.asked.mac, Miss::Mac), (!agrees, Miss::Frequency), (short, Miss::Count)];
-        ComparedPair {
-            here: ascending(&pair.here),
-            there: ascending(&pair.there),
-            here_hz,
-            there_hz,
-            relative_difference: difference,
-            mac: pair.mac,
-            mean_mac: pair.mean_mac,
-            misses: misses.into_iter().filter(|miss| miss.0).map(|miss| miss.1).collect(),
-        }
-    }
-
-    fn lone(&self, modes: &[usize], side: &Side, other: &Side) -> Vec<LoneMode> {
-        let of = |&mode: &usize| {
-            let hz = side.set.frequencies_hz[mode];
-            LoneMode { mode, hz, missing: other.covers(hz, self.asked.within) }
-        };
-        modes.iter().map(of).collect()
+/// A pair, and what it misses; the first `rigid` modes of this case have no stiffness.
+fn compared(asked: &ComparedModes, pair: &ModePair, [own, there]: [&Side; 2], rigid: usize) -> ComparedPair {
+    let within = asked.within;
+    let [here_hz, there_hz] = [own.mean(&pair.here), there.mean(&pair.there)];
+    // a motion without stiffness has a frequency of round-off: it must be small beside the first elastic one
+    let first = own.set.frequencies_hz.get(rigid);
+    let rigid = pair.here.iter().all(|&mode| mode < rigid);
+    let difference = (!rigid && there_hz > 0.0).then(|| here_hz / there_hz - 1.0);
+    let agrees = match difference {
+        Some(difference) => difference.abs() <= within,
+        None => rigid && first.is_none_or(|first| there_hz <= within * first),
+    };
+    let short = match pair.here.len().cmp(&pair.there.len()) {
+        Ordering::Equal => false,
+        Ordering::Less => own.covers(there_hz, within),
+        Ordering::Greater => there.covers(here_hz, within),
+    };
+    let [here, there] = [&pair.here, &pair.there].map(|modes| {
+        let mut modes = modes.clone();
+        modes.sort_unstable();
+        modes
+    });
+    let misses = [(pair.mac < asked.mac, Miss::Mac), (!agrees, Miss::Frequency), (short, Miss::Count)];
+    ComparedPair {
+        here,
+        there,
+        here_hz,
+        there_hz,
+        relative_difference: difference,
+        mac: pair.mac,
+        mean_mac: pair.mean_mac,
+        misses: misses.into_iter().filter(|miss| miss.0).map(|miss| miss.1).collect(),
     }
 }
 

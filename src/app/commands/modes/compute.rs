@@ -4,8 +4,8 @@
 use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, mesh_convergence};
 use super::mesh_sequence::MeshSequence;
-use crate::app::case::{Case, Expected, Linearise};
-use crate::app::commands::parts::tables::ExpectedMode;
+use crate::app::case::{Case, Linearise};
+use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::contact_limits::accept_contacts;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 /// One reading of a case: the case itself or one of its variants.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Reading {
     /// What it changes; empty for the case itself.
     pub what: String,
@@ -105,6 +105,13 @@ impl Reading {
             None => self.unloaded_hz.iter().copied().min_by(|a, b| (a - hz).abs().total_cmp(&(b - hz).abs())),
         }
     }
+
+    /// With the expected frequencies of a case beside the nearest ones.
+    fn judged(mut self, case: &Case) -> Self {
+        let expected = case.modes.expected.iter();
+        self.expected = expected.map(|expected| ExpectedMode::of(expected, self.nearest_hz(expected.hz))).collect();
+        self
+    }
 }
 
 /// Carries the command out.
@@ -126,7 +133,7 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Com
     if let Some(sequence) = sequence {
         result.doubts.extend(sequence.doubts());
         let housing = result.mesh_and_model();
-        result.convergence = mesh_convergence(case, &sequence, &result.survey, housing, watch)?;
+        result.convergence = mesh_convergence(case, sequence, &result.survey, housing, watch)?;
     }
     Ok(result)
 }
@@ -139,14 +146,10 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
     watch.stage("linearise");
     let base = reading(case, &stage, &survey.basis, String::new(), Vec::new())?;
     let setup = linearised_setup(case)?;
-    let statics = match &setup {
-        Some(setup) => Some(Statics::compute(&stage.structure, setup, start_time(case))?),
-        None => None,
-    };
-    let loaded_pass = match setup.as_ref().filter(|_| case.modes.ball_pass) {
-        Some(setup) => Some(LoadedPass::compute((&stage.structure, &stage.modes), setup, start_time(case), watch)?),
-        None => None,
-    };
+    let (setup, start) = (setup.as_ref(), start_time(case));
+    let statics = setup.map(|setup| Statics::compute(&stage.structure, setup, start)).transpose()?;
+    let over_pass = |setup| LoadedPass::compute((&stage.structure, &stage.modes), setup, start, watch);
+    let loaded_pass = setup.filter(|_| case.modes.ball_pass).map(over_pass).transpose()?;
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
@@ -165,7 +168,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
     };
     let beyond = stage.imported.iter().filter_map(|imported| imported.doubt(top_hz.max(asked_hz)));
-    let mut doubts = doubts(case, stage.mesh_and_model(), setup.as_ref().zip(at_rest))?;
+    let mut doubts = doubts(case, stage.mesh_and_model(), setup.zip(at_rest))?;
     doubts.extend(beyond);
     let structure = Some(stage);
     Ok(ModesResult { variants, structure, statics, loaded_pass, ..ModesResult::new(base, survey, doubts) })
@@ -174,15 +177,8 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
     let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
-    let mut base = Reading {
-        what: String::new(),
-        set: Vec::new(),
-        unloaded_hz: survey.basis.frequencies_hz.clone(),
-        condensation_difference: None,
-        loaded: None,
-        expected: Vec::new(),
-    };
-    base.expected = judge(&base, &case.modes.expected);
+    let unloaded_hz = survey.basis.frequencies_hz.clone();
+    let base = Reading { unloaded_hz, ..Reading::default() }.judged(case);
     let doubts = doubts(case, Some((&mesh, &model)), None)?;
     Ok(ModesResult { housing: Some((mesh, model)), ..ModesResult::new(base, survey, doubts) })
 }
@@ -219,7 +215,7 @@ fn reading(
         }
         None => None,
     };
-    let mut reading = Reading {
+    let reading = Reading {
         what,
         set,
         condensation_difference: condensation_difference(stage, unloaded, case.modes.extent),
@@ -227,8 +223,7 @@ fn reading(
         loaded,
         expected: Vec::new(),
     };
-    reading.expected = judge(&reading, &case.modes.expected);
-    Ok(reading)
+    Ok(reading.judged(case))
 }
 
 /// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
@@ -248,10 +243,6 @@ fn condensation_difference(stage: &CoupledStructure, full: &ModalBasis, extent: 
             (0..=condensed.len().saturating_sub(full.frequencies_hz.len())).filter_map(largest).min_by(f64::total_cmp)
         }
     }
-}
-
-fn judge(reading: &Reading, expected: &[Expected]) -> Vec<ExpectedMode> {
-    expected.iter().map(|expected| ExpectedMode::of(expected, reading.nearest_hz(expected.hz))).collect()
 }
 
 /// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.

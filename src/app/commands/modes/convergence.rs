@@ -1,6 +1,6 @@
 //! How far the frequencies of the case's own mesh are from those of an infinitely fine one.
 
-use super::mesh_sequence::{MeshSequence, at, modes_on_mesh};
+use super::mesh_sequence::{MeshSequence, SequenceMesh, at, modes_on_mesh};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
@@ -11,7 +11,6 @@ use crate::fe::model::HousingModel;
 use crate::numerics::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// Modes sought on another mesh beyond those of the case, least and as a part: their order may differ.
 const MORE: [usize; 2] = [4, 4];
@@ -26,27 +25,6 @@ const BAND_MARGIN: f64 = 0.1;
 /// Distance of points that are compared, over the larger element size of both meshes: unlike meshes share few nodes,
 /// and the nearest one tells which mode it is.
 const NEAREST: f64 = 0.5;
-
-/// A mesh of the sequence.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct SequenceMesh {
-    /// The file.
-    pub mesh: PathBuf,
-    /// Whether it is the case's own.
-    pub own: bool,
-    /// Whether it takes part in the extrapolation: it has elements of the kinds that the case's own mesh has.
-    pub extrapolated: bool,
-    /// Its elements.
-    pub elements: usize,
-    /// What they are.
-    pub kinds: String,
-    /// Degrees of freedom that the modes were computed over, the ring's included.
-    pub free_dof: usize,
-    /// Mean element size `(size / elements)^(1/d)`, m.
-    pub element_size_m: f64,
-    /// Points that its modes were recognised by.
-    pub matched_points: usize,
-}
 
 /// One mode on all meshes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -98,7 +76,7 @@ impl MeshConvergence {
 /// [`ComputeError::OtherMesh`] with the mesh that fails.
 pub(crate) fn mesh_convergence(
     case: &Case,
-    sequence: &MeshSequence,
+    mut sequence: MeshSequence,
     survey: &ModalSurvey,
     housing: Option<(&Mesh, &HousingModel)>,
     watch: &impl Watch,
@@ -108,54 +86,30 @@ pub(crate) fn mesh_convergence(
     }
     let own = survey.mode_set(housing);
     let own_modes = own.frequencies_hz.len();
-    let mut found = vec![OnLevel {
-        free_dof: survey.free_dof,
-        matched_points: own.points.len(),
-        frequencies_hz: own.frequencies_hz.iter().copied().map(Some).collect(),
-    }];
     watch.stage("meshes");
     let extent = extent(case.modes.extent, own_modes);
-    for (index, level) in sequence.levels.iter().enumerate().skip(1) {
-        watch.fraction((index - 1) as f64 / (sequence.levels.len() - 1) as f64);
-        let on_level = || -> Result<OnLevel, ComputeError> {
-            let (modes, free_dof) = modes_on_mesh(case, level.mesh.clone(), extent)?;
-            let larger = level.element_size.max(sequence.levels[0].element_size);
-            recognised(&own, &modes, free_dof, NEAREST * larger)
-        };
-        found.push(on_level().map_err(|error| at(index - 1, &level.mesh, error))?);
-    }
-    let mut order: Vec<usize> = (0..found.len()).collect();
-    let size = |level: &usize| sequence.levels[*level].element_size;
-    order.sort_by(|a, b| size(b).total_cmp(&size(a)));
-    let elastic = survey.basis.rigid_modes..own_modes;
-    let modes: Vec<ModeOnMeshes> =
-        elastic.map(|mode| on_meshes(mode, sequence, &found, &order)).collect::<Result<_, _>>()?;
-    let of_level = |&index: &usize| {
-        let (level, on_level) = (&sequence.levels[index], &found[index]);
-        SequenceMesh {
-            mesh: level.mesh.clone(),
-            own: index == 0,
-            extrapolated: sequence.is_alike(index),
-            elements: level.elements,
-            kinds: level.kind_names(),
-            free_dof: on_level.free_dof,
-            element_size_m: level.element_size,
-            matched_points: on_level.matched_points,
-        }
+    let Some((own_mesh, others)) = sequence.meshes.split_first_mut() else {
+        return Ok(None);
     };
+    own_mesh.free_dof = survey.free_dof;
+    own_mesh.matched_points = own.points.len();
+    own_mesh.frequencies_hz = own.frequencies_hz.iter().copied().map(Some).collect();
+    let count = others.len();
+    for (index, mesh) in others.iter_mut().enumerate() {
+        watch.fraction(index as f64 / count as f64);
+        let distance = NEAREST * mesh.element_size_m.max(own_mesh.element_size_m);
+        recognise(case, &own, mesh, extent, distance).map_err(|error| at(index, &mesh.mesh, error))?;
+    }
+    let mut order: Vec<&SequenceMesh> = sequence.meshes.iter().collect();
+    order.sort_by(|a, b| b.element_size_m.total_cmp(&a.element_size_m));
+    let elastic = survey.basis.rigid_modes..own_modes;
+    let modes: Vec<ModeOnMeshes> = elastic.map(|mode| on_meshes(mode, &sequence, &order)).collect::<Result<_, _>>()?;
     Ok(Some(MeshConvergence {
         formal_order: sequence.formal_order,
-        notes: notes(case, sequence, &modes),
-        meshes: order.iter().map(of_level).collect(),
+        notes: notes(case, &sequence, &modes),
+        meshes: order.into_iter().cloned().collect(),
         modes,
     }))
-}
-
-/// What a mesh gave: the frequency of each of the case's modes.
-struct OnLevel {
-    free_dof: usize,
-    matched_points: usize,
-    frequencies_hz: Vec<Option<f64>>,
 }
 
 fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
@@ -170,36 +124,37 @@ fn extent(asked: ModeRange, own_modes: usize) -> ModeRange {
 }
 
 /// Which mode of another mesh is which of the case's: by shape, and repeated ones in their order within their group.
-fn recognised(own: &ModeSet, other: &ModeSet, free_dof: usize, distance: f64) -> Result<OnLevel, ComputeError> {
+fn recognise(
+    case: &Case,
+    own: &ModeSet,
+    mesh: &mut SequenceMesh,
+    extent: ModeRange,
+    distance: f64,
+) -> Result<(), ComputeError> {
+    let (other, free_dof) = modes_on_mesh(case, mesh.mesh.clone(), extent)?;
     let options =
         ComparisonOptions { point_tolerance: (distance / own.diagonal()).min(1.0), ..ComparisonOptions::default() };
-    let found = ModalComparison::new(own, other, options)?;
-    let partners = partners(own, other, &found).into_iter();
-    Ok(OnLevel {
-        free_dof,
-        matched_points: found.points.pairs.len(),
-        frequencies_hz: partners.map(|partner| partner.map(|partner| partner.hz)).collect(),
-    })
+    let found = ModalComparison::new(own, &other, options)?;
+    let partners = partners(own, &other, &found).into_iter();
+    mesh.free_dof = free_dof;
+    mesh.matched_points = found.points.pairs.len();
+    mesh.frequencies_hz = partners.map(|partner| partner.map(|partner| partner.hz)).collect();
+    Ok(())
 }
 
-fn on_meshes(
-    mode: usize,
-    sequence: &MeshSequence,
-    found: &[OnLevel],
-    order: &[usize],
-) -> Result<ModeOnMeshes, ComputeError> {
-    let on = |level: &usize| Some((*level, found[*level].frequencies_hz[mode]?));
-    let alike = order.iter().filter(|level| sequence.is_alike(**level));
-    let (levels, values): (Vec<usize>, Vec<f64>) = alike.filter_map(on).unzip();
-    let mut limit = match levels.len() {
+fn on_meshes(mode: usize, sequence: &MeshSequence, order: &[&SequenceMesh]) -> Result<ModeOnMeshes, ComputeError> {
+    let alike = order.iter().filter(|mesh| mesh.extrapolated);
+    let (sizes, values): (Vec<f64>, Vec<f64>) =
+        alike.filter_map(|mesh| Some((mesh.element_size_m, mesh.frequencies_hz[mode]?))).unzip();
+    let mut limit = match sizes.len() {
         0 | 1 => None,
-        _ => Some(richardson(&sequence.sizes(levels), &values).map_err(ComputeError::Sequence)?),
+        _ => Some(richardson(&sequence.levels(sizes), &values).map_err(ComputeError::Sequence)?),
     };
     if let Some(limit) = &mut limit {
         let far = |estimate: &f64| (limit.finest - estimate).abs() > FARTHEST * limit.finest;
         limit.estimate = limit.estimate.filter(|estimate| !far(estimate));
     }
-    let own = found[0].frequencies_hz[mode];
+    let own = sequence.meshes[0].frequencies_hz[mode];
     let estimate = limit.as_ref().and_then(|limit| limit.estimate);
     let error = own.zip(estimate).map(|(own, estimate)| (own - estimate) / estimate);
     let uncertainty = limit.as_ref().map(|limit| match limit.estimate {
@@ -209,7 +164,7 @@ fn on_meshes(
     });
     Ok(ModeOnMeshes {
         mode,
-        frequencies_hz: order.iter().map(|&level| found[level].frequencies_hz[mode]).collect(),
+        frequencies_hz: order.iter().map(|mesh| mesh.frequencies_hz[mode]).collect(),
         limit,
         mesh_error: error,
         mesh_error_uncertainty: uncertainty,
@@ -218,20 +173,20 @@ fn on_meshes(
 
 fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<String> {
     let mut notes = Vec::new();
-    let alike = (0..sequence.levels.len()).filter(|&level| sequence.is_alike(level)).count();
+    let alike = sequence.alike().count();
     if alike == 2 {
         notes.push(format!(
             "Two meshes: the order of convergence is not observed but assumed to be {}; three meshes or more would show it.",
             sequence.formal_order
         ));
     }
-    let own = &sequence.levels[0];
-    for other in sequence.levels.iter().filter(|level| level.kinds != own.kinds) {
+    let own = &sequence.meshes[0];
+    for other in sequence.meshes.iter().filter(|mesh| !mesh.extrapolated) {
         notes.push(format!(
             "{} has {} where this case's mesh has {}: it is shown and not extrapolated with, since unlike elements have unlike errors.",
             other.mesh.display(),
-            other.kind_names(),
-            own.kind_names()
+            other.kinds,
+            own.kinds
         ));
     }
     if alike == 1 {

@@ -1,14 +1,17 @@
 //! The other meshes of a case: what they are, and the modes on each.
 
-use crate::app::case::{Case, HousingSource};
-use crate::app::commands::inspect::{elements_of, size};
+use crate::app::case::{Case, Housing, HousingSource};
+use crate::app::commands::inspect::size;
 use crate::app::error::ComputeError;
 use crate::app::scene::free_system::Bodies;
 use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::{FullModes, MeshLevels, ModeRange, ModeSet};
 use crate::numerics::Unwatched;
 use crate::report::significant;
-use std::path::PathBuf;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 /// Relative difference of area or volume up to which two meshes are of one body: a circle of twelve straight edges lacks
 /// 4.5 % of its area.
@@ -17,25 +20,38 @@ const SAME_BODY: f64 = 0.1;
 /// The same from which on it is told: frequencies differ by as much, and the usual target is a hundredth.
 const DOUBTED: f64 = 0.01;
 
-/// A mesh of a sequence.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Level {
+/// A mesh of the sequence.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
+pub struct SequenceMesh {
     /// The file.
     pub mesh: PathBuf,
-    /// Elements of the mesh's dimension.
+    /// Whether it is the case's own.
+    pub own: bool,
+    /// Whether it takes part in the extrapolation: it has elements of the kinds that the case's own mesh has. Unlike ones have unlike errors
+    /// at one size.
+    pub extrapolated: bool,
+    /// Its elements.
     pub elements: usize,
-    /// Their kinds.
-    pub kinds: Vec<ElementKind>,
+    /// What they are.
+    pub kinds: String,
+    /// Degrees of freedom that the modes were computed over, the ring's included.
+    pub free_dof: usize,
+    /// Mean element size `(size / elements)^(1/d)`, m.
+    pub element_size_m: f64,
+    /// Points that its modes were recognised by.
+    pub matched_points: usize,
     /// Its area, m^2, or volume, m^3.
+    #[serde(skip)]
     pub measure: f64,
-    /// Mean size `(volume / elements)^(1/3)`, in the plane `(area / elements)^(1/2)`, m.
-    pub element_size: f64,
+    /// Frequency of each of the case's modes, Hz; `None`: it was not recognised.
+    #[serde(skip)]
+    pub frequencies_hz: Vec<Option<f64>>,
 }
 
 /// The meshes of a case, its own first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeshSequence {
-    pub levels: Vec<Level>,
+    pub meshes: Vec<SequenceMesh>,
     /// Order of the frequencies' error.
     pub formal_order: f64,
 }
@@ -50,11 +66,11 @@ impl MeshSequence {
         let (Some(asked), Some(housing)) = (&case.modes.convergence, case.meshed_housing()) else {
             return Ok(None);
         };
-        let mut levels = vec![Level::read(case, housing.mesh.clone())?];
-        let own = levels[0].measure;
+        let (own, degree) = read(case, housing, &housing.mesh)?;
+        let mut meshes = vec![SequenceMesh { own: true, extrapolated: true, ..own }];
         for (index, path) in asked.meshes.iter().enumerate() {
-            let other = Level::read(case, path.clone()).map_err(|error| at(index, path, error))?;
-            let found = other.measure;
+            let (other, _) = read(case, housing, path).map_err(|error| at(index, path, error))?;
+            let (own, found) = (meshes[0].measure, other.measure);
             // also false for a size that is no number
             let same = (found - own).abs() <= SAME_BODY * own;
             if !same {
@@ -63,29 +79,26 @@ impl MeshSequence {
                 );
                 return Err(at(index, path, ComputeError::wrong(what)));
             }
-            levels.push(other);
+            meshes.push(SequenceMesh { extrapolated: other.kinds == meshes[0].kinds, ..other });
         }
-        let kinds = levels[0].kinds.iter();
-        let degree = kinds.map(|kind| kind.order()).min().unwrap_or(1);
-        let found = Self { formal_order: asked.order.unwrap_or(2.0 * degree as f64), levels };
-        let alike: Vec<usize> = (0..found.levels.len()).filter(|&level| found.is_alike(level)).collect();
+        let found = Self { formal_order: asked.order.unwrap_or(2.0 * degree as f64), meshes };
+        let alike: Vec<f64> = found.alike().map(|mesh| mesh.element_size_m).collect();
         if alike.len() > 1 {
-            found.sizes(alike).check().map_err(ComputeError::Sequence)?;
+            found.levels(alike).check().map_err(ComputeError::Sequence)?;
         }
         Ok(Some(found))
     }
 
     /// Meshes whose size differs from that of the case's own by more than most curved boundaries cut off.
     pub(crate) fn doubts(&self) -> Vec<String> {
-        let own = self.levels[0].measure;
-        let others = self.levels.iter().enumerate().skip(1);
-        let doubted = others.filter_map(|(index, level)| {
-            let more = level.measure / own - 1.0;
+        let own = self.meshes[0].measure;
+        let others = self.meshes[1..].iter().enumerate();
+        let doubted = others.filter_map(|(index, mesh)| {
+            let more = mesh.measure / own - 1.0;
             (more.abs() > DOUBTED).then(|| {
                 format!(
-                    "The body of modes.convergence.meshes[{}] ({}) is {} % {} than the case's own. Coarse meshes cut off curved faces; if that is not the cause, the meshes are of two bodies, and the estimated errors do not hold.",
-                    index - 1,
-                    level.mesh.display(),
+                    "The body of modes.convergence.meshes[{index}] ({}) is {} % {} than the case's own. Coarse meshes cut off curved faces; if that is not the cause, the meshes are of two bodies, and the estimated errors do not hold.",
+                    mesh.mesh.display(),
                     significant(100.0 * more.abs(), 2),
                     if more > 0.0 { "larger" } else { "smaller" }
                 )
@@ -94,57 +107,40 @@ impl MeshSequence {
         doubted.collect()
     }
 
-    /// Whether a mesh has the kinds of elements that the case's own has: unlike ones have unlike errors at one size.
-    pub(crate) fn is_alike(&self, level: usize) -> bool {
-        self.levels[level].kinds == self.levels[0].kinds
+    /// The meshes that the extrapolation takes.
+    pub(crate) fn alike(&self) -> impl Iterator<Item = &SequenceMesh> {
+        self.meshes.iter().filter(|mesh| mesh.extrapolated)
     }
 
-    /// Sizes of some of the meshes, as an extrapolation takes them.
-    pub(crate) fn sizes(&self, levels: impl IntoIterator<Item = usize>) -> MeshLevels {
-        MeshLevels {
-            sizes: levels.into_iter().map(|level| self.levels[level].element_size).collect(),
-            formal_order: self.formal_order,
-        }
+    /// Element sizes, m, as an extrapolation takes them.
+    pub(crate) fn levels(&self, sizes: Vec<f64>) -> MeshLevels {
+        MeshLevels { sizes, formal_order: self.formal_order }
     }
 }
 
 /// An error with the mesh that it is about.
-pub(crate) fn at(index: usize, path: &std::path::Path, source: ComputeError) -> ComputeError {
+pub(crate) fn at(index: usize, path: &Path, source: ComputeError) -> ComputeError {
     ComputeError::OtherMesh { index, path: path.to_owned(), source: Box::new(source) }
 }
 
-impl Level {
-    fn read(case: &Case, path: PathBuf) -> Result<Self, ComputeError> {
-        let other = on_mesh(case, path);
-        // a case without a housing has no sequence
-        let Some(housing) = other.meshed_housing() else {
-            return Ok(Self { mesh: PathBuf::new(), elements: 0, kinds: Vec::new(), measure: 0.0, element_size: 0.0 });
-        };
-        let mesh = Mesh::read_gmsh(&housing.mesh, housing.length_unit)?;
-        let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
-        other.check_groups(&groups)?;
-        let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);
-        let all = elements_of(&mesh, dimension);
-        let blocks = mesh.blocks.iter().map(|block| block.kind);
-        let mut kinds: Vec<ElementKind> = blocks.filter(|kind| kind.dimension() == dimension).collect();
-        kinds.sort_unstable_by_key(|kind| kind.name());
-        kinds.dedup();
-        let elements = all.clone().count();
-        let measure = size(&mesh, all);
-        Ok(Self {
-            mesh: housing.mesh.clone(),
-            elements,
-            kinds,
-            measure,
-            element_size: (measure / elements as f64).powf(1.0 / dimension as f64),
-        })
-    }
-
-    /// Names of the kinds.
-    pub(crate) fn kind_names(&self) -> String {
-        let names: Vec<&str> = self.kinds.iter().map(|kind| kind.name()).collect();
-        names.join(", ")
-    }
+/// A mesh in the place of a housing's, and the lowest order of its elements.
+fn read(case: &Case, housing: &Housing, path: &Path) -> Result<(SequenceMesh, usize), ComputeError> {
+    let mesh = Mesh::read_gmsh(path, housing.length_unit)?;
+    let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
+    on_mesh(case, path.to_owned()).check_groups(&groups)?;
+    let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);
+    let kinds = || mesh.blocks.iter().map(|block| block.kind).filter(|kind| kind.dimension() == dimension);
+    let names: BTreeSet<&str> = kinds().map(ElementKind::name).collect();
+    let (elements, measure) = (mesh.element_ids(dimension).count(), size(&mesh, mesh.element_ids(dimension)));
+    let found = SequenceMesh {
+        mesh: path.to_owned(),
+        elements,
+        kinds: names.into_iter().collect::<Vec<_>>().join(", "),
+        measure,
+        element_size_m: (measure / elements as f64).powf(1.0 / dimension as f64),
+        ..SequenceMesh::default()
+    };
+    Ok((found, kinds().map(ElementKind::order).min().unwrap_or(1)))
 }
 
 fn on_mesh(case: &Case, path: PathBuf) -> Case {
@@ -178,14 +174,9 @@ mod tests {
     /// Chords of a circle cut off 0.5 % where they are 36; a body that is 2 % longer is another one.
     #[test]
     fn bodies_of_another_size_are_told() {
-        let level = |measure: f64| Level {
-            mesh: PathBuf::from("other.msh"),
-            elements: 1,
-            kinds: Vec::new(),
-            measure,
-            element_size: 1.0,
-        };
-        let sequence = |other: f64| MeshSequence { levels: vec![level(2.0), level(other)], formal_order: 2.0 };
+        let mesh = PathBuf::from("other.msh");
+        let level = |measure| SequenceMesh { mesh: mesh.clone(), elements: 1, measure, ..SequenceMesh::default() };
+        let sequence = |other: f64| MeshSequence { meshes: vec![level(2.0), level(other)], formal_order: 2.0 };
         assert!(sequence(1.99).doubts().is_empty());
         let told = sequence(2.04).doubts().join(" ");
         let expected = "The body of modes.convergence.meshes[0] (other.msh) is 2.0 % larger";

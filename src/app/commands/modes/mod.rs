@@ -18,7 +18,8 @@ pub(crate) use checks_report::{error_text, misses_text, mode_numbers, plain, sig
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub(crate) use compute::compute_mode_shapes;
 pub use compute::{ModesResult, Reading, compute_modes};
-pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
+pub use convergence::{MeshConvergence, ModeOnMeshes};
+pub use mesh_sequence::SequenceMesh;
 pub(crate) use report::modes_report;
-pub use summary::{BallPassSummary, LoadedPointSummary, ModesSummary};
+pub use summary::ModesSummary;
 pub(crate) use tables::free_motions;

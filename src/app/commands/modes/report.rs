@@ -3,16 +3,9 @@
 use super::checks_report::{comparison_section, convergence_section, headlines};
 use super::compute::{ModesResult, Reading};
 use super::shape_view::shape_view;
-use super::tables::{
-    complete, effective_mass_bars, effective_mass_table, energy_tables, free_motions, frequency_table, mass_facts,
-    material_table, proof_facts,
-};
+use super::tables;
 use crate::app::case::Case;
-use crate::app::commands::parts::bearing_table;
-use crate::app::commands::parts::drawing::draw;
-use crate::app::commands::parts::statics_report::statics_section;
-use crate::app::commands::parts::tables::{ExpectedMode, expected_table, mode_table};
-use crate::app::commands::parts::{assumptions, model_facts, signed_report};
+use crate::app::commands::parts::{self, ExpectedMode};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_setup, race_contacts};
 use crate::report::{
@@ -35,12 +28,12 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
     if let Some(mass) = &result.survey.mass {
         let section = Section::new("Mass properties");
         let section = section.paragraph("From the mass matrix itself, point masses included.");
-        report = report.section(section.facts(mass_facts(mass)));
+        report = report.section(section.facts(tables::mass_facts(mass)));
     }
     report = report.section(frequencies(result));
     let proof = Section::new("Completeness and accuracy")
         .paragraph("Eigenvalues below a shift are counted by a factorisation that knows nothing of the modes found. If both numbers agree, none is missing and none was invented.")
-        .facts(proof_facts(&result.survey));
+        .facts(tables::proof_facts(&result.survey));
     report = report.section(proof);
     let comparisons = result.comparisons.iter().map(|comparison| comparison_section(comparison, &result.survey));
     report.sections.extend(comparisons);
@@ -49,9 +42,9 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
     if result.survey.basis.count() > 0 {
         if let Some(found) = &result.survey.participation {
             let mass = Section::new("Effective mass")
-                .bars(effective_mass_bars(&result.survey, found))
-                .table(effective_mass_table(&result.survey, found));
-            report = report.section(energy_tables(&result.survey).into_iter().fold(mass, Section::table));
+                .bars(tables::effective_mass_bars(&result.survey, found))
+                .table(tables::effective_mass_table(&result.survey, found));
+            report = report.section(tables::energy_tables(&result.survey).into_iter().fold(mass, Section::table));
         }
         let shapes = ModeShapeView { figures: ShapeFigures::Modes, ..view };
         report = report.section(Section::new("Mode shapes").shapes(shapes));
@@ -66,29 +59,30 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
     let setup = bearing_setup(case)?;
     if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
         let equilibria = result.statics.iter().flat_map(|statics| &statics.equilibria);
-        let table = bearing_table(setup, &contacts, equilibria.clone().next());
+        let table = parts::bearing_table(setup, &contacts, equilibria.clone().next());
         report = report.section(Section::new("Bearing").table(table));
-        report.sections.extend(result.statics.as_ref().map(|statics| statics_section(setup, statics)));
+        report.sections.extend(result.statics.as_ref().map(|statics| parts::statics_section(setup, statics)));
         report.sections.extend(result.loaded_pass.as_ref().map(loaded_pass_section));
     }
-    report.assumptions.extend(assumptions(case, setup.as_ref()));
+    report.assumptions.extend(parts::assumptions(case, setup.as_ref()));
     let imported = result.structure.iter().flat_map(|stage| &stage.imported);
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
-    report.warnings.extend(result.doubts.iter().cloned().chain(free_motions(result)));
+    report.warnings.extend(result.doubts.iter().cloned().chain(tables::free_motions(result)));
     report.warnings.extend(result.convergence.iter().flat_map(|convergence| convergence.notes.iter().cloned()));
     Ok(report)
 }
 
 fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
-    let mut report = signed_report(case, command, "Modal verification report");
+    let mut report = parts::signed_report(case, command, "Modal verification report");
     for expected in &result.base.expected {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
-    report.headlines.extend(headlines(result));
+    report = headlines(report, result);
     let basis = &result.survey.basis;
-    let modes = format!("{} of {}", basis.count_check.found, basis.count_check.counted);
-    report = report.headline("Modes found of those that exist", modes, complete(&result.survey));
+    let (found, counted) = (basis.count_check.found, basis.count_check.counted);
+    let modes = format!("{found} of {counted}");
+    report = report.headline("Modes found of those that exist", modes, Verdict::of(found == counted));
     if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
         let first = format!("{} Hz", significant(*first, 5));
         report = report.headline("First elastic mode", first, Verdict::None);
@@ -118,7 +112,7 @@ fn purpose(result: &ModesResult) -> Section {
     let section = Section::new("Purpose").paragraph(text);
     match result.base.expected.is_empty() {
         true => section,
-        false => section.table(expected_table(&result.base.expected)),
+        false => section.table(parts::expected_table(&result.base.expected)),
     }
 }
 
@@ -136,10 +130,10 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
         ]);
     }
     if let Some(stage) = &result.structure {
-        let facts = model_facts(case, stage, result.base.loaded.is_some());
-        section = section.drawing(draw(case, stage, bearing_setup(case)?.as_ref())).facts(facts);
+        let facts = parts::model_facts(case, stage, result.base.loaded.is_some());
+        section = section.drawing(parts::draw(case, stage, bearing_setup(case)?.as_ref())).facts(facts);
     }
-    section = section.table(material_table(case));
+    section = section.table(tables::material_table(case));
     if result.mesh_and_model().is_some() {
         let (title, figures) = ("The model".to_owned(), ShapeFigures::Mesh);
         section = section.shapes(ModeShapeView { title, figures, modes: Vec::new(), ..view.clone() });
@@ -148,11 +142,11 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
 }
 
 fn frequencies(result: &ModesResult) -> Section {
-    let section = Section::new("Eigenfrequencies").table(frequency_table(&result.survey));
+    let section = Section::new("Eigenfrequencies").table(tables::frequency_table(&result.survey));
     let Some(loaded) = &result.base.loaded else {
         return section;
     };
-    let table = mode_table(&result.base.unloaded_hz, Some(loaded));
+    let table = parts::mode_table(&result.base.unloaded_hz, loaded);
     section.table(condensation(&result.base).into_iter().fold(table, Table::footnote))
 }
 

@@ -107,15 +107,14 @@ fn add_surface(view: &mut ModeShapeView, mesh: &Mesh, model: &HousingModel) {
         _ => ids().filter_map(|id| plane_face(mesh, id)).collect(),
     };
     // a model's elements are those of the highest dimension, in the order of the mesh
-    let parts: BTreeMap<(usize, usize), usize> =
-        ids().zip(model.elements().iter()).map(|(id, element)| ((id.block, id.index), element.part)).collect();
+    let parts: BTreeMap<ElementId, usize> = ids().zip(model.elements().iter().map(|element| element.part)).collect();
     let named = named_faces(mesh, dimension);
     // parts first, then the groups of faces that were met
     let mut groups: Vec<String> = model.part_groups();
     for face in &faces {
         let mut corners = face.nodes[..face.kind.corners()].to_vec();
         corners.sort_unstable();
-        let part = parts.get(&(face.element.block, face.element.index));
+        let part = parts.get(&face.element);
         let group = match named.get(&corners) {
             Some(&name) => groups.iter().position(|group| group == name).unwrap_or_else(|| {
                 groups.push(name.to_owned());

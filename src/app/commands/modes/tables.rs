@@ -4,7 +4,7 @@ use super::compute::ModesResult;
 use super::shape_view::shown_places;
 use crate::app::case::{Case, Material};
 use crate::fe::modal::{MassDistribution, MassProperties, ModalSurvey, Participation};
-use crate::report::{Axis, Bars, Cell, Column, Fact, Table, Verdict, fixed, significant};
+use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, significant};
 
 /// Direction of a column of a participation, by the number of columns.
 fn directions(columns: usize) -> &'static [&'static str] {
@@ -67,27 +67,24 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
         let texts: Vec<String> = values.iter().map(|value| fixed(scale * value, 4)).collect();
         format!("({})", texts.join(", "))
     };
-    let centroid = |centroid: &[f64]| Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
-    let mut facts = vec![Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)))];
-    match &mass.distribution {
-        MassDistribution::Plane { centroid: place, polar } => facts.extend([
-            centroid(place),
-            Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)))
-                .note("about the axis along z through the centroid"),
-        ]),
-        MassDistribution::Space { centroid: place, .. } => {
-            facts.push(centroid(place));
-            if let Some(principal) = mass.principal() {
+    let (centroid, more) = match &mass.distribution {
+        MassDistribution::Plane { centroid, polar } => {
+            let moment = Fact::new("Moment of inertia", format!("{} kg m^2", significant(*polar, 5)));
+            (&centroid[..], vec![moment.note("about the axis along z through the centroid")])
+        }
+        MassDistribution::Space { centroid, .. } => {
+            let principal = mass.principal().map(|principal| {
                 let moments = principal.moments.map(|moment| significant(moment, 5)).join(", ");
                 let axes = principal.axes.map(|axis| vector(&axis, 1.0)).join(", ");
-                facts.extend([
-                    Fact::new("Principal moments", format!("{moments} kg m^2")).note("about the centroid"),
-                    Fact::new("Principal axes", axes),
-                ]);
-            }
+                let moments = Fact::new("Principal moments", format!("{moments} kg m^2")).note("about the centroid");
+                vec![moments, Fact::new("Principal axes", axes)]
+            });
+            (&centroid[..], principal.unwrap_or_default())
         }
-    }
-    facts
+    };
+    let centroid = Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
+    let whole = Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)));
+    [vec![whole, centroid], more].concat()
 }
 
 /// Materials that the case's parts and sections use.
@@ -177,12 +174,6 @@ pub(crate) fn free_motions(result: &ModesResult) -> Vec<String> {
     sentences
 }
 
-/// The verdict on completeness for the head of the report.
-pub(crate) fn complete(survey: &ModalSurvey) -> Verdict {
-    let check = survey.basis.count_check;
-    Verdict::of(check.counted == check.found)
-}
-
 /// Shares below this are not listed by number.
 const LISTED_SHARE: f64 = 0.005;
 
@@ -194,17 +185,14 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
     };
     let groups: Vec<usize> =
         (0..found.groups.len()).filter(|&group| !found.parts.contains(&found.groups[group])).collect();
-    let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| {
+    let row = |parts: &[f64], ring: Option<f64>, attached: &[f64], by_group: &[f64]| -> Vec<f64> {
         let groups = groups.iter().map(|&group| by_group[group]);
-        let whole = parts.iter().copied().chain(ring).chain(attached.iter().copied());
-        whole.chain(groups).collect::<Vec<f64>>()
+        parts.iter().copied().chain(ring).chain(attached.iter().copied()).chain(groups).collect()
     };
-    let has_ring = survey.ring.is_some();
-    let names = |attached: &[String]| {
-        let ring = has_ring.then(|| "the ring".to_owned());
-        let whole = found.parts.iter().cloned().chain(ring).chain(attached.iter().cloned());
+    let names = |attached: &[String]| -> Vec<String> {
+        let ring = survey.ring.is_some().then(|| "the ring".to_owned());
         let groups = groups.iter().map(|&group| format!("in {}", found.groups[group]));
-        whole.chain(groups).collect::<Vec<String>>()
+        found.parts.iter().chain(&ring).chain(attached).cloned().chain(groups).collect()
     };
     let strain = found.modes.iter().map(|mode| {
         let own = mode.strain.as_ref()?;
@@ -217,9 +205,9 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
     let strain = energy_table("Strain energy", survey, &names(&found.springs), strain);
     let kinetic = energy_table("Kinetic energy", survey, &names(&found.masses), kinetic);
     let noted = |table: Table| {
-        match groups.is_empty() {
-        true => table,
-        false => table.footnote("Columns named \"in\" a group show once more what part of the whole is in that group; groups may overlap. The other columns add up to 100 %."),
+        match groups.as_slice() {
+        [] => table,
+        _ => table.footnote("Columns named \"in\" a group show once more what part of the whole is in that group; groups may overlap. The other columns add up to 100 %."),
     }
     };
     strain.into_iter().chain(kinetic).map(noted).collect()

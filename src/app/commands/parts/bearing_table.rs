@@ -4,35 +4,34 @@ use crate::bearing::defect::{Dent, DentShape, RaceDefect, RaceProfile, SurfaceDe
 use crate::bearing::hertz::HertzStiffness;
 use crate::bearing::{BearingGeometry, ContactStiffness, Race, RaceContacts};
 use crate::report::{Cell, Column, Table, significant};
-use crate::system::{BearingSetup, Equilibrium};
+use crate::system::{BallLoad, BearingSetup, Equilibrium};
 
-/// Rows of the table under construction.
-struct Rows(Table);
+/// Name, cells of the whole bearing, of inner and of outer race, unit.
+type Row = [Cell; 5];
 
-impl Rows {
-    /// A quantity of the whole bearing.
-    fn one(self, name: &str, unit: &str, value: f64, digits: usize) -> Self {
-        self.cells(name, unit, [Cell::number(value, digits), blank(), blank()])
-    }
-
-    /// A quantity of each race.
-    fn both(self, name: &str, unit: &str, [inner, outer]: [f64; 2], digits: usize) -> Self {
-        let cell = |value| Cell::number(value, digits);
-        self.cells(name, unit, [blank(), cell(inner), cell(outer)])
-    }
-
-    fn cells(self, name: &str, unit: &str, [one, inner, outer]: [Cell; 3]) -> Self {
-        let (name, unit) = (Cell::text(name), Cell::text(unit));
-        Self(self.0.row([name, one, inner, outer, unit]))
-    }
+fn row(name: &str, unit: &str, [whole, inner, outer]: [Cell; 3]) -> Row {
+    [Cell::text(name), whole, inner, outer, Cell::text(unit)]
 }
 
-/// Cells of a quantity of one race.
-fn on_race(race: Race, cell: Cell) -> [Cell; 3] {
-    match race {
+/// A quantity of the whole bearing.
+fn one(name: &str, unit: &str, value: f64, digits: usize) -> Row {
+    row(name, unit, [Cell::number(value, digits), blank(), blank()])
+}
+
+/// A quantity of each race.
+fn both(name: &str, unit: &str, values: [f64; 2], digits: usize) -> Row {
+    let [inner, outer] = values.map(|value| Cell::number(value, digits));
+    row(name, unit, [blank(), inner, outer])
+}
+
+/// A length of one race, m, in micrometres.
+fn on_race(name: &str, race: Race, length: f64) -> Row {
+    let cell = Cell::number(1e6 * length, 4);
+    let cells = match race {
         Race::Inner => [blank(), cell, blank()],
         Race::Outer => [blank(), blank(), cell],
-    }
+    };
+    row(name, "\u{b5}m", cells)
 }
 
 fn blank() -> Cell {
@@ -48,73 +47,55 @@ pub(crate) fn bearing_table(setup: &BearingSetup, contacts: &RaceContacts, equil
         Column::number("Outer race", ""),
         Column::text("Unit"),
     ];
-    let mut rows = Rows(Table::new("Bearing", columns));
-    rows = geometry_rows(rows, &setup.geometry);
-    rows = order_rows(rows, setup);
-    rows = contact_rows(rows, setup, contacts);
-    if let Some(equilibrium) = equilibrium {
-        rows = patch_rows(rows, contacts, equilibrium);
-    }
-    for wave in &setup.waves {
+    let mut rows = geometry_rows(&setup.geometry);
+    rows.extend(order_rows(setup));
+    rows.extend(contact_rows(setup, contacts));
+    rows.extend(equilibrium.into_iter().flat_map(|equilibrium| patch_rows(contacts, equilibrium)));
+    rows.extend(setup.waves.iter().map(|wave| {
         let name = format!("Amplitude of the wave of order {}", wave.order);
-        let amplitude = Cell::number(1e6 * wave.amplitude, 4);
-        rows = rows.cells(&name, "\u{b5}m", on_race(wave.race, amplitude));
-    }
+        on_race(&name, wave.race, wave.amplitude)
+    }));
     let largest = setup.oversizes.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     if largest > 0.0 {
-        rows = rows.one("Largest difference of a ball's radius", "\u{b5}m", 1e6 * largest, 4);
+        rows.push(one("Largest difference of a ball's radius", "\u{b5}m", 1e6 * largest, 4));
     }
     for defect in &setup.race_defects {
-        for (name, drop) in drops(&setup.geometry, setup.stiffness, defect) {
-            let drop = Cell::number(1e6 * drop, 4);
-            rows = rows.cells(name, "\u{b5}m", on_race(defect.race(), drop));
-        }
+        let drops = drops(&setup.geometry, setup.stiffness, defect).into_iter();
+        rows.extend(drops.map(|(name, drop)| on_race(name, defect.race(), drop)));
     }
     for flat in &setup.flats {
-        let drop = |race| 1e6 * flat.shape.ball_drop(race);
-        let angle = flat.shape.included_angle().to_degrees();
+        let drop = [Race::Inner, Race::Outer].map(|race| 1e6 * flat.shape.ball_drop(race));
         let name = |what: &str| format!("{what} of the flat on ball {}", flat.ball);
-        rows = rows.both(&name("Drop"), "\u{b5}m", [drop(Race::Inner), drop(Race::Outer)], 4).one(
-            &name("Included angle"),
-            "deg",
-            angle,
-            4,
-        );
+        let angle = flat.shape.included_angle().to_degrees();
+        rows.extend([both(&name("Drop"), "\u{b5}m", drop, 4), one(&name("Included angle"), "deg", angle, 4)]);
     }
-    rows.0
+    Table::new("Bearing", columns).rows(rows)
 }
 
-fn geometry_rows(rows: Rows, geometry: &BearingGeometry) -> Rows {
+fn geometry_rows(geometry: &BearingGeometry) -> Vec<Row> {
     let dimensions = geometry.dimensions();
-    let mut rows = rows
-        .cells("Balls", "", [Cell::text(geometry.balls().to_string()), blank(), blank()])
-        .one("Ball diameter", "mm", 2e3 * geometry.ball_radius(), 6)
-        .one("Ball mass", "g", 1e3 * geometry.ball_mass(), 5)
-        .one("Pitch diameter", "mm", 2e3 * geometry.pitch_radius(), 6)
-        .one("Ball over pitch diameter", "", geometry.diameter_ratio(), 5)
-        .both("Race radius", "mm", [dimensions.inner_race_radius, dimensions.outer_race_radius].map(|r| 1e3 * r), 6)
-        .both(
-            "Groove radius",
-            "mm",
-            [dimensions.inner_groove_radius, dimensions.outer_groove_radius].map(|r| 1e3 * r),
-            6,
-        )
-        .both(
-            "Conformity (groove radius over ball diameter)",
-            "",
-            [geometry.inner_conformity(), geometry.outer_conformity()],
-            4,
-        )
-        .one("Radial play", "\u{b5}m", 1e6 * geometry.radial_play(), 4)
-        .one("Diametral clearance", "\u{b5}m", 1e6 * geometry.diametral_clearance(), 4)
-        .one("Contact angle (radial load)", "deg", 0.0, 3);
-    if let Some(angle) = geometry.free_contact_angle() {
-        rows = rows.one("Free contact angle (axial load)", "deg", angle.to_degrees(), 4);
-    }
+    let radii = [dimensions.inner_race_radius, dimensions.outer_race_radius].map(|r| 1e3 * r);
+    let grooves = [dimensions.inner_groove_radius, dimensions.outer_groove_radius].map(|r| 1e3 * r);
+    let conformities = [geometry.inner_conformity(), geometry.outer_conformity()];
+    let mut rows = vec![
+        row("Balls", "", [Cell::text(geometry.balls().to_string()), blank(), blank()]),
+        one("Ball diameter", "mm", 2e3 * geometry.ball_radius(), 6),
+        one("Ball mass", "g", 1e3 * geometry.ball_mass(), 5),
+        one("Pitch diameter", "mm", 2e3 * geometry.pitch_radius(), 6),
+        one("Ball over pitch diameter", "", geometry.diameter_ratio(), 5),
+        both("Race radius", "mm", radii, 6),
+        both("Groove radius", "mm", grooves, 6),
+        both("Conformity (groove radius over ball diameter)", "", conformities, 4),
+        one("Radial play", "\u{b5}m", 1e6 * geometry.radial_play(), 4),
+        one("Diametral clearance", "\u{b5}m", 1e6 * geometry.diametral_clearance(), 4),
+        one("Contact angle (radial load)", "deg", 0.0, 3),
+    ];
+    let free = geometry.free_contact_angle();
+    rows.extend(free.map(|angle| one("Free contact angle (axial load)", "deg", angle.to_degrees(), 4)));
     rows
 }
 
-fn order_rows(rows: Rows, setup: &BearingSetup) -> Rows {
+fn order_rows(setup: &BearingSetup) -> [Row; 5] {
     let orders = setup.geometry.orders();
     let unit = "per shaft turn";
     let [least, most] = setup.cage.slip.range().map(|slip| 1e2 * slip);
@@ -123,39 +104,41 @@ fn order_rows(rows: Rows, setup: &BearingSetup) -> Rows {
     } else {
         Cell::number(most, 4)
     };
-    rows.one("Cage order without slip", unit, orders.cage, 5)
-        .both("Defect order without slip", unit, [orders.inner, orders.outer], 5)
-        .one("Ball spin order", unit, orders.ball_spin, 5)
-        .one("Ball defect order (two hits a spin)", unit, orders.ball_defect, 5)
-        .cells("Slip of the cage", "%", [slip, blank(), blank()])
+    [
+        one("Cage order without slip", unit, orders.cage, 5),
+        both("Defect order without slip", unit, [orders.inner, orders.outer], 5),
+        one("Ball spin order", unit, orders.ball_spin, 5),
+        one("Ball defect order (two hits a spin)", unit, orders.ball_defect, 5),
+        row("Slip of the cage", "%", [slip, blank(), blank()]),
+    ]
 }
 
-fn contact_rows(rows: Rows, setup: &BearingSetup, contacts: &RaceContacts) -> Rows {
+fn contact_rows(setup: &BearingSetup, contacts: &RaceContacts) -> [Row; 7] {
     let unit = "N/m^1.5";
-    let both = |value: fn(&HertzStiffness) -> f64| [&contacts.inner, &contacts.outer].map(value);
-    rows.both("Curvature sum", "1/mm", both(|c| 1e-3 * c.curvature_sum), 5)
-        .both("Curvature difference F", "", both(|c| c.curvature_difference), 4)
-        .both("Ellipticity of the patch", "", both(|c| c.ellipticity), 4)
-        .both("Effective modulus", "GPa", both(|c| 1e-9 * c.effective_modulus), 5)
-        .both("k by Hertz from the geometry", unit, both(|c| c.stiffness), 4)
-        .both("k in use", unit, [setup.stiffness.inner(), setup.stiffness.outer()], 4)
-        .one("k in use, both races in series", unit, setup.stiffness.series(), 4)
+    let of = |value: fn(&HertzStiffness) -> f64| [&contacts.inner, &contacts.outer].map(value);
+    [
+        both("Curvature sum", "1/mm", of(|c| 1e-3 * c.curvature_sum), 5),
+        both("Curvature difference F", "", of(|c| c.curvature_difference), 4),
+        both("Ellipticity of the patch", "", of(|c| c.ellipticity), 4),
+        both("Effective modulus", "GPa", of(|c| 1e-9 * c.effective_modulus), 5),
+        both("k by Hertz from the geometry", unit, of(|c| c.stiffness), 4),
+        both("k in use", unit, [setup.stiffness.inner(), setup.stiffness.outer()], 4),
+        one("k in use, both races in series", unit, setup.stiffness.series(), 4),
+    ]
 }
 
 /// Patches under the largest force at rest, by Hertz from the geometry whatever k is in use.
-fn patch_rows(rows: Rows, contacts: &RaceContacts, equilibrium: &Equilibrium) -> Rows {
-    let largest = |force: fn(&crate::system::BallLoad) -> f64| equilibrium.balls.iter().map(force).fold(0.0, f64::max);
+fn patch_rows(contacts: &RaceContacts, equilibrium: &Equilibrium) -> [Row; 4] {
+    let largest = |force: fn(&BallLoad) -> f64| equilibrium.balls.iter().map(force).fold(0.0, f64::max);
     let forces = [largest(|ball| ball.inner), largest(|ball| ball.outer)];
     let patches = [contacts.inner.patch(forces[0]), contacts.outer.patch(forces[1])];
-    rows.both("Largest static contact force", "N", forces, 4)
-        .both(
-            "Its patch, half-axis across the rolling direction",
-            "\u{b5}m",
-            patches.map(|patch| 1e6 * patch.longer),
-            4,
-        )
-        .both("Its patch, half-axis in the rolling direction", "\u{b5}m", patches.map(|patch| 1e6 * patch.shorter), 4)
-        .both("Its largest pressure", "MPa", patches.map(|patch| 1e-6 * patch.peak_pressure), 4)
+    let [across, along] = [patches.map(|patch| 1e6 * patch.longer), patches.map(|patch| 1e6 * patch.shorter)];
+    [
+        both("Largest static contact force", "N", forces, 4),
+        both("Its patch, half-axis across the rolling direction", "\u{b5}m", across, 4),
+        both("Its patch, half-axis in the rolling direction", "\u{b5}m", along, 4),
+        both("Its largest pressure", "MPa", patches.map(|patch| 1e-6 * patch.peak_pressure), 4),
+    ]
 }
 
 /// Name of the drop and its value (m). A dent with a width has two, in the plane and in its surface, as far as its
@@ -163,13 +146,12 @@ fn patch_rows(rows: Rows, contacts: &RaceContacts, equilibrium: &Equilibrium) ->
 fn drops(geometry: &BearingGeometry, stiffness: ContactStiffness, defect: &RaceDefect) -> Vec<(&'static str, f64)> {
     let race = defect.race();
     let in_plane = |shape: &DentShape| {
-        let dent = Dent::new(geometry, race, *shape, stiffness).ok()?;
-        Some(("Drop of a ball in the dent, in the plane", dent.ball_drop()))
+        let dent = Dent::new(geometry, race, *shape, stiffness).ok();
+        dent.map(|dent| ("Drop of a ball in the dent, in the plane", dent.ball_drop()))
     };
     let surface = |shape: &DentShape| {
-        let dent = SurfaceDent::new(geometry, race, *shape, stiffness).ok()?;
-        let name = "Drop of a ball in the dent, in its surface";
-        Some((name, dent.ball_drop()))
+        let dent = SurfaceDent::new(geometry, race, *shape, stiffness).ok();
+        dent.map(|dent| ("Drop of a ball in the dent, in its surface", dent.ball_drop()))
     };
     let used = |name| Some((name, defect.ball_drop()));
     let both = match defect {

@@ -41,11 +41,12 @@ pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&Bearing
     drawing
 }
 
+fn point(model: &HousingModel, node: usize) -> Point {
+    let [x, y, _] = model.ring_coordinates(node);
+    Point { x, y }
+}
+
 fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
-    let point = |node: usize| {
-        let [x, y, _] = model.ring_coordinates(node);
-        Point { x, y }
-    };
     let edges = match model.dimension() {
         2 => element_edges(mesh),
         _ => feature_edges(mesh),
@@ -56,11 +57,11 @@ fn add_housing(drawing: &mut Drawing, mesh: &Mesh, model: &HousingModel) {
             [first, last, middle] => vec![*first, *middle, *last],
             ends => ends.to_vec(),
         };
-        let line = along.into_iter().map(point).collect();
+        let line = along.into_iter().map(|node| point(model, node)).collect();
         drawing.mesh_edges.push(line);
     }
     for node in model.spring_nodes() {
-        let at = point(node);
+        let at = point(model, node);
         drawing.springs.push(Spring { at, towards_rad: at.y.atan2(at.x) });
     }
 }
@@ -137,9 +138,8 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
     let cage = setup.cage.motion(start);
     for ball in 0..geometry.balls() {
         let angle = setup.cage.ball_angle(cage.angle, ball);
-        drawing
-            .balls
-            .push(Circle { centre: centre.polar(geometry.pitch_radius(), angle), radius: geometry.ball_radius() });
+        let at = centre.polar(geometry.pitch_radius(), angle);
+        drawing.balls.push(Circle { centre: at, radius: geometry.ball_radius() });
     }
     for defect in &setup.race_defects {
         let race = circle(defect.race());
@@ -148,46 +148,41 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
             Race::Outer => 0.0,
         };
         let length = 2.0 * defect.half_angle() * race.radius;
+        let dent = |shape: &DentShape| {
+            format!("dent {:.2} mm long, {:.0} \u{b5}m deep", shape.length * 1e3, shape.depth * 1e6)
+        };
         let label = match defect {
-            RaceDefect::Dent(dent) => dent_label(dent.shape()),
-            RaceDefect::SurfaceDent(dent) => dent_label(dent.shape()),
+            RaceDefect::Dent(of) => dent(of.shape()),
+            RaceDefect::SurfaceDent(of) => dent(of.shape()),
             RaceDefect::Measured(_) => format!("profile {:.2} mm long", length * 1e3),
         };
         drawing.dents.push(Dent { race, angle_rad: defect.angle() + turned, length, label });
     }
 }
 
-fn dent_label(shape: &DentShape) -> String {
-    let [long, deep] = [shape.length * 1e3, shape.depth * 1e6];
-    format!("dent {long:.2} mm long, {deep:.0} \u{b5}m deep")
-}
-
 fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
     let origin = Point { x: 0.0, y: 0.0 };
     for sensor in &case.sensors {
-        let at = match &sensor.spot {
-            SensorSpot::RingDeg(degrees) => {
+        let at = match (&sensor.spot, &stage.housing) {
+            (SensorSpot::RingDeg(degrees), _) => {
                 Some(origin.polar(stage.structure.ring().section().radius, degrees.to_radians()))
             }
-            SensorSpot::Point(point) => stage.housing.as_ref().map(|housing| {
+            (SensorSpot::Point(point), Some(housing)) => {
                 let [x, y, _] = housing.model.frame().point(*point);
-                Point { x, y }
-            }),
-            SensorSpot::Node(tag) => stage.housing.as_ref().and_then(|housing| {
-                let node = housing.model.node_tags.iter().position(|found| found == tag)?;
-                let [x, y] = [0, 1].map(|k| housing.model.ring_coordinates(node)[k]);
                 Some(Point { x, y })
+            }
+            (SensorSpot::Node(tag), Some(housing)) => {
+                let node = housing.model.node_tags.iter().position(|found| found == tag);
+                node.map(|node| point(&housing.model, node))
+            }
+            (SensorSpot::Group(group), Some(housing)) => housing.mesh.group(group).ok().map(|group| {
+                let points = || group.nodes.iter().map(|&node| point(&housing.model, node));
+                let count = group.nodes.len() as f64;
+                let (x, y): (f64, f64) = (points().map(|at| at.x).sum(), points().map(|at| at.y).sum());
+                Point { x: x / count, y: y / count }
             }),
             // a row does not say where it is
-            SensorSpot::Recovered(_) => None,
-            SensorSpot::Group(group) => stage.housing.as_ref().and_then(|housing| {
-                let nodes = &housing.mesh.group(group).ok()?.nodes;
-                let mean = |k: usize| {
-                    let sum: f64 = nodes.iter().map(|&n| housing.model.ring_coordinates(n)[k]).sum();
-                    sum / nodes.len() as f64
-                };
-                Some(Point { x: mean(0), y: mean(1) })
-            }),
+            _ => None,
         };
         let [x, y, _] = stage.frame().vector(sensor.direction);
         let size = sensor.direction.iter().fold(0.0_f64, |size, part| size.max(part.abs()));

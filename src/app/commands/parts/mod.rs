@@ -7,6 +7,8 @@ pub(crate) mod summary;
 pub(crate) mod tables;
 
 pub(crate) use bearing_table::bearing_table;
+pub(crate) use drawing::draw;
+pub(crate) use statics_report::statics_section;
 pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;
-pub(crate) use tables::{assumptions, model_facts, signed_report};
+pub(crate) use tables::{assumptions, expected_table, mode_table, model_facts, signed_report};

@@ -1,9 +1,7 @@
 //! A bearing at rest, in tables and plots.
 
 use crate::report::{Abscissa, Axis, Bars, Cell, Column, Curve, Plot, Section, Table, significant};
-use crate::system::Statics;
-use crate::system::stiffness_along;
-use crate::system::{BearingSetup, Equilibrium};
+use crate::system::{BallLoad, BearingSetup, Equilibrium, Statics, stiffness_along};
 
 /// Share of the largest force from which on a ball counts as loaded: more than its own weight.
 const LOADED: f64 = 1e-2;
@@ -23,27 +21,24 @@ pub(crate) fn statics_section(setup: &BearingSetup, statics: &Statics) -> Sectio
 
 /// Forces and positions at rest.
 fn equilibrium_table(equilibrium: &Equilibrium) -> Table {
-    let shaft = without_round_off(equilibrium.shaft.map(|x| 1e6 * x));
-    let mut table = Table::new(
-        format!("Static equilibrium: shaft at ({}, {}) \u{b5}m", significant(shaft[0], 4), significant(shaft[1], 4),),
+    let [x, y] = without_round_off(equilibrium.shaft.map(|x| 1e6 * x)).map(|x| significant(x, 4));
+    let columns = [
+        Column::number("Ball", ""),
+        Column::number("Angle", "deg"),
+        Column::number("Outward displacement", "\u{b5}m"),
+        Column::number("Inner force", "N"),
+        Column::number("Outer force", "N"),
+    ];
+    let rows = equilibrium.balls.iter().enumerate().map(|(index, ball)| {
         [
-            Column::number("Ball", ""),
-            Column::number("Angle", "deg"),
-            Column::number("Outward displacement", "\u{b5}m"),
-            Column::number("Inner force", "N"),
-            Column::number("Outer force", "N"),
-        ],
-    );
-    for (index, ball) in equilibrium.balls.iter().enumerate() {
-        table = table.row([
             Cell::text(index.to_string()),
             Cell::number(degrees(ball.angle), 5),
             Cell::number(ball.displacement * 1e6, 4),
             Cell::number(ball.inner, 4),
             Cell::number(ball.outer, 4),
-        ]);
-    }
-    table
+        ]
+    });
+    Table::new(format!("Static equilibrium: shaft at ({x}, {y}) \u{b5}m"), columns).rows(rows)
 }
 
 fn degrees(angle: f64) -> f64 {
@@ -57,60 +52,42 @@ fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
 }
 
 fn load_distribution(equilibrium: &Equilibrium) -> Bars {
-    let mut balls: Vec<_> = equilibrium.balls.iter().enumerate().collect();
+    let mut balls: Vec<(usize, &BallLoad)> = equilibrium.balls.iter().enumerate().collect();
     balls.sort_by(|a, b| degrees(a.1.angle).total_cmp(&degrees(b.1.angle)));
-    let label = |(index, ball): &(usize, &crate::system::BallLoad)| {
-        format!("{index} at {}\u{b0}", significant(degrees(ball.angle), 4))
-    };
-    Bars::new(
-        "Load distribution at rest",
-        "Ball and its angle",
-        balls.iter().map(label),
-        Axis::new("Contact force", "N"),
-    )
-    .series("inner race", balls.iter().map(|(_, ball)| ball.inner).collect())
-    .series("outer race", balls.iter().map(|(_, ball)| ball.outer).collect())
+    let labels = balls.iter().map(|(index, ball)| format!("{index} at {}\u{b0}", significant(degrees(ball.angle), 4)));
+    let force = Axis::new("Contact force", "N");
+    Bars::new("Load distribution at rest", "Ball and its angle", labels, force)
+        .series("inner race", balls.iter().map(|(_, ball)| ball.inner).collect())
+        .series("outer race", balls.iter().map(|(_, ball)| ball.outer).collect())
 }
 
 /// All equilibria that were found.
 fn equilibria_table(equilibria: &[Equilibrium]) -> Table {
-    let mut table = Table::new(
-        "Equilibria that were found",
-        [
-            Column::text("Which"),
-            Column::number("Shaft x", "\u{b5}m"),
-            Column::number("Shaft y", "\u{b5}m"),
-            Column::number("Largest inner force", "N"),
-            Column::number("Balls under load", ""),
-            Column::number("Stiffness xx", "N/\u{b5}m"),
-            Column::number("Stiffness yy", "N/\u{b5}m"),
-            Column::number("Stiffness xy", "N/\u{b5}m"),
-            Column::text("Kind"),
-        ],
-    );
-    for (number, rest) in equilibria.iter().enumerate() {
+    let columns = [
+        Column::text("Which"),
+        Column::number("Shaft x", "\u{b5}m"),
+        Column::number("Shaft y", "\u{b5}m"),
+        Column::number("Largest inner force", "N"),
+        Column::number("Balls under load", ""),
+        Column::number("Stiffness xx", "N/\u{b5}m"),
+        Column::number("Stiffness yy", "N/\u{b5}m"),
+        Column::number("Stiffness xy", "N/\u{b5}m"),
+        Column::text("Kind"),
+    ];
+    let rows = equilibria.iter().enumerate().map(|(number, rest)| {
         let largest = rest.balls.iter().map(|ball| ball.inner).fold(0.0, f64::max);
-        let carries = |ball: &&crate::system::BallLoad| ball.inner > LOADED * largest;
-        let loaded = rest.balls.iter().filter(carries).count();
+        let loaded = rest.balls.iter().filter(|ball| ball.inner > LOADED * largest).count();
         let [[xx, xy], [_, yy]] = rest.shaft_stiffness.map(|row| row.map(|k| 1e-6 * k));
-        let [x, y] = without_round_off(rest.shaft.map(|x| 1e6 * x));
-        let [xx, yy, xy] = without_round_off([xx, yy, xy]);
-        table = table.row([
-            Cell::text(if number == 0 { "taken" } else { "other" }),
-            Cell::number(x, 4),
-            Cell::number(y, 4),
-            Cell::number(largest, 4),
-            Cell::text(loaded.to_string()),
-            Cell::number(xx, 4),
-            Cell::number(yy, 4),
-            Cell::number(xy, 4),
-            Cell::text(match rest.directions_down {
-                0 => "stable",
-                _ => "saddle: the shaft leaves it",
-            }),
-        ]);
-    }
-    table.footnote(
+        let [x, y] = without_round_off(rest.shaft.map(|x| 1e6 * x)).map(|x| Cell::number(x, 4));
+        let [xx, yy, xy] = without_round_off([xx, yy, xy]).map(|k| Cell::number(k, 4));
+        let kind = match rest.directions_down {
+            0 => "stable",
+            _ => "saddle: the shaft leaves it",
+        };
+        let which = Cell::text(if number == 0 { "taken" } else { "other" });
+        [which, x, y, Cell::number(largest, 4), Cell::text(loaded.to_string()), xx, yy, xy, Cell::text(kind)]
+    });
+    Table::new("Equilibria that were found", columns).rows(rows).footnote(
         "The one is taken that the load pushes the shaft into from a start 0.01 \u{b5}m to its counter-clockwise side; a ball that nothing pushes stays where it touches the undeformed outer race.",
     )
 }

@@ -25,157 +25,104 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
         Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
     ];
     if let Some(asked) = &case.ring {
-        facts.push(Fact::new(
-            "Element",
-            format!(
-                "{}, shear {}, rotary inertia {}",
-                match asked.element {
-                    RingInterpolation::ExactArc => "exact circular arc",
-                    RingInterpolation::Raveendranath => "Raveendranath's polynomials",
-                },
-                on(asked.shear),
-                on(asked.rotary_inertia)
-            ),
-        ));
+        let on = |value: bool| if value { "on" } else { "off" };
+        let element = match asked.element {
+            RingInterpolation::ExactArc => "exact circular arc",
+            RingInterpolation::Raveendranath => "Raveendranath's polynomials",
+        };
+        let (shear, inertia) = (on(asked.shear), on(asked.rotary_inertia));
+        facts.push(Fact::new("Element", format!("{element}, shear {shear}, rotary inertia {inertia}")));
     }
+    let modes = stage.fixed_interface_modes;
     if let Some(imported) = &stage.imported {
-        facts.push(Fact::new("Superelement", imported.path.display().to_string()));
-        facts.push(Fact::new(
-            "Its coordinates",
-            format!("{} ring displacements and {} modes", imported.element.interface_dof, stage.fixed_interface_modes),
-        ));
+        let interface_dof = imported.element.interface_dof;
+        facts.extend([
+            Fact::new("Superelement", imported.path.display().to_string()),
+            Fact::new("Its coordinates", format!("{interface_dof} ring displacements and {modes} modes")),
+        ]);
     }
     if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
+        let (model, mass) = (&housing.model, significant(housing.matrices.total_mass(), 5));
+        let (nodes, elements) = (model.dof() / model.dimension(), model.elements().len());
         facts.extend([
             Fact::new("Housing mesh", asked.mesh.display().to_string()),
-            Fact::new(
-                "Housing",
-                format!(
-                    "{} nodes, {} elements, {} kg",
-                    housing.model.dof() / housing.model.dimension(),
-                    housing.model.elements().len(),
-                    significant(housing.matrices.total_mass(), 5)
-                ),
-            ),
+            Fact::new("Housing", format!("{nodes} nodes, {elements} elements, {mass} kg")),
         ]);
-        if condensed {
-            facts.push(
-                Fact::new(
-                    "Condensed to",
-                    format!(
-                        "{} ring displacements and {} fixed-interface modes",
-                        ring.dof(),
-                        stage.fixed_interface_modes
-                    ),
-                )
-                .note("Craig-Bampton"),
-            );
-        }
+        let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
+        facts.extend(condensed.then(|| Fact::new("Condensed to", coordinates).note("Craig-Bampton")));
     }
     facts
 }
 
-fn on(value: bool) -> &'static str {
-    if value { "on" } else { "off" }
-}
-
 /// Loaded and unloaded frequencies side by side.
-pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: Option<&LoadedModes>) -> Table {
-    let mut table = Table::new(
-        "Eigenfrequencies",
-        [
-            Column::number("Mode", ""),
-            Column::number("Without contact", "Hz"),
-            Column::number("Loaded", "Hz"),
-            Column::number("Ring and housing", "%"),
-            Column::number("Shaft", "%"),
-            Column::number("Balls", "%"),
-        ],
-    );
-    let listed = loaded.map_or(&[][..], |loaded| &loaded.modes);
+pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: &LoadedModes) -> Table {
+    let columns = [
+        Column::number("Mode", ""),
+        Column::number("Without contact", "Hz"),
+        Column::number("Loaded", "Hz"),
+        Column::number("Ring and housing", "%"),
+        Column::number("Shaft", "%"),
+        Column::number("Balls", "%"),
+    ];
+    let listed = &loaded.modes;
     let rows = LISTED_MODES.min(unloaded_hz.len().max(listed.len()));
     let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value)).value(100.0 * value);
-    for row in 0..rows {
-        let unloaded = unloaded_hz.get(row).map_or_else(|| Cell::text(""), |&hz| Cell::number(hz, 5));
-        let mut cells = vec![Cell::text((row + 1).to_string()), unloaded];
-        match listed.get(row) {
-            Some(mode) => cells.extend([
-                Cell::number(mode.frequency_hz, 5),
-                share(mode.structure_share),
-                share(mode.shaft_share),
-                share(mode.ball_share),
-            ]),
-            None => cells.extend((0..4).map(|_| Cell::text(""))),
-        }
-        table = table.row(cells);
+    let rows = (0..rows).map(|row| {
+        let mode = listed.get(row);
+        let shares = mode.map_or([None; 3], |mode| [mode.structure_share, mode.shaft_share, mode.ball_share].map(Some));
+        let [structure, shaft, balls] = shares.map(|value| value.map_or_else(|| Cell::text(""), share));
+        let unloaded = Cell::number_or(unloaded_hz.get(row).copied(), 5, "");
+        let loaded = Cell::number_or(mode.map(|mode| mode.frequency_hz), 5, "");
+        [Cell::text((row + 1).to_string()), unloaded, loaded, structure, shaft, balls]
+    });
+    let mut table = Table::new("Eigenfrequencies", columns).rows(rows).footnote(
+        "Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes.",
+    );
+    if loaded.without_stiffness > 0 {
+        let count = loaded.without_stiffness;
+        table = table.footnote(format!("{count} motions without stiffness are left out: balls that nothing presses."));
     }
-    let mut notes = Vec::new();
-    if loaded.is_some() {
-        notes.push(
-            "Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes."
-                .to_owned(),
-        );
-    }
-    if let Some(loaded) = loaded.filter(|loaded| loaded.without_stiffness > 0) {
-        notes.push(format!(
-            "{} motions without stiffness are left out: balls that nothing presses.",
-            loaded.without_stiffness
-        ));
-    }
-    if let Some(loaded) = loaded.filter(|loaded| loaded.unstable > 0) {
-        notes.push(format!(
-            "{} motions have no real frequency about this equilibrium and are left out.",
-            loaded.unstable
-        ));
-    }
-    for note in notes {
-        table = table.footnote(note);
+    if loaded.unstable > 0 {
+        let count = loaded.unstable;
+        let why = "motions have no real frequency about this equilibrium and are left out.";
+        table = table.footnote(format!("{count} {why}"));
     }
     table
 }
 
 /// Expected against found.
 pub(crate) fn expected_table(expected: &[ExpectedMode]) -> Table {
-    let mut table = Table::new(
-        "Expected eigenfrequencies",
-        [
-            Column::text("What"),
-            Column::number("Expected", "Hz"),
-            Column::number("Found", "Hz"),
-            Column::number("Difference", "%"),
-            Column::number("Allowed", "%"),
-            Column::text("Verdict"),
-        ],
-    );
-    for row in expected {
+    let columns = [
+        Column::text("What"),
+        Column::number("Expected", "Hz"),
+        Column::number("Found", "Hz"),
+        Column::number("Difference", "%"),
+        Column::number("Allowed", "%"),
+        Column::text("Verdict"),
+    ];
+    Table::new("Expected eigenfrequencies", columns).rows(expected.iter().map(|row| {
         let verdict = Verdict::of(row.ok);
-        let found = row.found_hz.map_or_else(|| Cell::text("none"), |hz| Cell::number(hz, 5));
-        let difference = row
-            .relative_error
-            .map_or_else(|| Cell::text(""), |error| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error));
-        table = table.row([
+        let difference = |error: f64| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error);
+        [
             Cell::text(&row.what),
             Cell::number(row.hz, 5),
-            found,
-            difference.judged(verdict),
+            Cell::number_or(row.found_hz, 5, "none"),
+            row.relative_error.map_or_else(|| Cell::text(""), difference).judged(verdict),
             Cell::text(format!("{:.2}", 100.0 * row.within)).value(100.0 * row.within),
             Cell::text(if row.ok { "passes" } else { "fails" }).judged(verdict),
-        ]);
-    }
-    table
+        ]
+    }))
 }
 
 /// Damping in words, with units.
 fn damping_words(damping: &Damping) -> String {
     let percent = |ratio: f64| format!("{} % of critical", significant(100.0 * ratio, 3));
     match damping {
-        Damping::Ratios([low, high]) => format!(
-            "{} at {} Hz and {} at {} Hz (Rayleigh)",
-            percent(low.ratio),
-            significant(low.frequency_hz, 4),
-            percent(high.ratio),
-            significant(high.frequency_hz, 4)
-        ),
+        Damping::Ratios(points) => {
+            let points =
+                points.each_ref().map(|at| format!("{} at {} Hz", percent(at.ratio), significant(at.frequency_hz, 4)));
+            format!("{} (Rayleigh)", points.join(" and "))
+        }
         Damping::Rayleigh { alpha, beta } => format!(
             "Rayleigh, {} 1/s times the mass and {} s times the stiffness",
             significant(*alpha, 4),
@@ -193,26 +140,37 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             Formulation::Consistent => "Formulation `consistent`: ball positions are measured from the fixed bearing centre; symmetric, energy-conserving.".to_owned(),
             Formulation::Printed => "Formulation `printed`: the source's equations (3)-(16) with their misprints put right; rigid ring motion is counted twice in the outer contact. For reproduction only.".to_owned(),
         });
-        list.push("Balls follow a prescribed cage and move radially; the shaft is rigid with two displacements; everything stays in the bearing's plane.".to_owned());
-        if setup.balls_inertia == BallsInertia::QuasiStatic {
-            list.push("Balls without inertia in the transient: each stands where its contacts, weight and centrifugal load balance; loaded frequencies keep their mass.".to_owned());
-        }
-        if setup.contact_damping > 0.0 {
-            list.push(format!("Contact damping (Hunt-Crossley) {} s/m.", significant(setup.contact_damping, 4)));
-        }
-        if !setup.race_defects.is_empty() || !setup.flats.is_empty() {
-            list.push("Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.".to_owned());
-        }
-        if !setup.waves.is_empty() {
-            list.push("Waves of the races are long beside the patch of a contact: one contact a ball, with the stiffness of the undamaged race.".to_owned());
-        }
-        if !setup.oversizes.is_empty() {
-            list.push(
-                "Balls of different size have the mass and the contact stiffness of the nominal ball.".to_owned(),
-            );
-        }
-        if !setup.flats.is_empty() {
-            list.push("A ball turns about its own axis as by pure rolling, whatever the cage's slip; where a race is damaged the ball's flat is not felt.".to_owned());
+        let damping = (setup.contact_damping > 0.0)
+            .then(|| format!("Contact damping (Hunt-Crossley) {} s/m.", significant(setup.contact_damping, 4)));
+        let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
+        for (holds, text) in [
+            (
+                true,
+                "Balls follow a prescribed cage and move radially; the shaft is rigid with two displacements; everything stays in the bearing's plane.",
+            ),
+            (
+                setup.balls_inertia == BallsInertia::QuasiStatic,
+                "Balls without inertia in the transient: each stands where its contacts, weight and centrifugal load balance; loaded frequencies keep their mass.",
+            ),
+            (damping.is_some(), damping.as_deref().unwrap_or_default()),
+            (
+                damaged,
+                "Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.",
+            ),
+            (
+                !setup.waves.is_empty(),
+                "Waves of the races are long beside the patch of a contact: one contact a ball, with the stiffness of the undamaged race.",
+            ),
+            (
+                !setup.oversizes.is_empty(),
+                "Balls of different size have the mass and the contact stiffness of the nominal ball.",
+            ),
+            (
+                !setup.flats.is_empty(),
+                "A ball turns about its own axis as by pure rolling, whatever the cage's slip; where a race is damaged the ball's flat is not felt.",
+            ),
+        ] {
+            list.extend(holds.then(|| text.to_owned()));
         }
     }
     if let Some(damping) = &case.damping {

@@ -5,12 +5,11 @@ use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
 use crate::app::case::Case;
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
-use crate::app::commands::parts::bearing_table;
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::numerics::Watch;
-use crate::report::{Table, significant};
+use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
 
@@ -133,12 +132,6 @@ fn energy_warning(energy: Option<&EnergyBalance>) -> Option<String> {
 }
 
 impl<R: Recording> RunResult<R> {
-    /// Everything about the bearing in one table.
-    pub(crate) fn bearing_table(&self) -> Table {
-        let scene = &self.scene;
-        bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
-    }
-
     /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
     pub(crate) fn distrust(&self) -> Option<&'static str> {
         if self.choice.stable_s.is_some() {
@@ -173,17 +166,12 @@ impl<R: Recording> RunResult<R> {
         for (index, name) in self.simulation.record.sensors().iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
             let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
-            match analyse(name, &settings, read, &kinematics) {
-                Ok(windows) => self.windows.extend(windows),
-                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
-            }
-            let Some(window) = case.analysis.scalogram else {
-                continue;
-            };
-            match SensorScalogram::of(&self.simulation, index, window) {
-                Ok(scalogram) => self.scalograms.push(scalogram),
-                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
-            }
+            let mut failed = |error: ComputeError| self.not_analysed.push(format!("{name}: {error}"));
+            let windows = analyse(name, &settings, read, &kinematics);
+            self.windows.extend(windows.map_err(&mut failed).unwrap_or_default());
+            let asked = case.analysis.scalogram;
+            let scalogram = asked.map(|window| SensorScalogram::of(&self.simulation, index, window));
+            self.scalograms.extend(scalogram.and_then(|found| found.map_err(&mut failed).ok()));
         }
     }
 }

@@ -22,6 +22,4 @@ pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};
 pub(crate) use report::run_report;
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
-pub use summary::{
-    DefectOrdersSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary,
-};
+pub use summary::{EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary};

@@ -7,12 +7,8 @@ use super::simulation::RunEnd;
 use crate::app::case::Case;
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::survey_report::{counts, verdicts};
-use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
-use crate::app::commands::parts::ExpectedMode;
-use crate::app::commands::parts::drawing::draw;
-use crate::app::commands::parts::statics_report::statics_section;
-use crate::app::commands::parts::tables::{expected_table, mode_table};
-use crate::app::commands::parts::{assumptions, model_facts};
+use crate::app::commands::analyze::{AnalysisRow, OuterRaceLine, SHOWN_WINDOWS};
+use crate::app::commands::parts::{self, ExpectedMode};
 use crate::app::error::ComputeError;
 use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant};
 use crate::system::Column;
@@ -31,14 +27,11 @@ pub(crate) fn run_report<R: Recording>(
 ) -> Result<Report, ComputeError> {
     let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Run-up transient of a ball bearing in its housing");
-    let windows = result.windows.iter();
+    let few = result.windows.len() <= SHOWN_WINDOWS;
     let name = case.source.path.display().to_string();
-    let rows: Vec<AnalysisRow> = windows.map(|window| AnalysisRow::of(&name, window)).collect();
-    let few = rows.len() <= SHOWN_WINDOWS;
-    report = match few {
-        true => verdict_headlines(report, &result.windows),
-        false => counts(report, &rows),
-    };
+    let of_many = result.windows.iter().filter(|_| !few);
+    let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
+    report = if few { verdict_headlines(report, &result.windows) } else { counts(report, &rows) };
     report = headlines(report, result);
     if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));
@@ -56,19 +49,22 @@ pub(crate) fn run_report<R: Recording>(
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     let (stage, setup) = (&result.scene.stage, &result.scene.setup);
-    let model = Section::new("Model").drawing(draw(case, stage, Some(setup))).facts(model_facts(case, stage, true));
+    let model = Section::new("Model")
+        .drawing(parts::draw(case, stage, Some(setup)))
+        .facts(parts::model_facts(case, stage, true));
+    let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
         .table(result.choice.table());
     report = report
         .section(model)
         .section(choice)
-        .section(Section::new("Bearing").table(result.bearing_table()))
-        .section(statics_section(setup, &result.statics))
+        .section(Section::new("Bearing").table(bearing))
+        .section(parts::statics_section(setup, &result.statics))
         .section(Section::new("Computation").facts(computation(result)));
     let imported = result.scene.stage.imported.iter();
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
-    report.assumptions.extend(assumptions(case, Some(&result.scene.setup)));
+    report.assumptions.extend(parts::assumptions(case, Some(&result.scene.setup)));
     Ok(report.assumption(
         "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
     ))
@@ -91,8 +87,8 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
     // a window in which the speed smears no line over Hz
     let mut windows = result.windows.iter();
     if let Some(window) = windows.find(|window| window.smeared_above.is_none()) {
-        for (harmonic, (expected, found)) in (1..).zip(window.outer.iter().copied()) {
-            if let (Some((hz, _)), false) = (found, result.scene.outer_race_is_sound()) {
+        for (harmonic, &OuterRaceLine { expected_hz: expected, found_hz, .. }) in (1..).zip(&window.outer) {
+            if let (Some(hz), false) = (found_hz, result.scene.outer_race_is_sound()) {
                 report = report.headline(
                     format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
                     format!("{} Hz", significant(hz, 4)),
@@ -144,9 +140,9 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
     let expected: Vec<ExpectedMode> = expected.collect();
     let mut section = Section::new("Eigenfrequencies");
     if !expected.is_empty() {
-        section = section.table(expected_table(&expected));
+        section = section.table(parts::expected_table(&expected));
     }
-    section.table(mode_table(&unloaded, Some(&result.loaded)))
+    section.table(parts::mode_table(&unloaded, &result.loaded))
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {

@@ -78,20 +78,6 @@ impl Simulation {
         Self::kept_from_rest(scene, model, span, false, &mut InMemory, fraction)
     }
 
-    /// Steps a system of a model through `span` from a state.
-    ///
-    /// # Errors
-    /// As [`from_rest`](Self::from_rest).
-    pub(crate) fn from_state(
-        system: CoupledSystem,
-        state: State,
-        model: &RunModel,
-        span: Span,
-        fraction: impl Fn(f64),
-    ) -> Result<Self, ComputeError> {
-        Self::kept(system, state, model, span, false, &mut InMemory, fraction)
-    }
-
     /// A sensor's acceleration as a series, m/s^2.
     ///
     /// # Errors
@@ -126,8 +112,8 @@ impl<R: Recording> Simulation<R> {
         Self::kept(system, state, model, span, energy, checkpoints, fraction)
     }
 
-    /// The same from any state.
-    fn kept(
+    /// The same of a system of a model from any state.
+    pub(crate) fn kept(
         mut system: CoupledSystem,
         state: State,
         model: &RunModel,
@@ -159,7 +145,9 @@ impl<R: Recording> Simulation<R> {
             }
             Some(snapshot) => {
                 let integration = stepping.recall(&system, model.method, schedule, &snapshot)?;
-                integration.ok_or_else(another_model)?
+                // all that was read is the same, and what was computed from it is not
+                let another = "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor";
+                integration.ok_or_else(|| ComputeError::input(another, ComputeError::ANEW))?
             }
         };
         let end = stepping.go(&mut system, &mut integration, schedule, checkpoints, fraction)?;
@@ -364,17 +352,7 @@ fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
     for value in linear.chain(start.y.iter().copied()).chain(force) {
         hasher.update(value.to_bits().to_le_bytes());
     }
-    let mut words = [0; 4];
-    for (word, bytes) in words.iter_mut().zip(hasher.finalize().chunks_exact(8)) {
-        *word = bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
-    }
-    words
-}
-
-/// Everything that was read is the same as of the unfinished run, and what was computed from it is not.
-fn another_model() -> ComputeError {
-    ComputeError::input(
-        "the model is not to the last bit that of the unfinished run: expected the same program and linear algebra libraries on the same kind of processor",
-        ComputeError::ANEW,
-    )
+    let digest: [u8; 32] = hasher.finalize().into();
+    let (words, _) = digest.as_chunks();
+    std::array::from_fn(|word| u64::from_be_bytes(words[word]))
 }

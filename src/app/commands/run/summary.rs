@@ -2,8 +2,9 @@
 
 use super::choice::{ChosenPart, ModelChoice};
 use super::{Recording, RunEnd, RunResult};
-use crate::app::commands::analyze::{WindowAnalysis, WindowSummary};
+use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::commands::parts::SuperelementSummary;
+use crate::bearing::kinematics::DefectOrders;
 use crate::system::{BallLoad, BallsInertia, EnergyBalance, Equilibrium};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -45,9 +46,9 @@ pub struct RunSummary<'a> {
     /// Other equilibria that were found.
     pub other_equilibria: Vec<OtherEquilibrium>,
     /// How often the parts of the bearing strike in a turn of the shaft.
-    pub defect_orders: DefectOrdersSummary,
+    pub defect_orders: DefectOrders,
     /// Analysed windows of all sensors.
-    pub windows: Vec<WindowSummary>,
+    pub windows: &'a [WindowAnalysis],
     /// The superelement in the housing's place, if there is one.
     pub superelement: Option<SuperelementSummary<'a>>,
     /// Windows or sensors that could not be analysed, and why.
@@ -65,8 +66,8 @@ pub struct ModelSummary<'a> {
     pub of_modes: usize,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
-    /// "dynamic" or "quasi-static".
-    pub balls: &'static str,
+    /// How balls follow their radial motion.
+    pub balls: BallsInertia,
     /// Whether the static residual of the other modes was in use.
     pub residual: bool,
     /// Its parts, and why they are these.
@@ -121,19 +122,6 @@ pub struct OtherEquilibrium {
     pub stable: bool,
 }
 
-/// Events in a turn of the shaft.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct DefectOrdersSummary {
-    /// Turns of the cage.
-    pub cage: f64,
-    /// Balls that pass a place of the outer race.
-    pub outer: f64,
-    /// Balls that pass a place of the inner race.
-    pub inner: f64,
-    /// Strikes of a place on a ball against both races.
-    pub ball: f64,
-}
-
 /// The model that the run of a case would take.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ExplainSummary<'a> {
@@ -158,7 +146,6 @@ impl<R: Recording> RunResult<R> {
     /// What `run.json` says of it.
     pub(crate) fn summary(&self) -> RunSummary<'_> {
         let (scene, simulation) = (&self.scene, &self.simulation);
-        let orders = scene.setup.geometry.orders();
         let other = |other: &Equilibrium| OtherEquilibrium {
             shaft_m: other.shaft,
             inner_force_n: other.balls.iter().map(|ball| ball.inner).collect(),
@@ -180,10 +167,7 @@ impl<R: Recording> RunResult<R> {
                 modes: simulation.modes,
                 of_modes: scene.stage.structure.dof(),
                 fixed_interface_modes: scene.stage.fixed_interface_modes,
-                balls: match self.choice.model.balls_inertia {
-                    BallsInertia::Dynamic => "dynamic",
-                    BallsInertia::QuasiStatic => "quasi-static",
-                },
+                balls: self.choice.model.balls_inertia,
                 residual: simulation.residual,
                 why: &self.choice.parts,
             },
@@ -194,13 +178,8 @@ impl<R: Recording> RunResult<R> {
             energy: simulation.energy.map(EnergySummary::of),
             equilibrium: EquilibriumSummary::of(&scene.equilibrium),
             other_equilibria: self.statics.equilibria.iter().skip(1).map(other).collect(),
-            defect_orders: DefectOrdersSummary {
-                cage: orders.cage,
-                outer: orders.outer,
-                inner: orders.inner,
-                ball: orders.ball_defect,
-            },
-            windows: self.windows.iter().map(WindowAnalysis::summary).collect(),
+            defect_orders: scene.setup.geometry.orders(),
+            windows: &self.windows,
             superelement: SuperelementSummary::of(&scene.stage),
             not_analysed: &self.not_analysed,
             warnings: &self.warnings,

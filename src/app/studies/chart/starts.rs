@@ -4,7 +4,7 @@
 use super::Settings;
 use super::trace::{Failure, FailureKind};
 use crate::app::case;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::State;
@@ -136,7 +136,7 @@ impl<'a> Ready<'a> {
         if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
             perturb(&mut state, perturbation, seed, start.number);
         }
-        let simulation = Simulation::from_state(self.system.clone(), state, model, span, |_| ())?;
+        let simulation = Simulation::kept(self.system.clone(), state, model, span, false, &mut InMemory, |_| ())?;
         match simulation.end {
             RunEnd::Complete => Ok(simulation),
             RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),

@@ -4,6 +4,8 @@ use super::shape_values;
 use super::table::{Table, for_kind, tables};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Smallest Jacobian determinant accepted, as a part of the size of the element to the power of its dimension:
 /// far below any useful shape (a strip or plate 1e4 times as long as thick has 1e-4, such a needle 1e-8) and
@@ -222,14 +224,14 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
 }
 
 /// The Jacobian of an element, sampled at its nodes and at the points of its stiffness rule.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ShapeQuality {
-    /// Smallest determinant, m^2 (plane) or m^3 (solid); negative where the element is inverted.
-    pub smallest_determinant: f64,
     /// Jacobian ratio: smallest determinant over largest magnitude, in [-1, 1]. 1: constant (every straight
     /// triangle and tetrahedron, every parallelogram and parallelepiped, however thin); small: strongly
     /// tapered, warped or curved; 0 or below: no valid element. An element without size has 0.
     pub scaled_jacobian: f64,
+    /// Smallest determinant, m^2 (plane) or m^3 (solid); negative where the element is inverted.
+    pub smallest_determinant: f64,
     /// Where the smallest determinant is, m.
     pub position: [f64; 3],
 }

@@ -5,7 +5,7 @@ use crate::app::case::Source;
 use crate::app::commands::modes::compute_modes;
 use crate::formats::read_modes_csv;
 use crate::numerics::Unwatched;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)

@@ -2,8 +2,7 @@
 
 use super::loaded_errors::LoadedErrors;
 use super::model_choice::ChosenPart;
-use super::quantities::{ball_frequency, hertz};
-use crate::app::scene::Scene;
+use super::quantities::{RunTask, ball_hz};
 use crate::report::significant;
 use crate::system::{BallsInertia, Formulation};
 
@@ -30,16 +29,14 @@ pub(crate) fn needed(error: Option<f64>) -> (BallsInertia, ChosenPart) {
 /// As `given`, or balls with inertia unless all of them stay pressed onto both races and vibrate there far above the band: a motion of
 /// frequency f then loses `(f / f_ball)^2`, and the mass that ring and shaft lack shifts their phase more and more.
 pub(crate) fn chosen(
+    RunTask { scene, band_hz, target, .. }: RunTask<'_>,
     given: Option<BallsInertia>,
-    scene: &Scene,
-    band_hz: f64,
-    target: f64,
     loaded: &LoadedErrors,
 ) -> (BallsInertia, ChosenPart) {
     let balls = scene.equilibrium.balls.iter();
     let pressed = balls.clone().all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    let slowest = balls.map(|ball| hertz(ball_frequency(scene, ball.inner, ball.outer))).fold(f64::INFINITY, f64::min);
-    let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls()));
+    let slowest = balls.map(|ball| ball_hz(scene, ball.inner, ball.outer)).fold(f64::INFINITY, f64::min);
+    let lost = pressed.then(|| (band_hz / slowest).powi(2).hypot(loaded.without_balls));
     let setup = &scene.setup;
     let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
     let supported = setup.contact_damping <= 0.0 && setup.formulation == Formulation::Consistent;
@@ -52,14 +49,11 @@ pub(crate) fn chosen(
         None if !supported => (BallsInertia::Dynamic, "contact damping and the printed equations need it".to_owned()),
         None => {
             let enough = lost.is_some_and(|lost| lost <= SHARE * target);
-            let inertia = match enough {
-                true => BallsInertia::QuasiStatic,
-                false => BallsInertia::Dynamic,
-            };
+            let inertia = if enough { BallsInertia::QuasiStatic } else { BallsInertia::Dynamic };
             let why = format!(
                 "the slowest ball vibrates between its races at {} kHz; without the balls' mass the phases of the band's modes err by {} in the end",
                 significant(slowest / 1e3, 3),
-                significant(loaded.without_balls(), 2)
+                significant(loaded.without_balls, 2)
             );
             (inertia, why)
         }

@@ -4,8 +4,8 @@
 //! [`pilot`](super::pilot) has the error of modes and steps along the way: on `examples/scenes` it found that of a run with all modes within
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
-use super::model_choice::{CONDENSATION, ModelChoice, SUPERELEMENT};
-use super::pilot::{Compared, LONG, SAFETY, long_begin, stretch_s};
+use super::model_choice::{CONDENSATION, Measured, ModelChoice, SUPERELEMENT};
+use super::pilot::{LONG, SAFETY, compared, held_s, long_begin, stretch_s};
 use super::quantities::USUAL_BAND;
 use crate::app::case::RunCase;
 use crate::app::commands::run::Span;
@@ -39,15 +39,8 @@ impl Horizon {
         let asked = run.transient;
         let (start_s, run_s) = (asked.start, asked.end - asked.start);
         if choice.growth <= 1.0 {
-            let measured = choice.measured?;
-            return Some(Self {
-                from_s: measured.from_s,
-                held_s: measured.length_s,
-                looked_s: measured.length_s,
-                start_s,
-                run_s,
-                strikes: false,
-            });
+            let Measured { from_s, length_s: looked_s, .. } = choice.measured?;
+            return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false });
         }
         let band_hz = run.case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let finer = choice.measured?.finer;
@@ -59,10 +52,10 @@ impl Horizon {
             let looked_s = (length * first_s).min(run_s);
             let span = Span { duration: looked_s, output_hz: asked.output_hz };
             let models = [&choice.model, &finer];
-            let Ok(compared) = Compared::over(scene, models, span, from_s, band_hz) else {
+            let Ok(signals) = compared(scene, models, span, from_s, band_hz) else {
                 break;
             };
-            let held_s = compared.held_s(most, first_s);
+            let held_s = held_s(&signals, most, first_s);
             horizon = Some(Self { from_s, start_s, held_s: held_s.min(looked_s), looked_s, run_s, strikes: true });
             if held_s < looked_s || looked_s >= run_s {
                 break;
@@ -107,10 +100,7 @@ impl ModelChoice {
     /// What the measured error of modes and steps may be while the estimate of all parts holds, relative; `None` without an estimate.
     fn share_of_steps(&self) -> Option<f64> {
         let together = self.estimated_error?;
-        let part = |what: &str| {
-            let part = self.parts.iter().find(|part| part.what == what);
-            part.and_then(|part| part.estimated_error)
-        };
+        let part = |what: &str| self.parts.iter().find(|part| part.what == what)?.estimated_error;
         let measured = part("method")?;
         let unseen = [SUPERELEMENT, CONDENSATION].map(|what| part(what).unwrap_or(0.0));
         let unseen = unseen[0].hypot(unseen[1]);

@@ -16,7 +16,7 @@
 //! under an impact, and it counts [`ADDS_UP`] times.
 
 use super::loaded_errors::LoadedErrors;
-use super::quantities::{IMPACT, ball_frequency, hertz, judged, participations, radial_forces};
+use super::quantities::{IMPACT, ball_hz, judged, participations, radial_forces, tangent};
 use crate::app::scene::Scene;
 use crate::system::ModeDamping;
 use std::f64::consts::TAU;
@@ -44,7 +44,9 @@ impl ModeErrors {
     /// For a band up to `band_hz`, with what the loaded system loses.
     pub(crate) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
         let modes = &scene.stage.modes;
-        let contacts = at_raceway(scene);
+        let count = PLACES * scene.setup.balls();
+        // all round the raceway
+        let contacts = radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64));
         let sensors: Vec<Vec<f64>> = judged(scene).map(|sensor| participations(modes, &sensor.row)).collect();
         let stiffness = in_series(scene);
         let frequencies: Vec<f64> = (1..=FREQUENCIES).map(|k| TAU * band_hz * k as f64 / FREQUENCIES as f64).collect();
@@ -145,16 +147,10 @@ fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] 
     [whole, [whole[0] - softness, whole[1]]]
 }
 
-/// Participations of radial forces at places all round the raceway.
-fn at_raceway(scene: &Scene) -> Vec<Vec<f64>> {
-    let count = PLACES * scene.setup.balls();
-    radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64))
-}
-
 /// How fast a ball vibrates under ten times the largest static force where contact damping takes nothing from it, Hz.
 pub(crate) fn undamped_ball_hz(scene: &Scene) -> Option<f64> {
     let force = IMPACT * largest_force(scene);
-    (scene.setup.contact_damping <= 0.0).then(|| hertz(ball_frequency(scene, force, force)))
+    (scene.setup.contact_damping <= 0.0).then(|| ball_hz(scene, force, force))
 }
 
 fn largest_force(scene: &Scene) -> f64 {
@@ -166,8 +162,7 @@ fn largest_force(scene: &Scene) -> f64 {
 fn in_series(scene: &Scene) -> f64 {
     let largest = largest_force(scene);
     let stiffness = &scene.setup.stiffness;
-    let softness = |stiffness: f64| 1.0 / (1.5 * stiffness.cbrt().powi(2) * largest.cbrt());
-    1.0 / (softness(stiffness.inner()) + softness(stiffness.outer()))
+    1.0 / (1.0 / tangent(stiffness.inner(), largest) + 1.0 / tangent(stiffness.outer(), largest))
 }
 
 #[cfg(test)]

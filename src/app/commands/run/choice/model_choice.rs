@@ -65,12 +65,8 @@ impl ModelChoice {
         };
         let parts = self.parts.iter().map(|part| row(part.what, &part.chosen, &part.why, part.estimated_error));
         let together = "root of the sum of squares, relative, in the band, while nearby solutions stay together";
-        Table::new("The model, and why it is this one", columns).rows(parts).row(row(
-            "together",
-            "",
-            together,
-            self.estimated_error,
-        ))
+        let together = row("together", "", together, self.estimated_error);
+        Table::new("The model, and why it is this one", columns).rows(parts).row(together)
     }
 
     fn missed(&self) -> Option<String> {
@@ -88,10 +84,7 @@ impl ModelChoice {
         if together <= target {
             return None;
         }
-        let given = |what: &str| {
-            let mut parts = self.parts.iter().filter(|part| part.what == what);
-            parts.any(|part| part.why.starts_with("given"))
-        };
+        let given = |what: &str| self.parts.iter().any(|part| part.what == what && part.why.starts_with("given"));
         // what the program chooses keeps the linear estimate below the target
         let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {

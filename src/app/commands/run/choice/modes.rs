@@ -2,8 +2,8 @@
 
 use super::mode_errors::{ModeErrors, undamped_ball_hz};
 use super::model_choice::ChosenPart;
-use super::quantities::judged;
-use crate::app::case::{self, ModesKept};
+use super::quantities::{RunTask, judged};
+use crate::app::case::ModesKept;
 use crate::app::scene::Scene;
 use crate::report::significant;
 use crate::system::ModeSelection;
@@ -16,14 +16,8 @@ const MODES_SHARE: f64 = 0.2;
 const PAIR: f64 = 1e-3;
 
 /// Modes of ring and housing, and what leaving the others out costs.
-pub(crate) fn modes(
-    asked: &case::Transient,
-    scene: &Scene,
-    band_hz: f64,
-    target: f64,
-    errors: &ModeErrors,
-    whole: bool,
-) -> (ModeSelection, ChosenPart) {
+pub(crate) fn modes(task: RunTask<'_>, errors: &ModeErrors, whole: bool) -> (ModeSelection, ChosenPart) {
+    let RunTask { scene, asked, band_hz, target, .. } = task;
     let (all, known) = (scene.stage.structure.dof(), scene.stage.modes.count());
     let (selection, why) = match asked.modes {
         ModesKept::All => (ModeSelection::All, "given".to_owned()),
@@ -57,15 +51,15 @@ pub(crate) fn modes(
     };
     let highest = scene.stage.modes.frequency_hz(kept.saturating_sub(1));
     let left = match (kept < all, asked.residual) {
-        (false, _) => "nothing left out".to_owned(),
-        (true, true) => "of the others only their inertia is left out".to_owned(),
-        (true, false) => "the others are left out".to_owned(),
+        (false, _) => "nothing left out",
+        (true, true) => "of the others only their inertia is left out",
+        (true, false) => "the others are left out",
     };
+    let mut why = format!("{why}; {left}");
     let (looked_at, sensors) = (judged(scene).count(), scene.stage.structure.sensors().len());
-    let left = match looked_at < sensors {
-        true => format!("{left}; estimated at {looked_at} of the {sensors} sensors"),
-        false => left,
-    };
+    if looked_at < sensors {
+        why += &format!("; estimated at {looked_at} of the {sensors} sensors");
+    }
     let part = ChosenPart {
         what: "modes",
         chosen: format!(
@@ -73,7 +67,7 @@ pub(crate) fn modes(
             significant(highest / 1e3, 4),
             if kept < all && asked.residual { ", static residual of the others" } else { "" }
         ),
-        why: format!("{why}; {left}"),
+        why,
         estimated_error: Some(errors.with(kept, asked.residual)),
     };
     (selection, part)

@@ -7,10 +7,10 @@
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
 use super::model_choice::Measured;
-use super::quantities::fastest_change;
+use super::quantities::{RunTask, fastest_change};
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::bearing::Race;
@@ -60,19 +60,14 @@ pub(crate) const SAFETY: f64 = 1.5;
 /// # Errors
 /// Why a stretch says nothing.
 pub(crate) fn measured(
-    asked: &case::Transient,
+    RunTask { scene, asked, band_hz, .. }: RunTask<'_>,
     model: &RunModel,
     finer: RunModel,
-    scene: &Scene,
-    band_hz: f64,
     strikes: bool,
 ) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
     let length_s = if strikes { first_s } else { (LONG * first_s).min(run_s) };
-    let from_s = match strikes {
-        true => begin(asked, scene, run_s - length_s),
-        false => long_begin(asked, scene, length_s),
-    };
+    let from_s = if strikes { begin(asked, scene, run_s - length_s) } else { long_begin(asked, scene, length_s) };
     let change = fastest_change(asked, scene).map(|[from, to]| {
         let latest = asked.start + run_s - first_s;
         let begin = from.max(to - first_s).min(latest);
@@ -81,7 +76,7 @@ pub(crate) fn measured(
     let (mut most, mut rms) = (0.0_f64, 0.0_f64);
     for (begin, duration) in [Some((from_s, length_s)), change].into_iter().flatten() {
         let span = Span { duration, output_hz: asked.output_hz };
-        let [run, finer] = Compared::over(scene, [model, &finer], span, begin, band_hz)?.signals;
+        let [run, finer] = compared(scene, [model, &finer], span, begin, band_hz)?;
         for (run, finer) in run.iter().zip(&finer) {
             let error = relative_difference(run, finer).map_err(|error| error.to_string())?;
             most = most.max(error);
@@ -138,13 +133,8 @@ pub(crate) fn stretch_s(asked: &case::Transient, band_hz: f64) -> f64 {
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn finer(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    target: f64,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<Option<RunModel>, ComputeError> {
+pub(crate) fn finer(task: RunTask<'_>, model: &RunModel) -> Result<Option<RunModel>, ComputeError> {
+    let scene = task.scene;
     if scene.setup.formulation == Formulation::Printed {
         return Ok(None);
     }
@@ -152,7 +142,7 @@ pub(crate) fn finer(
         (Method::ExponentialAdams { tolerance: Some(tolerance) }, _) => (stepping::adams(FINER * tolerance), true),
         (Method::Exponential, _) => (Method::Exponential, true),
         (_, ModeSelection::All) => (Method::Exponential, false),
-        _ => (stepping::adams(FINER * stepping::tolerance(target)), false),
+        _ => (stepping::adams(FINER * stepping::tolerance(task.target)), false),
     };
     let count = scene.stage.modes.count();
     let mut finer = RunModel {
@@ -166,66 +156,58 @@ pub(crate) fn finer(
     };
     // what of the steps the tolerance does not govern follows the added modes
     if !(as_the_model && method == Method::Exponential) {
-        let (step, _) = stepping::own_step(asked, &finer, scene, heaviest)?;
+        let (step, _) = stepping::own_step(task, &finer)?;
         finer.step = if as_the_model { step.min(model.step) } else { step };
     }
     finer.step *= SHORTER;
     Ok(Some(finer))
 }
 
-/// The sensors' signals in the band by two models, over a stretch that begins at rest.
-pub(crate) struct Compared {
-    signals: [Vec<TimeSeries>; 2],
+/// The sensors' signals in the band by two models, over a stretch that begins at rest, stepped side by side.
+///
+/// # Errors
+/// Why one of them cannot be stepped.
+pub(crate) fn compared(
+    scene: &Scene,
+    [model, finer]: [&RunModel; 2],
+    span: Span,
+    begin: f64,
+    band_hz: f64,
+) -> Result<[Vec<TimeSeries>; 2], String> {
+    let steps = span.duration / finer.step;
+    if steps > MOST_STEPS {
+        return Err(format!("it would take {} steps", significant(steps, 2)));
+    }
+    let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
+    let (run, finer) = rayon::join(|| signals(model), || signals(finer));
+    Ok([run?, finer?])
 }
 
-impl Compared {
-    /// Steps both, side by side.
-    ///
-    /// # Errors
-    /// Why one of them cannot be stepped.
-    pub(crate) fn over(
-        scene: &Scene,
-        [model, finer]: [&RunModel; 2],
-        span: Span,
-        begin: f64,
-        band_hz: f64,
-    ) -> Result<Self, String> {
-        let steps = span.duration / finer.step;
-        if steps > MOST_STEPS {
-            return Err(format!("it would take {} steps", significant(steps, 2)));
-        }
-        let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
-        let (run, finer) = rayon::join(|| signals(model), || signals(finer));
-        Ok(Self { signals: [run?, finer?] })
-    }
-
-    /// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
-    /// none is. It is looked at every eighth of `first_s` (s), and counts from `first_s` on: a short beginning may be nearly still.
-    pub(crate) fn held_s(&self, most: f64, first_s: f64) -> f64 {
-        let [run, finer] = &self.signals;
-        let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
-        let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
-            let (mut apart, mut size) = (0.0, 0.0);
-            let (mut next, mut held) = (1, 0.0);
-            for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
-                apart += (a - b) * (a - b);
-                size += b * b;
-                // half a sample for round-off
-                if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
-                    continue;
-                }
-                if apart <= most * most * size {
-                    held = instant(next);
-                } else if next >= INSTANTS {
-                    return held;
-                }
-                next += 1;
+/// The last instant at which no sensor's difference since the start is above `most`, relative, before one is for good, s; infinite where
+/// none is. It is looked at every eighth of `first_s` (s), and counts from `first_s` on: a short beginning may be nearly still.
+pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f64) -> f64 {
+    let instant = |number: u32| f64::from(number) * first_s / f64::from(INSTANTS);
+    let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
+        let (mut apart, mut size) = (0.0, 0.0);
+        let (mut next, mut held) = (1, 0.0);
+        for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
+            apart += (a - b) * (a - b);
+            size += b * b;
+            // half a sample for round-off
+            if (f64::from(number) + 0.5) * run.step_s() < instant(next) {
+                continue;
             }
-            f64::INFINITY
-        };
-        let sensors = run.iter().zip(finer).map(of_sensor);
-        sensors.fold(f64::INFINITY, f64::min)
-    }
+            if apart <= most * most * size {
+                held = instant(next);
+            } else if next >= INSTANTS {
+                return held;
+            }
+            next += 1;
+        }
+        f64::INFINITY
+    };
+    let sensors = run.iter().zip(finer).map(of_sensor);
+    sensors.fold(f64::INFINITY, f64::min)
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.
@@ -235,7 +217,7 @@ fn stretch(scene: &Scene, model: &RunModel, span: Span, begin: f64, band_hz: f64
     let rest = rest.map_err(|error| error.to_string())?;
     let system = scene.system(model).map_err(|error| error.to_string())?;
     let state = system.state_at(begin, &rest, &scene.stage.modes);
-    let run = Simulation::from_state(system, state, model, span, |_| ());
+    let run = Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ());
     let run = run.map_err(|error| error.to_string())?;
     if let RunEnd::BlewUp(error) = &run.end {
         return Err(error.to_string());
@@ -255,10 +237,7 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let speed = |t: f64| setup.cage.motion(t).speed.abs();
     let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
     let instants = (1..=SPEEDS).map(at);
-    let fastest = instants.fold(asked.start, |best, t| match speed(t) > speed(best) {
-        true => t,
-        false => best,
-    });
+    let fastest = instants.fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
     let Some(defect) = setup.race_defects.first() else {
         return fastest;
     };
@@ -278,10 +257,7 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
     let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing);
     let until = edge / passing.abs();
-    match until <= spare - (fastest - asked.start) {
-        true => fastest + until,
-        false => fastest,
-    }
+    if until <= spare - (fastest - asked.start) { fastest + until } else { fastest }
 }
 
 #[cfg(test)]
@@ -299,8 +275,9 @@ mod tests {
         let choice = ModelChoice::of_case(run, &scene).unwrap();
         let model = RunModel { method: Method::ExponentialAdams { tolerance: Some(tolerance) }, ..choice.model };
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
-        let finer = finer(asked, &model, &scene, 1e-2, None).unwrap();
-        let measured = measured(asked, &model, finer.unwrap(), &scene, 40e3, true);
+        let task = RunTask { scene: &scene, asked, band_hz: 40e3, target: 1e-2, heaviest: None };
+        let finer = finer(task, &model).unwrap();
+        let measured = measured(task, &model, finer.unwrap(), true);
         (measured.unwrap().error, begin)
     }
 

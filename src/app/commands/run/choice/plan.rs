@@ -6,7 +6,7 @@ use super::loaded_errors::LoadedErrors;
 use super::mode_errors::ModeErrors;
 use super::model_choice::{CONDENSATION, ChosenPart, Measured, ModelChoice, SUPERELEMENT};
 use super::modes::modes;
-use super::quantities::{USUAL_BAND, heaviest};
+use super::quantities::{RunTask, USUAL_BAND, heaviest};
 use super::{balls, pilot, stepping};
 use crate::app::case::{self, RunCase};
 use crate::app::error::ComputeError;
@@ -39,25 +39,23 @@ impl ModelChoice {
         let rest = heaviest.as_ref().map(|(_, rest)| rest);
         let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
         let errors = ModeErrors::of(scene, band_hz, &loaded);
-        let (modes, modes_part) = modes(asked, scene, band_hz, target, &errors, whole);
-        let (mut balls_inertia, mut balls_part) = balls::chosen(bearing.balls_inertia, scene, band_hz, target, &loaded);
+        let task = RunTask { scene, asked, band_hz, target, heaviest: heaviest.as_ref() };
+        let (modes, modes_part) = modes(task, &errors, whole);
+        let (mut balls_inertia, mut balls_part) = balls::chosen(task, bearing.balls_inertia, &loaded);
         let growth = growth(scene, rest);
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
             let mut model =
                 RunModel { modes, residual: asked.residual, balls_inertia, method: Method::Exponential, step: 0.0 };
-            let (method, method_part) = stepping::method(asked, &model, target);
+            let (method, method_part) = stepping::method(task, &model);
             model.method = method;
-            let (step, step_part) = stepping::step(asked, &model, scene, heaviest.as_ref())?;
+            let (step, step_part) = stepping::step(task, &model)?;
             model.step = step;
             Ok((model, method_part, step_part))
         };
         let (mut model, mut method_part, mut step_part) = planned(balls_inertia)?;
         let beside = |model: &RunModel, whole: &RunModel| -> Result<Option<Measured>, String> {
-            let finer = pilot::finer(asked, whole, scene, target, heaviest.as_ref());
-            let Some(finer) = finer.map_err(|error| error.to_string())? else {
-                return Ok(None);
-            };
-            pilot::measured(asked, model, finer, scene, band_hz, growth > 1.0).map(Some)
+            let finer = pilot::finer(task, whole).map_err(|error| error.to_string())?;
+            finer.map(|finer| pilot::measured(task, model, finer, growth > 1.0)).transpose()
         };
         let mut measured = match balls_inertia {
             BallsInertia::Dynamic => beside(&model, &model),
@@ -78,7 +76,7 @@ impl ModelChoice {
         };
         let step = model.step;
         while let Ok(Some(found)) = measured
-            && let Some(shorter) = stepping::shorter(asked, &model, found.error, target, step)
+            && let Some(shorter) = stepping::shorter(task, &model, found.error, step)
         {
             model.step = shorter;
             step_part.chosen = format!("{} s", significant(shorter, 3));
@@ -115,7 +113,7 @@ impl ModelChoice {
             estimated_error: sum.map(f64::sqrt),
             growth,
             measured: measured.ok().flatten(),
-            stable_s: stepping::stable_below(asked, &model, scene)?,
+            stable_s: stepping::stable_below(task, &model)?,
             target,
             parts,
         })
@@ -128,10 +126,7 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
     let rests = heaviest.into_iter().chain([&scene.equilibrium]);
     let mut balls = rests.flat_map(|rest| &rest.balls);
     let pressed = balls.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
-    match pressed && setup.race_defects.is_empty() && setup.flats.is_empty() {
-        true => 1.0,
-        false => IMPACTS_GROWTH,
-    }
+    if pressed && setup.race_defects.is_empty() && setup.flats.is_empty() { 1.0 } else { IMPACTS_GROWTH }
 }
 
 /// What a superelement from a file or the condensed housing lacks, by [`left_out`].

@@ -6,6 +6,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::system::{Equilibrium, Sensor, StaticCondition, StructureModes};
 use std::f64::consts::TAU;
+use std::iter::successors;
 
 /// Largest ball force to prepare for, in units of the largest static one: impacts in a dent of the source's size reach five to
 /// ten times.
@@ -17,6 +18,19 @@ pub(crate) const USUAL_BAND: f64 = 40e3;
 /// Sensors at most that the estimates of modes look at: each costs some milliseconds.
 pub(crate) const JUDGED_SENSORS: usize = 64;
 
+/// A run that a model is chosen for: the scene, and what is asked of it.
+#[derive(Clone, Copy)]
+pub(crate) struct RunTask<'a> {
+    pub scene: &'a Scene,
+    pub asked: &'a case::Transient,
+    /// Top of the band, Hz.
+    pub band_hz: f64,
+    /// `accuracy.target`.
+    pub target: f64,
+    /// The instant (s) of the heaviest load and the equilibrium under it; `None` where nothing is heavier than at the start.
+    pub heaviest: Option<&'a (f64, Equilibrium)>,
+}
+
 /// The sensors that the estimates of modes look at: all, or every so many of them.
 pub(crate) fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
     let sensors = scene.stage.structure.sensors();
@@ -24,17 +38,16 @@ pub(crate) fn judged(scene: &Scene) -> impl Iterator<Item = &Sensor> {
     sensors.iter().step_by(apart)
 }
 
-/// Angular frequency of a ball with these forces between its contacts, rad/s.
-pub(crate) fn ball_frequency(scene: &Scene, inner: f64, outer: f64) -> f64 {
-    let stiffness = &scene.setup.stiffness;
-    let tangent = |stiffness: f64, force: f64| 1.5 * stiffness.cbrt().powi(2) * force.cbrt();
-    let sum = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
-    (sum / scene.setup.geometry.ball_mass()).sqrt()
+/// Stiffness `k' = 3/2 k^(2/3) F^(1/3)` of a contact `F = k x^(3/2)` under a force (N), N/m.
+pub(crate) fn tangent(stiffness: f64, force: f64) -> f64 {
+    1.5 * stiffness.cbrt().powi(2) * force.cbrt()
 }
 
-/// Hz.
-pub(crate) fn hertz(angular: f64) -> f64 {
-    angular / TAU
+/// Frequency of a ball with these forces between its contacts, Hz.
+pub(crate) fn ball_hz(scene: &Scene, inner: f64, outer: f64) -> f64 {
+    let stiffness = &scene.setup.stiffness;
+    let sum = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
+    (sum / scene.setup.geometry.ball_mass()).sqrt() / TAU
 }
 
 pub(crate) fn participations(modes: &StructureModes, row: &[f64]) -> Vec<f64> {
@@ -80,10 +93,7 @@ pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<
         let speed = setup.cage.shaft().motion(t).speed;
         at_rest(t) + setup.shaft.unbalance.abs() * speed * speed
     };
-    let most = evenly.chain(knots).fold(asked.start, |most, t| match force(t) > force(most) {
-        true => t,
-        false => most,
-    });
+    let most = evenly.chain(knots).fold(asked.start, |most, t| if force(t) > force(most) { t } else { most });
     if at_rest(most) <= 0.0 || force(most) <= HEAVIER * at_rest(asked.start) {
         return Ok(None);
     }
@@ -94,14 +104,11 @@ pub(crate) fn heaviest(asked: &case::Transient, scene: &Scene) -> Result<Option<
 
 /// Where a load begins to change its slope between start and end, s.
 fn knots(asked: &case::Transient, scene: &Scene) -> Vec<f64> {
-    let mut knots = Vec::new();
-    for load in &scene.setup.shaft.loads {
-        let mut t = load.next_knot(asked.start);
-        while t <= asked.end {
-            knots.push(t);
-            t = load.next_knot(t);
-        }
-    }
+    let of_load = scene.setup.shaft.loads.iter().flat_map(|load| {
+        let all = successors(Some(load.next_knot(asked.start)), |t| Some(load.next_knot(*t)));
+        all.take_while(|t| *t <= asked.end)
+    });
+    let mut knots: Vec<f64> = of_load.collect();
     knots.sort_by(f64::total_cmp);
     knots
 }

@@ -1,14 +1,14 @@
 //! Method and step: what a step jumps over, such as a defect under a ball, no control of its error can see.
 
 use super::model_choice::ChosenPart;
-use super::quantities::IMPACT;
+use super::quantities::{IMPACT, RunTask, tangent};
 use crate::app::case::{self, StepLength};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::bearing::Race;
 use crate::numerics::ode::{Method, Schedule};
 use crate::report::significant;
-use crate::system::{BallsInertia, CoupledSystem, Equilibrium, ModeSelection};
+use crate::system::{BallsInertia, CoupledSystem, ModeSelection};
 use std::f64::consts::TAU;
 
 /// Tolerance of exponential-adams for a target of one percent, and the error that it makes: on the dented bearing of
@@ -64,7 +64,7 @@ pub(crate) fn adams(tolerance: f64) -> Method {
 
 /// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
 /// no limit there.
-pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> (Method, ChosenPart) {
+pub(crate) fn method(RunTask { asked, target, .. }: RunTask<'_>, model: &RunModel) -> (Method, ChosenPart) {
     let by_steps = asked.step == StepLength::Auto;
     let adams = |given: Option<f64>| Method::ExponentialAdams {
         tolerance: given.or_else(|| by_steps.then(|| tolerance(target))),
@@ -89,14 +89,12 @@ pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> 
         }
         (true, _) => "one evaluation a step, the linear part and the balls' contacts as springs exactly, order and steps by the error of each".to_owned(),
     };
+    let with = |tolerance: f64| format!("{}, tolerance {}", method.name(), significant(tolerance, 2));
     let (text, estimated_error) = match method {
-        Method::ExponentialAdams { tolerance: Some(tolerance) } => (
-            format!("{}, tolerance {}", method.name(), significant(tolerance, 2)),
-            Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(ADAMS_ORDER)),
-        ),
-        Method::Dop853 { tolerance, .. } => {
-            (format!("{}, tolerance {}", method.name(), significant(tolerance, 2)), None)
+        Method::ExponentialAdams { tolerance: Some(tolerance) } => {
+            (with(tolerance), Some(ADAMS_TARGET * (tolerance / ADAMS_TOLERANCE).powf(ADAMS_ORDER)))
         }
+        Method::Dop853 { tolerance, .. } => (with(tolerance), None),
         _ => (method.name().to_owned(), None),
     };
     let part = ChosenPart { what: "method", chosen: text, why, estimated_error };
@@ -107,15 +105,11 @@ pub(crate) fn method(asked: &case::Transient, model: &RunModel, target: f64) -> 
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene, [`ComputeError::Transient`] for a step that no run takes.
-pub(crate) fn step(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, ChosenPart), ComputeError> {
+pub(crate) fn step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, ChosenPart), ComputeError> {
+    let asked = task.asked;
     let (step, why) = match asked.step {
         StepLength::Auto => {
-            let (step, why) = own_step(asked, model, scene, heaviest)?;
+            let (step, why) = own_step(task, model)?;
             (step, why.to_owned())
         }
         StepLength::Seconds(given) => {
@@ -143,12 +137,8 @@ pub(crate) fn step(
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn own_step(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-) -> Result<(f64, &'static str), ComputeError> {
+pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'static str), ComputeError> {
+    let RunTask { scene, asked, .. } = task;
     let system = scene.system(model)?;
     let interval = 1.0 / asked.output_hz;
     let highest = system.highest_squared_frequency().sqrt();
@@ -172,21 +162,20 @@ pub(crate) fn own_step(
             "0.1 rad of the fastest motion on the contacts at ten times the largest static force",
         ),
     };
-    if let Some(stable) = stable_step(model, scene, heaviest, system)
-        && stable < chosen.0
-    {
-        chosen = (
-            stable,
+    let limits = [
+        (
+            stable_step(task, model, system),
             "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
-        );
-    }
-    if let Some(passing) = longest_step(asked, scene)
-        && passing < chosen.0
-    {
-        chosen = (
-            passing,
+        ),
+        (
+            longest_step(asked, scene),
             "eight while a ball passes the shortest defect or wave at the highest speed; halved where a tolerance asks for it",
-        );
+        ),
+    ];
+    for (limit, why) in limits {
+        if let Some(shorter) = limit.filter(|limit| *limit < chosen.0) {
+            chosen = (shorter, why);
+        }
     }
     Ok(chosen)
 }
@@ -195,12 +184,9 @@ pub(crate) fn own_step(
 ///
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene.
-pub(crate) fn stable_below(
-    asked: &case::Transient,
-    model: &RunModel,
-    scene: &Scene,
-) -> Result<Option<f64>, ComputeError> {
-    if asked.step == StepLength::Auto {
+pub(crate) fn stable_below(task: RunTask<'_>, model: &RunModel) -> Result<Option<f64>, ComputeError> {
+    let scene = task.scene;
+    if task.asked.step == StepLength::Auto {
         return Ok(None);
     }
     let mut system = scene.system(model)?;
@@ -211,14 +197,9 @@ pub(crate) fn stable_below(
 
 /// The step of the exponential method that keeps its `error` below its share of the target, if it is the program's to choose and the step of
 /// `model` does not: the error falls with the square of the step, as long as it is above `resolved` times [`SHORTEST`].
-pub(crate) fn shorter(
-    asked: &case::Transient,
-    model: &RunModel,
-    error: f64,
-    target: f64,
-    resolved: f64,
-) -> Option<f64> {
-    let chosen = asked.step == StepLength::Auto && model.method == Method::Exponential;
+pub(crate) fn shorter(task: RunTask<'_>, model: &RunModel, error: f64, resolved: f64) -> Option<f64> {
+    let target = task.target;
+    let chosen = task.asked.step == StepLength::Auto && model.method == Method::Exponential;
     let least = SHORTEST * resolved;
     if !chosen || error <= SHARE * target || model.step <= least {
         return None;
@@ -228,12 +209,8 @@ pub(crate) fn shorter(
 
 /// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers
 /// to the largest force, and would let them; the shorter of those at the start and under the heaviest load. None for other methods.
-fn stable_step(
-    model: &RunModel,
-    scene: &Scene,
-    heaviest: Option<&(f64, Equilibrium)>,
-    mut system: CoupledSystem,
-) -> Option<f64> {
+fn stable_step(task: RunTask<'_>, model: &RunModel, mut system: CoupledSystem) -> Option<f64> {
+    let RunTask { scene, heaviest, .. } = task;
     let Method::ExponentialAdams { tolerance: Some(_) } = model.method else {
         return None;
     };
@@ -248,14 +225,9 @@ fn stable_step(
 /// `h = PHASE / sqrt((k_i' + k_o') / m_b)`, or without the balls' inertia that of race and shaft on both in series.
 fn resolved(model: &RunModel, scene: &Scene, system: &CoupledSystem) -> f64 {
     let setup = &scene.setup;
-    let largest = scene
-        .equilibrium
-        .balls
-        .iter()
-        .map(|ball| ball.inner.max(ball.outer))
-        .fold(setup.geometry.ball_mass() * 9.81, f64::max);
-    let tangent = |stiffness: f64| 1.5 * stiffness.cbrt().powi(2) * (IMPACT * largest).cbrt();
-    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(tangent);
+    let forces = scene.equilibrium.balls.iter().map(|ball| ball.inner.max(ball.outer));
+    let largest = forces.fold(setup.geometry.ball_mass() * 9.81, f64::max);
+    let [inner, outer] = [setup.stiffness.inner(), setup.stiffness.outer()].map(|k| tangent(k, IMPACT * largest));
     let stiffness = match model.balls_inertia {
         BallsInertia::Dynamic => inner + outer,
         BallsInertia::QuasiStatic => inner * outer / (inner + outer),

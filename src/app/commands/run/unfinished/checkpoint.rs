@@ -24,25 +24,20 @@ const MAGIC: &[u8] = b"plummer checkpoint 2\n";
 /// Bytes of the digest at the end.
 const DIGEST: usize = 32;
 
-/// A checkpoint that was read.
-#[derive(Debug, Clone, PartialEq)]
+/// A checkpoint: a line of JSON with all but its words, which follow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint {
     pub identity: RunIdentity,
+    /// For a reader of the file, s.
+    time_s: f64,
     /// Rows of the columns that belong to it.
     pub rows: usize,
     /// SHA-256 of these rows, 64 hexadecimal digits.
     pub columns_sha256: String,
-    pub snapshot: Snapshot,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-struct Head {
-    identity: RunIdentity,
-    /// For a reader of the file.
-    time_s: f64,
-    rows: usize,
-    columns_sha256: String,
+    /// How many words follow.
     words: usize,
+    #[serde(skip)]
+    pub snapshot: Snapshot,
 }
 
 /// Writes a checkpoint, whole or not at all, in the place of an earlier one.
@@ -56,12 +51,13 @@ pub(crate) fn write(
     time_s: f64,
     snapshot: &Snapshot,
 ) -> Result<(), ComputeError> {
-    let head = Head {
+    let head = Checkpoint {
         identity: identity.clone(),
         time_s,
         rows: columns.rows(),
         columns_sha256: columns.digest(),
         words: snapshot.words.len(),
+        snapshot: Snapshot::default(),
     };
     let mut bytes = MAGIC.to_vec();
     let written = serde_json::to_writer(&mut bytes, &head).map_err(std::io::Error::from);
@@ -99,22 +95,13 @@ impl Checkpoint {
         let rest = &rest[..rest.len() - DIGEST];
         let line = rest.iter().position(|&byte| byte == b'\n');
         let (head, words) = rest.split_at(line.unwrap_or(rest.len()));
-        let head: Head = serde_json::from_slice(head).map_err(|error| error.to_string())?;
-        let words = words.get(1..).unwrap_or_default().chunks_exact(8);
-        let words = words.map(|chunk| {
-            let bytes = chunk.iter().rev();
-            bytes.fold(0, |word, &byte| word << 8 | u64::from(byte))
-        });
-        let words: Vec<u64> = words.collect();
+        let head: Self = serde_json::from_slice(head).map_err(|error| error.to_string())?;
+        let (words, _) = words.get(1..).unwrap_or_default().as_chunks();
+        let words: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
         if words.len() != head.words {
             return Err(format!("{} words of {}", words.len(), head.words));
         }
-        Ok(Self {
-            identity: head.identity,
-            rows: head.rows,
-            columns_sha256: head.columns_sha256,
-            snapshot: Snapshot { words },
-        })
+        Ok(Self { snapshot: Snapshot { words }, ..head })
     }
 }
 
@@ -137,12 +124,11 @@ impl RunIdentity {
     pub fn of(case: &Case) -> Result<Self, ComputeError> {
         let mut files = mesh_digests(case)?;
         let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects);
-        for defect in defects {
-            if let Defect::Measured(measured) = defect {
-                // one that cannot be read is named where it is needed
-                files.extend(FileDigest::of_file(&measured.profile.csv));
-            }
-        }
+        // one that cannot be read is named where it is needed
+        files.extend(defects.filter_map(|defect| match defect {
+            Defect::Measured(measured) => FileDigest::of_file(&measured.profile.csv).ok(),
+            _ => None,
+        }));
         Ok(Self {
             plummer: env!("CARGO_PKG_VERSION").to_owned(),
             case_sha256: files::hex(Sha256::new_with_prefix(&case.source.text)),
@@ -168,8 +154,8 @@ impl RunIdentity {
         if self.set != now.set {
             changes.push(format!("{}, now {}", set_text(&self.set), set_text(&now.set)));
         }
-        let hashes = |files: &[FileDigest]| -> Vec<String> { files.iter().map(|file| file.sha256.clone()).collect() };
-        if hashes(&self.files) != hashes(&now.files) {
+        let [then, current] = [self, now].map(|run| run.files.iter().map(|file| &file.sha256));
+        if then.ne(current) {
             let pairs = self.files.iter().zip(&now.files);
             let other = pairs.filter(|(then, now)| then.sha256 != now.sha256);
             let mut names: Vec<String> = other.map(|(_, now)| now.path.display().to_string()).collect();
