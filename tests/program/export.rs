@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use nalgebra::DMatrix;
-use sprs::TriMat;
-use sprs::io::read_matrix_market;
 use plummer::files::FileDigest;
 use plummer::formats::{
     Op4Matrix, read_mode_shapes, read_op4, read_superelement_npz, write_modes_npz, write_superelement_npz,
 };
 use serde_json::Value;
+use sprs::TriMat;
+use sprs::io::read_matrix_market;
 use vtkio::Vtk;
 use vtkio::model::{Attribute, DataSet, Piece};
 

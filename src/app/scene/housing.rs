@@ -3,7 +3,7 @@
 use crate::app::case::{self, Case, Hold, Housing, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::material::{ElasticMaterial, Material, OrthotropicMaterial, MaterialError};
+use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::fe::model::{
     Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare,

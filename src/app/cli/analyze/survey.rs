@@ -10,7 +10,8 @@ use super::{AnalyzeArguments, RESULT, command, warn, write_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
-    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowOfInput, survey_report, survey_section,
+    AnalysisRow, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput, survey_report,
+    survey_section,
 };
 use crate::report::Section;
 use std::panic::resume_unwind;

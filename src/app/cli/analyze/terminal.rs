@@ -175,7 +175,9 @@ mod tests {
             conclusion,
             false_alarm,
             strength_db: false_alarm.map(|_| 21.6),
-            ..FaultVerdict::new(fault, 3.0, None)
+            expected_order: 3.0,
+            fault,
+            ..FaultVerdict::default()
         };
         let row = |input: &str, parts: Result<Vec<FaultVerdict>, String>| {
             AnalysisRow::of(input, window(parts.map(diagnosis)))
