@@ -130,7 +130,7 @@ proptest! {
         let (first, second) = bodies(difference);
         let contact = stiffness(first, second, 1e11).unwrap();
         let k2 = contact.ellipticity * contact.ellipticity;
-        let at = elliptic::complete(1.0 - 1.0 / k2).unwrap();
+        let at = complete(1.0 - 1.0 / k2).unwrap();
         let printed = ((k2 + 1.0) * at.second - 2.0 * at.first) / ((k2 - 1.0) * at.second);
         prop_assert!((printed - difference).abs() < 1e-12);
     }
@@ -161,7 +161,7 @@ fn patch_of_an_ellipse_supports_its_own_shape() {
     let force = 12.0;
     let patch = contact.patch(force);
     let parameter = 1.0 - 1.0 / (contact.ellipticity * contact.ellipticity);
-    let k = elliptic::from_complement(parameter, 1.0 - parameter);
+    let k = from_complement(parameter, 1.0 - parameter);
     let approach = patch.peak_pressure * patch.shorter * k.first / contact.effective_modulus;
     let by_stiffness = (force / contact.stiffness).powf(2.0 / 3.0);
     // κ is found to 1e-12

@@ -16,27 +16,23 @@ pub mod cage;
 pub mod catalogue;
 pub mod contact;
 pub mod defect;
-pub mod elliptic;
 mod error;
 pub mod geometry;
 pub mod hertz;
 pub mod impact;
 pub mod kinematics;
 pub mod materials;
-pub mod rotation;
-pub mod slip;
 pub mod speed;
 pub mod waviness;
 
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 pub(crate) mod samples;
 
-pub use cage::Cage;
+pub use cage::{Cage, SlipProfile};
 pub use contact::{ContactForce, HertzContact};
 pub use error::BearingError;
 pub use geometry::{BearingDimensions, BearingGeometry};
 pub use materials::{ContactMaterial, ContactStiffness, Race, RaceContacts};
-pub use rotation::{RotationCursor, RotationState};
-pub use slip::SlipProfile;
-pub use speed::{SpeedKnot, SpeedProfile};
+pub use speed::{RotationCursor, RotationState, SpeedKnot, SpeedProfile};
 pub use waviness::{Wave, Waviness};

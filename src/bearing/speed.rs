@@ -8,13 +8,21 @@
 //! that angles of a cage or an unbalance are those at time zero. Any sign of speed is allowed. The
 //! acceleration jumps at a knot: there it is that of the interval to the right, and an integrator of high
 //! order should end a step at `SpeedProfile::knot_times`.
-
-use std::f64::consts::TAU;
+//!
+//! Rotation with piecewise polynomial speed: angle, speed and acceleration at any time, without integration error.
+//!
+//! ```text
+//! ω(t) = ω_k + α_k (t − t_k) + j_k (t − t_k)² / 2        t_k ≤ t < t_{k+1}
+//! θ(t) = θ_k + ω_k (t − t_k) + α_k (t − t_k)² / 2 + j_k (t − t_k)³ / 6
+//! ```
+//!
+//! Before the first and after the last knot the speed is constant. The acceleration may jump at a knot: there it is that of
+//! the piece to the right.
 
 use super::error::{BearingError, refused};
-use super::rotation::{Piece, Rotation, RotationState};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// Shaft speed at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -104,6 +112,116 @@ impl SpeedProfile {
     #[inline]
     pub fn motion(&self, time: f64) -> RotationState {
         self.rotation.at(time)
+    }
+}
+
+/// Angle and its derivatives at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotationState {
+    /// Angle, rad, not reduced to one turn.
+    pub angle: f64,
+    /// Angular speed, rad/s.
+    pub speed: f64,
+    /// Angular acceleration, rad/s².
+    pub acceleration: f64,
+}
+
+/// Remembers the piece of the last call: successive times cost no search.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RotationCursor {
+    piece: usize,
+}
+
+/// A polynomial from a knot on.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Piece {
+    /// Time of the knot, s.
+    pub time: f64,
+    /// Angle there, rad; [`Rotation::new`] sets it.
+    pub angle: f64,
+    /// Angular speed there, rad/s.
+    pub speed: f64,
+    /// Angular acceleration there, rad/s².
+    pub acceleration: f64,
+    /// Its rate, rad/s³, constant.
+    pub jerk: f64,
+}
+
+impl Piece {
+    #[inline]
+    fn at(&self, time: f64) -> RotationState {
+        let dt = time - self.time;
+        let acceleration = self.acceleration + self.jerk * dt;
+        let gained = dt * (self.acceleration + 0.5 * self.jerk * dt);
+        let gained_mean = dt * (0.5 * self.acceleration + self.jerk * dt * (1.0 / 6.0));
+        RotationState { angle: self.angle + dt * (self.speed + gained_mean), speed: self.speed + gained, acceleration }
+    }
+}
+
+/// A rotation over all time.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Rotation {
+    /// Constant speed before the first knot; its reference time is the first knot's.
+    before: Piece,
+    /// One piece a knot.
+    pieces: Vec<Piece>,
+}
+
+impl Rotation {
+    /// A rotation by `angle_at_zero` (rad) at time zero from `pieces`, at least one, times ascending; the first one's speed
+    /// holds before it.
+    pub(super) fn new(mut pieces: Vec<Piece>, angle_at_zero: f64) -> Self {
+        let first = pieces.first().copied().unwrap_or_default();
+        let before = Piece { time: first.time, speed: first.speed, ..Piece::default() };
+        for next in 1..pieces.len() {
+            pieces[next].angle = pieces[next - 1].at(pieces[next].time).angle;
+        }
+        let mut rotation = Self { before, pieces };
+        let shift = angle_at_zero - rotation.at(0.0).angle;
+        rotation.before.angle += shift;
+        for piece in &mut rotation.pieces {
+            piece.angle += shift;
+        }
+        rotation
+    }
+
+    /// Times (s) of the knots.
+    pub(super) fn knot_times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.pieces.iter().map(|piece| piece.time)
+    }
+
+    /// The first knot after `time` (s), s; infinity if there is none. O(log n).
+    pub(crate) fn next_knot(&self, time: f64) -> f64 {
+        let started = self.pieces.partition_point(|piece| piece.time <= time);
+        self.pieces.get(started).map_or(f64::INFINITY, |piece| piece.time)
+    }
+
+    /// State at `time` (s); O(log n).
+    #[inline]
+    pub(super) fn at(&self, time: f64) -> RotationState {
+        let started = self.pieces.partition_point(|piece| piece.time <= time);
+        self.piece(started).at(time)
+    }
+
+    /// State at `time` (s), searching from where `cursor` was left: constant cost for times that move in small steps,
+    /// either way.
+    #[inline]
+    pub(crate) fn at_from(&self, cursor: &mut RotationCursor, time: f64) -> RotationState {
+        let mut started = cursor.piece.min(self.pieces.len());
+        while started < self.pieces.len() && self.pieces[started].time <= time {
+            started += 1;
+        }
+        while started > 0 && self.pieces[started - 1].time > time {
+            started -= 1;
+        }
+        cursor.piece = started;
+        self.piece(started).at(time)
+    }
+
+    /// The piece in force once `started` knots have passed.
+    #[inline]
+    fn piece(&self, started: usize) -> &Piece {
+        if started == 0 { &self.before } else { &self.pieces[started - 1] }
     }
 }
 

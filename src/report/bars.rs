@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::palette::COLOURS;
+use super::svg::COLOURS;
 use super::{Axis, ReportError, display_unit, significant, svg, ticks, with_unit};
 
 const WIDTH: f64 = 920.0;

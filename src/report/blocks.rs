@@ -3,13 +3,13 @@
 use minijinja::context;
 use minijinja::value::{Serde, Value};
 
-use super::embed::{self, CurveLook};
+use super::embed::CurveLook;
 use super::layout::Layout;
-use super::palette::COLOURS;
-use super::shapes::{self, Packed, Surface};
+use super::shapes::{Packed, Surface};
+use super::svg::COLOURS;
 use super::{
-    Block, ModeShapeView, Plot, ReportError, Section, ShapeFigures, Table, TableFiles, bars, csv, matrix, spans,
-    step_map, svg_drawing, svg_plot,
+    Block, ModeShapeView, Plot, ReportError, Section, ShapeFigures, Table, TableFiles, bars, csv, embed, matrix,
+    shapes, spans, step_map, svg_drawing, svg_plot,
 };
 
 /// Bytes that the shapes of a report may take for its script, beside still pictures (2 MB at most for a view), plots and

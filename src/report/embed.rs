@@ -5,10 +5,10 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::layout::{AxisView, Layout};
-use super::palette::COLOURS;
 use super::plot::is_positive;
+use super::svg::COLOURS;
 use super::svg_plot::colour;
-use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, Sides, decimate};
+use super::{Abscissa, Curve, CurveStyle, Family, Level, Plot, ReportError, Sides, curve};
 
 /// Bytes of numbers that all plots of a report may embed; base64 makes four thirds of them, 3.7 MB.
 const BUDGET: usize = 2_800_000;
@@ -184,12 +184,12 @@ fn curve_data<'a>(curve: &'a Curve, layout: &Layout, number: usize, share: usize
     let (mut even, mut x, mut labels) = (None, None, Vec::new());
     let y: Vec<f64> = match &curve.x {
         Abscissa::Even { start, step } => {
-            let thinned = decimate::even(&curve.y, most);
+            let thinned = curve::even(&curve.y, most);
             even = Some((start / factor, step * thinned.stride / factor));
             thinned.values
         }
         Abscissa::Points(all) => {
-            let kept = decimate::indices(&curve.y, most);
+            let kept = curve::indices(&curve.y, most);
             labels.extend(kept.iter().map_while(|k| curve.labels.get(*k)).map(String::as_str));
             x = Some(base64(kept.iter().flat_map(|k| (all[*k] / factor).to_le_bytes())));
             kept.iter().map(|k| curve.y[*k]).collect()

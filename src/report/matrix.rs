@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ReportError, fixed, palette, svg};
+use super::{ReportError, fixed, svg};
 
 /// Side of a cell, pixels, at least and at most.
 const CELL: [f64; 2] = [9.0, 46.0];
@@ -137,7 +137,7 @@ fn cells(out: &mut String, matrix: &Matrix, [left, top, cell]: [f64; 3]) {
 }
 
 fn fill(value: f64) -> String {
-    format!("fill=\"{}\"", palette::hex(palette::blues(value)))
+    format!("fill=\"{}\"", svg::hex(svg::blues(value)))
 }
 
 /// What the colours mean, at the right.

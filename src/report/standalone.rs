@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use super::csv::plain_name;
 use super::layout::{Layout, WIDTH};
-use super::palette::SERIES;
-use super::svg::{self, escape};
-use super::{Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg_plot};
+use super::svg::{SERIES, escape};
+use super::{Block, Curve, CurveStyle, Plot, Report, ReportError, Spans, StepMap, spans, step_map, svg, svg_plot};
 
 /// Height of the title's line and of the legend's, pixels.
 const HEAD: [f64; 2] = [30.0, 22.0];

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::SignalError;
 use super::envelope::quadrature;
-use super::kurtosis_limit::{FEWEST_VALUES, kurtosis_limit};
+use super::spectral_kurtosis::{FEWEST_VALUES, kurtosis_limit};
 use crate::numerics::series::TimeSeries;
 
 /// Order of the filters that halve a band, and of those that cut it in three.

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::SignalError;
-use super::envelope_analysis::EnvelopeSpectrum;
-use super::peaks::{Peak, local_maxima};
-use super::window_function::WindowFunction;
+use super::envelope::EnvelopeSpectrum;
+use super::fourier::WindowFunction;
+use super::spectrum::{Peak, local_maxima};
 
 /// A peak that a stronger one's leakage could make, with this margin, is not listed: leakages of several lines add
 /// up with signs, and the bound 1 / (pi d T) is an envelope.
@@ -223,8 +223,7 @@ fn stands_out(candidate: &Peak, stronger: &[Peak], window_function: WindowFuncti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::series::TimeSeries;
-    use crate::numerics::series::TimeWindow;
+    use crate::numerics::series::{TimeSeries, TimeWindow};
     use crate::signal::envelope_spectrum;
     use std::f64::consts::PI;
 

@@ -14,56 +14,43 @@
 mod angle_series;
 mod band_limit;
 mod butterworth;
-mod compare;
 pub mod diagnosis;
 mod envelope;
-mod envelope_analysis;
 mod error;
 mod fourier;
-mod frequency_axis;
 mod kurtogram;
-mod kurtosis_limit;
 mod lines;
-mod morlet;
 mod moving;
-mod peaks;
-mod raw_spectrum;
-mod ridge;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 pub(crate) mod samples;
 mod scalogram;
 mod shaft_angle;
 mod spectral_kurtosis;
 mod spectrum;
 mod speed_estimate;
-mod third_octave;
 mod welch;
 mod white_spectrum;
 mod whitening;
-mod window_function;
 
 pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
-pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest};
+pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest, relative_difference};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
-pub use compare::relative_difference;
-pub use envelope::{envelope, squared};
-pub(crate) use envelope_analysis::usual_high_pass_hz;
-pub use envelope_analysis::{EnvelopeAnalysis, EnvelopeSpectrum, envelope_spectrum};
+pub(crate) use envelope::usual_high_pass_hz;
+pub use envelope::{EnvelopeAnalysis, EnvelopeSpectrum, envelope, envelope_spectrum, squared};
 pub use error::SignalError;
+pub use fourier::WindowFunction;
 pub(crate) use fourier::{Forward, fast_length};
-pub use frequency_axis::FrequencyAxis;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at, match_line};
 pub use moving::{MovingFigures, moving_figures};
-pub use peaks::{Peak, local_maxima, peak_near};
-pub(crate) use raw_spectrum::{BandEnvelope, RawSpectrum};
-pub use scalogram::{Scalogram, WaveletTransform};
+pub use scalogram::{FrequencyAxis, Scalogram, WaveletTransform};
 pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
-pub use spectrum::{AmplitudeSpectrum, DEFAULT_BIN_HZ, amplitude_spectrum};
+pub use spectrum::{
+    AmplitudeSpectrum, BandLevel, DEFAULT_BIN_HZ, Peak, amplitude_spectrum, local_maxima, peak_near, third_octaves,
+};
 pub use speed_estimate::{SpeedReading, SpeedSearch, angle_from_readings};
-pub use third_octave::{BandLevel, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
-pub(crate) use white_spectrum::{WhiteSpectrum, running_median};
+pub(crate) use white_spectrum::{BandEnvelope, RawSpectrum, WhiteSpectrum, running_median};
 pub use whitening::{Emphasis, whiten};
-pub use window_function::WindowFunction;

@@ -1,11 +1,13 @@
 //! Amplitude spectrum of a stretch of signal, windowed and interpolated by zero-padding.
-
-use serde::Serialize;
+//!
+//! Levels in third-octave bands.
+//!
+//! Peaks of a spectrum, located between the bins.
 
 use super::fourier::{Forward, MOST_POINTS, fast_length};
-use super::peaks::{Peak, peak_near};
 use super::{SignalError, WindowFunction};
 use crate::numerics::series::{TimeSeries, TimeWindow};
+use serde::Serialize;
 
 /// Bin width unless another is asked for, Hz: 1 % of a 25 Hz line before interpolation.
 pub const DEFAULT_BIN_HZ: f64 = 0.25;
@@ -90,6 +92,94 @@ impl AmplitudeSpectrum {
     pub fn peak_near(&self, frequency_hz: f64, within: f64) -> Option<Peak> {
         peak_near(&self.frequency_hz, &self.amplitude, frequency_hz, within)
     }
+}
+
+/// Bands a decade (IEC 61260-1, base ten).
+const BANDS_A_DECADE: f64 = 10.0;
+
+/// Centre of the band with the number zero, Hz.
+const CENTRE_HZ: f64 = 1000.0;
+
+/// Least number of natural bins (1 / duration) in a band.
+const LEAST_BINS: f64 = 1.0;
+
+/// Mean square of a signal in a third-octave band.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BandLevel {
+    /// Centre, Hz.
+    pub centre_hz: f64,
+    /// Root mean square of what lies in the band, in the signal's unit.
+    pub rms: f64,
+}
+
+/// Root mean squares of a series in the third-octave bands that lie between `from_hz` and `to_hz` whole and are at least as
+/// wide as what the duration T can separate, 1 / T. Centres `1000 * 10^(k / 10)` Hz, edges at `10^(-1/20)` and `10^(1/20)` of
+/// it (IEC 61260-1). From the spectrum without a taper: a line leaks into the next bands as
+/// [`amplitude_spectrum`] says; the mean is removed.
+///
+/// # Errors
+/// As [`amplitude_spectrum`].
+pub fn third_octaves(series: &TimeSeries, from_hz: f64, to_hz: f64) -> Result<Vec<BandLevel>, SignalError> {
+    let natural_hz = 1.0 / series.duration_s();
+    let spectrum = amplitude_spectrum(series, WindowFunction::Boxcar, natural_hz)?;
+    let half = 10_f64.powf(0.5 / BANDS_A_DECADE);
+    // the least frequency at which a band is wide enough
+    let narrowest = LEAST_BINS * natural_hz / (half - 1.0 / half);
+    let number = |hz: f64| BANDS_A_DECADE * (hz / CENTRE_HZ).log10();
+    let first = number(narrowest.max(from_hz * half)).ceil();
+    let last = number((to_hz / half).min(0.5 * series.rate_hz() / half)).floor();
+    let count = if last >= first { (last - first) as usize + 1 } else { 0 };
+    let bands = (0..count).map(|place| {
+        let centre_hz = CENTRE_HZ * 10_f64.powf((first + place as f64) / BANDS_A_DECADE);
+        let (low, high) = (centre_hz / half, centre_hz * half);
+        let bins = spectrum.frequency_hz.iter().zip(&spectrum.amplitude);
+        // Parseval: each bin has half its squared amplitude, and `zero_padding` bins stand for one
+        let squares: f64 =
+            bins.filter(|(hz, _)| (low..high).contains(*hz)).map(|(_, amplitude)| 0.5 * amplitude * amplitude).sum();
+        BandLevel { centre_hz, rms: (squares / spectrum.zero_padding).sqrt() }
+    });
+    Ok(bands.collect())
+}
+
+/// A local maximum of a spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Peak {
+    /// Its frequency, Hz, by the parabola through the highest bin and its neighbours.
+    pub frequency_hz: f64,
+    /// Its amplitude on that parabola, in the spectrum's unit.
+    pub amplitude: f64,
+}
+
+/// All local maxima of a spectrum on equally spaced frequencies (both slices of the same length; the longer one is
+/// cut), in order of frequency. With bins a_(m-1) < a_m >= a_(m+1) the maximum lies
+/// d = (a_(m-1) - a_(m+1)) / (2 (a_(m-1) - 2 a_m + a_(m+1))) bins beside bin m, and is a_m - d (a_(m-1) - a_(m+1)) / 4
+/// high. The first and the last bin are no maxima.
+pub fn local_maxima(frequency_hz: &[f64], amplitude: &[f64]) -> Vec<Peak> {
+    frequency_hz
+        .windows(3)
+        .zip(amplitude.windows(3))
+        .filter(|(_, a)| a[0] < a[1] && a[1] >= a[2])
+        .map(|(f, a)| {
+            let slope = a[0] - a[2];
+            let shift = 0.5 * slope / (a[0] - 2.0 * a[1] + a[2]);
+            Peak { frequency_hz: f[1] + shift * 0.5 * (f[2] - f[0]), amplitude: a[1] - 0.25 * slope * shift }
+        })
+        .collect()
+}
+
+/// The highest local maximum with |f - `wanted_hz`| <= `within` `wanted_hz` (relative: 0.03 for 3 %), or `None` if
+/// the spectrum has no maximum there: a slope towards a line outside is not a peak.
+pub fn peak_near(frequency_hz: &[f64], amplitude: &[f64], wanted_hz: f64, within: f64) -> Option<Peak> {
+    let reach = within * wanted_hz.abs();
+    let is_near = |f: f64| (f - wanted_hz).abs() <= reach;
+    // One bin more on each side, for a maximum whose highest bin lies just outside.
+    let bin = frequency_hz.get(1)? - frequency_hz.first()?;
+    let first = frequency_hz.partition_point(|f| *f < wanted_hz - reach - 2.0 * bin);
+    let end = frequency_hz.partition_point(|f| *f <= wanted_hz + reach + 2.0 * bin);
+    local_maxima(frequency_hz.get(first..end)?, amplitude.get(first..end.min(amplitude.len()))?)
+        .into_iter()
+        .filter(|p| is_near(p.frequency_hz))
+        .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
 }
 
 #[cfg(test)]
@@ -189,5 +279,97 @@ mod tests {
         assert!(message(&series, f64::NAN).starts_with("bin width"));
         let one = TimeSeries::new(0.0, 0.25, "m", vec![1.0]).expect("a valid series");
         assert_eq!(message(&one, 0.25), "series has 1 samples, the filter or transform needs at least 2");
+    }
+}
+
+#[cfg(test)]
+mod third_octave_tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn tones(tones: &[(f64, f64)]) -> TimeSeries {
+        let values = (0..10_000).map(|k| {
+            let t = f64::from(k) * 1e-5;
+            let parts = tones.iter().map(|(hz, a)| a * (TAU * hz * t + 0.3).sin());
+            5.0 + parts.sum::<f64>()
+        });
+        TimeSeries::new(0.0, 1e-5, "m/s^2", values.collect()).expect("a valid series")
+    }
+
+    #[test]
+    fn a_tone_is_in_its_band_and_all_bands_together_are_the_signal() {
+        let series = tones(&[(1000.0, 4.0), (5000.0, 2.0)]);
+        let bands = third_octaves(&series, 0.0, 40e3).expect("bands");
+        let at = |hz: f64| {
+            let found = bands.iter().find(|band| (band.centre_hz / hz - 1.0).abs() < 0.01);
+            found.expect("a band").rms
+        };
+        // leakage of a line of 100 periods: 1 / (pi 11) of it beyond a band's edge 11 bins away, 1e-2 in the mean square
+        assert!((at(1000.0) / (4.0 / 2_f64.sqrt()) - 1.0).abs() < 0.01);
+        assert!((at(5011.9) / (2.0 / 2_f64.sqrt()) - 1.0).abs() < 0.01);
+        let whole: f64 = bands.iter().map(|band| band.rms * band.rms).sum();
+        assert!((whole / (8.0 + 2.0) - 1.0).abs() < 0.01, "{whole}");
+    }
+
+    #[test]
+    fn bands_lie_inside_the_limits_and_are_as_wide_as_the_signal_is_long() {
+        // 0.1 s: bins of 10 Hz, so the first band is wider than 10 Hz: 43 Hz and above
+        let series = tones(&[(1000.0, 1.0)]);
+        let centres = |from, to| -> Vec<f64> {
+            let bands = third_octaves(&series, from, to).expect("bands");
+            bands.iter().map(|band| band.centre_hz.round()).collect()
+        };
+        assert_eq!(centres(0.0, 120.0), [50.0, 63.0, 79.0, 100.0]);
+        assert_eq!(centres(900.0, 2300.0), [1259.0, 1585.0, 1995.0]);
+        assert!(centres(900.0, 1000.0).is_empty());
+        // half the sampling rate is 50 kHz
+        assert_eq!(centres(30e3, 1e6), [39811.0]);
+    }
+}
+
+#[cfg(test)]
+mod peaks_tests {
+    use super::*;
+
+    fn axis() -> Vec<f64> {
+        (0..400).map(|m| f64::from(m) * 0.25).collect()
+    }
+
+    /// Two parabolic humps, at 20.1 (height 3) and 55.06 Hz (height 5), zero elsewhere.
+    fn humps() -> Vec<f64> {
+        let hump = |f: f64, at: f64, height: f64| (height - (f - at).powi(2)).max(0.0);
+        axis().iter().map(|f| hump(*f, 20.1, 3.0) + hump(*f, 55.06, 5.0)).collect()
+    }
+
+    #[test]
+    fn parabola_is_found_exactly() {
+        let peaks = local_maxima(&axis(), &humps());
+        assert_eq!(peaks.len(), 2);
+        for (peak, (f, a)) in peaks.iter().zip([(20.1, 3.0), (55.06, 5.0)]) {
+            assert!((peak.frequency_hz - f).abs() < 1e-12);
+            assert!((peak.amplitude - a).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn search_stays_inside_and_ignores_slopes() {
+        let near = |f, within| peak_near(&axis(), &humps(), f, within).map(|p| p.frequency_hz);
+        let close = |found: Option<f64>, f: f64| found.is_some_and(|x| (x - f).abs() < 1e-9);
+        assert!(close(near(55.0, 0.03), 55.06));
+        assert!(close(near(40.0, 0.6), 55.06));
+        assert!(close(near(20.1, 1e-6), 20.1));
+        // 54 Hz +- 1.5 % ends at 54.8 Hz, on the slope below the maximum.
+        assert_eq!(near(54.0, 0.015), None);
+        assert_eq!(near(80.0, 0.1), None);
+        assert_eq!(near(1000.0, 0.1), None);
+        assert_eq!(peak_near(&[], &[], 10.0, 0.1), None);
+    }
+
+    #[test]
+    fn a_flat_top_is_one_peak() {
+        let f: Vec<f64> = (0..5).map(f64::from).collect();
+        let peaks = local_maxima(&f, &[0.0, 1.0, 1.0, 0.0, 0.0]);
+        assert_eq!(peaks.len(), 1);
+        assert!((peaks[0].frequency_hz - 1.5).abs() < 1e-12);
     }
 }

@@ -1,17 +1,18 @@
 //! `[housing]`: mesh, parts, supports and added masses.
+//!
+//! `[housing]`: a mesh with its parts, or a superelement that was condensed elsewhere.
 
-use std::path::PathBuf;
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::fe::element::continuum::Formulation;
-use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass, SpringStiffness, SupportShare};
-use crate::numerics::units::LengthUnit;
-
+use super::Case;
 use super::schema::{one_of, together};
 use super::spring::{Spring, SpringKeys};
-use super::union::{exactly_one, mismatch, written_as};
+use super::union::{exactly_one, given, mismatch, missing, none_beside, read_as, written_as};
+use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
+use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass, SpringStiffness, SupportShare};
+use crate::numerics::units::LengthUnit;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::path::{Path, PathBuf};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -128,5 +129,218 @@ impl From<Support> for SupportForm {
             Hold::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
         Self { group: support.group, fixed, spring: keys.spring, radial: keys.radial, per: keys.per }
+    }
+}
+
+/// Where the housing comes from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HousingSource {
+    /// A file of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's
+    /// OUTPUT4 (`.op4`). Relative paths in a case file are relative to that file; here they are resolved.
+    Superelement(PathBuf),
+    /// A mesh with materials and supports.
+    #[serde(untagged)]
+    Mesh(Box<Housing>),
+}
+
+impl HousingSource {
+    /// The file that it is read from.
+    #[must_use]
+    pub(crate) fn path(&self) -> &Path {
+        match self {
+            Self::Mesh(housing) => &housing.mesh,
+            Self::Superelement(path) => path,
+        }
+    }
+
+    pub(super) fn path_mut(&mut self) -> &mut PathBuf {
+        match self {
+            Self::Mesh(housing) => &mut housing.mesh,
+            Self::Superelement(path) => path,
+        }
+    }
+}
+
+impl Case {
+    /// Returns the housing, if the case has one with a mesh.
+    #[must_use]
+    pub fn meshed_housing(&self) -> Option<&Housing> {
+        match &self.housing {
+            Some(HousingSource::Mesh(housing)) => Some(housing),
+            _ => None,
+        }
+    }
+
+    /// Returns the file of the superelement that stands for the housing, if there is one.
+    #[must_use]
+    pub(crate) fn superelement(&self) -> Option<&Path> {
+        match &self.housing {
+            Some(HousingSource::Superelement(path)) => Some(path),
+            _ => None,
+        }
+    }
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = json!([
+    { "required": ["superelement"], "maxProperties": 1 },
+    { "required": ["mesh", "length_unit", "parts"], "not": { "required": ["superelement"] } },
+])))]
+/// The housing: `mesh` with its keys, or `superelement` alone.
+struct SourceForm {
+    /// File of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's OUTPUT4
+    /// (`.op4`), relative to the case file; without any other key.
+    superelement: Option<PathBuf>,
+    /// Mesh file (gmsh MSH 4.1 or 2.2), relative to the case file.
+    mesh: Option<PathBuf>,
+    /// Unit of the mesh's coordinates.
+    length_unit: Option<LengthUnit>,
+    /// How a plane mesh stands for a solid; plane meshes only.
+    plane: Option<PlaneModel>,
+    /// Integration of the stiffness of ten-noded tetrahedra.
+    integration: Option<Integration>,
+    /// Formulation of four-noded quadrilaterals and eight-noded hexahedra.
+    linear: Option<LinearFormulation>,
+    /// Which group is made of what; at least one.
+    parts: Option<Vec<Part>>,
+    /// What holds the housing; may be empty.
+    supports: Option<Vec<Support>>,
+    /// Masses without size, each spread over a group; may be empty.
+    masses: Option<Vec<PointMass>>,
+    /// Connections between its groups; may be empty.
+    links: Option<Vec<Link>>,
+    /// Whether bodies may lie in one another; refused unless "allow".
+    overlap: Option<OverlapRule>,
+}
+
+read_as!(HousingSource, SourceForm, |form| {
+    if let Some(path) = form.superelement {
+        let of_mesh =
+            given!(form: mesh, length_unit, plane, integration, linear, parts, supports, masses, links, overlap);
+        none_beside(&of_mesh, "`superelement`", "`superelement` alone, or `mesh` with its keys")?;
+        return Ok(Self::Superelement(path));
+    }
+    Ok(Self::Mesh(Box::new(Housing {
+        mesh: form.mesh.ok_or_else(|| missing("mesh"))?,
+        length_unit: form.length_unit.ok_or_else(|| missing("length_unit"))?,
+        plane: form.plane,
+        formulation: Formulation {
+            integration: form.integration.unwrap_or_default(),
+            linear: form.linear.unwrap_or_default(),
+        },
+        parts: form.parts.ok_or_else(|| missing("parts"))?,
+        supports: form.supports.unwrap_or_default(),
+        masses: form.masses.unwrap_or_default(),
+        links: form.links.unwrap_or_default(),
+        overlap: form.overlap.unwrap_or_default(),
+    })))
+});
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::app::case::{Case, CaseError, HousingSource, Source};
+
+    const CASE: &str = "[housing]\nsuperelement = \"s.npz\"\n\n[ring]\n\
+        sections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n";
+
+    fn read(set: &[&str]) -> Result<Case, CaseError> {
+        Case::from_source(Source {
+            path: "folder/case.toml".into(),
+            text: CASE.to_owned(),
+            set: set.iter().map(|&set| set.to_owned()).collect(),
+        })
+    }
+
+    #[test]
+    fn a_superelement_stands_alone_and_is_beside_the_case() {
+        let case = read(&["sensors=[{name='a',recovered='P1'}]"]).unwrap();
+        assert_eq!(case.superelement(), Some(Path::new("folder/s.npz")));
+        assert!(case.meshed_housing().is_none());
+        // the echo has the form of the file
+        let echo = serde_json::to_value(&case).unwrap();
+        assert_eq!(
+            (&echo["housing"], &echo["sensors"]),
+            (
+                &serde_json::json!({ "superelement": "folder/s.npz" }),
+                &serde_json::json!([{ "name": "a", "recovered": "P1" }])
+            )
+        );
+        let again: Case = serde_json::from_value(echo).unwrap();
+        assert!(matches!(again.housing, Some(HousingSource::Superelement(_))));
+        assert_eq!(again.sensors, case.sensors);
+    }
+
+    #[test]
+    fn what_contradicts_it_is_named() {
+        for (set, message) in [
+            (
+                "housing.mesh=a.msh",
+                "folder/case.toml:1: `housing`: found `mesh` beside `superelement`, expected `superelement` alone, or \
+                 `mesh` with its keys",
+            ),
+            (
+                "housing.supports=[]",
+                "folder/case.toml:1: `housing`: found `supports` beside `superelement`, expected `superelement` alone, or \
+                 `mesh` with its keys",
+            ),
+            (
+                "ring.tie={group='bore'}",
+                "--set ring.tie={group='bore'}: `ring.tie`: found beside `housing.superelement`, expected one of the two",
+            ),
+            (
+                "condense.interface={nodes=[1]}",
+                "--set condense.interface={nodes=[1]}: `condense.interface`: found beside `housing.superelement`, expected \
+                 one of the two",
+            ),
+            (
+                "condense.interface_modes=9",
+                "--set condense.interface_modes=9: `condense.interface_modes`: found beside `housing.superelement`, expected \
+                 one of the two",
+            ),
+            (
+                "sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]",
+                "--set sensors=[{name='a',point=[0,0,0],direction=[1,0,0]}]: `sensors[0].point`: needs `housing.mesh` \
+                 (a superelement has rows of its own sensors: `recovered = \"NAME\"`), which the case lacks",
+            ),
+            (
+                "sensors=[{name='a',recovered='P1',direction=[1,0,0]}]",
+                "--set sensors=[{name='a',recovered='P1',direction=[1,0,0]}]: `sensors[0]`: found `direction` beside \
+                 `recovered`, expected `recovered` alone: its row has a direction",
+            ),
+            (
+                "sensors=[{name='a',ring_deg=0}]",
+                "--set sensors=[{name='a',ring_deg=0}]: `sensors[0]` lacks the required key `direction`",
+            ),
+            (
+                "modes.convergence={meshes=['b.msh']}",
+                "--set modes.convergence={meshes=['b.msh']}: `modes.convergence`: needs `housing.mesh`, which the case \
+                 lacks",
+            ),
+        ] {
+            assert_eq!(read(&[set]).unwrap_err().to_string(), message);
+        }
+        let bare = Case::from_source(Source {
+            path: "a.toml".into(),
+            text: "[housing]\nsuperelement = \"s.npz\"\n".to_owned(),
+            set: Vec::new(),
+        });
+        assert_eq!(
+            bare.unwrap_err().to_string(),
+            "a.toml:2: `housing.superelement`: needs [ring], which the case lacks"
+        );
+        let recovered = "[[sensors]]\nname = \"a\"\nrecovered = \"P1\"\n";
+        let ring = Case::from_source(Source {
+            path: "a.toml".into(),
+            text: CASE[CASE.find("[ring]").unwrap()..].to_owned() + recovered,
+            set: Vec::new(),
+        });
+        assert_eq!(
+            ring.unwrap_err().to_string(),
+            "a.toml:5: `sensors[0].recovered`: needs `housing.superelement`, which the case lacks"
+        );
     }
 }

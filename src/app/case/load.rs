@@ -6,8 +6,7 @@ use serde::Deserialize;
 
 use super::check::{BrokenRule, groups_of, known_isotropic, known_material};
 use super::document::{Document, Source};
-use super::error::{CaseError, one_of};
-use super::nearest::names_help;
+use super::error::{CaseError, names_help, one_of};
 use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material};
 
 /// A variant of a case, read.

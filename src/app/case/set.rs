@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::check::Rule;
-use super::path::{Step, format_path, parse_path};
-use super::tree::{Mark, Node, Value};
+use super::tree::{Mark, Node, Step, Value, format_path, parse_path};
 
 /// What to write where an argument has no key that can be read.
 const EXAMPLES: &str = "for example: --set bearing.formulation=printed, or --set 'bearing.defects[0].depth=2e-5'";
@@ -126,8 +125,7 @@ fn descend<'a>(node: &'a mut Node, above: &[Step], step: &Step, mark: Mark) -> R
 
 #[cfg(test)]
 mod tests {
-    use super::super::path::parse_path;
-    use super::super::tree::{Mark, Node};
+    use super::super::tree::{Mark, Node, parse_path};
     use super::apply;
 
     const TEXT: &str =

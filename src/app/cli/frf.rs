@@ -1,6 +1,6 @@
 //! `plummer frf`: transfer paths.
 
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::results::{Job, warnings};
 use super::{CliError, Outcome};
 use crate::app::case::{Case, SensorSpot};

@@ -13,18 +13,14 @@ mod failure;
 mod frf;
 mod init;
 mod inspect;
-mod interrupt;
-mod mode_checks;
 mod modes;
 mod output;
 mod progress;
 mod report;
-mod report_files;
 mod results;
 mod run;
 mod schema;
 mod shell;
-mod stability;
 mod sweep;
 mod verify;
 
@@ -86,7 +82,7 @@ fn on_arguments() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    match interrupt::fail_at_limits().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
+    match failure::fail_at_limits().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&mut io::stderr().lock());

@@ -1,18 +1,19 @@
 //! `plummer report`: the pages of earlier results, drawn again from their content.
-
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
-
-use schemars::JsonSchema;
-use serde::Serialize;
+//!
+//! A command's report with its tables and figures beside it.
 
 use super::output::{extend_new, json};
-use super::report_files::{ReportFiles, page_of};
-use super::{CliError, Options, Outcome, OutputFolder};
+use super::{CliError, Options, Outcome, OutputFolder, Progress};
+use crate::app::case::Case;
 use crate::app::commands::result::VERSION;
-use crate::files::FileError;
-use crate::report::Report;
+use crate::app::error::ComputeError;
+use crate::app::scene::mesh_digests;
+use crate::files::{FileDigest, FileError};
+use crate::report::{Document, MeshFile, Report};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// The commands that write reports, by the names of their results.
 const WITH_REPORT: [&str; 9] = ["run", "modes", "condense", "frf", "chart", "stability", "analysis", "sweep", "verify"];
@@ -116,6 +117,134 @@ fn unreadable(path: &Path, source: io::Error) -> CliError {
     CliError::input(FileError::read(path)(source).to_string())
 }
 
+/// Folders of the tables and of the figures, in that of the results.
+const TABLES: &str = "tables";
+const FIGURES: &str = "figures";
+
+/// Endings of a page and of its content.
+const PAGE: &str = ".html";
+const RECORD: &str = ".cbor.gz";
+
+/// What was written of a report, and what it rests on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct ReportFiles {
+    /// The meshes behind the results.
+    pub(super) meshes: Vec<FileDigest>,
+    /// Names of the tables' files in the folder of the results.
+    pub(super) tables: Vec<String>,
+    /// What to name to the reader: the folders of tables and figures, the report.
+    pub(super) paths: Vec<PathBuf>,
+}
+
+impl ReportFiles {
+    /// Writes the report of a command, its content, each of its tables as `tables/COMMAND-NUMBER-CAPTION.csv` and each of its plots as
+    /// `figures/COMMAND-NUMBER-TITLE.svg`; the meshes go into the report's head. Those of an earlier report of this command are removed.
+    ///
+    /// # Errors
+    /// [`CliError`] when a mesh cannot be read or has changed since it was, the report's contents do not fit together or a file cannot be written.
+    pub(super) fn write(
+        folder: &OutputFolder,
+        command: &str,
+        case: &Case,
+        report: Report,
+        progress: &Progress,
+    ) -> Result<Self, CliError> {
+        let meshes = mesh_digests(case)?;
+        unchanged(&meshes, &progress.files())?;
+        let mut report = report;
+        let head = report.document.get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
+        head.meshes = meshes.iter().map(MeshFile::from).collect();
+        let files = Self::without_case(folder, command, report)?;
+        Ok(Self { meshes, ..files })
+    }
+
+    /// The same for a command that reads no case.
+    ///
+    /// # Errors
+    /// As [`ReportFiles::write`].
+    pub(super) fn without_case(folder: &OutputFolder, command: &str, report: Report) -> Result<Self, CliError> {
+        let page = folder.report_name(command);
+        let report = report.tables_in(TABLES, command);
+        let record = report.to_record().map_err(ComputeError::from)?;
+        folder.write(&record_of(&page), &record)?;
+        Self::draw(folder, &page, command, &report)
+    }
+
+    /// Draws a report: its page under this name, its tables and figures beside it.
+    ///
+    /// # Errors
+    /// [`CliError`] when its contents do not fit together or a file cannot be written.
+    pub(super) fn draw(folder: &OutputFolder, page: &str, command: &str, report: &Report) -> Result<Self, CliError> {
+        let html = report.to_html().map_err(ComputeError::from)?;
+        let figures = report.svg_files(command).map_err(ComputeError::from)?;
+        let tables = report.csv_files();
+        let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
+        let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
+        let mut paths = Vec::new();
+        for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
+            let path = folder.path.join(of);
+            if !files.is_empty() || path.exists() {
+                folder.make_below(Path::new(of))?;
+                remove_earlier(&path, command, ending)?;
+            }
+            for (name, text) in &files {
+                folder.write(name, text.as_bytes())?;
+            }
+            paths.extend(Some(path).filter(|_| !files.is_empty()));
+        }
+        paths.push(folder.write(page, html.as_bytes())?);
+        Ok(Self { meshes: Vec::new(), tables: named, paths })
+    }
+}
+
+/// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
+fn record_of(page: &str) -> String {
+    format!("{}{RECORD}", page.strip_suffix(PAGE).unwrap_or(page))
+}
+
+/// Name of the page whose content a file has, if it is one.
+pub(super) fn page_of(record: &str) -> Option<String> {
+    let page = record.strip_suffix(RECORD)?;
+    (page == "report" || page.ends_with("-report")).then(|| format!("{page}{PAGE}"))
+}
+
+/// Checks that the meshes are still those that were read: the report names their content.
+///
+/// # Errors
+/// [`ComputeError::Failed`].
+fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError> {
+    let other = |file: &&FileDigest| {
+        let same_path = now.iter().find(|now| now.path == file.path);
+        same_path.is_some_and(|now| now.sha256 != file.sha256)
+    };
+    match read.iter().find(other) {
+        Some(file) => Err(ComputeError::failed(
+            format!("{} was changed while it was used: the result belongs to what it was before", file.path.display()),
+            "run the command again when the mesh is complete",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Removes what an earlier report of the command left in a folder, and nothing else.
+fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
+    let failed = |error| CliError::folder(path, &error);
+    for entry in fs::read_dir(path).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if is_of_report(command, &entry.file_name().to_string_lossy(), ending) {
+            fs::remove_file(entry.path()).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a file's name is `COMMAND-NUMBER-CAPTION` and that ending.
+fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
+    let rest = name.strip_prefix(command).and_then(|rest| rest.strip_prefix('-'));
+    let number = rest.and_then(|rest| rest.strip_suffix(ending)).and_then(|rest| rest.split_once('-'));
+    number.is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::records;
@@ -133,5 +262,48 @@ mod tests {
             folder.path().display()
         );
         assert_eq!(String::from_utf8(lines).unwrap(), expected);
+    }
+}
+
+#[cfg(test)]
+mod report_files_tests {
+    use super::{is_of_report, page_of, record_of, unchanged};
+    use crate::files::FileDigest;
+
+    #[test]
+    fn a_page_and_its_content_know_each_other() {
+        for page in ["report.html", "modes-report.html"] {
+            assert_eq!(page_of(&record_of(page)).as_deref(), Some(page));
+        }
+        for other in ["report.html", "notes.cbor.gz", "reports.cbor.gz", ".cbor.gz"] {
+            assert_eq!(page_of(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn a_mesh_that_changed_is_named() {
+        let file = |path: &str, content: &[u8]| FileDigest::of_bytes(path.as_ref(), content);
+        let now = [file("a.msh", b"1"), file("b.msh", b"2")];
+        assert!(unchanged(&now, &now[..1]).is_ok());
+        let error = unchanged(&now, &[file("a.msh", b"1"), file("b.msh", b"1")]).unwrap_err();
+        assert!(error.to_string().starts_with("b.msh was changed while it was used"));
+        assert!(!error.is_input());
+    }
+
+    #[test]
+    fn only_files_of_the_command_are_told() {
+        for (name, expected) in [
+            ("modes-1-eigenfrequencies.csv", true),
+            ("modes-12-a-b.csv", true),
+            ("run-1-eigenfrequencies.csv", false),
+            ("modes-eigenfrequencies.csv", false),
+            ("modes-1.csv", false),
+            ("modes--a.csv", false),
+            ("modes-1-notes.txt", false),
+            ("my-modes-1-a.csv", false),
+            ("modes-1-a.svg", false),
+        ] {
+            assert_eq!(is_of_report("modes", name, ".csv"), expected, "{name}");
+        }
     }
 }

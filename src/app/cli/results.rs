@@ -1,7 +1,7 @@
 //! Results of a case as files: what all have in common; `modes.npz`, `signals.npz`.
 
 use super::earlier_results::digests;
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::{CliError, Options, OutputFolder, Progress, command_line};
 use crate::app::case::Case;
 use crate::app::commands::modes::ModesResult;

@@ -1,9 +1,9 @@
 //! `plummer run`: the simulation in time.
 
 use super::output::json;
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
-use super::{CliError, Outcome, OutputFolder, interrupt, resuming};
+use super::{CliError, Outcome, OutputFolder, failure, resuming};
 use crate::app::case::{Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
 use crate::app::commands::parts::bearing_table;
@@ -71,7 +71,7 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
         true => UnfinishedRun::resume(&partial, identity)?,
         false => UnfinishedRun::begin(&partial, identity),
     };
-    (unfinished.every, unfinished.stop) = (pause, interrupt::stop_request()?);
+    (unfinished.every, unfinished.stop) = (pause, failure::stop_request()?);
     let result = compute_kept_run(case, progress, &mut unfinished);
     let result = result.map_err(|error| match error {
         ComputeError::Interrupted { .. } => CliError::interrupted(

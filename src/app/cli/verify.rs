@@ -1,6 +1,6 @@
 //! `plummer verify`: the built-in verification suite.
 
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::verification::{Check, SectionResult, VerifyResult, suite};

@@ -1,8 +1,7 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
-use super::dof_labels::{of_housing, of_ring};
 use super::housing::AssembledHousing;
-use super::places::PlaceBodies;
+use super::places::{PlaceBodies, of_housing, of_ring};
 use super::ring::{Boundary, ring_and_tie};
 use crate::app::case::{Case, FixedInterfaceModes, Interface};
 use crate::app::error::ComputeError;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::free_system::FreeSystem;
+use super::structure::FreeSystem;
 use crate::app::case::{Case, Source};
 use crate::app::commands::modes::compute_mode_shapes;
 use crate::formats::{DofDirection, DofLabel};

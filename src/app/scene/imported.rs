@@ -1,9 +1,9 @@
 //! A superelement from a file in the housing's place.
 
-use super::dof_labels::of_ring;
-use super::places::{Place, PlaceBodies, Spot};
+use super::places::{Place, PlaceBodies, Spot, of_ring};
 use super::ring::ring;
-use crate::app::case::{self, Case, SensorSpot};
+use crate::app::case;
+use crate::app::case::{Case, SensorSpot};
 use crate::app::error::ComputeError;
 use crate::fe::model::{Ring, RingFrame};
 use crate::fe::reduction::{Bound, Check, Superelement, check_matrices};

@@ -6,14 +6,9 @@
 
 pub(crate) mod at_rest;
 pub(crate) mod bearing;
-pub(crate) mod bearing_defects;
-pub(crate) mod bearing_motion;
 pub(crate) mod condensed;
-pub(crate) mod contact_limits;
 pub(crate) mod damping;
-pub(crate) mod dof_labels;
 pub(crate) mod doubts;
-pub(crate) mod free_system;
 #[cfg(test)]
 mod free_system_tests;
 pub(crate) mod housing;
@@ -30,9 +25,8 @@ pub use bearing::bearing_setup;
 pub(crate) use bearing::{bearing_geometry, race_contacts};
 pub use condensed::CondensedHousing;
 pub(crate) use doubts::{doubts, doubts_of_case};
-pub use free_system::FreeSystem;
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
 pub use ring::Boundary;
-pub use structure::CoupledStructure;
+pub use structure::{CoupledStructure, FreeSystem};

@@ -5,7 +5,6 @@
 //! the program. Read `section` first. Which readings of the paper give its eigenfrequencies is studied by the example `paper_readings`.
 
 mod beams;
-mod built_in;
 mod condensation;
 mod housings;
 mod orders;
@@ -16,8 +15,7 @@ mod simulation;
 mod structured_mesh;
 mod suite;
 
-pub use built_in::{BEAM_CASE, BEARING};
 pub(crate) use section::SectionResult;
-pub use section::{Check, VerifyResult};
+pub use section::{BEAM_CASE, BEARING, Check, VerifyResult};
 pub use structured_mesh::{BODY, StructuredMesh};
 pub(crate) use suite::suite;

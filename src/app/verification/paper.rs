@@ -1,7 +1,8 @@
 //! The numbers of Tadina & Boltezar (2011), and what they rest on.
 
-use super::built_in::{BEAM_CASE, BEARING, GRAVITY, built_in};
-use super::section::{Check, Information, Kind, SectionResult, VerificationError};
+use super::section::{
+    BEAM_CASE, BEARING, Check, GRAVITY, Information, Kind, SectionResult, VerificationError, built_in,
+};
 use crate::app::commands::modes::{ModesResult, compute_modes};
 use crate::app::scene::bearing_setup;
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};

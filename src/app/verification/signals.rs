@@ -2,8 +2,7 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use super::built_in::{BEARING, SMOOTH, built_in};
-use super::section::{Check, Kind, SectionResult, VerificationError};
+use super::section::{BEARING, Check, Kind, SMOOTH, SectionResult, VerificationError, built_in};
 use crate::app::commands::run::compute_run;
 use crate::bearing::kinematics::BallRow;
 use crate::numerics::Unwatched;

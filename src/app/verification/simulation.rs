@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use super::built_in::{IMPACT, SMOOTH, built_in};
-use super::section::{Check, Kind, SectionResult, VerificationError};
+use super::section::{Check, IMPACT, Kind, SMOOTH, SectionResult, VerificationError, built_in};
 use crate::app::commands::run::compute_run;
 use crate::bearing::HertzContact;
 use crate::bearing::hertz::{effective_modulus, sphere_on_flat};
 use crate::bearing::impact::impact;
 use crate::numerics::Unwatched;
-use crate::numerics::ode::{Instant, LinearCoordinate, Observer, SecondOrderSystem, State};
-use crate::numerics::ode::{Method, Schedule, Stepping, integrate};
+use crate::numerics::ode::{
+    Instant, LinearCoordinate, Method, Observer, Schedule, SecondOrderSystem, State, Stepping, integrate,
+};
 
 /// Title of the section.
 const TITLE: &str = "Simulation";

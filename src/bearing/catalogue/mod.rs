@@ -7,12 +7,9 @@
 //! **Limitations**: no raceway radii and no groove radii: makers do not publish them. They follow from ball and pitch diameter, a
 //! [clearance](normal_clearance) and [typical grooves](GROOVES).
 
-mod entry;
-mod ring_section;
 mod table;
 
-pub use entry::{CatalogueBearing, GROOVES, Source, normal_clearance};
-pub use ring_section::OuterRingSection;
+pub use table::{CatalogueBearing, GROOVES, OuterRingSection, Source, normal_clearance};
 
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@
 //! ```
 
 use super::contacts::{DefectContact, Feature};
-use super::vector::Vector;
+use super::curve::Vector;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
 

@@ -1,6 +1,24 @@
 //! A point of a profile with two derivatives, and the foot of a roller's centre on a curve.
+//!
+//! Plane vectors in a defect's frame: origin at the centre of the circle that carries it, axes fixed to its middle.
+//!
+//! The flat on a ball: an arc of larger radius than the ball's, and the foot of a race's centre on it.
+//!
+//! The arc's radius is R_2, its centre at `c = R_2 − ρ_b + h` behind the ball's centre, h the depth at the
+//! middle. It meets the ball's circle at ±ψ as seen from the ball's centre, at ±β from its own:
+//!
+//! ```text
+//! sin²(ψ/2) = h (2 R_2 + h) / (4 ρ_b c)        R_2 sin β = ρ_b sin ψ
+//! ```
+//!
+//! The curve parameter is the angle about the arc's centre.
+//!
+//! Floor of a dent: an ellipse over the race, and the foot of a ball's centre on it.
+//!
+//! The curve parameter is `t` with `s = a sin t`, so that `D = b cos t` and nothing is singular at the
+//! ends: `φ = a sin t / R_0`, `R = R_0 ± b cos t` with the sign of the material's side.
 
-use super::vector::Vector;
+use std::f64::consts::FRAC_PI_2;
 
 /// Newton steps after which the bracket is halved instead. From a linear start three to five suffice.
 const NEWTON_STEPS: usize = 12;
@@ -105,4 +123,271 @@ pub(super) fn bisect(low: f64, high: f64, too_low: impl Fn(f64) -> bool) -> f64 
         }
     }
     0.5 * (low + high)
+}
+
+/// `along` the circle at the defect's middle (counter-clockwise), `outward` from its centre; m or 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Vector {
+    pub along: f64,
+    pub outward: f64,
+}
+
+impl Vector {
+    /// Unit vector from the centre at `angle` (rad) from the defect's middle.
+    #[inline]
+    pub(super) fn radial(angle: f64) -> Self {
+        let (along, outward) = angle.sin_cos();
+        Self { along, outward }
+    }
+
+    /// A quarter turn clockwise: the counter-clockwise tangent of a radial vector.
+    #[inline]
+    pub(super) fn tangent(self) -> Self {
+        Self { along: self.outward, outward: -self.along }
+    }
+
+    /// A quarter turn counter-clockwise: the outward normal of a tangent.
+    #[inline]
+    pub(super) fn normal(self) -> Self {
+        Self { along: -self.outward, outward: self.along }
+    }
+
+    #[inline]
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self { along: factor * self.along, outward: factor * self.outward }
+    }
+
+    #[inline]
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { along: self.along + other.along, outward: self.outward + other.outward }
+    }
+
+    #[inline]
+    pub(super) fn minus(self, other: Self) -> Self {
+        Self { along: self.along - other.along, outward: self.outward - other.outward }
+    }
+
+    #[inline]
+    pub(super) fn dot(self, other: Self) -> f64 {
+        self.along * other.along + self.outward * other.outward
+    }
+
+    #[inline]
+    pub(super) fn length(self) -> f64 {
+        self.dot(self).sqrt()
+    }
+
+    /// Mirror image in the defect's middle.
+    #[inline]
+    pub(super) fn mirrored(self) -> Self {
+        Self { along: -self.along, outward: self.outward }
+    }
+}
+
+/// An arc that takes a cap off a circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Arc {
+    /// R_2, m.
+    pub radius: f64,
+    /// c, m.
+    centre_depth: f64,
+    /// ψ, rad.
+    pub half_angle: f64,
+    /// β, rad.
+    pub wall: f64,
+    /// By how much the stiffness takes the flat to be less convex than the ball, 1/m.
+    pub loss: f64,
+}
+
+impl Arc {
+    /// Arc of `radius`, larger than `carrier`, `depth` below it at the middle; a flat that would take more than
+    /// half of the circle has ψ = π/2 or more.
+    pub(super) fn new(carrier: f64, radius: f64, depth: f64, loss: f64) -> Self {
+        let centre_depth = radius - carrier + depth;
+        let square = depth * (2.0 * radius + depth) / (4.0 * carrier * centre_depth);
+        let half_angle = 2.0 * square.clamp(0.0, 1.0).sqrt().asin();
+        Self { radius, centre_depth, half_angle, wall: (carrier * half_angle.sin() / radius).asin(), loss }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, t: f64) -> CurvePoint {
+        let out = Vector::radial(t).scaled(self.radius);
+        CurvePoint {
+            point: Vector { along: out.along, outward: out.outward - self.centre_depth },
+            first: out.tangent(),
+            second: out.scaled(-1.0),
+        }
+    }
+
+    /// Parameter of the foot of `centre` and the point there, for a convex (`sign` +1) or concave (−1) roller.
+    #[inline]
+    pub(super) fn foot(&self, centre: Vector, sign: f64) -> (f64, CurvePoint) {
+        let along = sign * centre.along;
+        let t = along.atan2(sign * (centre.outward + self.centre_depth));
+        (t, self.at(t))
+    }
+
+    /// Distance (m) from the ball's centre at `offset` (rad) from the middle.
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
+        let (sin, cos) = offset.sin_cos();
+        let across = self.centre_depth * sin;
+        (self.radius * self.radius - across * across).max(0.0).sqrt() - self.centre_depth * cos
+    }
+}
+
+/// Elliptical floor pressed into a circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ellipse {
+    /// Radius of the circle, m.
+    pub carrier: f64,
+    /// +1: pressed outwards; −1: inwards.
+    pub side: f64,
+    /// a, m.
+    pub half_length: f64,
+    /// b, m.
+    pub depth: f64,
+}
+
+impl Ellipse {
+    /// Parameter at which the floor ends in a wall.
+    pub(super) const WALL: f64 = FRAC_PI_2;
+
+    #[inline]
+    pub(super) fn at(&self, t: f64) -> CurvePoint {
+        let (sin_t, cos_t) = t.sin_cos();
+        let along = self.half_length / self.carrier;
+        let sag = self.side * self.depth * cos_t;
+        let radius = [self.carrier + sag, -self.side * self.depth * sin_t, -sag];
+        let angle = [along * cos_t, -along * sin_t];
+        CurvePoint::polar(Vector::radial(along * sin_t), radius, angle)
+    }
+
+    /// κ_D of the ellipse, 1/m, the source's (24): `a b / (a² cos² t + b² sin² t)^{3/2}`; b/a² at the middle.
+    #[inline]
+    pub(super) fn curvature(&self, t: f64) -> f64 {
+        let (sin_t, cos_t) = t.sin_cos();
+        let (a, b) = (self.half_length, self.depth);
+        let sum = (a * cos_t) * (a * cos_t) + (b * sin_t) * (b * sin_t);
+        a * b / (sum * sum.sqrt())
+    }
+
+    /// Parameter in `[−limit, limit]` of the foot of `centre`, and the point there; see [`foot`].
+    #[inline]
+    pub(super) fn foot(&self, centre: Vector, limit: f64) -> (f64, CurvePoint) {
+        let bottom = self.carrier + self.side * self.depth;
+        let concavity = self.side / self.carrier + self.depth / (self.half_length * self.half_length);
+        // Linear about the middle: the foot moves 1/(1 − κ d) times as far as the ball.
+        let stretch = 1.0 - concavity * self.side * (bottom - centre.outward);
+        let start = centre.along / (self.half_length * stretch.max(0.2));
+        let start = start.clamp(-0.9 * limit, 0.9 * limit);
+        foot(centre, [-limit, limit], start, |t| self.at(t))
+    }
+
+    /// Distance (m) from the circle's centre at `offset` (rad) from the middle.
+    pub(super) fn polar_radius(&self, offset: f64) -> f64 {
+        let x = self.carrier * offset / self.half_length;
+        self.carrier + self.side * self.depth * (1.0 - x * x).max(0.0).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    /// Depth and radius of the source's flat give half of its 46 degrees.
+    #[test]
+    fn the_source_flat_includes_23_degrees() {
+        let arc = Arc::new(1e-3, 2e-3, 10e-6, 0.0);
+        assert_relative_eq!(2.0 * arc.half_angle.to_degrees(), 22.9, epsilon = 0.05);
+    }
+
+    proptest! {
+        #[test]
+        fn ends_on_the_circle_and_is_deepest_at_the_middle(radius in 1.1e-3..1.0_f64, depth in 1e-7..40e-6_f64) {
+            let arc = Arc::new(1e-3, radius, depth, 0.0);
+            // the distance to the arc's own centre is lost to rounding of R_2
+            let rounding = 4e-16 * radius;
+            prop_assert!((arc.at(0.0).point.outward - (1e-3 - depth)).abs() < rounding);
+            prop_assert!((arc.polar_radius(0.0) - (1e-3 - depth)).abs() < rounding);
+            let end = arc.at(arc.wall).point;
+            prop_assert!((end.length() - 1e-3).abs() < 4.0 * rounding);
+            prop_assert!((end.along.atan2(end.outward) - arc.half_angle).abs() < 1e-9);
+            prop_assert!((arc.polar_radius(arc.half_angle) - 1e-3).abs() < 4.0 * rounding);
+        }
+
+        #[test]
+        fn foot_of_a_point_on_the_normal(t in -0.2..0.2_f64, outside: bool) {
+            let arc = Arc::new(1e-3, 2e-3, 10e-6, 0.0);
+            let at = arc.at(t);
+            prop_assert!((at.concavity(-1.0) + 500.0).abs() < 1e-9);
+            let (distance, sign) = if outside { (2.75e-3, 1.0) } else { (-4.75e-3, -1.0) };
+            let centre = at.point.minus(at.inward(-1.0).scaled(distance));
+            prop_assert!((arc.foot(centre, sign).0 - t).abs() < 1e-12);
+        }
+    }
+}
+
+#[cfg(test)]
+mod ellipse_tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    const OUTER: Ellipse = Ellipse { carrier: 4.7565e-3, side: 1.0, half_length: 0.375e-3, depth: 15e-6 };
+    const INNER: Ellipse = Ellipse { carrier: 2.754e-3, side: -1.0, half_length: 0.4e-3, depth: 15e-6 };
+
+    /// Radii 3.16 mm (concave) and 3.71 mm (convex) where depth is measured from the race. The exact polar
+    /// curve differs by twice b/R_0 where the race's curvature is larger than the ellipse's: 1 % for the inner race.
+    #[test]
+    fn bottoms_of_the_source_dents() {
+        for (floor, bottom, radius, concavity) in [(OUTER, 4.7715e-3, 3.16e-3, 1.0), (INNER, 2.739e-3, 3.71e-3, -1.0)] {
+            let at = floor.at(0.0);
+            assert_relative_eq!(at.point.outward, bottom, max_relative = 1e-14);
+            let total = floor.side / floor.carrier + floor.curvature(0.0);
+            assert_relative_eq!(concavity / total, radius, max_relative = 2e-3);
+            assert_relative_eq!(at.concavity(floor.side), total, max_relative = 1.2e-2);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn derivatives_and_curvature_by_differences(t in -1.5..1.5_f64, inner: bool) {
+            let floor = if inner { INNER } else { OUTER };
+            let h = 1e-5;
+            let (before, at, after) = (floor.at(t - h), floor.at(t), floor.at(t + h));
+            let first = after.point.minus(before.point).scaled(0.5 / h);
+            let second = after.first.minus(before.first).scaled(0.5 / h);
+            prop_assert!(first.minus(at.first).length() < 1e-9 * floor.half_length + 1e-12);
+            prop_assert!(second.minus(at.second).length() < 1e-9 * floor.half_length + 1e-12);
+            // turning of the tangent towards the ball's side over arc length
+            let turned = after.tangent().minus(before.tangent()).dot(at.inward(floor.side));
+            let moved = after.point.minus(before.point).length();
+            let concavity = at.concavity(floor.side);
+            prop_assert!((-turned / moved - concavity).abs() < 1e-4 * concavity.abs() + 0.01);
+        }
+
+        /// The source's (24) in the depth direction agrees with the second derivative of D(s).
+        #[test]
+        fn elliptic_curvature_by_differences(t in -1.3..1.3_f64) {
+            let (a, b) = (OUTER.half_length, OUTER.depth);
+            let depth = |s: f64| b * (1.0 - (s / a) * (s / a)).sqrt();
+            let (s, h) = (a * t.sin(), 1e-3 * a * t.cos() * t.cos());
+            let slope = (depth(s + h) - depth(s - h)) / (2.0 * h);
+            let bend = (depth(s + h) - 2.0 * depth(s) + depth(s - h)) / (h * h);
+            let curvature = -bend / (1.0 + slope * slope).powf(1.5);
+            prop_assert!((curvature / OUTER.curvature(t) - 1.0).abs() < 1e-4);
+        }
+
+        /// A ball centre placed on the normal at t finds t again.
+        #[test]
+        fn foot_of_a_point_on_the_normal(t in -1.0..1.0_f64, distance in 0.95e-3..1.0e-3_f64, inner: bool) {
+            let floor = if inner { INNER } else { OUTER };
+            let at = floor.at(t);
+            let ball = at.point.minus(at.inward(floor.side).scaled(distance));
+            let (found, _) = floor.foot(ball, 1.02);
+            prop_assert!((found - t).abs() < 1e-12, "{found} for {t}");
+        }
+    }
 }

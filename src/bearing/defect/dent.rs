@@ -1,12 +1,10 @@
 //! An elliptical dent in a race.
 
-use super::angle::{finite_angle, offset_from, reduced};
 use super::circles::Circles;
-use super::contacts::DefectContacts;
+use super::contacts::{DefectContacts, PolarPosition, RaceProfile, finite_angle, offset_from, reduced};
+use super::curve::Ellipse;
 use super::depression::Depression;
-use super::ellipse::Ellipse;
 use super::floor::Floor;
-use super::race_profile::{PolarPosition, RaceProfile};
 use crate::bearing::error::{BearingError, positive};
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};

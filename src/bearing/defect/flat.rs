@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::angle::{offset_from, reduced, within};
-use super::arc::Arc;
 use super::circles::Circles;
-use super::contacts::DefectContacts;
+use super::contacts::{DefectContacts, offset_from, reduced, within};
+use super::curve::Arc;
 use super::dent::CurvatureReading;
 use super::depression::Depression;
 use super::floor::Floor;

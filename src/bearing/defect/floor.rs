@@ -1,10 +1,7 @@
 //! What lies between the rims: the ellipse of a dent or the arc of a flat.
 
-use super::arc::Arc;
 use super::circles::Circles;
-use super::curve::{CurvePoint, bisect};
-use super::ellipse::Ellipse;
-use super::vector::Vector;
+use super::curve::{Arc, CurvePoint, Ellipse, Vector, bisect};
 
 /// Floor of a defect, symmetric about its middle; the curve parameter grows counter-clockwise from zero there.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,15 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::angle::{finite_angle, offset_from, reduced, within};
-use super::brackets::{self, Brackets};
 use super::circles::Circles;
-use super::contacts::{DefectContacts, Feature};
-use super::race_profile::{PolarPosition, RaceProfile};
-use super::samples_check;
-use super::spline::{self, Piece, Profile};
+use super::contacts::{
+    DefectContacts, Feature, PolarPosition, RaceProfile, finite_angle, offset_from, reduced, within,
+};
+use super::curve::Vector;
+use super::spline::{Brackets, Piece, Profile};
 use super::stiffness::{CurvatureStiffness, Fade};
-use super::vector::Vector;
+use super::{samples_check, spline};
 use crate::bearing::error::BearingError;
 use crate::bearing::geometry::BearingGeometry;
 use crate::bearing::materials::{ContactStiffness, Race};
@@ -77,7 +76,7 @@ impl MeasuredProfile {
             middle: reduced(angle),
             half_angle,
             brackets: Brackets::new(&profile, half_angle),
-            fade: brackets::fade(&circles),
+            fade: spline::fade(&circles),
             stiffness: CurvatureStiffness::new(&circles, most)?,
             profile,
         })

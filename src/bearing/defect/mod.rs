@@ -53,38 +53,31 @@
 //! `(2/5) δ^{5/2} ∇k`. The width of a defect enters in a [`SurfaceDent`] alone, and there a dent narrower than a patch is
 //! felt as a weakened pair of edges.
 
-mod angle;
-mod arc;
-mod brackets;
 mod circles;
 mod contacts;
 mod curve;
 mod dent;
 mod depression;
-mod ellipse;
 mod flat;
 mod floor;
 mod measured;
 mod query;
 mod race_defect;
-mod race_profile;
 mod rim;
 mod samples_check;
 mod spline;
 mod stiffness;
 mod surface;
-mod vector;
 
 #[cfg(test)]
 mod tests;
 
-pub(crate) use angle::reduced;
-pub use contacts::{DefectContact, DefectContacts, Feature, MOST_CONTACTS};
+pub(crate) use contacts::reduced;
+pub use contacts::{DefectContact, DefectContacts, Feature, MOST_CONTACTS, PolarPosition, RaceProfile};
 pub use dent::{CurvatureReading, DEFAULT_RIM_RADIUS, Dent, DentShape};
 pub use flat::{BallFlat, FlatShape};
 pub use measured::MeasuredProfile;
 pub use race_defect::RaceDefect;
-pub use race_profile::{PolarPosition, RaceProfile};
 pub use rim::RIM_BLEND;
 pub use stiffness::FLOOR_FADE;
 pub use surface::SurfaceDent;

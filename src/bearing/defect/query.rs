@@ -1,10 +1,9 @@
 //! Contact queries of the hot loop on floor and rims: no allocation, no elliptic integral, no error.
 
-use super::angle::within;
-use super::contacts::{DefectContact, DefectContacts, Feature};
+use super::contacts::{DefectContact, DefectContacts, Feature, within};
+use super::curve::Vector;
 use super::depression::Depression;
 use super::rim::RimContact;
-use super::vector::Vector;
 
 impl Depression {
     /// All contacts of a roller whose centre is `distance` (m) from the carrier's, and which would touch the

@@ -1,9 +1,8 @@
 //! A defect of either race, of any kind.
 
-use super::contacts::DefectContacts;
+use super::contacts::{DefectContacts, PolarPosition, RaceProfile};
 use super::dent::Dent;
 use super::measured::MeasuredProfile;
-use super::race_profile::{PolarPosition, RaceProfile};
 use super::surface::SurfaceDent;
 use std::ops::Deref;
 

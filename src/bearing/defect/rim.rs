@@ -11,9 +11,8 @@
 //! whose left side changes monotonically from `R ± (b + r)` at the middle to beyond `R ± r` at the wall.
 
 use super::circles::Circles;
-use super::curve::bisect;
+use super::curve::{Vector, bisect};
 use super::floor::Floor;
-use super::vector::Vector;
 
 /// Sine of the contact angle (about the angle, rad) over which the curvature used for the stiffness goes
 /// from the race's to the rim's, and from the rim's to what follows at its inner end; at most a third of
@@ -169,8 +168,7 @@ pub(super) fn smoothstep(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::arc::Arc;
-    use super::super::ellipse::Ellipse;
+    use super::super::curve::{Arc, Ellipse};
     use super::*;
     use crate::bearing::Race;
     use crate::bearing::samples::{source_bearing, source_stiffness};

@@ -3,7 +3,6 @@
 //! The pattern comes from the node graph once; element matrices are computed in parallel, batch by batch, and
 //! added into it in element order, so that the sums depend on nothing but the model.
 
-mod batch;
 mod coupled;
 mod pattern;
 mod system;

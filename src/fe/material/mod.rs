@@ -1,11 +1,9 @@
 //! Linear elastic materials, isotropic and orthotropic, and the sections of rings.
 
 mod elastic;
-mod orthotropic;
 mod section;
 
-pub use elastic::ElasticMaterial;
-pub use orthotropic::OrthotropicMaterial;
+pub use elastic::{ElasticMaterial, OrthotropicMaterial};
 pub use section::{BeamSection, Bond, OutOfPlaneSection, RadiusRule, RingLayer};
 
 use thiserror::Error;

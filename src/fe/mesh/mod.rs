@@ -16,7 +16,6 @@ mod faces;
 mod gmsh;
 mod inventory;
 mod kind;
-mod turn;
 
 pub use contents::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
 pub use error::{MeshError, MshError};

@@ -7,20 +7,16 @@
 mod basis;
 mod comparison;
 mod convergence;
-mod element_work;
 mod energy_shares;
 mod error;
 mod full_modes;
 mod mass_properties;
 mod mechanisms;
-mod membership;
 mod mode_shapes;
 mod motions;
-mod participation;
 #[cfg(test)]
 #[path = "samples_tests.rs"]
 mod samples;
-mod spring_rows;
 mod strain_products;
 mod survey;
 
@@ -30,13 +26,12 @@ pub use convergence::{Behaviour, Convergence, MeshLevels, richardson};
 pub use energy_shares::{EnergyShares, KineticShares, ModeShares, StrainShares};
 pub use error::ModalError;
 pub use full_modes::{FullModes, housing_modes};
-pub use mass_properties::{MassDistribution, MassProperties, PrincipalInertia};
+pub use mass_properties::{MassDistribution, MassProperties, Participation, PrincipalInertia};
 pub use mechanisms::{Body, Joint, Mechanisms, Piece};
 pub(crate) use mechanisms::{Bore, pieces_at};
 pub use mode_shapes::RingShapes;
 pub(crate) use mode_shapes::{Partner, mode_set, partners};
 pub use motions::over_all_dofs;
 pub(crate) use motions::{rigid_motions, ring_motions};
-pub use participation::Participation;
 pub use strain_products::strain_products;
 pub use survey::ModalSurvey;

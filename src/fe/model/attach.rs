@@ -2,9 +2,8 @@
 
 use super::ModelError;
 use super::housing::HousingModel;
-use super::nodal::{NodalMatrix, NodalSource};
 use super::spread::{Share, shares};
-use super::support::{Constraint, PointMass, SpringStiffness, SupportShare};
+use super::support::{Constraint, NodalMatrix, NodalSource, PointMass, SpringStiffness, SupportShare};
 use crate::fe::mesh::Mesh;
 use nalgebra::DMatrix;
 

@@ -6,7 +6,7 @@
 //! `c' / H`. So the layer is too soft from some `L / H` on, and from a larger one on springs. An element alone cannot tell
 //! the two: without these bubbles a flat one locks in bending, by `1 / (1 + (L / H)^2 / 2)`.
 
-use super::nodal::{NodalSource, sorted};
+use super::support::{NodalSource, sorted};
 use super::{HousingElement, HousingModel, overlap};
 use crate::fe::element::continuum::LinearFormulation;
 use crate::fe::mesh::ElementKind;

@@ -1,10 +1,9 @@
 //! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::elements::{HousingElements, HousingPart};
-use super::nodal::{NodalMatrix, NodalSource, TiedNodes, unique};
+use super::parts::{HousingElements, HousingPart};
 use super::spread::not_on_housing;
-use super::support::{HousingSupport, Link, PointMass};
+use super::support::{HousingSupport, Link, NodalMatrix, NodalSource, PointMass, TiedNodes, unique};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, PlaneAssumption};
 use crate::fe::mesh::{Mesh, PhysicalGroup};

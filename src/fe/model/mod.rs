@@ -2,15 +2,11 @@
 //! between ring and housing.
 
 mod attach;
-mod elements;
 mod error;
 mod flat;
 mod frame;
 mod housing;
-mod interface;
-mod joint;
 mod link;
-mod nodal;
 mod overlap;
 mod parts;
 mod ring;
@@ -21,15 +17,14 @@ mod support;
 mod surface;
 mod tie;
 
-pub use elements::{HousingElement, HousingElements, HousingPart};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, PlaneModel};
-pub use interface::{HousingPartition, NodeInterface};
-pub(crate) use nodal::{NodalMatrix, NodalSource};
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
+pub use parts::{HousingElement, HousingElements, HousingPart};
 pub use ring::{RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
 pub use solid_ring::{MeshedRing, SolidRing};
 pub use support::{Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare};
-pub use tie::{Fit, RingTie};
+pub(crate) use support::{NodalMatrix, NodalSource};
+pub use tie::{Fit, HousingPartition, NodeInterface, RingTie};

@@ -1,8 +1,10 @@
 //! Which elements a housing is made of, and which part each belongs to.
+//!
+//! The elements of a housing.
 
-use super::elements::{HousingElement, HousingElements};
-use super::{HousingPart, ModelError};
-use crate::fe::mesh::Mesh;
+use super::ModelError;
+use crate::fe::material::ElasticMaterial;
+use crate::fe::mesh::{ElementKind, Mesh};
 
 impl HousingElements {
     /// Takes the elements of the highest dimension and finds the part of each among the named groups.
@@ -76,4 +78,54 @@ pub(super) fn check_dimension(
     Err(ModelError::Refused(format!(
         "group \"{group}\" in {path} is made of {found}; {purpose} needs {expected}: name another group or change the physical group in gmsh"
     )))
+}
+
+/// A group of elements and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingPart {
+    /// The group.
+    pub group: String,
+    /// Its material.
+    pub material: ElasticMaterial,
+}
+
+/// One element of a housing; its nodes are in [`HousingElements`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HousingElement {
+    /// gmsh's tag, for messages.
+    pub tag: u64,
+    /// Its kind.
+    pub kind: ElementKind,
+    /// Index into the model's parts.
+    pub part: usize,
+    pub(super) first: usize,
+}
+
+/// The elements of a housing, in the order of the mesh.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HousingElements {
+    pub(crate) list: Vec<HousingElement>,
+    pub(super) connectivity: Vec<usize>,
+}
+
+impl HousingElements {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The elements one by one.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &HousingElement> {
+        self.list.iter()
+    }
+
+    /// Node indices of an element, gmsh's order.
+    pub fn nodes(&self, element: &HousingElement) -> &[usize] {
+        &self.connectivity[element.first..element.first + element.kind.nodes()]
+    }
 }

@@ -11,7 +11,7 @@
 //! Exact for rigid motions of the section, which stays free to deform.
 
 use super::housing::HousingModel;
-use super::nodal::{NodalMatrix, NodalSource};
+use super::support::{NodalMatrix, NodalSource};
 use super::{MeshedRing, ModelError, Ring};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Matrix6x3, Vector3};
 

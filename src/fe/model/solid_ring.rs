@@ -1,7 +1,7 @@
 //! A ring of rectangular section as a body of elements, in a mesh of its own or added to another.
 
 use super::RingFrame;
-use super::nodal::unique;
+use super::support::unique;
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use std::collections::HashMap;
 use std::f64::consts::PI;

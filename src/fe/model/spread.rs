@@ -4,7 +4,7 @@
 //! every mesh. (Lumping it by `int N_a dS` would give the corners of Quad8 a negative share.)
 
 use super::ModelError;
-use super::nodal::sorted;
+use super::support::sorted;
 use crate::fe::element::continuum::{measure_matrix, surface_matrix};
 use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
 use nalgebra::DMatrix;

@@ -12,7 +12,7 @@
 //! nothing holds what is attached either, these are the modes at zero themselves; where something does, the modes
 //! alone would hold no rigid motion, and the condensed housing would be tied to the ground.
 
-use super::coupled_modes::{Attached, interface_matrices};
+use super::interior_basis::{Attached, interface_matrices};
 use super::substructure::normalised;
 use super::{ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};

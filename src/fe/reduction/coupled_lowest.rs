@@ -13,7 +13,7 @@
 //! takes minutes there, each time that the basis changes. Rigid motions stand in the border, as the ground may hold what is
 //! attached.
 
-use super::coupled_modes::with_amplitudes;
+use super::interior_basis::with_amplitudes;
 use super::substructure::symmetric;
 use super::{CharacteristicModes, InteriorBasis, ReductionError};
 use crate::numerics::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::fe::reduction::coupled_modes::{Attached, coupled_modes, reduced_matrices};
+use crate::fe::reduction::interior_basis::{Attached, coupled_modes, reduced_matrices};
 use crate::fe::reduction::samples::{every_third, grounded_rod, rod, train};
 use crate::fe::reduction::{InteriorBasis, Substructure};
 

@@ -10,7 +10,7 @@
 //! Journal for Numerical Methods in Engineering 86 (2011) 829-844). Computing the fall itself stays right where modes
 //! lie close together and where errors are large.
 
-use super::coupled_modes::{Attached, coupled_modes, interior_residuals};
+use super::interior_basis::{Attached, coupled_modes, interior_residuals};
 use super::{InteriorBasis, ReductionError, Substructure};
 use std::f64::consts::TAU;
 

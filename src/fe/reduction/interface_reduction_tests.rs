@@ -1,5 +1,5 @@
 use super::*;
-use crate::fe::reduction::coupled_modes::coupled_modes;
+use crate::fe::reduction::interior_basis::coupled_modes;
 use crate::fe::reduction::samples::{every_third, grounded_rod, rod, train};
 use crate::fe::reduction::{BasisChoice, BasisSize, ErrorEstimate, craig_bampton};
 use crate::numerics::linalg::DenseCholesky;

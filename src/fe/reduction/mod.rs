@@ -1,11 +1,9 @@
 //! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
 //! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
-mod basis_vectors;
 mod characteristic_modes;
 mod checks;
 mod coupled_lowest;
-mod coupled_modes;
 mod craig_bampton;
 mod error;
 mod estimate;
@@ -21,18 +19,15 @@ mod selection;
 mod size_study;
 mod smallest_basis;
 mod substructure;
-mod superelement;
 
-pub use basis_vectors::{BasisChoice, BasisSize};
 pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
 pub use checks::{Bound, Check, RigidMotions};
 pub(crate) use checks::{check_craig_bampton, check_matrices};
-pub use coupled_modes::Attached;
-pub use craig_bampton::{CraigBampton, craig_bampton};
+pub use craig_bampton::{CraigBampton, Superelement, craig_bampton};
 pub use error::ReductionError;
 pub use estimate::{ErrorEstimate, EstimatedMode};
 pub use interface_reduction::InterfaceReduction;
-pub use interior_basis::InteriorBasis;
+pub use interior_basis::{Attached, BasisChoice, BasisSize, InteriorBasis};
 pub use residual_flexibility::ResidualFlexibility;
 pub(crate) use response_estimate::UNCOUPLED;
 pub use response_estimate::{InteriorDamping, ResponseEstimate};
@@ -40,4 +35,3 @@ pub use selection::choose_basis;
 pub(crate) use size_study::size_study;
 pub use size_study::{ReducedSize, SizeErrors};
 pub use substructure::Substructure;
-pub use superelement::Superelement;

@@ -5,10 +5,10 @@
 //! so what it lacks itself counts, and the error is a product of two residuals (Becker and Rannacher, Acta Numerica 10
 //! (2001) 1-102): see [`ResidualFlexibility`]. Relative to the response where it is read, it is largest beside zeros.
 
-use super::coupled_modes::interior_inertia;
 use super::frf::{
     FrequencyResponse, FrfError, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, ReducedSystem, direct_response,
 };
+use super::interior_basis::interior_inertia;
 use super::residual_flexibility::ResidualFlexibility;
 use super::{CraigBampton, ReductionError};
 use crate::numerics::linalg::{ComplexMatrix, DenseMatrix, SparseMatrix, sparse_times_dense};

@@ -1,8 +1,9 @@
 //! Which vectors a basis has: fixed-interface modes by number, by frequency, or as few as an error allows; with
 //! residual vectors for the modes of the coupled structure if it is enhanced.
 
-use super::basis_vectors::{BasisChoice, BasisSize, corrected, elastic, filled, modes, modes_to};
-use super::coupled_modes::{Attached, coupled_modes};
+use super::interior_basis::{
+    Attached, BasisChoice, BasisSize, corrected, coupled_modes, elastic, filled, modes, modes_to,
+};
 use super::smallest_basis::smallest_basis;
 use super::{InteriorBasis, ReductionError, Substructure};
 use std::f64::consts::TAU;

@@ -1,9 +1,8 @@
 //! Error against size: what a coordinate more buys, by plain fixed-interface modes, with residual vectors, and with modes of
 //! the interface in place of the interface itself.
 
-use super::basis_vectors::{filled, modes};
 use super::coupled_lowest::CoupledProblem;
-use super::coupled_modes::with_amplitudes;
+use super::interior_basis::{filled, modes, with_amplitudes};
 use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 use schemars::JsonSchema;

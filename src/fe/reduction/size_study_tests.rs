@@ -40,7 +40,7 @@ fn errors_are_those_of_the_reductions_themselves() {
         let error = |values: Vec<f64>| largest_error(&values, &full, 1).expect("enough");
         let condensed = |basis| CraigBampton::new(substructure.clone(), basis, &matrices.weight);
         let whole = |basis: InteriorBasis| {
-            let all = super::super::coupled_modes::coupled_modes(&substructure, &basis, attached);
+            let all = super::super::interior_basis::coupled_modes(&substructure, &basis, attached);
             error(all.expect("definite").values)
         };
         // frequencies to 1e-11, see the test of the lowest modes

@@ -1,8 +1,7 @@
 //! The smallest basis of which the estimated error in a band is below a target.
 
-use super::basis_vectors::{self, BasisChoice, modes, modes_to};
-use super::coupled_modes::{Attached, coupled_modes};
-use super::{ErrorEstimate, InteriorBasis, ReductionError, Substructure};
+use super::interior_basis::{Attached, BasisChoice, coupled_modes, modes, modes_to};
+use super::{ErrorEstimate, InteriorBasis, ReductionError, Substructure, interior_basis};
 use crate::numerics::linalg::SymmetricSpectrum;
 use std::f64::consts::TAU;
 
@@ -114,7 +113,7 @@ fn corrected(
     loop {
         let before = basis.count();
         let spectrum = coupled_modes(substructure, &basis, attached)?;
-        basis = basis_vectors::corrected(substructure, &basis, &spectrum, residuals)?;
+        basis = interior_basis::corrected(substructure, &basis, &spectrum, residuals)?;
         let estimate = ErrorEstimate::of(substructure, &basis, attached, choice.band_hz)?;
         let error = estimate.largest();
         let stuck = basis.count() == before && before > 0;

@@ -6,8 +6,7 @@ use std::rc::Rc;
 use ::csv::{Position, StringRecord};
 
 use super::super::csv::{first_line, line_of, table_of};
-use super::channel::{Channel, choose};
-use super::clock::Clock;
+use super::channel::{Channel, Clock, choose};
 use super::names::{name_and_unit, time_unit};
 use super::{MeasuredError, SignalRequest};
 use crate::files::{Fault, bytes_of};

@@ -18,7 +18,6 @@
 //! MATLAB files: 20 times, or 20 000 times where variables are packed): sizes that a file only promises are not believed.
 
 mod channel;
-mod clock;
 mod csv;
 mod error;
 mod mat;

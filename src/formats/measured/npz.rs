@@ -4,8 +4,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use super::super::NpzReader;
-use super::channel::{Channel, choose};
-use super::clock::Clock;
+use super::channel::{Channel, Clock, choose};
 use super::names::{one_speed, speed_unit, time_unit};
 use super::{MeasuredError, SignalRequest};
 

@@ -4,10 +4,8 @@ use std::path::Path;
 use std::rc::Rc;
 
 use super::super::uff::{TimeAxis, TimeResponse, read_times_uff};
-use super::channel::{Channel, choose};
-use super::clock::Clock;
-use super::{MeasuredError, MeasuredSignal, SignalRequest};
-use super::{csv, mat, npz, wav};
+use super::channel::{Channel, Clock, choose};
+use super::{MeasuredError, MeasuredSignal, SignalRequest, csv, mat, npz, wav};
 
 /// Reads signals from a file; its ending says what it is.
 ///

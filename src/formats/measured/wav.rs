@@ -6,8 +6,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use super::channel::{Channel, choose};
-use super::clock::Clock;
+use super::channel::{Channel, Clock, choose};
 use super::{MeasuredError, SignalRequest};
 use crate::files::bytes_of;
 use crate::formats::bytes::{ByteOrder, NumberType};

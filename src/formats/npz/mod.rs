@@ -8,7 +8,6 @@
 //! The crate `npyz` 0.9.1 is not used below: it reserves whatever length a header promises, up to 4 GiB, and 24
 //! nested brackets in a header keep its parser busy for more than a minute.
 
-mod decoder;
 mod header;
 mod modes;
 #[cfg(test)]
@@ -16,13 +15,11 @@ mod modes_tests;
 mod reader;
 #[cfg(test)]
 mod reader_tests;
-mod sparse;
 mod writer;
 #[cfg(test)]
 mod writer_tests;
 
 pub use modes::{read_modes_npz, write_modes_npz};
 pub use reader::{NpzReader, NpzValues};
-pub use sparse::write_sparse_npz;
 pub(super) use writer::npz_labels;
-pub use writer::{NpzArray, NpzElement, NpzWriter, is_array_name};
+pub use writer::{NpzArray, NpzElement, NpzWriter, is_array_name, write_sparse_npz};

@@ -1,15 +1,17 @@
 //! Writes arrays into an archive.
-
-use std::io::{self, Write};
-use std::marker::PhantomData;
-use std::path::{Path, PathBuf};
-
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+//!
+//! Sparse matrices as SciPy keeps them.
 
 use super::super::FormatError;
 use super::header::header;
 use crate::files::{AtomicFile, Fault, FileError};
+use crate::numerics::linalg::SparseMatrix;
+use std::io;
+use std::io::Write;
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 /// Whether an array may be called this: letters, digits, `_`, `-`, `.` and spaces, at least one of them.
 ///
@@ -272,4 +274,43 @@ element!(i64, "<i8");
 pub(in crate::formats) fn npz_labels(labels: impl Iterator<Item = u64>) -> Result<Vec<i64>, Fault> {
     let beyond = |label| Fault::new(format!("labels up to {}", i64::MAX), label);
     labels.map(|label| i64::try_from(label).map_err(|_| beyond(label))).collect()
+}
+
+/// Writes a sparse matrix that `scipy.sparse.load_npz` reads: `indices`, `indptr`, `format`, `shape`, `data`. Indices have
+/// 32 bits where that is enough, as SciPy's own.
+///
+/// # Errors
+/// [`FormatError`] when the file cannot be written.
+pub fn write_sparse_npz(path: &Path, matrix: &SparseMatrix) -> Result<(), FormatError> {
+    let mut npz = NpzWriter::create(path)?;
+    let (rows, columns) = matrix.shape();
+    let offsets = matrix.indptr();
+    let offsets = offsets.raw_storage();
+    let largest = rows.max(columns).max(matrix.nnz());
+    if largest <= i32::MAX as usize {
+        indices::<i32>(&mut npz, matrix.indices(), offsets, |index| index as i32)?;
+    } else {
+        indices::<i64>(&mut npz, matrix.indices(), offsets, |index| index as i64)?;
+    }
+    npz.bytes("format", if matrix.is_csc() { b"csc" } else { b"csr" })?;
+    npz.array("shape", &[rows as i64, columns as i64])?;
+    npz.array("data", matrix.data())?;
+    npz.finish()
+}
+
+fn indices<T: NpzElement>(
+    npz: &mut NpzWriter,
+    indices: &[usize],
+    offsets: &[usize],
+    narrow: impl Fn(usize) -> T,
+) -> Result<(), FormatError> {
+    for (name, values) in [("indices", indices), ("indptr", offsets)] {
+        let mut array = npz.begin::<T>(name, &[values.len()])?;
+        for piece in values.chunks(4096) {
+            let piece: Vec<T> = piece.iter().map(|&index| narrow(index)).collect();
+            array.extend(&piece)?;
+        }
+        array.end()?;
+    }
+    Ok(())
 }

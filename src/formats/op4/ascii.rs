@@ -2,7 +2,7 @@
 
 use super::super::fortran::{columns, fields, quoted, real, take_line};
 use super::Op4Matrix;
-use super::builder::{Builder, Column};
+use super::matrix::{Builder, Column};
 use crate::files::Fault;
 
 /// Reals a line and their width, where a header does not say.

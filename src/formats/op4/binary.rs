@@ -1,7 +1,7 @@
 //! Binary files: Fortran records in either byte order, words of 32 or 64 bits.
 
 use super::Op4Matrix;
-use super::builder::{Builder, Column};
+use super::matrix::{Builder, Column};
 use crate::files::Fault;
 use crate::formats::bytes::{ByteOrder, NumberType};
 

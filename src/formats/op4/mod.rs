@@ -19,7 +19,6 @@
 
 mod ascii;
 mod binary;
-mod builder;
 mod matrix;
 mod read;
 #[cfg(test)]

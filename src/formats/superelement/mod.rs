@@ -17,15 +17,14 @@ mod mbdyn;
 mod npz_read;
 #[cfg(test)]
 mod npz_tests;
-mod npz_write;
 mod op4;
 mod record;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 pub(in crate::formats) mod samples;
 
 pub use check::SYMMETRY_LIMIT;
 pub use mbdyn::{MbdynReference, MbdynSummary, write_mbdyn_fem};
-pub use npz_read::read_superelement_npz;
-pub use npz_write::write_superelement_npz;
+pub use npz_read::{read_superelement_npz, write_superelement_npz};
 pub use op4::{read_superelement_op4, write_superelement_op4};
 pub use record::{FieldRecovery, InterfaceRecovery, SensorRow, SuperelementRecord};

@@ -9,9 +9,7 @@
 
 mod binary;
 mod cursor;
-mod element;
 mod function;
-mod mode;
 mod read;
 mod read_response;
 mod read_time;

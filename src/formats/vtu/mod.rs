@@ -4,7 +4,6 @@
 //! Numbers are appended after the XML in base64 (little-endian, each array preceded by its length in bytes as UInt64):
 //! every bit arrives, and the file stays well-formed XML. Source: VTK file formats, section "XML file formats", unstructured grid and appended data.
 
-mod cell;
 #[cfg(test)]
 mod tests;
 mod write;

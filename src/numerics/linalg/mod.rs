@@ -22,12 +22,10 @@ mod harmonic;
 mod idle;
 mod lowest;
 mod lu;
-mod memory;
 #[allow(unsafe_code)]
 mod metis;
 mod numeric;
 mod ordering;
-mod precision;
 mod sparse;
 mod substitution;
 mod symbolic;

@@ -6,8 +6,7 @@
 //! A factorisation runs on one thread: faer's own threads make it slower (1.1 s instead of 0.6 s on two cores for a solid of
 //! 60 000 degrees of freedom).
 
-use super::precision::Precision;
-use super::substitution::{Pivoting, Triangles, substitute};
+use super::substitution::{Pivoting, Precision, Triangles, substitute};
 use super::{LinalgError, Symbolic, SymmetricMatrix};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;

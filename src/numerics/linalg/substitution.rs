@@ -8,10 +8,12 @@
 //!
 //! A supernode whose own right-hand sides are zero is passed over on the way forward: loads on a few nodes reach those
 //! nodes and the separators above them alone (Gilbert, SIAM J. Matrix Anal. Appl. 15 (1994) 62-79).
+//!
+//! The two precisions in which a factor is computed and kept.
 
-use super::precision::Precision;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SymbolicSupernodalCholesky};
-use multiversion::{multiversion, target::target_cfg_f};
+use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 
 /// Rows that are handled at once on the way forward.
 const TILE: usize = 4;
@@ -316,6 +318,50 @@ fn step(left: usize) -> usize {
 fn add<T: Precision, const L: usize, const FUSED: bool>(to: &mut Row<T, L>, factor: T, row: &Row<T, L>) {
     for lane in 0..L {
         to[lane] = if FUSED { factor.fused(row[lane], to[lane]) } else { factor * row[lane] + to[lane] };
+    }
+}
+
+/// A precision.
+pub(super) trait Precision: faer::traits::RealField + Copy + Default {
+    /// Values in a register of 32 bytes.
+    const REGISTER: usize;
+    /// The nearest value.
+    fn rounded(value: f64) -> Self;
+    /// The value in double precision.
+    fn exact(self) -> f64;
+    /// `self factor + term`, rounded once.
+    fn fused(self, factor: Self, term: Self) -> Self;
+}
+
+impl Precision for f32 {
+    const REGISTER: usize = 8;
+    #[inline(always)]
+    fn rounded(value: f64) -> Self {
+        value as f32
+    }
+    #[inline(always)]
+    fn exact(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        self.mul_add(factor, term)
+    }
+}
+
+impl Precision for f64 {
+    const REGISTER: usize = 4;
+    #[inline(always)]
+    fn rounded(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn exact(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        self.mul_add(factor, term)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Where the entries of a factor are: supernodes of one pattern, shared by all factorisations on it.
+//!
+//! How much memory a factorisation may take.
 
-use super::{LinalgError, SymmetricMatrix, gigabytes, memory};
+use super::{LinalgError, SymmetricMatrix, gigabytes};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
@@ -10,6 +12,7 @@ use faer::sparse::linalg::cholesky::simplicial::{
 use faer::sparse::linalg::cholesky::supernodal::{
     SymbolicSupernodalCholesky, factorize_supernodal_symbolic_cholesky, factorize_supernodal_symbolic_cholesky_scratch,
 };
+use std::fs;
 
 /// Supernodes that are merged: so many columns with at most this fraction of zeros. Against faer's default 5 % faster on
 /// a solid of 60 000 degrees of freedom.
@@ -40,7 +43,7 @@ pub(super) fn analysed(a: &SymmetricMatrix) -> Result<Symbolic, LinalgError> {
     let (mut tree, mut counts) = (vec![0; order], vec![0; order]);
     let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
     let entries = counts.iter().map(|&count| u64::from(count)).sum();
-    affordable(order, entries, memory::available())?;
+    affordable(order, entries, available())?;
     let parameters = SymbolicSupernodalParams { relax: Some(RELAXATION) };
     factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, parameters)
         .map_err(|_| failed("its factor has more than 2^31 entries, or memory is short"))
@@ -85,6 +88,26 @@ fn upper_pattern(a: &SymmetricMatrix) -> (Vec<u32>, Vec<u32>) {
     (offsets, columns)
 }
 
+/// Memory that the system can give without swapping, in bytes: what Linux calls available, and no more than what is left of the
+/// control group's limit. `None` where the system does not say.
+pub(super) fn available() -> Option<u64> {
+    let text = fs::read_to_string("/proc/meminfo").ok()?;
+    let free = of_meminfo(&text)?;
+    let group = |name: &str| {
+        let text = fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok()?;
+        text.trim().parse::<u64>().ok()
+    };
+    let left = group("memory.max").zip(group("memory.current"));
+    Some(left.map_or(free, |(most, taken)| free.min(most.saturating_sub(taken))))
+}
+
+/// The line `MemAvailable: N kB`.
+fn of_meminfo(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let number = line.trim().strip_suffix("kB")?.trim();
+    Some(1024 * number.parse::<u64>().ok()?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::affordable;
@@ -101,5 +124,19 @@ mod tests {
         );
         let places = affordable(order, 1 << 31, Some(u64::MAX)).unwrap_err();
         assert!(places.to_string().contains("more than 2^31 entries"), "{places}");
+    }
+}
+
+#[cfg(test)]
+mod memory_tests {
+    use super::of_meminfo;
+
+    #[test]
+    fn the_systems_words_are_understood() {
+        let text = "MemTotal:       24000000 kB\nMemAvailable:   23456789 kB\n";
+        assert_eq!(of_meminfo(text), Some(23_456_789 * 1024));
+        for damaged in ["", "MemAvailable: many kB", "MemAvailable: 12"] {
+            assert_eq!(of_meminfo(damaged), None, "{damaged}");
+        }
     }
 }

@@ -11,14 +11,12 @@
 
 mod control;
 mod crossings;
-mod dense;
 mod stages;
 mod tableau;
 
 use super::{Divergence, Exchange, SecondOrderSystem, SnapshotError, Statistics, Stepper};
 use control::{Scale, after_failure, after_success};
-use crossings::{Crossings, Trial, resolution};
-use dense::Dense;
+use crossings::{Crossings, Dense, Trial, resolution};
 use stages::{LAST, Span, Stages};
 
 /// Steps by tolerance.

@@ -5,7 +5,7 @@
 //! [`Resonance`] is told apart from the limit by what grows.
 
 use super::amplification::STEPS;
-use super::tangent::dot;
+use super::system::dot;
 use super::{Growth, Linearised, Method, Resonance, SecondOrderSystem, State, StepLimit, Tangent, growth};
 use crate::numerics::linalg::{DenseMatrix, general_spectrum};
 use std::f64::consts::{PI, TAU};

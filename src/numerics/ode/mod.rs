@@ -27,25 +27,20 @@ mod error;
 mod implicit;
 mod integration;
 mod limit;
-mod linearised;
 mod method;
-mod newton;
-mod one_evaluation;
 mod propagator;
 mod schedule;
 mod snapshot;
 mod stepper;
 mod steppers;
 mod system;
-mod tangent;
 
 pub use adams::STABILITY_LIMIT as ADAMS_STABILITY_LIMIT;
 pub(crate) use amplification::growth;
-pub use amplification::{Growth, UNSTABLE};
+pub use amplification::{Growth, Linearised, UNSTABLE};
 pub use error::{BlowUp, TransientError};
 pub use integration::{Integration, Stepping, integrate};
 pub(crate) use limit::fastest;
-pub use linearised::Linearised;
 pub use method::{LEAST_TOLERANCE, Method, Resonance, StepLimit};
 pub use schedule::{MOST_STEPS_PER_INTERVAL, Schedule};
 pub(crate) use snapshot::Exchange;
@@ -53,8 +48,9 @@ pub use snapshot::{Snapshot, SnapshotError, SnapshotReader};
 pub use stepper::Statistics;
 pub(in crate::numerics::ode) use stepper::Stepper;
 pub(crate) use system::all_finite;
-pub use system::{Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State};
-pub use tangent::{Tangent, TangentTerm};
+pub use system::{
+    Divergence, Instant, LinearCoordinate, NoRecord, Observer, SecondOrderSystem, State, Tangent, TangentTerm,
+};
 
 #[cfg(test)]
 mod implicit_tests;

@@ -4,7 +4,7 @@ use super::adams::Adams;
 use super::dop853::Dop853;
 use super::error::require;
 use super::implicit::{Family, Implicit};
-use super::one_evaluation::OneEvaluation;
+use super::propagator::OneEvaluation;
 use super::{LEAST_TOLERANCE, Method, Schedule, SecondOrderSystem, Stepper, TransientError};
 use std::f64::consts::TAU;
 

@@ -4,12 +4,9 @@
 //! analysis starts from it.
 
 mod decimator;
-mod flaws;
-mod kaiser;
-mod statistics;
 mod time_series;
 
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
-pub(crate) use kaiser::{KaiserInterpolation, KaiserLowPass};
-pub(crate) use statistics::root_mean_square;
+pub(crate) use decimator::{KaiserInterpolation, KaiserLowPass};
+pub(crate) use time_series::root_mean_square;
 pub use time_series::{SeriesError, TimeSeries, TimeWindow};

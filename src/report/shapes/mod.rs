@@ -5,11 +5,10 @@
 //! the page would grow too large, packed for the script, and drawn as SVG without hidden surfaces.
 
 mod camera;
-mod cluster;
-mod depth;
 mod pack;
 mod picture;
 #[cfg(test)]
+#[path = "samples_tests.rs"]
 pub(crate) mod samples;
 mod stills;
 mod surface;

@@ -14,7 +14,7 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
 use super::super::embed::for_script;
-use super::super::{ReportError, fixed, palette};
+use super::super::{ReportError, fixed, svg};
 use super::camera::{Camera, NAMES, bounds, diagonal};
 use super::surface::{Surface, SurfaceLine};
 use super::view::{LegendEntry, ModeShapeView, legend};
@@ -57,7 +57,7 @@ struct Data<'a> {
     displacement_steps: f64,
     views: Vec<ViewData>,
     start: usize,
-    palette: Vec<palette::Rgb>,
+    palette: Vec<svg::Rgb>,
 }
 
 #[derive(Debug, Serialize)]
@@ -111,7 +111,7 @@ pub(in crate::report) fn pack(view: &ModeShapeView, whole: &Surface, budget: usi
         displacement_steps: STEPS,
         start: Camera::best(&views, low, high),
         views: NAMES.into_iter().zip(views).map(|(name, camera)| ViewData { name, camera }).collect(),
-        palette: palette::VIRIDIS.to_vec(),
+        palette: svg::VIRIDIS.to_vec(),
     };
     Ok(Packed { json: for_script(&view.title, &data)?, left_out, modes: kept })
 }

@@ -1,11 +1,12 @@
 //! The still pictures of a view: the mesh with its groups, and the first mode shapes side by side.
 
 use super::camera::{Camera, NAMES, Vector, bounds};
-use super::picture::{self, BANDS, Colouring, Frame};
+use super::picture;
+use super::picture::{BANDS, Colouring, Frame};
 use super::surface::Surface;
 use super::view::ModeShapeView;
-use crate::report::palette;
-use crate::report::svg::{self, ScaleBar};
+use crate::report::svg;
+use crate::report::svg::ScaleBar;
 
 /// Mode shapes in still pictures.
 pub(in crate::report) const MOST_STILLS: usize = 9;
@@ -34,7 +35,7 @@ pub(in crate::report) fn mesh_picture(view: &ModeShapeView, surface: &Surface) -
     let thin = surface.thinned(MESH_POINTS);
     let camera = chosen(view, &thin);
     let frame = Frame::fit(&thin.points, camera, MESH_SIZE, [34.0, 0.0]);
-    let colours: Vec<_> = view.groups.iter().map(|g| palette::group(g.colour)).collect();
+    let colours: Vec<_> = view.groups.iter().map(|g| svg::group(g.colour)).collect();
     let fine = thin.points.len() == surface.points.len() && wide_apart(&thin, &frame);
     let mut out = svg::opening(SHAPE, MESH_SIZE, &format!("{}: mesh and groups", view.title));
     let grouped = Colouring::Groups(&colours);
@@ -76,8 +77,8 @@ pub(in crate::report) fn bar() -> String {
     let mut out = svg::opening(SHAPE, [300.0, 34.0], title);
     let width = 240.0 / BANDS as f64;
     for band in 0..BANDS {
-        let colour = palette::viridis((band as f64 + 0.5) / BANDS as f64);
-        let look = format!("fill=\"{}\"", palette::hex(colour));
+        let colour = svg::viridis((band as f64 + 0.5) / BANDS as f64);
+        let look = format!("fill=\"{}\"", svg::hex(colour));
         let x = 30.0 + width * band as f64;
         svg::rect(&mut out, &look, [x, 2.0, width + 0.3, 12.0], "");
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::{ReportError, palette, significant};
+use super::super::{ReportError, significant, svg};
 use super::camera::{UpAxis, diagonal};
 
 /// Which figures a view makes.
@@ -219,9 +219,9 @@ pub(in crate::report) struct LegendEntry {
 
 /// Names and colours of groups and lines, as all pictures show them.
 pub(in crate::report) fn legend(view: &ModeShapeView) -> Vec<LegendEntry> {
-    let entry = |name: &String, colour, line| LegendEntry { name: name.clone(), colour: palette::hex(colour), line };
-    let groups = view.groups.iter().map(|group| entry(&group.name, palette::group(group.colour), false));
-    let lines = view.lines.iter().map(|line| entry(&line.name, palette::LINE, true));
+    let entry = |name: &String, colour, line| LegendEntry { name: name.clone(), colour: svg::hex(colour), line };
+    let groups = view.groups.iter().map(|group| entry(&group.name, svg::group(group.colour), false));
+    let lines = view.lines.iter().map(|line| entry(&line.name, svg::LINE, true));
     groups.chain(lines).collect()
 }
 

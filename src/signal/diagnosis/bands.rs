@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::DiagnosisError;
-use super::angle_grid::AngleGrid;
 use super::line_spectrum::{LineSpectrum, REVOLUTIONS, stretches};
+use super::order_spectrum::AngleGrid;
 use crate::numerics::series::TimeSeries;
 use crate::signal::RawSpectrum;
 

@@ -6,12 +6,11 @@
 //! root of that is the level, and ten decibels of change are ten decibels of the impacts' amplitude.
 
 use super::DiagnosisError;
-use super::angle_grid::AngleGrid;
 use super::comb_power::{Comb, Tooth};
-use super::compared_lines::{COMPARED_HARMONICS, Compared};
-use super::compared_signal::ComparedSignal;
+use super::compared_lines::{COMPARED_HARMONICS, Compared, ComparedSignal};
 use super::known::{Strikes, shaft_lines};
 use super::line_change::{ChangeConclusion, LineChange};
+use super::order_spectrum::AngleGrid;
 use super::ratio_interval::{Scattered, interval_db};
 use super::stretch_spectrum::{StretchSpectrum, stretch_revolutions};
 use super::verdict::UNSEEN_ABOVE;

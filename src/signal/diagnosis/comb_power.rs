@@ -1,6 +1,6 @@
 //! The power of a comb of lines in the squared envelope of a band, with its scatter.
 
-use super::control::{ByChance, factors};
+use super::comb::{ByChance, factors};
 use super::known::KnownLine;
 use super::ratio_interval::Scattered;
 use super::stretch_spectrum::StretchSpectrum;

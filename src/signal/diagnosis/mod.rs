@@ -22,32 +22,23 @@
 //! Faults that strike at the same order are not told apart; a window of one speed and load; defects all round a race (waviness,
 //! wear) make no impacts and are not seen.
 
-mod angle_grid;
 mod bands;
 mod cage_lines;
 mod change;
 mod comb;
 mod comb_power;
 mod compared_lines;
-mod compared_signal;
-mod control;
 mod doubts;
 mod error;
 mod explain;
 mod fault;
 mod findings;
-mod inner_race_lines;
-mod kinematics;
 mod known;
-mod level_change;
 mod line_change;
 mod line_spectrum;
 mod order_spectrum;
 mod ratio_interval;
-mod repeated;
-mod rounding;
 mod search;
-mod separation;
 mod shaft_speed;
 mod stretch_spectrum;
 mod strictly_periodic;
@@ -61,14 +52,11 @@ mod window;
 pub const JUDGED_HARMONICS: u32 = comb::SHOWN_HARMONICS;
 
 pub(crate) use change::line_changes;
-pub use compared_signal::ComparedSignal;
+pub use compared_lines::ComparedSignal;
 pub use error::DiagnosisError;
-pub use fault::{Fault, FaultOrders};
-pub use kinematics::Kinematics;
-pub use level_change::LevelChange;
-pub(crate) use level_change::level_changes;
-pub(crate) use line_change::change_words;
-pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LineChange};
+pub use fault::{Fault, FaultOrders, Kinematics};
+pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LevelChange, LineChange};
+pub(crate) use line_change::{change_words, level_changes};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
 pub use verdict::{

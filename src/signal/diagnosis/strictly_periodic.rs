@@ -4,7 +4,7 @@
 //! bearing diagnostics - a tutorial, Mechanical Systems and Signal Processing 25 (2011) 485-520). Gears, shafts and computed signals do not
 //! slip. So such lines are told and indicate no fault.
 
-use super::control::{ByChance, factors};
+use super::comb::{ByChance, factors};
 use super::fault::{Fault, FaultOrders};
 use super::shaft_speed::ShaftSpeed;
 use super::verdict::{Conclusion, FaultVerdict};

@@ -12,14 +12,12 @@
 //! stiffness k changes, `(2/5) delta^(5/2) dk/dt`: their force has no part for it. Powers come from the forces that the method evaluated, so that a force without the potential
 //! that is counted, and an integrator that loses or makes energy, leave a gap in the balance.
 
-mod integral;
 mod power;
 mod stored;
 
 use super::coupled::CoupledSystem;
 use crate::numerics::ode::{Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State};
-use integral::Integral;
-use power::Powers;
+use power::{Integral, Powers};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -12,11 +12,10 @@
 //! it touches the undeformed outer race. The others that are found from starts all round the load, and the saddles
 //! between neighbours, are reported by [`Equilibrium::find_all`].
 
-mod condition;
 mod find;
 mod problem;
 mod search;
 
-pub use condition::StaticCondition;
 pub use find::{BallLoad, Equilibrium};
+pub use problem::StaticCondition;
 pub(super) use problem::contact_rows;

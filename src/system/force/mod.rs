@@ -3,7 +3,6 @@
 //! Balls stand side by side in lanes, and so do modes. A ball that cannot reach the outer race, however the kept modes move
 //! it, costs no mode row.
 
-mod ball_springs;
 mod evaluate;
 mod events;
 mod inner_race;

@@ -1,9 +1,8 @@
 //! The tangent against central differences of the force it belongs to.
 
-use super::super::bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, Shaft};
+use super::super::bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, LoadProfile, Shaft};
 use super::super::coupled::{CoupledSystem, ModeDamping, ModeSelection};
 use super::super::equilibrium::{Equilibrium, StaticCondition};
-use super::super::load::LoadProfile;
 use super::super::structure::Structure;
 use crate::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect};
 use crate::bearing::{

@@ -3,8 +3,6 @@
 //! Values, slopes and curvatures are continuous from piece to piece, a ball stays on one for many steps, and a value costs
 //! five products.
 
-mod polynomials;
 mod table;
 
-pub(super) use polynomials::Quintic;
-pub(super) use table::{Place, RacewayTable, lowest_bits, nearest_whole, reduced_turn, slope, value};
+pub(super) use table::{Place, Quintic, RacewayTable, lowest_bits, nearest_whole, reduced_turn, slope, value};

@@ -2,7 +2,7 @@
 
 use std::ops::RangeBounds;
 
-use super::super::nearest::names_help;
+use super::super::error::names_help;
 use super::super::{Case, IsotropicMaterial, Material};
 use super::rule::{BrokenRule, Rule, short};
 

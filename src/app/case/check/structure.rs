@@ -1,7 +1,8 @@
 //! Materials, housing and ring.
 
-use super::super::path::quoted;
-use super::super::{self as case, Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
+use super::super as case;
+use super::super::tree::quoted;
+use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
 use super::range::{
     ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count, direction,
     each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,

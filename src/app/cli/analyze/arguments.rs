@@ -1,6 +1,6 @@
 //! What `plummer analyze` takes.
 
-use super::speed::number;
+use super::orders::number;
 use std::path::PathBuf;
 
 use clap::Args;

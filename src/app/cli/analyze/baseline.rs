@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::AnalyzeArguments;
-use super::read::{Missing, Unnamed, first_channels, read};
-use super::source::Source;
+use super::source::{Missing, Source, Unnamed, first_channels, read};
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_window};
 use crate::app::error::ComputeError;

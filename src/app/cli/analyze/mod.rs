@@ -2,27 +2,21 @@
 
 mod arguments;
 mod baseline;
-mod bearing;
-mod failures;
 mod machine;
 mod orders;
-mod read;
 mod single;
 mod source;
-mod speed;
 mod survey;
-mod terminal;
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use arguments::AnalyzeArguments;
-pub(super) use bearing::{bearing_names, catalogue_orders};
-pub use orders::GivenOrders;
-pub use speed::GivenSpeed;
+pub(super) use machine::{bearing_names, catalogue_orders};
+pub use orders::{GivenOrders, GivenSpeed};
 
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, emit};
 use crate::app::case::EnvelopeBand;

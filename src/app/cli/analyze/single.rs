@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use super::baseline::{Baseline, analyse};
-use super::read::Unnamed;
-use super::source::Source;
+use super::source::{Source, Unnamed};
 use super::{AnalyzeArguments, RESULT, command, warn, write_results};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{

@@ -5,7 +5,6 @@
 
 mod condensed;
 mod matrices;
-mod record;
 mod shapes;
 mod source;
 
@@ -15,9 +14,8 @@ use super::results::{Job, warnings};
 use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, word};
 use crate::app::case::Case;
 use crate::app::scene::{doubts_of_case, mesh_digests};
-pub(super) use record::ExportSummary;
-use record::WrittenFile;
-use source::Source;
+pub(super) use source::ExportSummary;
+use source::{Source, WrittenFile};
 
 /// What an export wrote.
 struct Export {
@@ -69,7 +67,7 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
         results: source.folder.as_deref(),
         warnings: &doubts,
         files: files.collect::<Result<_, _>>()?,
-        earlier: record::earlier(&folder.path, &to),
+        earlier: source::earlier(&folder.path, &to),
         to,
     };
     let record = job.record(&meshes, None, record);

@@ -9,9 +9,9 @@ use std::path::Path;
 pub use arguments::{Share, SweepArguments};
 
 use super::output::json;
-use super::report_files::ReportFiles;
+use super::report::ReportFiles;
 use super::results::{Job, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, command_line, interrupt, resuming, write_atomic};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, command_line, failure, resuming, write_atomic};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
@@ -77,7 +77,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         return write_scripts(&plan, &folder, tasks.min(plan.count()), options);
     }
     progress.stage("points");
-    let stop = interrupt::stop_request()?;
+    let stop = failure::stop_request()?;
     let workers = Workers::new(options, plan.count(), stop)?;
     let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
     if let Some(done) = stopped {
@@ -99,7 +99,7 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     }
     let points = folder.path.join(POINTS);
     progress.stage("points");
-    let stop = interrupt::stop_request()?;
+    let stop = failure::stop_request()?;
     let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
     let workers = Workers::new(options, numbers.len(), stop)?;
     let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;

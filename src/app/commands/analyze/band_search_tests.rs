@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::band_search::{AskedBand, UsedBand};
-use super::band_search_report::{band_facts, kurtogram_plot};
+use super::band_search::{AskedBand, UsedBand, band_facts, kurtogram_plot};
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::FaultOrders;
 use crate::signal::samples::gaussian;

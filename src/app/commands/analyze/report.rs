@@ -1,6 +1,6 @@
 //! What a report says of an analysed window, and the report of `plummer analyze`.
 
-use super::band_search_report::{band_facts, kurtogram_plot};
+use super::band_search::{band_facts, kurtogram_plot};
 use super::change_report::{change_headlines, change_section, last_order, order_curve};
 use super::window::WindowAnalysis;
 use crate::report::{

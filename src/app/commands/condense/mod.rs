@@ -4,7 +4,6 @@
 //! is `condense.json`, `report.rs` the page with sections of `cost_sections.rs`.
 
 pub(crate) mod compute;
-pub(crate) mod cost_sections;
 pub(crate) mod report;
 pub(crate) mod summary;
 pub(crate) mod superelement_record;

@@ -3,7 +3,6 @@
 //! A case comes in; an [`FrfResult`] goes out: responses of the reduced model (`reduced.rs`) with their estimated errors, beside those of
 //! the full model (`compared.rs`). Read `compute.rs` first. `summary.rs` is `frf.json`, `report.rs` the page.
 
-pub(crate) mod compared;
 pub(crate) mod compute;
 pub(crate) mod reduced;
 pub(crate) mod report;
@@ -11,8 +10,7 @@ pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 
-pub use compared::ComparedResponse;
-pub use compute::{FrfResult, RankedPath, compute_frf};
+pub use compute::{ComparedResponse, FrfResult, RankedPath, compute_frf};
 pub use reduced::{CarriedPart, FrfHousing, TransferPath};
 pub(crate) use report::frf_report;
 pub use summary::{FrfSummary, PathSummary};

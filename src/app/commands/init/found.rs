@@ -1,6 +1,6 @@
 //! What a mesh shows of a case: bore, parts, supports, unit and bearing.
 
-use super::{page, sensor};
+use super::{bore, page};
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -129,7 +129,7 @@ pub(crate) fn find<'a>(
     let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
     let centre = bore.as_ref().map_or(middle, |bore| bore.cylinder.centre);
     let seen = [directions.up, directions.axis];
-    let spot = sensor::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen);
+    let spot = bore::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen);
     let in_metres = |list: Vec<Candidate>| list.into_iter().map(|found| scaled(found, metres)).collect();
     let bore = bore.map(|bore| scaled(bore, metres));
     // no bore: a template for the smallest bearing

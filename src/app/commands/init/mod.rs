@@ -7,7 +7,6 @@ pub(crate) mod groups;
 pub(crate) mod page;
 pub(crate) mod run_text;
 pub(crate) mod scene;
-pub(crate) mod sensor;
 pub(crate) mod summary;
 #[cfg(test)]
 mod tests;

@@ -2,12 +2,11 @@
 //! expected ones, and the shapes as other programs read them.
 
 use super::comparison::{ComparedFile, FileComparison};
-use super::convergence::{MeshConvergence, mesh_convergence};
-use super::mesh_sequence::MeshSequence;
+use super::convergence::{MeshConvergence, MeshSequence, mesh_convergence};
 use crate::app::case::{Case, Linearise};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
-use crate::app::scene::contact_limits::accept_contacts;
+use crate::app::scene::doubts::accept_contacts;
 use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, ModalBasis, ModalSurvey, ModeRange};

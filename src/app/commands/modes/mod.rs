@@ -8,7 +8,6 @@ pub(crate) mod checks_report;
 pub(crate) mod comparison;
 pub(crate) mod compute;
 pub(crate) mod convergence;
-pub(crate) mod mesh_sequence;
 pub(crate) mod report;
 pub(crate) mod shape_view;
 pub(crate) mod summary;
@@ -18,8 +17,7 @@ pub(crate) use checks_report::{error_text, misses_text, mode_numbers, plain, sig
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub(crate) use compute::compute_mode_shapes;
 pub use compute::{ModesResult, Reading, compute_modes};
-pub use convergence::{MeshConvergence, ModeOnMeshes};
-pub use mesh_sequence::SequenceMesh;
+pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
 pub(crate) use report::modes_report;
 pub use summary::ModesSummary;
 pub(crate) use tables::free_motions;

@@ -2,10 +2,9 @@
 
 pub(crate) mod body;
 pub(crate) mod price;
-pub(crate) mod reason;
 #[cfg(test)]
 mod tests;
 
+pub use body::NoTiePrice;
 pub(crate) use price::tie_price;
 pub use price::{BeamAndSolid, TIE_PRICE_MODES, TieComparison, TiePrice};
-pub use reason::NoTiePrice;

@@ -5,9 +5,9 @@
 //! models are solved in full. The same ring alone, free, as beams and as a body, tells what part of the difference is
 //! the beams'.
 
-use super::body::{Points, RingBody, beam_shapes, section_nodes};
-use super::reason::{NoTiePrice, Stop};
-use crate::app::case::{self, Case};
+use super::body::{NoTiePrice, Points, RingBody, Stop, beam_shapes, section_nodes};
+use crate::app::case;
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
 use crate::app::scene::housing::description;

@@ -12,8 +12,6 @@
 
 mod candidates;
 mod compute;
-mod effort;
-mod growth;
 mod plots;
 mod points;
 #[cfg(test)]
@@ -30,11 +28,9 @@ pub use candidates::Parameter;
 pub(crate) use candidates::model_name;
 pub(crate) use compute::compute_chart;
 pub use compute::{Chart, ModelStatistics};
-pub use effort::{Effort, Settings};
-pub use growth::Growth;
 pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
-pub use reference::{Reference, StartReference};
+pub use reference::{Growth, Reference, StartReference};
 pub(crate) use report::chart_report;
 pub use stability::{Condition, ConditionSummary, MethodStability, Stability, StabilityModel, StepRecord, Window};
 pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
@@ -44,4 +40,4 @@ pub use summary::{
     ChartResult, ChartSummary, EnsembleSummary, ErrorSummary, MethodParameter, OmissionSummary, OverAllStarts,
     PointSummary, ReferenceSummary, StartSummary, StatisticsSummary,
 };
-pub use trace::{Failure, FailureKind, Trace};
+pub use trace::{Effort, Failure, FailureKind, Settings, Trace};

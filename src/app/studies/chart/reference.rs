@@ -1,11 +1,14 @@
 //! What the chart measures by: two methods of different kind on the fullest model, refined until they agree.
+//!
+//! How fast nearby solutions part, and how long they stay together.
 
 use super::starts::Ready;
 use super::trace::Trace;
-use super::{Growth, Settings, Start, Starts};
+use super::{Settings, Start, Starts};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
+use crate::signal::SignalError;
 use crate::system::{BallsInertia, ModeSelection};
 use rayon::prelude::*;
 
@@ -168,6 +171,79 @@ fn no_reference(method: &str, start_s: f64, reason: &str) -> ComputeError {
     )
 }
 
+/// Distance of two solutions over time.
+///
+/// The time since the start is cut into windows of equal length. In each of them the distance is
+///
+/// ```text
+/// d = sqrt(sum_s mean (a_s - b_s)^2) / sqrt(sum_s mean b_s^2 over all windows)
+/// ```
+///
+/// with the band-limited accelerations a_s and b_s of sensor s in the two solutions; b is the reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Growth {
+    window_s: f64,
+    /// In each window, in units of the reference's root mean square over the span.
+    pub(super) distances: Vec<f64>,
+}
+
+impl Growth {
+    /// Distance of `other` from `reference` over `span_s` (s) from their start in windows of `window_s` (s).
+    ///
+    /// # Errors
+    /// [`SignalError`] if they do not have the same instants or the reference is zero throughout.
+    pub(crate) fn between(other: &Trace, reference: &Trace, span_s: f64, window_s: f64) -> Result<Self, SignalError> {
+        let size = reference.rms(0.0, span_s)?;
+        // a whole number of windows, up to round-off
+        let count = (span_s / window_s * (1.0 + 1e-9)).floor() as usize;
+        let distances = (0..count).map(|window| {
+            let [from, to] = [window, window + 1].map(|place| place as f64 * window_s);
+            Ok(other.difference(reference, from, to)? / size)
+        });
+        Ok(Self { window_s, distances: distances.collect::<Result<_, SignalError>>()? })
+    }
+
+    /// Ends of the windows since the start, s.
+    pub(crate) fn times_s(&self) -> Vec<f64> {
+        (1..=self.distances.len()).map(|window| window as f64 * self.window_s).collect()
+    }
+
+    /// Distance at the start: that of the first window in which there is one. `None`: the two are the same throughout.
+    pub(crate) fn initial(&self) -> Option<f64> {
+        self.distances.iter().copied().find(|&d| d > 0.0)
+    }
+
+    /// Growth G of the distance: that in each window over that at the start.
+    pub(crate) fn growth(&self) -> Vec<f64> {
+        let initial = self.initial().unwrap_or(1.0);
+        self.distances.iter().map(|d| d / initial).collect()
+    }
+
+    /// Time since the start over which nearby solutions stay together, s: up to the begin of the first window in which the
+    /// distance has grown by more than `factor`; the whole span if there is none.
+    pub(crate) fn horizon_s(&self, factor: f64) -> f64 {
+        let growth = self.growth();
+        let windows = growth.iter().position(|&g| g > factor);
+        windows.unwrap_or(growth.len()) as f64 * self.window_s
+    }
+
+    /// Rate at which the distance grows, 1/s: slope of the straight line through its logarithm over the span, by least
+    /// squares. `None` with fewer than two windows that have a distance.
+    pub(crate) fn rate_per_s(&self) -> Option<f64> {
+        let times = self.times_s();
+        let points = times.iter().zip(&self.distances);
+        let points: Vec<(f64, f64)> = points.filter(|(_, d)| **d > 0.0).map(|(t, d)| (*t, d.ln())).collect();
+        if points.len() < 2 {
+            return None;
+        }
+        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / points.len() as f64;
+        let (t_mean, ln_mean) = (mean(|p| p.0), mean(|p| p.1));
+        let products = points.iter().map(|(t, ln)| (t - t_mean) * (ln - ln_mean));
+        let squares = points.iter().map(|(t, _)| (t - t_mean).powi(2));
+        Some(products.sum::<f64>() / squares.sum::<f64>())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::no_reference;
@@ -181,5 +257,55 @@ mod tests {
             error.help().unwrap(),
             "`plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere"
         );
+    }
+}
+
+#[cfg(test)]
+mod growth_tests {
+    use super::*;
+    use crate::numerics::series::TimeSeries;
+    use std::f64::consts::TAU;
+
+    /// A reference and a neighbour whose distance grows as `size exp(rate t)`: 8 ms at 200 kHz.
+    fn pair(size: f64, rate: f64) -> (Trace, Trace) {
+        let series = |other: bool| {
+            let values = (0..1600).map(|k| {
+                let t = f64::from(k) * 5e-6;
+                let wave = (TAU * 20e3 * t).sin();
+                let apart = if other { size * (rate * t).exp() } else { 0.0 };
+                wave + apart * (TAU * 20e3 * t + 0.4).sin()
+            });
+            TimeSeries::new(2.3, 5e-6, "m/s^2", values.collect()).unwrap()
+        };
+        (Trace::of(vec![series(true)]), Trace::of(vec![series(false)]))
+    }
+
+    #[test]
+    fn the_horizon_is_where_the_distance_has_grown_by_the_factor() {
+        // 2 per ms: 100 times in ln(100) / 2 = 2.303 ms
+        let (other, reference) = pair(1e-9, 2000.0);
+        let growth = Growth::between(&other, &reference, 8e-3, 0.25e-3).unwrap();
+        // measured from the first window's mean to another's: to a window
+        assert!((growth.horizon_s(100.0) - 2.303e-3).abs() < 0.25e-3);
+        // an exponential is exact but for the rounding of 1e-9 beside 1
+        let rate = growth.rate_per_s().unwrap();
+        assert!((rate / 2000.0 - 1.0).abs() < 1e-4, "{rate}");
+        // rms over the first window: mean of exp(2 rate t) over 0 to 0.25 ms is e - 1 = 1.718
+        let initial = growth.initial().unwrap();
+        assert!((initial / (1e-9 * 1.7183_f64.sqrt()) - 1.0).abs() < 0.02, "{initial}");
+        assert!((growth.times_s()[3] - 1e-3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_growth_the_horizon_is_the_whole_span() {
+        for rate in [0.0, -1000.0] {
+            let (other, reference) = pair(1e-9, rate);
+            let growth = Growth::between(&other, &reference, 8e-3, 0.25e-3).unwrap();
+            assert!((growth.horizon_s(100.0) - 8e-3).abs() < 1e-12);
+        }
+        let (same, reference) = pair(0.0, 0.0);
+        let growth = Growth::between(&same, &reference, 8e-3, 0.25e-3).unwrap();
+        assert!((growth.horizon_s(100.0) - 8e-3).abs() < 1e-12);
+        assert_eq!((growth.initial(), growth.rate_per_s()), (None, None));
     }
 }

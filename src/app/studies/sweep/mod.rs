@@ -9,22 +9,17 @@
 //! its housing anew: condense a large one once and name it by `housing.superelement`.
 
 mod axis;
-mod outputs;
 mod plan;
-mod record;
 mod report;
 mod result;
 mod slurm;
 mod summary;
 
 pub use axis::Axis;
-pub use outputs::Output;
-pub(crate) use outputs::outputs_of;
 pub use plan::{Plan, SweepPoint, SweptCommand};
-pub use record::{PointRecord, PointState};
 pub(crate) use report::sweep_report;
+pub use result::{Output, PointRecord, PointResult, PointState, PointWarning, SweepResult};
 pub(crate) use result::write_sweep_npz;
-pub use result::{PointResult, PointWarning, SweepResult};
 pub use slurm::SlurmScripts;
 pub(crate) use slurm::slurm_scripts;
 pub use summary::{PointSummary, ScriptsSummary, SweepSummary, TaskSummary};

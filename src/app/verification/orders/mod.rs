@@ -4,10 +4,7 @@
 //! [`solids`], [`rings`] and [`steps`] each compute a [`Family`] of [`series`]; [`section`] shows and judges them.
 
 mod family;
-mod rings;
 mod section;
-mod solids;
-mod steps;
 
 use family::{Family, series};
 pub(super) use section::orders;

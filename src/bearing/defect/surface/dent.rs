@@ -1,17 +1,13 @@
 //! A dent in three dimensions, ready for contact queries.
 
-use super::super::angle::{offset_from, reduced, within};
 use super::super::circles::Circles;
-use super::super::contacts::DefectContacts;
+use super::super::contacts::{DefectContacts, PolarPosition, RaceProfile, offset_from, reduced, within};
 use super::super::curve::bisect;
 use super::super::dent::{DEPTH_LIMIT, DentShape};
-use super::super::depression;
-use super::super::race_profile::{PolarPosition, RaceProfile};
-use super::super::rim;
-use super::super::stiffness::{self, CurvatureStiffness};
-use super::bottom::Bottom;
-use super::edge;
-use super::minima::to_tube;
+use super::super::stiffness::CurvatureStiffness;
+use super::super::{depression, rim, stiffness};
+use super::minima::{Bottom, to_tube};
+use super::outline;
 use super::outline::Outline;
 use crate::bearing::error::{BearingError, positive, refused};
 use crate::bearing::geometry::BearingGeometry;
@@ -176,7 +172,7 @@ fn width(shape: &DentShape, ball_radius: f64) -> Result<f64, BearingError> {
 /// Angle from the middle within which the ball can press on rim or floor, rad: as [`rim::farthest_centre`] has it for
 /// the far vertex and the steepest contact anywhere.
 fn contact_angle(outline: &Outline) -> f64 {
-    let steepest = |v: f64| bisect(0.0, 1.0, |sine| edge::ratio(outline, v, sine) < 1.0);
+    let steepest = |v: f64| bisect(0.0, 1.0, |sine| outline::ratio(outline, v, sine) < 1.0);
     let sine = (0..=LOOKS).map(|i| steepest(f64::from(i) / f64::from(LOOKS))).fold(0.0, f64::max);
     let angle = outline.angle();
     (rim::farthest_centre(&outline.circles, outline.rim, sine) - angle).max(angle)

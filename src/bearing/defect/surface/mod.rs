@@ -22,13 +22,10 @@
 //! relative curvatures across and along), and merges into the vertex where that reaches a. Where the outline is about
 //! as curved as the ball, `κ_t c² ≈ κ_l a²`, its minima say little: `weight` shares the load.
 
-mod bottom;
 mod dent;
-mod edge;
 mod minima;
 mod outline;
 mod query;
-mod weight;
 
 pub use dent::SurfaceDent;
 #[cfg(test)]

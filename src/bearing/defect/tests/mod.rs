@@ -12,7 +12,7 @@ mod surface_search;
 pub(super) use surface::source_outline;
 
 use super::circles::Circles;
-use super::vector::Vector;
+use super::curve::Vector;
 use super::*;
 use crate::bearing::Race;
 use crate::bearing::samples::{source_bearing, source_stiffness};

@@ -1,8 +1,6 @@
 //! The curved beam in its plane.
 
-use super::exact_arc::ExactArc;
-use super::force_method::SolvedArc;
-use super::quadrature::arc_mass;
+use super::force_method::{ExactArc, SolvedArc, arc_mass};
 use super::raveendranath::CoupledPolynomial;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};

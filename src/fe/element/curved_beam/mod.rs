@@ -18,12 +18,9 @@
 //! the components of displacement along e_t and e_r and of rotation about e_z.
 
 pub mod closed_form;
-mod differences;
-mod exact_arc;
 mod force_method;
 mod in_plane;
 mod out_of_plane;
-mod quadrature;
 mod raveendranath;
 
 pub use in_plane::{CurvedBeam, RingInterpolation};

@@ -30,9 +30,7 @@
 //! `v' = R (alpha + gamma)`. Derived here. With the three rigid motions they span {1, phi, sin, cos,
 //! phi sin, phi cos}.
 
-use super::differences::Differences;
-use super::force_method::{ForceStates, SolvedArc};
-use super::quadrature::arc_mass;
+use super::force_method::{Differences, ForceStates, SolvedArc, arc_mass};
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 

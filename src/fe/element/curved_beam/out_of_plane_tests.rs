@@ -2,7 +2,7 @@
 //! `tests/verification/ring_in_space.rs`.
 
 use super::*;
-use crate::fe::element::curved_beam::quadrature::over_arc;
+use crate::fe::element::curved_beam::force_method::over_arc;
 use crate::fe::material::{Bond, Material, RadiusRule, RingLayer};
 use nalgebra::Vector6;
 

@@ -13,7 +13,7 @@
 //! six parameters for six degrees of freedom. The span lacks sin and cos, so a rigid translation is
 //! not exact: its frequency comes out near 1e-3 of the first elastic one with 72 elements.
 
-use super::quadrature::over_arc;
+use super::force_method::over_arc;
 use crate::fe::material::BeamSection;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 

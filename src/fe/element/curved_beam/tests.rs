@@ -1,5 +1,6 @@
 //! Checks of a single element; what a whole ring must reach is in `tests/verification/ring.rs`.
 
+use super::force_method::over_arc;
 use super::*;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use nalgebra::{Vector3, Vector6};
@@ -88,7 +89,7 @@ fn shear_and_extension_follow_from_the_interpolation() {
             1.0 / section.shear_compliance,
             section.bending,
         ));
-        let integrated = quadrature::over_arc(half, |phi| {
+        let integrated = over_arc(half, |phi| {
             let n = element.interpolation(phi);
             let slope = (element.interpolation(phi + step) - element.interpolation(phi - step)) / (2.0 * step);
             let mut strains = nalgebra::Matrix3x6::zeros();

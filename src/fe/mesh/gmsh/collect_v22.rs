@@ -8,7 +8,7 @@
 
 use super::MshError;
 use super::build::{Allowance, Members, Membership};
-use super::elements_v22::{Label, Listed, Piece};
+use super::elements::{Label, Listed, Piece};
 use crate::fe::mesh::{ElementBlock, Entity};
 use std::collections::BTreeSet;
 

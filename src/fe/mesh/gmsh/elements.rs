@@ -1,12 +1,15 @@
 //! `$Elements`: known kinds, tags unique, nodes that exist and differ.
 //!
 //! Format: gmsh reference manual, section "MSH file format".
+//!
+//! `$Elements` of MSH 2.2: a list of single elements, each with its kind, its group and its entity.
+//!
+//! Format: gmsh reference manual, section "MSH file format version 2".
 
 use super::MshError;
 use super::cursor::Cursor;
 use super::nodes::{check_range, dimension, no_elements, not_as_announced, tag_range};
-use super::numbers::Item;
-use super::tags::{NodeIndex, TagSet};
+use super::numbers::{Item, NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
 
 /// Elements of MSH 4.1.
@@ -114,5 +117,148 @@ fn unsupported(gmsh_type: i32) -> (&'static str, &'static str) {
         19 => ("Pyramid13", pyramid),
         1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
         _ => ("unknown to gmsh", "is the file damaged?"),
+    }
+}
+
+/// Elements in the order of the file.
+#[derive(Default)]
+pub(super) struct Listed {
+    pub(super) tags: Vec<u64>,
+    /// Node indices of one element after the other.
+    pub(super) connectivity: Vec<u32>,
+    /// What they are, in the same order.
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// Where an element belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Label {
+    pub(super) kind: ElementKind,
+    /// Tag of the entity, 0 if there is none.
+    pub(super) entity: i32,
+    /// Tag of the physical group, 0 for none.
+    pub(super) physical: i32,
+}
+
+/// Elements that follow one another and agree in kind, entity and group, with their place in the lists.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub(super) label: Label,
+    pub(super) first: usize,
+    pub(super) first_node: usize,
+    pub(super) count: usize,
+}
+
+impl Piece {
+    pub(super) fn nodes(self, listed: &Listed) -> &[u32] {
+        let end = self.first_node + self.count * self.label.kind.nodes();
+        &listed.connectivity[self.first_node..end]
+    }
+
+    pub(super) fn order(&self) -> (usize, i32, i32, usize) {
+        let Label { kind, entity, .. } = self.label;
+        (kind.dimension(), entity, kind.gmsh_type(), self.first)
+    }
+}
+
+struct Reader<'a, 'b> {
+    cursor: &'a mut Cursor<'b>,
+    nodes: &'a NodeIndex,
+    seen: TagSet,
+    listed: Listed,
+}
+
+pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed, MshError> {
+    // number, type, number of tags and a node in ASCII, number and a node in binary: 8 bytes
+    let smallest = if cursor.is_binary() { 2 } else { 4 };
+    let count = cursor.text_count("the number of elements", Item::new(0, smallest, 0))?;
+    if u32::try_from(count).is_err() {
+        return Err(cursor.feature("a mesh of more than 4294967295 elements", "mesh more coarsely"));
+    }
+    let mut reader = Reader {
+        seen: TagSet::for_count(count),
+        listed: Listed { tags: Vec::with_capacity(count), ..Listed::default() },
+        cursor,
+        nodes,
+    };
+    match reader.cursor.is_binary() {
+        true => reader.binary(count)?,
+        false => reader.ascii(count)?,
+    }
+    (count > 0).then_some(reader.listed).ok_or_else(no_elements)
+}
+
+impl Reader<'_, '_> {
+    fn ascii(&mut self, count: usize) -> Result<(), MshError> {
+        for _ in 0..count {
+            let tag = self.tag()?;
+            let kind = kind(self.cursor, None)?;
+            let tag_count = self.tag_count()?;
+            self.rest_of_element(tag, kind, tag_count)?;
+        }
+        Ok(())
+    }
+
+    /// Blocks of elements of one kind; gmsh itself writes a header for every element.
+    fn binary(&mut self, count: usize) -> Result<(), MshError> {
+        while self.listed.tags.len() < count {
+            let kind = kind(self.cursor, None)?;
+            let what = "the number of elements that follow";
+            let found = self.cursor.int(what)?;
+            let left = count - self.listed.tags.len();
+            let following = usize::try_from(found).ok();
+            let following = following.filter(|&following| (1..=left).contains(&following)).ok_or_else(|| {
+                let expected = format!("{what}, 1 to {left}");
+                self.cursor.malformed(expected, found.to_string().as_bytes())
+            })?;
+            let tag_count = self.tag_count()?;
+            for _ in 0..following {
+                let tag = self.tag()?;
+                self.rest_of_element(tag, kind, tag_count)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn tag(&mut self) -> Result<u64, MshError> {
+        let tag = self.cursor.unsigned_int("an element tag", "an element tag, greater than 0")?;
+        check_tag(self.cursor, &mut self.seen, tag)?;
+        Ok(tag)
+    }
+
+    fn tag_count(&mut self) -> Result<usize, MshError> {
+        let what = "the number of tags of an element";
+        let count = self.cursor.unsigned_int(what, what)?;
+        let number_bytes = if self.cursor.is_binary() { 4 } else { 2 };
+        self.cursor.check_count(what, count, number_bytes)
+    }
+
+    /// Tags (group, entity, then partitions, which are of no use here) and nodes.
+    fn rest_of_element(&mut self, tag: u64, kind: ElementKind, tag_count: usize) -> Result<(), MshError> {
+        let mut tags = [0; 2];
+        for position in 0..tag_count {
+            let found = self.cursor.int("a tag of an element")?;
+            if let Some(slot) = tags.get_mut(position) {
+                *slot = found;
+            }
+        }
+        let [physical, entity] = tags;
+        let label = Label { kind, entity, physical: physical.saturating_abs() };
+        let Listed { tags, connectivity, pieces } = &mut self.listed;
+        match pieces.last_mut() {
+            Some(piece) if piece.label == label => piece.count += 1,
+            _ => pieces.push(Piece { label, first: tags.len(), first_node: connectivity.len(), count: 1 }),
+        }
+        tags.push(tag);
+        for read in 0..kind.nodes() {
+            let what = "the tag of a node of an element";
+            let node = self.cursor.unsigned_int(what, what)?;
+            let earlier = &connectivity[connectivity.len() - read..];
+            let is_repeated = |index: usize| earlier.contains(&(index as u32));
+            // a node has an index below u32::MAX
+            let index = node_index(self.cursor, self.nodes, [tag, node], is_repeated)? as u32;
+            connectivity.push(index);
+        }
+        Ok(())
     }
 }

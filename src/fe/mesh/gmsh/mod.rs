@@ -13,12 +13,10 @@ mod build;
 mod collect_v22;
 mod cursor;
 mod elements;
-mod elements_v22;
 mod entities;
 mod nodes;
 mod numbers;
 mod sections;
-mod tags;
 #[cfg(test)]
 mod tests;
 

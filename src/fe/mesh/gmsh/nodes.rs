@@ -4,8 +4,7 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::numbers::Item;
-use super::tags::NodeIndex;
+use super::numbers::{Item, NodeIndex};
 
 /// Nodes in the order of the file.
 pub(super) struct NodeTable {

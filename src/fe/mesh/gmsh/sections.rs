@@ -2,10 +2,10 @@
 
 use super::build::{Allowance, Name, by_entity, groups};
 use super::cursor::{Cursor, Encoding, quoted};
-use super::elements_v22::Listed;
+use super::elements::Listed;
 use super::entities::Physical;
-use super::nodes::{self, NodeTable};
-use super::{MshError, collect_v22, elements, elements_v22, entities};
+use super::nodes::NodeTable;
+use super::{MshError, collect_v22, elements, entities, nodes};
 use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MshFormat, MshVersion};
 use crate::numerics::units::LengthUnit;
 use std::collections::HashSet;
@@ -92,7 +92,7 @@ impl Found {
                 let known = self.nodes.as_ref().ok_or_else(|| missing("Nodes", " before $Elements"))?;
                 once(&mut self.elements, cursor, |c| match version {
                     V41 => elements::read_v41(c, &known.index).map(Elements::V41),
-                    V22 => elements_v22::read(c, &known.index).map(Elements::V22),
+                    V22 => elements::read(c, &known.index).map(Elements::V22),
                 })?;
             }
             ("ParametricNodes", V22) => return Err(nodes::parametric(cursor)),

@@ -1,7 +1,7 @@
 //! What a mesh contains, in numbers: elements by kind, physical groups, and which elements are in several or in none.
 
-use super::nodes::{self, BoundingBox, DuplicateNodes, UnusedNodes};
-use super::parts::{self, Part};
+use super::parts;
+use super::parts::{BoundingBox, DuplicateNodes, Part, UnusedNodes};
 use crate::fe::mesh::{ElementKind, Mesh, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -51,13 +51,13 @@ impl Mesh {
     pub fn inventory(&self) -> Inventory {
         let bounding_box = BoundingBox::of(self.nodes.iter().copied());
         let dimension = self.dimension();
-        let unused = nodes::unused(self);
+        let unused = parts::unused(self);
         Inventory {
             format: self.format,
             nodes: self.nodes.len(),
             unused_nodes: unused.count,
             unused,
-            duplicates: nodes::duplicates(self, &bounding_box),
+            duplicates: parts::duplicates(self, &bounding_box),
             bounding_box,
             dimension,
             elements: counted(self.blocks.iter().map(|block| (block.kind, block.len()))),

@@ -5,12 +5,10 @@
 //! computed elsewhere, with shape functions.
 
 mod counts;
-mod nodes;
 mod parts;
 #[cfg(test)]
 mod tests;
 
 pub use counts::{GroupOverlap, GroupSummary, Inventory, KindCount};
-pub use nodes::{BoundingBox, DuplicateNodes, UnusedNodes};
-pub use parts::Part;
 pub(crate) use parts::Sets;
+pub use parts::{BoundingBox, DuplicateNodes, Part, UnusedNodes};

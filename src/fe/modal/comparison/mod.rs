@@ -4,10 +4,8 @@
 //! close modes into clusters, compares clusters by the angles between the spaces that they span, and pairs them so
 //! that the agreement of all pairs together is largest.
 
-mod assignment;
 mod pairing;
 mod points;
-mod subspace;
 
 pub use pairing::{ComparisonOptions, ModalComparison, ModePair};
 pub use points::{MatchedBy, ModeSet, PointMatch};

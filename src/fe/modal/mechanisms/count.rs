@@ -1,7 +1,7 @@
 //! Bodies, the pieces that they are joined to, and the motions of these.
 
 use super::super::ModalError;
-use super::super::membership::Membership;
+use super::super::energy_shares::Membership;
 use super::super::motions::{rigid_component, rigid_count};
 use super::bodies::{BodyMap, Extent, apart};
 use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};

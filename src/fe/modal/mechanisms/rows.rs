@@ -4,7 +4,7 @@
 //! entries are of the order 1 for bodies of any size.
 
 use super::super::motions::{rigid_component, rigid_count, ring_motions};
-use super::super::spring_rows::{SpringRow, spring_rows};
+use super::super::strain_products::{SpringRow, spring_rows};
 use super::bodies::BodyMap;
 use crate::fe::model::{HousingModel, NodalSource, Ring, RingFrame, RingTie};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix};

@@ -2,7 +2,7 @@
 
 use super::bodies::{Bodies, at};
 use super::facets::Facet;
-use crate::fe::model::nodal::{TiedNode, sorted};
+use crate::fe::model::support::{TiedNode, sorted};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 

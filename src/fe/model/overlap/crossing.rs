@@ -1,8 +1,7 @@
 //! Bodies that reach into one another between the centres of all their elements.
 
 use super::bodies::{Bodies, Solid, at, both};
-use super::boxes::BoxTree;
-use super::outline::{corners_of, normal};
+use super::outline::{BoxTree, corners_of, normal};
 use super::{Overlap, Touching};
 use nalgebra::Vector3;
 use rayon::prelude::*;

@@ -1,8 +1,7 @@
 //! Bodies that lie in one another: elements whose centre is within another element.
 
 use super::bodies::{Bodies, at, both, common_size};
-use super::boxes::BoxTree;
-use super::outline::{centre, holds};
+use super::outline::{BoxTree, centre, holds};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;

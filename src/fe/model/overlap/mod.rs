@@ -12,7 +12,6 @@
 
 mod apart;
 mod bodies;
-mod boxes;
 mod crossing;
 mod doubled;
 mod facets;

@@ -1,9 +1,10 @@
 //! Bodies with known faults, and sound ones that must not be blamed.
 
-use super::boxes::BoxTree;
+use super::outline::BoxTree;
 use super::{Bodies, Doubled};
-use crate::fe::mesh::BoundingBox;
-use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use crate::fe::mesh::{
+    BoundingBox, ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
+};
 use std::f64::consts::{PI, TAU};
 
 fn empty() -> Mesh {

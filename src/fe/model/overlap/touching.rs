@@ -1,9 +1,8 @@
 //! Faces that lie on each other and have no nodes in common.
 
 use super::bodies::{Bodies, at, both, common_size};
-use super::boxes::BoxTree;
 use super::facets::Facet;
-use super::outline::{centre, holds};
+use super::outline::{BoxTree, centre, holds};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;

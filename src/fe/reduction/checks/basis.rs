@@ -1,8 +1,10 @@
 //! Constraint modes and interior vectors against the matrices that they were computed from.
+//!
+//! All checks of a condensed housing.
 
 use super::super::substructure::rows_of;
-use super::matrices::{largest, pairs};
-use super::{Check, CraigBampton};
+use super::matrices::{check_matrices, largest, pairs};
+use super::{Check, CraigBampton, InterfaceReduction, ReductionError, RigidMotions};
 use crate::fe::assembly::SystemMatrices;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense};
 use std::f64::consts::TAU;
@@ -122,4 +124,24 @@ fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
     let alone = transpose_times_dense(&partition.tie, &sparse_times_dense(&k_bb, &driven));
     let scale = |a: &DenseMatrix| a.norm_l2().max(f64::MIN_POSITIVE);
     [residual.norm_l2() / scale(&pulled), (&reaction - &expected).norm_l2() / scale(&alone)]
+}
+
+/// All checks of a condensed housing against the matrices that it was condensed from; of one on modes of its interface, all that
+/// still hold. Static response of the interface does not, and is not among them.
+///
+/// # Errors
+/// What the dense eigenvalue solver reports.
+pub(crate) fn check_craig_bampton(
+    condensed: &CraigBampton,
+    reduction: Option<&InterfaceReduction>,
+    matrices: &SystemMatrices,
+    rigid: &RigidMotions,
+    band_hz: f64,
+) -> Result<Vec<Check>, ReductionError> {
+    let element = reduction.map_or(&condensed.superelement, |reduced| &reduced.superelement);
+    let mut all = check_matrices(element)?;
+    let of_basis = checks(condensed, matrices, band_hz).into_iter();
+    all.extend(of_basis.filter(|check| reduction.is_none() || check.name != STATIC_INTERFACE));
+    all.extend(rigid.checks(condensed, reduction, matrices)?);
+    Ok(all)
 }

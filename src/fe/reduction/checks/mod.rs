@@ -2,16 +2,14 @@
 //! fails by name.
 
 mod basis;
-mod condensed;
 mod matrices;
 mod rigid;
-mod verdict;
 
 use super::{CraigBampton, InterfaceReduction, ReductionError, Superelement};
-pub(crate) use condensed::check_craig_bampton;
+pub(crate) use basis::check_craig_bampton;
 pub(crate) use matrices::check_matrices;
+pub use matrices::{Bound, Check};
 pub use rigid::RigidMotions;
-pub use verdict::{Bound, Check};
 
 #[cfg(test)]
 mod tests;

@@ -9,26 +9,17 @@
 //! damping couples between modes.
 
 mod band;
-mod damping;
-mod direct;
 mod error;
-mod list;
 mod modal;
 mod response;
-mod share;
 mod system;
 
-pub(crate) use band::rank_in_band;
-pub use band::{BandVariant, RankedVariant};
-pub use damping::ModalDamping;
-pub use direct::direct_response;
+pub use band::{BandVariant, FrequencyGrid, RankedVariant, Resonance};
+pub(crate) use band::{frequency_list, rank_in_band};
 pub use error::FrfError;
-pub(crate) use list::frequency_list;
-pub use list::{FrequencyGrid, Resonance};
-pub use modal::{ModalBasis, ModalSuperposition};
-pub use response::{FrequencyResponse, FrfQuantity};
-pub use share::{ModeShare, PathShares};
-pub use system::{FrfPaths, ReducedSystem};
+pub use modal::{ModalBasis, ModalSuperposition, ModeShare, PathShares};
+pub use response::{FrequencyResponse, FrfQuantity, direct_response};
+pub use system::{FrfPaths, ModalDamping, ReducedSystem};
 
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,12 @@
 //! Dense matrices of a system, and where forces act and motions are read.
+//!
+//! Damping given mode by mode.
 
 use super::FrfError;
+use super::error::{check_coefficients, check_frequencies};
 use crate::numerics::linalg::DenseMatrix;
 use faer::Scale;
+use std::f64::consts::TAU;
 
 /// `Z(w) = k - w^2 m + i (w c + k_s)` in dense real symmetric matrices.
 #[derive(Debug, Clone)]
@@ -110,4 +114,134 @@ fn square(what: &'static str, matrix: &DenseMatrix, order: usize) -> Result<(), 
 
 pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<(), FrfError> {
     if found == expected { Ok(()) } else { Err(FrfError(format!("{what}: expected {expected}, found {found}"))) }
+}
+
+/// Viscous damping of modes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ModalDamping {
+    /// The same ratio for every mode, >= 0 and < 1.
+    Uniform(f64),
+    /// `alpha + beta w_r^2`: that of `C = alpha M + beta K`; alpha in 1/s, beta in s, both >= 0.
+    Rayleigh {
+        /// 1/s.
+        alpha: f64,
+        /// s.
+        beta: f64,
+    },
+    /// One ratio a mode, in the order of the modes, >= 0 and < 1.
+    Each(Vec<f64>),
+    /// Ratios at frequencies, (Hz, ratio), frequencies ascending: straight lines between them, constant outside.
+    Points(Vec<(f64, f64)>),
+}
+
+impl ModalDamping {
+    /// Damping `2 zeta_r w_r` of modes with the angular frequencies `omegas` (rad/s) \[modes\], 1/s. A rigid mode has the
+    /// alpha of Rayleigh damping and nothing of a ratio.
+    ///
+    /// # Errors
+    /// [`FrfError`],
+    /// [`FrfError`] for another number of ratios than modes.
+    pub(crate) fn rates(&self, omegas: &[f64]) -> Result<Vec<f64>, FrfError> {
+        let of_ratio = |ratio: f64, omega: f64| 2.0 * ratio * omega;
+        match self {
+            Self::Uniform(ratio) => {
+                let ratio = checked(*ratio)?;
+                Ok(omegas.iter().map(|&w| of_ratio(ratio, w)).collect())
+            }
+            Self::Rayleigh { alpha, beta } => {
+                check_coefficients(&[("alpha", *alpha), ("beta", *beta)])?;
+                Ok(omegas.iter().map(|w| alpha + beta * w * w).collect())
+            }
+            Self::Each(ratios) => {
+                same("number of damping ratios", omegas.len(), ratios.len())?;
+                ratios.iter().zip(omegas).map(|(&ratio, &omega)| Ok(of_ratio(checked(ratio)?, omega))).collect()
+            }
+            Self::Points(points) => {
+                let frequencies: Vec<f64> = points.iter().map(|point| point.0).collect();
+                check_frequencies(&frequencies)?;
+                points.iter().try_for_each(|&(_, ratio)| checked(ratio).map(drop))?;
+                let at = |&omega: &f64| Some(of_ratio(interpolated(points, omega / TAU)?, omega));
+                omegas
+                    .iter()
+                    .map(at)
+                    .collect::<Option<_>>()
+                    .ok_or_else(|| FrfError("damping ratios over frequency need at least one point".to_owned()))
+            }
+        }
+    }
+}
+
+fn checked(ratio: f64) -> Result<f64, FrfError> {
+    if (0.0..1.0).contains(&ratio) {
+        return Ok(ratio);
+    }
+    Err(FrfError(format!("a damping ratio must be zero or more and below 1, found {ratio}")))
+}
+
+fn interpolated(points: &[(f64, f64)], hz: f64) -> Option<f64> {
+    let above = points.partition_point(|point| point.0 <= hz);
+    let (first, last) = (points.first()?, points.last()?);
+    Some(match (above.checked_sub(1), points.get(above)) {
+        (None, _) => first.1,
+        (_, None) => last.1,
+        (Some(below), Some(&(next, higher))) => {
+            let (hz_below, lower) = points[below];
+            lower + (higher - lower) * (hz - hz_below) / (next - hz_below)
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratios(damping: &ModalDamping, hz: &[f64]) -> Vec<f64> {
+        let omegas: Vec<f64> = hz.iter().map(|hz| TAU * hz).collect();
+        let rates = damping.rates(&omegas).expect("in range");
+        let pairs = rates.iter().zip(&omegas);
+        pairs.map(|(rate, omega)| rate / (2.0 * omega)).collect()
+    }
+
+    #[test]
+    fn points_are_joined_by_straight_lines() {
+        let points = ModalDamping::Points(vec![(100.0, 0.01), (200.0, 0.03), (400.0, 0.02)]);
+        let found = ratios(&points, &[50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 900.0]);
+        for (found, exact) in found.iter().zip([0.01, 0.01, 0.02, 0.03, 0.025, 0.02, 0.02]) {
+            assert!((found - exact).abs() < 1e-15, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn rayleigh_has_its_two_ratios() {
+        // 1 % at 2 and 40 kHz
+        let damping = ModalDamping::Rayleigh { alpha: 239.359_440_273_508_06, beta: 7.578_806_813_899_779e-8 };
+        for found in ratios(&damping, &[2e3, 40e3]) {
+            assert!((found - 0.01).abs() < 1e-12, "{found}");
+        }
+        assert_eq!(damping.rates(&[0.0]), Ok(vec![239.359_440_273_508_06]));
+        assert_eq!(ModalDamping::Uniform(0.1).rates(&[0.0, 5.0]), Ok(vec![0.0, 1.0]));
+    }
+
+    #[test]
+    fn each_rule_fires() {
+        let message = |damping: ModalDamping| match damping.rates(&[1.0, 2.0]) {
+            Ok(rates) => format!("{rates:?}"),
+            Err(error) => error.to_string(),
+        };
+        let rule = "a damping ratio must be zero or more and below 1, found";
+        assert_eq!(message(ModalDamping::Uniform(1.0)), format!("{rule} 1"));
+        let each = |ratios: &[f64]| ModalDamping::Each(ratios.to_vec());
+        assert_eq!(message(each(&[0.5, -0.5])), format!("{rule} -0.5"));
+        assert_eq!(message(each(&[0.5])), "number of damping ratios: expected 2, found 1");
+        let points = |points: &[(f64, f64)]| ModalDamping::Points(points.to_vec());
+        assert_eq!(message(points(&[(1.0, f64::NAN)])), format!("{rule} NaN"));
+        assert_eq!(message(points(&[])), "damping ratios over frequency need at least one point");
+        assert_eq!(message(points(&[(2.0, 0.1), (2.0, 0.1)])), "frequencies must ascend, found 2 Hz after 2 Hz");
+        assert_eq!(message(points(&[(-2.0, 0.1)])), "a frequency must be zero or more and finite, found -2 Hz");
+        let rayleigh = ModalDamping::Rayleigh { alpha: 0.0, beta: -1e-9 };
+        assert_eq!(
+            message(rayleigh),
+            "the damping coefficient beta must be zero or more and finite, found -0.000000001"
+        );
+    }
 }

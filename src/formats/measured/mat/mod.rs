@@ -17,9 +17,7 @@
 //! 0.1.4 stops the program at damaged streams and names, and matio-rs binds a C library.
 
 mod array;
-mod beside;
 mod element;
-mod header;
 #[cfg(test)]
 mod made_tests;
 mod signals;

@@ -1,13 +1,13 @@
 //! The variables of a file, packed or not.
 
 use std::borrow::Cow;
-use std::io::{self, Read};
+use std::io;
+use std::io::Read;
 use std::ops::Range;
 
 use flate2::read::ZlibDecoder;
 
-use super::element::{COMPRESSED, Element, Elements, MATRIX, fault};
-use super::header::HEAD;
+use super::element::{COMPRESSED, Element, Elements, HEAD, MATRIX, fault};
 use crate::files::Fault;
 use crate::formats::bytes::ByteOrder;
 

@@ -12,7 +12,6 @@
 
 mod modal;
 mod nodes;
-mod rigid;
 #[cfg(test)]
 mod tests;
 mod write;

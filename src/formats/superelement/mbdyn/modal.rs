@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::super::SuperelementRecord;
 use super::nodes::nodes;
-use super::rigid::inertia;
-use super::write::{Body, write};
+use super::write::{Body, inertia, write};
 use crate::files::Fault;
 use crate::formats::{DofBody, FormatError};
 use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen};

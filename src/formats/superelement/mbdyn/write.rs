@@ -1,12 +1,15 @@
 //! The records of a file.
+//!
+//! A free body's inertia.
 
-use std::io::{self, Write};
-use std::path::Path;
-
+use super::super::SuperelementRecord;
 use super::nodes::Node;
-use super::rigid::Inertia;
-use crate::files::{FileError, write_atomic};
+use crate::files::{Fault, FileError, write_atomic};
+use crate::formats::{DofDirection, FormatError};
 use crate::numerics::linalg::DenseMatrix;
+use std::io;
+use std::io::Write;
+use std::path::Path;
 
 /// What goes into a file.
 pub(super) struct Body {
@@ -97,4 +100,88 @@ fn matrix(to: &mut impl Write, matrix: &DenseMatrix) -> io::Result<()> {
 fn line(to: &mut impl Write, values: &[f64]) -> io::Result<()> {
     let values: Vec<String> = values.iter().map(|value| format!("{value:.16e}")).collect();
     writeln!(to, "{}", values.join(" "))
+}
+
+/// Mass, centre of mass and moments of inertia.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Inertia {
+    /// kg.
+    pub(super) mass: f64,
+    /// m, mesh axes.
+    pub(super) centre: [f64; 3],
+    /// About the centre of mass, kg m^2.
+    pub(super) moments: [[f64; 3]; 3],
+}
+
+const MOTIONS: [&str; 2] = ["displacement along", "rotation about"];
+
+/// Forces of a rigid motion, against the largest sum of their parts, are below this where labels belong to the matrices:
+/// positions in single precision leave 1e-7.
+const FORCE_LIMIT: f64 = 1e-6;
+
+/// Inertia from `R^T m R`, where R are the superelement's coordinates in the six rigid motions. With translations t and
+/// rotations w about the mesh's origin a node at p moves by `t + w x p`, so that
+/// `R^T m R = [[M I, M S^T], [M S, J]]` with `S v = c x v` and, by the parallel axis theorem,
+/// `J = J_c + M (c.c I - c c^T)`.
+pub(super) fn inertia(record: &SuperelementRecord) -> Result<Inertia, FormatError> {
+    let motions = rigid_motions(record)?;
+    check_forces(record, &motions)?;
+    let inertia = motions.transpose() * &record.mass * &motions;
+    let mass = (inertia[(0, 0)] + inertia[(1, 1)] + inertia[(2, 2)]) / 3.0;
+    // (e_k x c)_i: y about z, z about x, x about y
+    let centre = [(1, 5), (2, 3), (0, 4)].map(|(i, k)| inertia[(i, k)] / mass);
+    let square: f64 = centre.iter().map(|part| part * part).sum();
+    let moment = |i: usize, j: usize| {
+        let diagonal = if i == j { square } else { 0.0 };
+        inertia[(3 + i, 3 + j)] - mass * (diagonal - centre[i] * centre[j])
+    };
+    Ok(Inertia { mass, centre, moments: [0, 1, 2].map(|i| [0, 1, 2].map(|j| moment(i, j))) })
+}
+
+/// Coordinates in the six rigid motions \[n x 6\]: modes with a fixed interface are zero.
+fn rigid_motions(record: &SuperelementRecord) -> Result<DenseMatrix, FormatError> {
+    let mut motions = DenseMatrix::zeros(record.order(), 6);
+    for (coordinate, label) in record.interface.iter().enumerate() {
+        let known = label.position.iter().chain(&label.axis).all(|part| part.is_finite());
+        let ([x, y, z], [a, b, c]) = (label.position, label.axis);
+        let row = match label.direction {
+            // axis . (t + w x p) = axis . t + (p x axis) . w
+            DofDirection::Along(_) | DofDirection::Polar(_) if known => {
+                [a, b, c, y * c - z * b, z * a - x * c, x * b - y * a]
+            }
+            DofDirection::About(_) if known => [0.0, 0.0, 0.0, a, b, c],
+            _ => {
+                return Err(FormatError::Refused(format!(
+                    "expected node, direction, position and axis of every interface coordinate of a free body, not known for \
+                     coordinate {coordinate}"
+                )));
+            }
+        };
+        for (motion, value) in row.into_iter().enumerate() {
+            motions[(coordinate, motion)] = value;
+        }
+    }
+    Ok(motions)
+}
+
+fn check_forces(record: &SuperelementRecord, motions: &DenseMatrix) -> Result<(), Fault> {
+    let forces = &record.stiffness * motions;
+    for motion in 0..6 {
+        let (mut largest, mut sums) = (0.0_f64, 0.0_f64);
+        for row in 0..record.order() {
+            let parts =
+                (0..record.order()).map(|column| (record.stiffness[(row, column)] * motions[(column, motion)]).abs());
+            largest = largest.max(forces[(row, motion)].abs());
+            sums = sums.max(parts.sum());
+        }
+        if largest > FORCE_LIMIT * sums {
+            let found = format!(
+                "{:e} of the stiffness's magnitude: positions or axes of the interface do not belong to the matrices",
+                largest / sums
+            );
+            let (kind, axis) = (MOTIONS[motion / 3], ["x", "y", "z"][motion % 3]);
+            return Err(Fault::new(format!("no forces in {kind} {axis} of a free body"), found));
+        }
+    }
+    Ok(())
 }

@@ -1,8 +1,8 @@
 //! The lowest pairs, and beside the iteration the count that proves them.
 
 use super::super::lowest::Search;
-use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, memory};
-use super::factors::FIRM;
+use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, symbolic};
+use super::cuts::FIRM;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -158,7 +158,7 @@ impl EigenProblem {
     /// Whether a second factor can stand beside the first without filling the memory.
     fn has_room(&self) -> bool {
         let bytes = SINGLE * self.symbolic.len_val() as u64;
-        memory::available().is_none_or(|free| free / 2 > bytes)
+        symbolic::available().is_none_or(|free| free / 2 > bytes)
     }
 
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.

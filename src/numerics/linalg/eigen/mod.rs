@@ -1,7 +1,6 @@
 //! Eigenpairs of a sparse symmetric problem, with a residual and a bound for each and a proof that none is missing.
 
 mod cuts;
-mod factors;
 mod iteration;
 mod pairs;
 mod problem;

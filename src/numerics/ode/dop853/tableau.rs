@@ -292,7 +292,7 @@ mod tests {
                 *f = row.iter().map(|&(j, d)| d * slope(NODES[j])).sum();
             }
             for x in [0.1, 0.35, 0.5, 0.8, 0.97] {
-                let found = super::super::dense::polynomial(f, x);
+                let found = super::super::crossings::polynomial(f, x);
                 // factors of up to 400 on slopes of up to 7 that cancel
                 assert!((found - f64::powi(x, q)).abs() < 1e-12, "{q} {x} {found}");
             }

@@ -3,12 +3,12 @@
 //! What the case fixes stays as it is; its error is estimated all the same where there is an estimate.
 
 use super::loaded_errors::LoadedErrors;
-use super::mode_errors::ModeErrors;
 use super::model_choice::{CONDENSATION, ChosenPart, Measured, ModelChoice, SUPERELEMENT};
-use super::modes::modes;
+use super::modes::{ModeErrors, modes};
 use super::quantities::{RunTask, USUAL_BAND, heaviest};
-use super::{balls, pilot, stepping};
-use crate::app::case::{self, RunCase};
+use super::{loaded_errors, pilot, stepping};
+use crate::app::case;
+use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
 use crate::app::scene::structure::left_out;
 use crate::app::scene::{RunModel, Scene};
@@ -41,7 +41,7 @@ impl ModelChoice {
         let errors = ModeErrors::of(scene, band_hz, &loaded);
         let task = RunTask { scene, asked, band_hz, target, heaviest: heaviest.as_ref() };
         let (modes, modes_part) = modes(task, &errors, whole);
-        let (mut balls_inertia, mut balls_part) = balls::chosen(task, bearing.balls_inertia, &loaded);
+        let (mut balls_inertia, mut balls_part) = loaded_errors::chosen(task, bearing.balls_inertia, &loaded);
         let growth = growth(scene, rest);
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
             let mut model =
@@ -64,9 +64,9 @@ impl ModelChoice {
                 let with_inertia = planned(BallsInertia::Dynamic)?;
                 let found = beside(&model, &with_inertia.0);
                 let error = found.as_ref().ok().and_then(|found| Some(found.as_ref()?.error));
-                match error.is_some_and(|error| error <= balls::MEASURED_SHARE * target) {
+                match error.is_some_and(|error| error <= loaded_errors::MEASURED_SHARE * target) {
                     false if bearing.balls_inertia.is_none() => {
-                        (balls_inertia, balls_part) = balls::needed(error);
+                        (balls_inertia, balls_part) = loaded_errors::needed(error);
                         (model, method_part, step_part) = with_inertia;
                         beside(&model, &model)
                     }

@@ -1,8 +1,7 @@
 //! One method under one condition: over a grid of steps, and its limits.
 
-use super::measured::{Measurement, observe};
-use crate::numerics::ode::{LinearCoordinate, SecondOrderSystem};
-use crate::numerics::ode::{Linearised, Method, Resonance, fastest, growth};
+use super::condition::{Measurement, observe};
+use crate::numerics::ode::{LinearCoordinate, Linearised, Method, Resonance, SecondOrderSystem, fastest, growth};
 use crate::report::StepState;
 use std::f64::consts::PI;
 

@@ -3,9 +3,9 @@
 use super::super::Effort;
 use super::super::compute::{Counter, automatic};
 use super::cell::{MethodStability, by_tolerance, on_grid};
-use super::condition::{Condition, Variant};
-use super::measured::{Measurement, Reference};
-use crate::app::case::{self, Case, RunCase};
+use super::condition::{Condition, Measurement, Reference, Variant};
+use crate::app::case;
+use crate::app::case::{Case, RunCase};
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};

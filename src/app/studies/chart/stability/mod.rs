@@ -11,13 +11,10 @@
 mod cell;
 mod compute;
 mod condition;
-mod measured;
-mod plots;
 mod section;
 
 pub use cell::{MethodStability, StepRecord, Window};
 pub(crate) use compute::compute_stability;
 pub use compute::{ConditionSummary, Stability, StabilityModel};
 pub use condition::Condition;
-pub(crate) use plots::{resonance_plot, stability_map};
-pub(crate) use section::{stability_report, stability_section};
+pub(crate) use section::{resonance_plot, stability_map, stability_report, stability_section};

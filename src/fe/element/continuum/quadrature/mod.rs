@@ -1,14 +1,9 @@
 //! Integration rules on the natural elements.
 
-mod line;
 mod rule;
-mod simplex;
 #[cfg(test)]
 mod tests;
 
-pub use line::QuadraturePoint;
-pub use rule::QuadratureRule;
+pub use rule::{QuadraturePoint, QuadratureRule};
 #[cfg(test)]
-pub(super) use rule::{cube, product, square};
-#[cfg(test)]
-pub(super) use simplex::{conical_tetrahedron, conical_triangle};
+pub(super) use rule::{conical_tetrahedron, conical_triangle, cube, product, square};
