@@ -104,7 +104,7 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
         assert!(why.contains(expected), "{name}: {why}");
         assert_eq!(diagnosis.by_signal_alone, [Fault::OuterRace], "{name}");
         let sentence = diagnosis.sentence();
-        assert!(sentence.contains("by the signal alone fault indicated: outer race"));
+        assert!(sentence.contains("the signal alone would indicate a fault of: outer race"));
     };
     let sound = "The case has no damage there, and the play is 2.5 um";
     let hidden = "This cannot be told from damage: the play is 2.5 um";

@@ -119,7 +119,7 @@ fn grid(path: &Path) -> (BTreeMap<String, Vec<f64>>, usize, usize) {
     (fields.collect(), piece.num_points(), piece.cells.num_cells())
 }
 
-/// Matrices of ring, housing and both, read by `nalgebra-sparse` and `npyz` and solved densely, have the frequencies of
+/// Matrices of ring, housing and both, read by `sprs` and `npyz` and solved densely, have the frequencies of
 /// `modes.json`.
 #[test]
 fn matrices_have_the_frequencies_of_modes() {

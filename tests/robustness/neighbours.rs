@@ -107,7 +107,7 @@ fn signals_are_not_read_beside_the_result_of_another_run() {
     let case = fs::read_to_string(folder.join(CASE)).unwrap();
     let changed = case.replace("[bearing]", "[bearing]\nradial_play = 1e-6");
     fs::write(folder.join(CASE), changed).unwrap();
-    refused(&folder, analyze, "out/run.json is the result of other values than case.toml has now\n");
+    refused(&folder, analyze, "out/run.json was computed with values that differ from those in case.toml now\n");
     // what is analysed may change, and words
     let viewed = format!("# a remark\n{case}");
     fs::write(folder.join(CASE), viewed).unwrap();
@@ -116,7 +116,7 @@ fn signals_are_not_read_beside_the_result_of_another_run() {
     refused(
         &folder,
         &format!("{analyze} --set bearing.balls=8"),
-        "out/run.json is the result of other values than --set gives",
+        "out/run.json was computed with values that differ from those of --set",
     );
     fs::copy(folder.join("other/signals.npz"), folder.join("out/signals.npz")).unwrap();
     refused(&folder, analyze, "out/signals.npz is not the file that out/run.json speaks of: expected SHA-256 ");

@@ -84,12 +84,12 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     let digest = result[CASE_DIGEST].as_str();
     if digest.is_some_and(|digest| case.source.digest().is_ok_and(|now| now != digest)) {
         return Err(CliError::input(format!(
-            "{} is the result of other values than {} has now",
+            "{} was computed with values that differ from those in {} now",
             path.display(),
             file.display()
         ))
         .with_help(
-            "compute the results again with --force, or give the case file its old values; [analysis] may change",
+            "compute the results again with --force, or restore the values in the case file; only [analysis] may change",
         ));
     }
     if let Some(expected) = result[ARRAYS][arrays].as_str() {
@@ -105,8 +105,11 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     let all: Vec<String> = own.into_iter().chain(set.iter().cloned()).collect();
     let looked_at = Case::load(&file, &all)?;
     if looked_at.source.digest().ok() != case.source.digest().ok() {
-        return Err(CliError::input(format!("{} is the result of other values than --set gives", path.display()))
-            .with_help("of results, --set changes [analysis] alone; compute others with these values"));
+        return Err(CliError::input(format!(
+            "{} was computed with values that differ from those of --set",
+            path.display()
+        ))
+        .with_help("--set can change only [analysis] of earlier results; compute new results with these values"));
     }
     Ok(looked_at)
 }

@@ -73,7 +73,7 @@ fn summary(result: &FrfResult) -> String {
         let shares = path.shares.modes.iter().take(3);
         let modes = shares.map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share));
         let modes: Vec<String> = modes.collect();
-        lines.push(format!("{} to {}: carried by {}", path.from, path.to, modes.join(", ")));
+        lines.push(format!("{} to {}: largest modal contributions: {}", path.from, path.to, modes.join(", ")));
     }
     if let Some((hz, error)) = result.largest_estimate() {
         lines.push(format!("estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"));

@@ -163,15 +163,15 @@ impl Diagnosis {
     /// lines are another's.
     pub(crate) fn speed_doubt(&self) -> Option<String> {
         let consequence = match (self.named().next(), self.unexplained.as_slice()) {
-            (Some(_), _) => "at another the same lines are another part's",
-            (None, []) if self.is_judged() => "a wrong one hides faults",
+            (Some(_), _) => "at a different speed, the same lines would mean a different part",
+            (None, []) if self.is_judged() => "at a wrong speed, faults stay hidden",
             _ => return None,
         };
         let speed = format!("{:.2}", self.speed_hz);
         match self.speed_source {
             SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
             SpeedSource::Given => {
-                Some(format!("no line of the signal confirms the speed of {speed} Hz: {consequence}"))
+                Some(format!("no line of the signal confirms the shaft speed of {speed} Hz: {consequence}"))
             }
             SpeedSource::EverySecond => Some(format!(
                 "lines stand halfway between those of a shaft at {speed} Hz, so that it may turn half as fast: {consequence}"
@@ -208,7 +208,7 @@ impl Diagnosis {
         let alone = self.by_signal_alone.iter().map(|fault| fault.name());
         let alone: Vec<&str> = alone.collect();
         if !alone.is_empty() {
-            parts.push(format!("by the signal alone {}: {}", Conclusion::Named.words(), alone.join(", ")));
+            parts.push(format!("the signal alone would indicate a fault of: {}", alone.join(", ")));
         }
         parts.extend(self.unexplained.iter().map(|impacts| {
             format!(

@@ -58,7 +58,7 @@ pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
             text += &format!("; not judged: {not_judged}");
         }
         if !alone.is_empty() {
-            text += &format!("; by the signal alone: {alone}");
+            text += &format!("; the signal alone would indicate a fault of: {alone}");
         }
         report = report.headline(place_and_time(window), text, Verdict::None);
     }

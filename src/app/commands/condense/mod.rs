@@ -1,7 +1,7 @@
 //! `plummer condense`: a housing as a superelement, with its error and its certificate.
 //!
 //! A case comes in; a [`CondenseResult`] goes out, and [`superelement_record`] makes the file of it. Read `compute.rs` first. `summary.rs`
-//! is `condense.json`, `report.rs` the page with sections of `cost_sections.rs`.
+//! is `condense.json`, `report.rs` the page.
 
 pub(crate) mod compute;
 pub(crate) mod report;

@@ -202,7 +202,7 @@ pub(crate) fn compare(
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => (0.0, 0.0),
         _ => {
             return nothing(
-                "modal damping has no matrix in the full model; give [damping] as ratios at two frequencies or as alpha and beta to compare",
+                "the full model cannot use one damping ratio for all modes; to compare, give [damping] as ratios at two frequencies or as alpha and beta",
             );
         }
     };

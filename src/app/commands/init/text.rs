@@ -98,7 +98,7 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     });
     if !at_bore.is_empty() {
         lines.push(format!(
-            "Not held: {} shares nodes with the bore, and these follow the ring. Give it faces beside the bore in gmsh, or hold it by springs.",
+            "Not held: {} shares nodes with the bore, and the ring moves those nodes. In gmsh, draw its faces apart from the bore, or hold it by springs.",
             all(at_bore)
         ));
     }

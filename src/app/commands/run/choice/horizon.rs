@@ -74,7 +74,7 @@ impl Horizon {
         let ms = |seconds: f64| significant(1e3 * seconds, 2);
         let whole = ms(self.run_s);
         let later = match self.strikes {
-            true => "the waveform is one of many: compare spectra and verdicts, not samples",
+            true => "the waveform depends on the smallest disturbance: compare spectra and verdicts, not samples",
             false => "it is larger: lower accuracy.target",
         };
         let held = ms(self.held_s);

@@ -99,7 +99,7 @@ impl ModelChoice {
                 "transient.residual = true lets the modes that are left out act statically"
             }
             _ if grown && !given(part.what) => &format!(
-                "errors grow up to {} times as balls strike, and the model is chosen without that; accuracy.target = {} takes that in",
+                "impacts of the balls amplify errors up to {} times, which the choice of the model does not count; accuracy.target = {} makes up for it",
                 significant(self.growth, 2),
                 significant(target / self.growth, 2)
             ),
