@@ -4,6 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use plummer::fe::element::continuum::PlaneAssumption;
+use plummer::fe::model::PlaneModel;
+use plummer::prelude::*;
 use serde_json::Value;
 
 fn project(name: &str) -> PathBuf {
@@ -59,6 +62,27 @@ fn write_exact(path: &Path, mode: &str, factor: f64) {
         cells.join(",") + "\n"
     });
     fs::write(path, lines.collect::<String>()).unwrap();
+}
+
+/// The library's frequencies are the program's, bit by bit, and so are the numbers of rigid modes.
+#[test]
+fn the_library_has_the_modes_of_the_program() {
+    let folder = scratch("library");
+    assert_eq!(modes(&folder, &[]).status.code(), Some(0));
+    let json = result(&folder);
+    let mesh = Mesh::read_gmsh(&project("meshes/ring_6_9_48.msh"), LengthUnit::Millimetre).unwrap();
+    let aluminium = Material::new(72e9, 0.33, 2700.0).unwrap();
+    let description = HousingDescription {
+        parts: vec![HousingPart { group: "housing".to_owned(), material: aluminium.into() }],
+        plane: Some(PlaneModel { assumption: PlaneAssumption::Stress, thickness: 4e-3 }),
+        ..HousingDescription::default()
+    };
+    let found = HousingModel::new(&mesh, description).unwrap().modes(ModeRange::Count(12)).unwrap();
+    let bits = |hz: f64| hz.to_bits();
+    let of_program = json["frequencies_hz"].as_array().unwrap().iter().map(|hz| bits(hz.as_f64().unwrap()));
+    let of_library = found.frequencies_hz.iter().copied().map(bits);
+    assert_eq!(of_program.collect::<Vec<_>>(), of_library.collect::<Vec<_>>());
+    assert_eq!(json["rigid_modes"].as_u64(), Some(found.rigid_modes as u64));
 }
 
 #[test]
