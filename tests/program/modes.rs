@@ -85,6 +85,23 @@ fn the_library_has_the_modes_of_the_program() {
     assert_eq!(json["rigid_modes"].as_u64(), Some(found.rigid_modes as u64));
 }
 
+/// Tetrahedra of first order lock in bending; the program says so, and says nothing of those of second order.
+#[test]
+fn elements_that_are_too_stiff_in_bending_are_told() {
+    for (mesh, told) in [("ring3d_tet4", true), ("ring3d_tet10", false)] {
+        let folder = scratch(mesh);
+        let path = project("tests/data").join(format!("{mesh}.msh"));
+        let file = format!("housing.mesh=\"{}\"", path.display());
+        let text_of_case = fs::read_to_string(folder.join("ring.toml")).unwrap();
+        let solid = text_of_case.lines().filter(|line| !line.starts_with("plane ")).collect::<Vec<_>>().join("\n");
+        fs::write(folder.join("ring.toml"), solid).unwrap();
+        let output = modes(&folder, &[&file]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let warnings = result(&folder)["warnings"].to_string();
+        assert_eq!(warnings.contains("Tet4 elements, which are far too stiff in bending"), told, "{warnings}");
+    }
+}
+
 #[test]
 fn a_result_agrees_with_its_own_file() {
     let folder = scratch("own");

@@ -103,7 +103,7 @@ the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58
 Several files: the table has a row for each file, channel and window. Every channel counts unless --channel names some. A file
 that cannot be analysed has a row that says why, the others are analysed, and the exit code is 2.
 
-Verdicts: named, not enough evidence, not seen. Each has its evidence and the probability that noise alone looks like it;
+Verdicts: fault indicated, not enough evidence, not seen. Each has its evidence and the probability that noise alone looks like it;
 docs/diagnosis.md explains them. A window needs at least 16 events of a part: 7 shaft turns for most bearings.
 
 Results of a run go into its own folder, of one file into out/ and its name, of several files into out/analysis.
