@@ -255,7 +255,7 @@ const LOADS: usize = 17;
 pub struct LoadedPoint {
     /// Angle that the cage is turned on by, rad, or load in units of the case's.
     pub at: f64,
-    /// `None` where no equilibrium was found. Results have the frequencies alone, Hz.
+    /// `None` where no equilibrium was found. JSON results hold the frequencies alone, Hz.
     #[serde(rename = "frequencies_hz", serialize_with = "frequencies_alone")]
     #[schemars(with = "Option<Vec<f64>>")]
     pub modes: Option<LoadedModes>,

@@ -468,7 +468,7 @@ fn a_superelement_takes_the_housing_s_place() {
         let text = format!("[housing]\nsuperelement = \"out/coupled/superelement.{kind}\"\n{RING}{MODES}");
         fs::write(folder.join(format!("{kind}.toml")), text).unwrap();
         let shown = good(&folder, &format!("modes {kind}.toml"));
-        assert!(shown.contains("What needs its mesh is left out"), "{shown}");
+        assert!(shown.contains("Not available without its mesh"), "{shown}");
         let unlabelled = shown.contains("Only their number was checked.");
         assert_eq!(unlabelled, kind == "op4", "{shown}");
         let result = json(folder.join(format!("out/{kind}/modes.json")));
@@ -480,7 +480,7 @@ fn a_superelement_takes_the_housing_s_place() {
             assert!((found / full - 1.0).abs() < 0.01, "{found} {full}");
         }
         let report = fs::read_to_string(folder.join(format!("out/{kind}/report.html"))).unwrap();
-        assert!(report.contains("What needs its mesh is left out"));
+        assert!(report.contains("Not available without its mesh"));
         let shown = good(&folder, &format!("condense {kind}.toml"));
         assert!(shown.contains("checks passed: 7 of 7"), "{shown}");
         assert!(!folder.join(format!("out/{kind}/superelement.npz")).exists());

@@ -332,9 +332,9 @@ pub(crate) fn unused_damping(path: &Path, record: &SuperelementRecord) -> Option
 fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
     let file = path.display();
     let mut notes = vec![format!(
-        "The housing is the superelement of {file}, {} interface coordinates and {} modes. What needs its mesh is left out: \
-         modes in full and what condensing costs, mass and effective masses, shares of energy, shapes and drawing of the \
-         housing.",
+        "The housing is the superelement of {file}, {} interface coordinates and {} modes. Not available without its mesh: \
+         the modes in full, the error of condensation, mass and effective masses, shares of energy, shapes and drawing of \
+         the housing.",
         record.interface.len(),
         record.modal_hz.len()
     )];

@@ -68,10 +68,12 @@ impl Search<'_> {
         });
         let hidden: Vec<String> = hidden.collect();
         let free = harmonics.len() - hidden.len();
-        let too_few = if free < LEAST_FREE {
-            format!("only {free} of the first {deciding} harmonics are free of other lines")
-        } else {
-            "neither the first nor the second harmonic is free of other lines".to_owned()
+        let too_few = match free {
+            0 => format!("each of the first {deciding} harmonics coincides with another line"),
+            free if free < LEAST_FREE => {
+                format!("only {free} of the first {deciding} harmonics are free of other lines")
+            }
+            _ => "neither the first nor the second harmonic is free of other lines".to_owned(),
         };
         let shown = hidden.iter().take(2).map(String::as_str);
         let shown: Vec<&str> = shown.collect();

@@ -34,7 +34,7 @@ pub struct Diagnosis {
     pub envelope: String,
     /// How many were judged.
     pub envelopes: usize,
-    /// Spectrum of that envelope over the shaft's angle. Results have nothing of it but the turns of the shaft in the window.
+    /// Spectrum of that envelope over the shaft's angle. JSON results hold only the number of revolutions in the window.
     #[serde(rename = "turns", serialize_with = "turns_alone")]
     #[schemars(with = "f64", description = "Turns of the shaft in the window.")]
     pub spectrum: EnvelopeOrderSpectrum,

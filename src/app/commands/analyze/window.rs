@@ -70,7 +70,7 @@ fn good_to_hz(case: &Case) -> Option<f64> {
     Some(case.band_hz()?[1].min(passed))
 }
 
-/// A window of the signal, analysed. Results have all of it but the curves.
+/// A window of the signal, analysed. JSON results hold all of it but the curves.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct WindowAnalysis {
     /// Sensor or channel that it belongs to.
