@@ -38,7 +38,7 @@ fn a_speed_that_no_line_confirms_is_said() {
         found.speed_doubt().unwrap_or_default()
     };
     let noise = with_noise(&vec![0.0; (4.4 * RATE) as usize], 1.0, 23);
-    let hidden = "a wrong one hides faults";
+    let hidden = "at a wrong speed, faults stay hidden";
     assert!(doubt(&judged(&noise, steady, &orders, 0.01)).ends_with(hidden));
     // a simulation's speed needs no confirmation
     assert_eq!(doubt(&judged(&noise, steady, &orders, 0.0)), "");
