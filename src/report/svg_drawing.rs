@@ -244,7 +244,8 @@ fn key(out: &mut String, drawing: &Drawing) {
     let sensor = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], Some(0.0), "");
     let nodes = drawing.ring.as_ref().map_or(0, |ring| ring.nodes.len());
     // each sign, how many there are, and what it is
-    let entries: [(&dyn Fn(&mut String, [f64; 2]), usize, String); 7] = [
+    type Sign<'a> = &'a dyn Fn(&mut String, [f64; 2]);
+    let entries: [(Sign<'_>, usize, String); 7] = [
         (&mesh, drawing.mesh_edges.len(), "housing mesh".to_owned()),
         (&ring, usize::from(drawing.ring.is_some()), format!("bearing ring, {}", count(nodes, "node"))),
         (&stroke(RACE), drawing.races.len(), "races".to_owned()),

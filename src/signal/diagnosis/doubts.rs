@@ -41,7 +41,7 @@ impl Search<'_> {
         let masked = self.masked(known);
         let multiple = |times: &u32| !has_teeth_between(&masked, &fit, *times);
         // lines beside the harmonics count in a sided comb, and these need not stand out
-        if let Some(times) = (2..=MOST_MULTIPLE).filter(|_| !fit.beside.is_some()).find(multiple) {
+        if let Some(times) = (2..=MOST_MULTIPLE).filter(|_| fit.beside.is_none()).find(multiple) {
             return Some(format!(
                 "only harmonics of {:.2} Hz stand out, {times} times its frequency: something strikes that often, and it is no part of this bearing.",
                 hz(fit.order * f64::from(times))
