@@ -268,10 +268,10 @@ pub struct CompleteElliptic {
 ///
 /// # Example
 /// ```
-/// let at = plummer::bearing::elliptic::complete(0.5).unwrap();
+/// let at = plummer::bearing::hertz::complete_elliptic(0.5).unwrap();
 /// assert!((at.first - 1.854_074_677_301_371_9).abs() < 4e-15);
 /// ```
-pub fn complete(parameter: f64) -> Result<CompleteElliptic, BearingError> {
+pub fn complete_elliptic(parameter: f64) -> Result<CompleteElliptic, BearingError> {
     if parameter.is_finite() && parameter < 1.0 {
         Ok(from_complement(parameter, 1.0 - parameter))
     } else {
@@ -337,7 +337,7 @@ mod elliptic_tests {
     #[test]
     fn table_of_both_kinds_to_1e_15() {
         for (m, first, second) in TABLE {
-            let at = complete(m).unwrap();
+            let at = complete_elliptic(m).unwrap();
             // 0.999999 is not representable: K moves by 2e-11 relative per 1e-16 of m there.
             let tolerance = if m > 0.999 { 2e-11 } else { 1e-15 };
             assert_relative_eq!(at.first, first, max_relative = tolerance);
@@ -358,13 +358,13 @@ mod elliptic_tests {
     #[test]
     fn differences_agree_with_their_definitions_and_limits() {
         for m in [-2.0, 0.3, 0.6, 0.9, 0.99] {
-            let at = complete(m).unwrap();
+            let at = complete_elliptic(m).unwrap();
             let (k, e) = (at.first, at.second);
             assert_relative_eq!(at.difference, (k - e) / (m * k), max_relative = 1e-14);
             let second = ((2.0 - m) * e - 2.0 * (1.0 - m) * k) / (m * m * k);
             assert_relative_eq!(at.second_difference, second, max_relative = 1e-13);
         }
-        let at = complete(1e-14).unwrap();
+        let at = complete_elliptic(1e-14).unwrap();
         assert_relative_eq!(at.difference, 0.5, max_relative = 1e-13);
         assert_relative_eq!(at.second_difference, 0.375, max_relative = 1e-13);
     }
@@ -372,9 +372,9 @@ mod elliptic_tests {
     #[test]
     fn one_and_above_are_refused_by_value() {
         for m in [1.0, 1.5, f64::NAN, f64::NEG_INFINITY] {
-            assert!(complete(m).is_err());
+            assert!(complete_elliptic(m).is_err());
         }
-        let error = complete(1.0).unwrap_err();
+        let error = complete_elliptic(1.0).unwrap_err();
         assert_eq!(error.to_string(), "elliptic parameter m = 1 must be below 1");
     }
 }
