@@ -5,7 +5,7 @@
 //! Goal: an import against the flow from mesh to report fails here, with file and line.
 //! Sketch: every path of a `use`, and every `crate::` or `super::` path in code, is followed through re-exports to the file that
 //!   defines the name. That is an arrow from file to file.
-//! Conditions: test code is exempt: files `tests.rs`, `*_tests.rs`, `tests_*.rs` and `samples.rs`, and modules under `#[cfg(test)]`.
+//! Conditions: test code is exempt: files `tests.rs`, `*_tests.rs` and `tests_*.rs`, and modules under `#[cfg(test)]`.
 //!   So are comments, `lib.rs` and `main.rs`. A `pub use` in a `mod.rs` is no arrow of its own: it hands names on.
 //! Parameters: none; there is no tolerance.
 

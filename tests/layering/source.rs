@@ -50,7 +50,6 @@ fn is_test_file(path: &str) -> bool {
     let mut names = path.rsplit('/');
     let name = names.next().unwrap_or(path);
     name == "tests.rs"
-        || name == "samples.rs"
         || name.ends_with("_tests.rs")
         || name.starts_with("tests_")
         || names.any(|folder| folder == "tests")

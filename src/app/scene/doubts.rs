@@ -136,7 +136,7 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         let counts = STIFF_IN_BENDING.into_iter().map(of_kind).filter(|(count, _)| *count > 0);
         counts.map(|(count, kind)| {
             format!(
-                "part \"{}\" has {count} {} elements, which are far too stiff in bending: with one layer across a thickness, frequencies are 75 % too high and more; mesh with second order (gmsh -order 2)",
+                "part \"{}\" has {count} {} elements, which are far too stiff in bending: with one layer across a thickness, they lose 75 % of the deflection and more; mesh with second order (gmsh -order 2)",
                 described.group,
                 kind.name()
             )

@@ -1,7 +1,7 @@
 //! `plummer frf`: transfer paths from forces to sensors, reduced against full.
 //!
 //! A case comes in; an [`FrfResult`] goes out: responses of the reduced model (`reduced.rs`) with their estimated errors, beside those of
-//! the full model (`compared.rs`). Read `compute.rs` first. `summary.rs` is `frf.json`, `report.rs` the page.
+//! the full model. Read `compute.rs` first. `summary.rs` is `frf.json`, `report.rs` the page.
 
 pub(crate) mod compute;
 pub(crate) mod reduced;
