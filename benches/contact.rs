@@ -4,10 +4,11 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use plummer::app::case::Case;
 use plummer::app::scene::{CoupledStructure, bearing_setup};
+use plummer::fe::reduction::frf::ModalDamping;
 use plummer::numerics::Unwatched;
 use plummer::numerics::ode::{Instant, Observer, SecondOrderSystem};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
-use plummer::system::{CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
+use plummer::system::{CoupledSystem, Equilibrium, ModeSelection, StaticCondition};
 use std::hint::black_box;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/tadina2011/outer-dent.toml");
@@ -48,7 +49,7 @@ fn evaluation(criterion: &mut Criterion) {
             &stage.modes,
             setup,
             ModeSelection::Count(10),
-            ModeDamping::Modal(0.03),
+            &ModalDamping::Uniform(0.03),
             residual,
         )
         .expect("supported");

@@ -213,7 +213,9 @@ impl ComputeError {
     pub(crate) fn is_input(&self) -> bool {
         match self {
             Self::Reduction(error) => !matches!(error, ReductionError::Linalg(_)),
-            Self::System(error) => matches!(error, SystemError::Refused(_) | SystemError::NoModesKept { .. }),
+            Self::System(error) => {
+                matches!(error, SystemError::Refused(_) | SystemError::Damping(_) | SystemError::NoModesKept { .. })
+            }
             Self::Transient(error) => !matches!(error, TransientError::BlewUp(_)),
             Self::Linalg(error) => matches!(error, LinalgError::TooManyModes { .. } | LinalgError::NoFrequency { .. }),
             Self::Modal(error) => !matches!(error, ModalError::Linalg(_)),

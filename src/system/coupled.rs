@@ -7,9 +7,9 @@ use super::raceway::RacewayTable;
 use super::residual::{Coupling, ResidualFlexibility};
 use super::{BallsInertia, BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::bearing::{Race, RotationCursor};
+use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::lanes::{self, Lanes};
 use crate::numerics::ode::{LinearCoordinate, State};
-use std::f64::consts::TAU;
 
 /// A ball that is farther from the race than this (m) cannot be reached by the residual
 /// displacement that other balls cause: 1e-9 m/N under less than 100 N.
@@ -24,38 +24,6 @@ pub enum ModeSelection {
     Count(usize),
     /// Those up to a frequency, Hz.
     UpTo(f64),
-}
-
-/// Damping of the structure's modes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ModeDamping {
-    /// `C = alpha M + beta K`: 2 zeta omega = alpha + beta omega^2; alpha in 1/s, beta in s.
-    Rayleigh {
-        /// Mass coefficient, 1/s.
-        alpha: f64,
-        /// Stiffness coefficient, s.
-        beta: f64,
-    },
-    /// The same ratio zeta for every mode.
-    Modal(f64),
-}
-
-impl ModeDamping {
-    /// Rayleigh damping with the given ratios at two frequencies (Hz):
-    /// `zeta = alpha / (2 omega) + beta omega / 2`.
-    pub(crate) fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
-        let (w1, w2) = (TAU * first.0, TAU * second.0);
-        let beta = 2.0 * (second.1 * w2 - first.1 * w1) / (w2 * w2 - w1 * w1);
-        Self::Rayleigh { alpha: 2.0 * first.1 * w1 - beta * w1 * w1, beta }
-    }
-
-    /// 2 zeta omega of a mode, 1/s.
-    pub(crate) fn coefficient(&self, squared_frequency: f64) -> f64 {
-        match *self {
-            Self::Rayleigh { alpha, beta } => alpha + beta * squared_frequency,
-            Self::Modal(ratio) => 2.0 * ratio * squared_frequency.max(0.0).sqrt(),
-        }
-    }
 }
 
 impl ModeSelection {
@@ -139,14 +107,14 @@ impl CoupledSystem {
     /// sensors.
     ///
     /// # Errors
-    /// [`SystemError::NoModesKept`]; [`SystemError::Refused`] for a free structure with `residual`, for `printed` equations without all
+    /// [`SystemError::NoModesKept`]; [`SystemError::Damping`]; [`SystemError::Refused`] for a free structure with `residual`, for `printed` equations without all
     /// modes, and for balls without inertia in them or with contact damping.
     pub fn new(
         structure: &Structure,
         modes: &StructureModes,
         setup: BearingSetup,
         selection: ModeSelection,
-        damping: ModeDamping,
+        damping: &ModalDamping,
         residual: bool,
     ) -> Result<Self, SystemError> {
         let count = selection.count(modes);
@@ -171,10 +139,10 @@ impl CoupledSystem {
         } else {
             None
         };
-        let structural = modes.squared_frequencies[..count].iter().map(|square| {
-            let squared_frequency = square.max(0.0);
-            LinearCoordinate { squared_frequency, damping: damping.coefficient(squared_frequency) }
-        });
+        let rates = damping.rates(&modes.squared_frequencies)?;
+        let structural = modes.squared_frequencies[..count].iter().zip(rates);
+        let structural =
+            structural.map(|(square, damping)| LinearCoordinate { squared_frequency: square.max(0.0), damping });
         let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
         let linear = structural.chain(std::iter::repeat_n(free, if dynamic { 2 + balls } else { 2 })).collect();
         let over_modes = |row: &[f64]| -> Vec<f64> { (0..count).map(|mode| modes.participation(mode, row)).collect() };

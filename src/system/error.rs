@@ -1,5 +1,6 @@
 //! What can go wrong between structure and bearing.
 
+use crate::fe::reduction::frf::FrfError;
 use crate::numerics::linalg::LinalgError;
 use thiserror::Error;
 
@@ -9,6 +10,9 @@ pub enum SystemError {
     /// A linear algebra step failed.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
+    /// Damping out of range.
+    #[error(transparent)]
+    Damping(#[from] FrfError),
     /// A superelement or a sensor row of another size than the structure's.
     #[error("{0}")]
     OtherSize(String),

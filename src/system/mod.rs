@@ -24,7 +24,7 @@ mod structure;
 mod turning;
 
 pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, LoadProfile, Shaft};
-pub use coupled::{CoupledSystem, ModeDamping, ModeSelection};
+pub use coupled::{CoupledSystem, ModeSelection};
 pub use energy::{EnergyBalance, EnergyMeter};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;

@@ -15,11 +15,11 @@
 
 use plummer::bearing::{Race, Wave};
 use plummer::fe::model::Fit;
+use plummer::fe::reduction::frf::ModalDamping;
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::ode::{NoRecord, State};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, StaticCondition, Structure,
-    StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeSelection, StaticCondition, Structure, StructureModes,
 };
 
 use crate::setup::{Housing, SYMMETRIC_DEG, contact_forces, paper_bearing, paper_structure, preloaded_bearing};
@@ -50,8 +50,8 @@ impl Case<'_> {
     fn drift(&self, selection: ModeSelection, residual: bool, method: Method) -> Drift {
         let setup = paper_bearing(self.first_deg, Formulation::Consistent);
         let rest = Equilibrium::find(self.structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
-        let undamped = ModeDamping::Modal(0.0);
-        let mut system = CoupledSystem::new(self.structure, self.modes, setup, selection, undamped, residual).unwrap();
+        let undamped = ModalDamping::Uniform(0.0);
+        let mut system = CoupledSystem::new(self.structure, self.modes, setup, selection, &undamped, residual).unwrap();
         let start = system.state_at(0.0, &rest, self.modes);
         let mut end = start.clone();
         // 1e-8 s is below the limit of 216 modes, 5.3e-8 s

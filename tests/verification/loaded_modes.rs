@@ -13,6 +13,7 @@
 //! The three figures are rounded to 1 % and rest on choices that the source does not report, so agreement
 //! shows that the set-up can be reproduced, not that it is right.
 
+use plummer::fe::reduction::frf::ModalDamping;
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
@@ -21,8 +22,8 @@ use plummer::bearing::{Race, Wave};
 use plummer::numerics::linalg::{DenseMatrix, general_spectrum};
 use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeDamping, ModeSelection,
-    StaticCondition, Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, LoadedModes, ModeSelection, StaticCondition,
+    Structure, StructureModes,
 };
 
 use crate::setup::{
@@ -49,9 +50,9 @@ impl Scene {
         let structure = paper_structure(72, offset);
         let modes = structure.modes().unwrap();
         let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
-        let undamped = ModeDamping::Modal(0.0);
+        let undamped = ModalDamping::Uniform(0.0);
         let all = ModeSelection::All;
-        let system = CoupledSystem::new(&structure, &modes, setup.clone(), all, undamped, false).unwrap();
+        let system = CoupledSystem::new(&structure, &modes, setup.clone(), all, &undamped, false).unwrap();
         Self { state: system.state_at(0.0, &rest, &modes), structure, modes, setup, rest, system }
     }
 

@@ -6,6 +6,7 @@
 //! Parameters: ten modes of 72 nodes with and without the static residual of the others; a dent in either race, a flat on
 //!   a ball, waves, balls of different size, preload.
 
+use plummer::fe::reduction::frf::ModalDamping;
 use std::f64::consts::PI;
 
 use plummer::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, RaceDefect, SurfaceDent};
@@ -13,8 +14,8 @@ use plummer::bearing::{BearingDimensions, BearingGeometry, Race, Wave};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::numerics::ode::{SecondOrderSystem, State};
 use plummer::system::{
-    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, ModeDamping, ModeSelection,
-    Recorder, RunRecord, StaticCondition, Structure, StructureModes, SystemError,
+    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, FlatOnBall, Formulation, ModeSelection, Recorder,
+    RunRecord, StaticCondition, Structure, StructureModes, SystemError,
 };
 
 use crate::setup::{SYMMETRIC_DEG, paper_bearing, paper_structure, preloaded_bearing, rolling_cage};
@@ -27,8 +28,8 @@ fn system(
 ) -> CoupledSystem {
     let setup = BearingSetup { balls_inertia, ..setup.clone() };
     let kept = ModeSelection::Count(10);
-    let damping = ModeDamping::Modal(0.02);
-    CoupledSystem::new(structure, modes, setup, kept, damping, residual).unwrap()
+    let damping = ModalDamping::Uniform(0.02);
+    CoupledSystem::new(structure, modes, setup, kept, &damping, residual).unwrap()
 }
 
 fn ring() -> (Structure, StructureModes) {
@@ -180,8 +181,8 @@ fn the_equilibrium_is_one_without_inertia_too() {
     let setup = paper_bearing(SYMMETRIC_DEG, Formulation::Consistent);
     let rest = Equilibrium::find(&ring.0, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let setup = BearingSetup { balls_inertia: BallsInertia::QuasiStatic, ..setup };
-    let (all, damping) = (ModeSelection::All, ModeDamping::Modal(0.02));
-    let mut system = CoupledSystem::new(&ring.0, &ring.1, setup, all, damping, false).unwrap();
+    let (all, damping) = (ModeSelection::All, ModalDamping::Uniform(0.02));
+    let mut system = CoupledSystem::new(&ring.0, &ring.1, setup, all, &damping, false).unwrap();
     let state = system.state_at(0.0, &rest, &ring.1);
     let mut g = vec![0.0; state.y.len()];
     system.force_into(0.0, &state.y, &state.v, &mut g);
@@ -267,8 +268,8 @@ fn what_needs_the_speed_of_balls_is_refused() {
             balls_inertia: BallsInertia::QuasiStatic,
             ..paper_bearing(270.0, formulation)
         };
-        let (all, damping) = (ModeSelection::All, ModeDamping::Modal(0.02));
-        let refused = CoupledSystem::new(&ring.0, &ring.1, setup, all, damping, false);
+        let (all, damping) = (ModeSelection::All, ModalDamping::Uniform(0.02));
+        let refused = CoupledSystem::new(&ring.0, &ring.1, setup, all, &damping, false);
         let refused = refused.expect_err("refused");
         assert!(
             matches!(refused, SystemError::Refused(what) if what.starts_with("balls_inertia = \"quasi-static\" leaves"))

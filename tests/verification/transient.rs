@@ -10,6 +10,7 @@
 //! Parameters: see `setup`; radial play 2.5 um or -1.5 um; contact damping 1 s/m and modal damping 3 % where
 //!   there is damping; ring of 24 nodes for the nodal and the energy runs (time), 72 for the agreement.
 
+use plummer::fe::reduction::frf::ModalDamping;
 use std::f64::consts::FRAC_PI_2;
 
 use plummer::bearing::HertzContact;
@@ -17,8 +18,8 @@ use plummer::numerics::linalg::{DenseCholesky, DenseMatrix};
 use plummer::numerics::ode::{Instant, NoRecord, Observer, SecondOrderSystem, State};
 use plummer::numerics::ode::{Method, Schedule, Stepping, integrate};
 use plummer::system::{
-    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeDamping, ModeSelection, Recorder, StaticCondition,
-    Structure, StructureModes,
+    BearingSetup, CoupledSystem, Equilibrium, Formulation, ModeSelection, Recorder, StaticCondition, Structure,
+    StructureModes,
 };
 
 use crate::setup::{
@@ -164,7 +165,7 @@ fn modal_newmark_is_nodal_newmark() {
     let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
     let (ratio, h, count) = (0.03, 1e-7, 1000);
     let mut system =
-        CoupledSystem::new(&structure, &modes, setup.clone(), ModeSelection::All, ModeDamping::Modal(ratio), false)
+        CoupledSystem::new(&structure, &modes, setup.clone(), ModeSelection::All, &ModalDamping::Uniform(ratio), false)
             .unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let n = modes.count();
@@ -317,8 +318,8 @@ fn energy_error(setup: &BearingSetup, selection: ModeSelection, method: Method, 
     let structure = paper_structure(24, 0.0);
     let modes = structure.modes().unwrap();
     let rest = Equilibrium::find(&structure, setup, StaticCondition::at(setup, 0.0)).unwrap();
-    let undamped = ModeDamping::Modal(0.0);
-    let mut system = CoupledSystem::new(&structure, &modes, setup.clone(), selection, undamped, false).unwrap();
+    let undamped = ModalDamping::Uniform(0.0);
+    let mut system = CoupledSystem::new(&structure, &modes, setup.clone(), selection, &undamped, false).unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let n = system.modes();
     let kick = [1e-3, 0.5e-3];
@@ -428,8 +429,8 @@ fn smooth_signal(method: Method, h: f64, duration: f64) -> Vec<f64> {
     let mut setup = preloaded_bearing(270.0, 20.0);
     setup.contact_damping = 1.0;
     let rest = Equilibrium::find(&structure, &setup, StaticCondition::at(&setup, 0.0)).unwrap();
-    let damping = ModeDamping::Modal(0.03);
-    let mut system = CoupledSystem::new(&structure, &modes, setup, ModeSelection::All, damping, false).unwrap();
+    let damping = ModalDamping::Uniform(0.03);
+    let mut system = CoupledSystem::new(&structure, &modes, setup, ModeSelection::All, &damping, false).unwrap();
     let mut state = system.state_at(0.0, &rest, &modes);
     let mut schedule = Schedule::covering(duration, 1e-5, h).unwrap();
     let wanted = schedule.intervals as usize + 1;
@@ -498,7 +499,7 @@ fn overlaps_are_events_of_the_contacts() {
             &modes,
             setup.clone(),
             ModeSelection::UpTo(60e3),
-            ModeDamping::Modal(0.0),
+            &ModalDamping::Uniform(0.0),
             residual,
         )
         .unwrap();

@@ -8,11 +8,10 @@ use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
 use crate::bearing::{Race, RaceContacts};
+use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::{Method, State};
-use crate::system::{
-    BallsInertia, BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition,
-};
+use crate::system::{BallsInertia, BearingSetup, CoupledSystem, Equilibrium, ModeSelection, StaticCondition};
 
 /// Structure and bearing of a case and the equilibrium that a simulation starts from.
 #[derive(Debug)]
@@ -24,7 +23,7 @@ pub struct Scene {
     /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
     pub contacts: RaceContacts,
     /// Damping of the structure's modes.
-    pub damping: ModeDamping,
+    pub damping: ModalDamping,
     /// When it starts, s.
     pub start: f64,
     /// Equilibrium with cage and loads as they are then.
@@ -110,7 +109,7 @@ impl Scene {
             &self.stage.modes,
             setup,
             model.modes,
-            self.damping,
+            &self.damping,
             model.residual,
         )?)
     }

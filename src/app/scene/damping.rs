@@ -4,23 +4,22 @@ use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::{ModalBasis, ModalDamping, ReducedSystem};
 use crate::numerics::linalg::DenseMatrix;
-use crate::system::ModeDamping;
 
 /// The damping of a case; none without `[damping]`.
 ///
 /// # Errors
 /// [`ComputeError::Input`] for ratios that drive some modes.
-pub(crate) fn damping(case: &Case) -> Result<ModeDamping, ComputeError> {
+pub(crate) fn damping(case: &Case) -> Result<ModalDamping, ComputeError> {
     let damping = match &case.damping {
-        None => ModeDamping::Modal(0.0),
-        Some(case::Damping::Modal(ratio)) => ModeDamping::Modal(*ratio),
-        Some(case::Damping::Rayleigh { alpha, beta }) => ModeDamping::Rayleigh { alpha: *alpha, beta: *beta },
+        None => ModalDamping::Uniform(0.0),
+        Some(case::Damping::Modal(ratio)) => ModalDamping::Uniform(*ratio),
+        Some(case::Damping::Rayleigh { alpha, beta }) => ModalDamping::Rayleigh { alpha: *alpha, beta: *beta },
         Some(case::Damping::Ratios([first, second])) => {
-            ModeDamping::rayleigh_through((first.frequency_hz, first.ratio), (second.frequency_hz, second.ratio))
+            ModalDamping::rayleigh_through((first.frequency_hz, first.ratio), (second.frequency_hz, second.ratio))
         }
     };
     match damping {
-        ModeDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => Err(ComputeError::wrong(format!(
+        ModalDamping::Rayleigh { alpha, beta } if alpha < 0.0 || beta < 0.0 => Err(ComputeError::wrong(format!(
             "damping: these values mean alpha = {alpha:.4e} 1/s and beta = {beta:.4e} s; a negative coefficient drives some modes: bring the two ratios closer together, or use damping.modal"
         ))),
         admissible => Ok(admissible),
@@ -40,25 +39,14 @@ pub(crate) fn refuse_structural_damping(case: &Case) -> Result<(), ComputeError>
     }
 }
 
-/// The same damping for frequency responses.
-///
-/// # Errors
-/// As [`damping`].
-pub(crate) fn modal_damping(case: &Case) -> Result<ModalDamping, ComputeError> {
-    Ok(match damping(case)? {
-        ModeDamping::Rayleigh { alpha, beta } => ModalDamping::Rayleigh { alpha, beta },
-        ModeDamping::Modal(ratio) => ModalDamping::Uniform(ratio),
-    })
-}
-
 /// Alpha of a case's `C = alpha M + beta K`, 1/s; zero for damping mode by mode.
 ///
 /// # Errors
 /// As [`damping`].
 pub(crate) fn mass_damping(case: &Case) -> Result<f64, ComputeError> {
     Ok(match damping(case)? {
-        ModeDamping::Rayleigh { alpha, .. } => alpha,
-        ModeDamping::Modal(_) => 0.0,
+        ModalDamping::Rayleigh { alpha, .. } => alpha,
+        _ => 0.0,
     })
 }
 
@@ -67,7 +55,7 @@ pub(crate) fn mass_damping(case: &Case) -> Result<f64, ComputeError> {
 /// # Errors
 /// As [`damping`], and what the dense eigenvalue solver reports.
 pub(crate) fn viscous_matrix(case: &Case, k: &DenseMatrix, m: &DenseMatrix) -> Result<DenseMatrix, ComputeError> {
-    Ok(match modal_damping(case)? {
+    Ok(match damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => m * faer::Scale(alpha) + k * faer::Scale(beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => DenseMatrix::zeros(k.nrows(), k.ncols()),
         ratios => {

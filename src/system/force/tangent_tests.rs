@@ -1,8 +1,9 @@
 //! The tangent against central differences of the force it belongs to.
 
 use super::super::bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, LoadProfile, Shaft};
-use super::super::coupled::{CoupledSystem, ModeDamping, ModeSelection};
+use super::super::coupled::{CoupledSystem, ModeSelection};
 use super::super::equilibrium::{Equilibrium, StaticCondition};
+use super::super::error::SystemError;
 use super::super::structure::Structure;
 use crate::bearing::defect::{BallFlat, CurvatureReading, Dent, DentShape, FlatShape, MeasuredProfile, RaceDefect};
 use crate::bearing::{
@@ -12,6 +13,7 @@ use crate::bearing::{
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RadiusRule, RingLayer};
 use crate::fe::model::{Ring, RingSupport, SpringShare};
+use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{SecondOrderSystem, State, Tangent};
 
 const GRAVITY: [f64; 2] = [0.0, -9.81];
@@ -138,9 +140,9 @@ impl Asked {
         let setup = self.setup;
         let at = StaticCondition::at(&setup, 0.0);
         let rest = Equilibrium::find(&structure, &setup, at).unwrap();
-        let damping = ModeDamping::Modal(0.03);
+        let damping = ModalDamping::Uniform(0.03);
         let (kept, residual) = (self.modes, self.residual);
-        let system = CoupledSystem::new(&structure, &modes, setup, kept, damping, residual).unwrap();
+        let system = CoupledSystem::new(&structure, &modes, setup, kept, &damping, residual).unwrap();
         let State { t, mut y, mut v } = system.state_at(0.0, &rest, &modes);
         for i in 0..y.len() {
             let sign = f64::sin((i * i + 1) as f64);
@@ -287,10 +289,10 @@ fn with_what_is_left_out_it_is_near_the_derivative() {
 fn a_state_that_is_no_number_gives_a_force_that_is_none() {
     let structure = structure();
     let modes = structure.modes().unwrap();
-    let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
+    let (kept, damping) = (ModeSelection::Count(10), ModalDamping::Uniform(0.03));
     let light = BearingSetup { balls_inertia: BallsInertia::QuasiStatic, ..preloaded() };
     for setup in [damped(preloaded()), light] {
-        let mut system = CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
+        let mut system = CoupledSystem::new(&structure, &modes, setup, kept, &damping, true).unwrap();
         let none = vec![f64::NAN; system.linear().len()];
         let mut force = vec![0.0; none.len()];
         system.force_into(0.0, &none, &none, &mut force);
@@ -309,8 +311,8 @@ fn what_is_prescribed_changes_at_the_knots_of_speed_slip_and_loads() {
         vec![LoadProfile::constant([1.0, 0.0]), LoadProfile::through(&[(0.3, [0.0; 2]), (0.9, [2.0, 0.0])])];
     let structure = structure();
     let modes = structure.modes().unwrap();
-    let (kept, damping) = (ModeSelection::Count(10), ModeDamping::Modal(0.03));
-    let system = CoupledSystem::new(&structure, &modes, setup, kept, damping, true).unwrap();
+    let (kept, damping) = (ModeSelection::Count(10), ModalDamping::Uniform(0.03));
+    let system = CoupledSystem::new(&structure, &modes, setup, kept, &damping, true).unwrap();
     let mut found = Vec::new();
     let mut time = 0.05_f64;
     while found.len() < 9 && time.is_finite() {
@@ -319,4 +321,21 @@ fn what_is_prescribed_changes_at_the_knots_of_speed_slip_and_loads() {
     }
     let expected = [0.2, 0.3, 0.5, 0.7, 0.9, f64::INFINITY];
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+}
+
+#[test]
+fn each_mode_has_its_own_damping() {
+    let structure = structure();
+    let modes = structure.modes().unwrap();
+    let system = |damping: &ModalDamping| {
+        CoupledSystem::new(&structure, &modes, preloaded(), ModeSelection::Count(10), damping, false)
+    };
+    let ratios: Vec<f64> = (0..modes.count()).map(|mode| 0.01 + 0.001 * mode as f64).collect();
+    let damped = system(&ModalDamping::Each(ratios.clone())).unwrap();
+    for (coordinate, ratio) in damped.linear[..10].iter().zip(ratios) {
+        assert_eq!(coordinate.damping, 2.0 * ratio * coordinate.squared_frequency.sqrt());
+    }
+    for wrong in [ModalDamping::Each(vec![0.01]), ModalDamping::Uniform(f64::NAN), ModalDamping::Uniform(1.0)] {
+        assert!(matches!(system(&wrong), Err(SystemError::Damping(_))), "{wrong:?}");
+    }
 }

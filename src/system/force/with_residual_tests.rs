@@ -2,9 +2,10 @@
 
 use super::super::tangent_tests::{damped, dented, preloaded, structure};
 use crate::bearing::Race;
+use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{SecondOrderSystem, State};
 use crate::system::bearing_setup::BearingSetup;
-use crate::system::coupled::{CoupledSystem, ModeDamping, ModeSelection};
+use crate::system::coupled::{CoupledSystem, ModeSelection};
 use crate::system::{Equilibrium, StaticCondition};
 
 /// Part of a correction that is made: a residual may be ten times as soft as the contacts.
@@ -18,8 +19,8 @@ fn forces(setup: BearingSetup, kept: usize) -> [Vec<f64>; 2] {
     let rest = StaticCondition::at(&setup, 0.0);
     let rest = Equilibrium::find(&structure, &setup, rest).unwrap();
     let system = |selection| {
-        let damping = ModeDamping::Modal(0.03);
-        CoupledSystem::new(&structure, &modes, setup.clone(), selection, damping, true).unwrap()
+        let damping = ModalDamping::Uniform(0.03);
+        CoupledSystem::new(&structure, &modes, setup.clone(), selection, &damping, true).unwrap()
     };
     let (mut few, mut all) = (system(ModeSelection::Count(kept)), system(ModeSelection::All));
     let State { t, mut y, mut v } = few.state_at(0.0, &rest, &modes);

@@ -6,7 +6,7 @@ use super::reduced::{FrfHousing, ReducedPaths, TransferPath, places};
 use crate::app::case;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::damping::modal_damping;
+use crate::app::scene::damping::damping;
 use crate::app::scene::doubts;
 use crate::app::scene::imported::unused_damping;
 use crate::app::scene::places::Place;
@@ -197,7 +197,7 @@ pub(crate) fn compare(
     let FrfHousing::Mesh(stage) = &reduced.housing else {
         return nothing("the housing is a superelement from a file, of which no mesh is known");
     };
-    let (alpha, beta) = match modal_damping(case)? {
+    let (alpha, beta) = match damping(case)? {
         ModalDamping::Rayleigh { alpha, beta } => (alpha, beta),
         ModalDamping::Uniform(ratio) if ratio <= 0.0 => (0.0, 0.0),
         _ => {

@@ -3,7 +3,7 @@
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 use crate::app::scene::condensed::basis_choice;
-use crate::app::scene::damping::{mass_damping, modal_damping, viscous_matrix};
+use crate::app::scene::damping::{damping, mass_damping, viscous_matrix};
 use crate::app::scene::places::{Place, Spot};
 use crate::app::scene::{CondensedHousing, ImportedHousing};
 use crate::fe::model::Ring;
@@ -201,7 +201,7 @@ impl<'c> ReducedPaths<'c> {
                 InteriorDamping {
                     structural: stage.structural.as_ref(),
                     mass: mass_damping(case)?,
-                    by_mode: matches!(modal_damping(case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
+                    by_mode: matches!(damping(case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
                 },
                 &system,
                 &basis,

@@ -91,7 +91,7 @@ impl ModalBasis {
         system: &ReducedSystem,
         damping: &ModalDamping,
     ) -> Result<DenseMatrix, FrfError> {
-        let rates = damping.rates(&self.omegas)?;
+        let rates = damping.rates(&self.squared)?;
         let heavy = system.mass() * &self.shapes;
         let scaled = DenseMatrix::from_fn(heavy.nrows(), heavy.ncols(), |row, mode| heavy[(row, mode)] * rates[mode]);
         Ok(scaled * heavy.transpose())
@@ -117,7 +117,7 @@ impl ModalSuperposition {
         if kept > available {
             return Err(FrfError(format!("{kept} modes asked for, but the system has only {available} with mass")));
         }
-        let mut rates = damping.rates(&basis.omegas)?;
+        let mut rates = damping.rates(&basis.squared)?;
         rates.truncate(kept);
         let mut losses = vec![0.0; kept];
         let mut coupling = 0.0_f64;

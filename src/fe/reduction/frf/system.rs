@@ -116,7 +116,7 @@ pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<
     if found == expected { Ok(()) } else { Err(FrfError(format!("{what}: expected {expected}, found {found}"))) }
 }
 
-/// Viscous damping of modes.
+/// Viscous damping of modes, of a frequency response as of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModalDamping {
     /// The same ratio for every mode, >= 0 and < 1.
@@ -135,33 +135,43 @@ pub enum ModalDamping {
 }
 
 impl ModalDamping {
-    /// Damping `2 zeta_r w_r` of modes with the angular frequencies `omegas` (rad/s) \[modes\], 1/s. A rigid mode has the
-    /// alpha of Rayleigh damping and nothing of a ratio.
+    /// Rayleigh damping with the given ratios at two frequencies (Hz):
+    /// `zeta = alpha / (2 w) + beta w / 2`.
+    pub(crate) fn rayleigh_through(first: (f64, f64), second: (f64, f64)) -> Self {
+        let (w1, w2) = (TAU * first.0, TAU * second.0);
+        let beta = 2.0 * (second.1 * w2 - first.1 * w1) / (w2 * w2 - w1 * w1);
+        Self::Rayleigh { alpha: 2.0 * first.1 * w1 - beta * w1 * w1, beta }
+    }
+
+    /// Damping `2 zeta_r w_r` of modes with the squares of their angular frequencies `squares` (1/s^2) \[modes\], 1/s.
+    /// A rigid mode has the alpha of Rayleigh damping and nothing of a ratio.
     ///
     /// # Errors
-    /// [`FrfError`],
-    /// [`FrfError`] for another number of ratios than modes.
-    pub(crate) fn rates(&self, omegas: &[f64]) -> Result<Vec<f64>, FrfError> {
-        let of_ratio = |ratio: f64, omega: f64| 2.0 * ratio * omega;
+    /// [`FrfError`] for ratios or coefficients out of range, and for another number of ratios than modes.
+    pub fn rates(&self, squares: &[f64]) -> Result<Vec<f64>, FrfError> {
+        let of_ratio = |ratio: f64, square: f64| 2.0 * ratio * square.max(0.0).sqrt();
         match self {
             Self::Uniform(ratio) => {
                 let ratio = checked(*ratio)?;
-                Ok(omegas.iter().map(|&w| of_ratio(ratio, w)).collect())
+                Ok(squares.iter().map(|&square| of_ratio(ratio, square)).collect())
             }
             Self::Rayleigh { alpha, beta } => {
                 check_coefficients(&[("alpha", *alpha), ("beta", *beta)])?;
-                Ok(omegas.iter().map(|w| alpha + beta * w * w).collect())
+                Ok(squares.iter().map(|square| alpha + beta * square.max(0.0)).collect())
             }
             Self::Each(ratios) => {
-                same("number of damping ratios", omegas.len(), ratios.len())?;
-                ratios.iter().zip(omegas).map(|(&ratio, &omega)| Ok(of_ratio(checked(ratio)?, omega))).collect()
+                same("number of damping ratios", squares.len(), ratios.len())?;
+                ratios.iter().zip(squares).map(|(&ratio, &square)| Ok(of_ratio(checked(ratio)?, square))).collect()
             }
             Self::Points(points) => {
                 let frequencies: Vec<f64> = points.iter().map(|point| point.0).collect();
                 check_frequencies(&frequencies)?;
                 points.iter().try_for_each(|&(_, ratio)| checked(ratio).map(drop))?;
-                let at = |&omega: &f64| Some(of_ratio(interpolated(points, omega / TAU)?, omega));
-                omegas
+                let at = |&square: &f64| {
+                    let hz = square.max(0.0).sqrt() / TAU;
+                    Some(of_ratio(interpolated(points, hz)?, square))
+                };
+                squares
                     .iter()
                     .map(at)
                     .collect::<Option<_>>()
@@ -197,7 +207,8 @@ mod tests {
 
     fn ratios(damping: &ModalDamping, hz: &[f64]) -> Vec<f64> {
         let omegas: Vec<f64> = hz.iter().map(|hz| TAU * hz).collect();
-        let rates = damping.rates(&omegas).expect("in range");
+        let squares: Vec<f64> = omegas.iter().map(|omega| omega * omega).collect();
+        let rates = damping.rates(&squares).expect("in range");
         let pairs = rates.iter().zip(&omegas);
         pairs.map(|(rate, omega)| rate / (2.0 * omega)).collect()
     }
@@ -219,7 +230,7 @@ mod tests {
             assert!((found - 0.01).abs() < 1e-12, "{found}");
         }
         assert_eq!(damping.rates(&[0.0]), Ok(vec![239.359_440_273_508_06]));
-        assert_eq!(ModalDamping::Uniform(0.1).rates(&[0.0, 5.0]), Ok(vec![0.0, 1.0]));
+        assert_eq!(ModalDamping::Uniform(0.1).rates(&[0.0, 25.0]), Ok(vec![0.0, 1.0]));
     }
 
     #[test]

@@ -71,6 +71,8 @@ type Complex = [f64; 2];
 struct Loaded<'a> {
     scene: &'a Scene,
     rest: &'a Equilibrium,
+    /// Damping of the structure's modes, 1/s.
+    rates: Vec<f64>,
     modes: Vec<Mode>,
     /// Participations of the structure's modes at the sensors and under the balls.
     sensors: Vec<Vec<f64>>,
@@ -140,7 +142,9 @@ impl<'a> Loaded<'a> {
         let shapes = LoadedShapes::at(&stage.structure, &stage.modes, setup, rest)?;
         let sensors: Vec<_> = judged(scene).map(|sensor| participations(&stage.modes, &sensor.row)).collect();
         let balls = radial_forces(scene, rest.balls.iter().map(|ball| ball.angle));
-        let mut loaded = Self { scene, rest, modes: Vec::with_capacity(shapes.amplitudes.len()), sensors, balls };
+        let rates = scene.damping.rates(&stage.modes.squared_frequencies)?;
+        let mut loaded =
+            Self { scene, rest, rates, modes: Vec::with_capacity(shapes.amplitudes.len()), sensors, balls };
         for (mode, amplitudes) in shapes.modes.modes.iter().zip(shapes.amplitudes) {
             let pushed = loaded.pushing().map(|ball| dot(ball, &amplitudes).powi(2));
             let pushed: f64 = pushed.sum();
@@ -167,18 +171,17 @@ impl<'a> Loaded<'a> {
 
     /// What a mode's dampers take out, `a C a` with those of the structure's modes and `c F` of every contact, 1/s.
     fn damping(&self, amplitudes: &[f64]) -> f64 {
-        let (scene, structure) = (self.scene, &self.scene.stage.modes.squared_frequencies);
-        let of_modes = structure.iter().zip(amplitudes);
-        let of_modes = of_modes.map(|(square, a)| scene.damping.coefficient(*square) * a * a);
-        let [x, y] = [0, 1].map(|axis| amplitudes[structure.len() + axis]);
+        let count = self.rates.len();
+        let of_modes = self.rates.iter().zip(amplitudes).map(|(rate, a)| rate * a * a);
+        let [x, y] = [0, 1].map(|axis| amplitudes[count + axis]);
         let rest = self.rest.balls.iter().zip(&self.balls).enumerate();
         let of_contacts = rest.map(|(number, (ball, race))| {
-            let s = amplitudes[structure.len() + 2 + number];
+            let s = amplitudes[count + 2 + number];
             let (sin, cos) = ball.angle.sin_cos();
             let [inner, outer] = [s - cos * x - sin * y, s - dot(race, amplitudes)];
             ball.inner * inner * inner + ball.outer * outer * outer
         });
-        of_modes.sum::<f64>() + scene.setup.contact_damping * of_contacts.sum::<f64>()
+        of_modes.sum::<f64>() + self.scene.setup.contact_damping * of_contacts.sum::<f64>()
     }
 
     /// The band's drift for the mass that each loaded mode loses, part of its modal mass.
@@ -277,7 +280,7 @@ impl<'a> Loaded<'a> {
         let mut by_count = vec![0.0; count + 1];
         for k in (0..count).rev() {
             let square = self.scene.stage.modes.squared_frequencies[k];
-            let damping = self.scene.damping.coefficient(square);
+            let damping = self.rates[k];
             for frequency in 0..FREQUENCIES {
                 let w = at(frequency);
                 // A / w_k but for the i: the signs of both pairs, race against ball, take each other out

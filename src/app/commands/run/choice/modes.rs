@@ -21,9 +21,10 @@ use super::loaded_errors::LoadedErrors;
 use super::model_choice::ChosenPart;
 use super::quantities::{IMPACT, RunTask, ball_hz, judged, participations, radial_forces, tangent};
 use crate::app::case::ModesKept;
+use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::report::significant;
-use crate::system::{ModeDamping, ModeSelection};
+use crate::system::ModeSelection;
 use std::f64::consts::TAU;
 
 /// Part of the target that the modes left out may take: their estimate was found within a factor of three of the error on the
@@ -122,8 +123,12 @@ type Complex = [f64; 2];
 
 impl ModeErrors {
     /// For a band up to `band_hz`, with what the loaded system loses.
-    pub(crate) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Self {
+    ///
+    /// # Errors
+    /// [`ComputeError`] for damping out of range.
+    pub(crate) fn of(scene: &Scene, band_hz: f64, loaded: &LoadedErrors) -> Result<Self, ComputeError> {
         let modes = &scene.stage.modes;
+        let rates = scene.damping.rates(&modes.squared_frequencies)?;
         let count = PLACES * scene.setup.balls();
         // all round the raceway
         let contacts = radial_forces(scene, (0..count).map(|number| TAU * number as f64 / count as f64));
@@ -139,7 +144,7 @@ impl ModeErrors {
         let mut by_count = vec![[0.0; 2]; count + 1];
         let mut lost = Vec::with_capacity(count);
         for mode in (0..count).rev() {
-            let share = |w: f64| shares(modes.squared_frequencies[mode], scene.damping, w);
+            let share = |w: f64| shares(modes.squared_frequencies[mode], rates[mode], w);
             let weighted: Vec<_> = frequencies.iter().map(|&w| (w * w, share(w))).collect();
             let mut place = 0;
             for sensor in &sensors {
@@ -174,7 +179,7 @@ impl ModeErrors {
             let [_, with_residual] = &mut by_count[mode];
             *with_residual = with_residual.hypot(loaded.with(mode));
         }
-        Self { by_count }
+        Ok(Self { by_count })
     }
 
     /// With so many of the lowest modes.
@@ -217,10 +222,10 @@ impl Lost {
     }
 }
 
-/// What a mode of unit participation contributes, and what of it the static residual does not give.
-fn shares(squared_frequency: f64, damping: ModeDamping, w: f64) -> [Complex; 2] {
+/// What a mode of unit participation and a damping (1/s) contributes, and what of it the static residual does not give.
+fn shares(squared_frequency: f64, damping: f64, w: f64) -> [Complex; 2] {
     let stiff = squared_frequency - w * w;
-    let damp = w * damping.coefficient(squared_frequency);
+    let damp = w * damping;
     let size = (stiff * stiff + damp * damp).max(f64::MIN_POSITIVE);
     let whole = [stiff / size, -damp / size];
     let softness = 1.0 / squared_frequency.max(f64::MIN_POSITIVE);
@@ -254,7 +259,7 @@ mod tests {
 
     fn errors(scene: &Scene) -> ModeErrors {
         let loaded = LoadedErrors::of(scene, None, 40e3, 5e-3).unwrap();
-        ModeErrors::of(scene, 40e3, &loaded)
+        ModeErrors::of(scene, 40e3, &loaded).unwrap()
     }
 
     fn dented() -> Scene {

@@ -38,7 +38,7 @@ impl ModelChoice {
         let heaviest = heaviest(asked, scene)?;
         let rest = heaviest.as_ref().map(|(_, rest)| rest);
         let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
-        let errors = ModeErrors::of(scene, band_hz, &loaded);
+        let errors = ModeErrors::of(scene, band_hz, &loaded)?;
         let task = RunTask { scene, asked, band_hz, target, heaviest: heaviest.as_ref() };
         let (modes, modes_part) = modes(task, &errors, whole);
         let (mut balls_inertia, mut balls_part) = loaded_errors::chosen(task, bearing.balls_inertia, &loaded);

@@ -10,9 +10,10 @@ use crate::app::error::ComputeError;
 use crate::app::scene::bearing::setup_of;
 use crate::app::scene::{RunModel, Scene};
 use crate::bearing::{ContactStiffness, SpeedKnot};
+use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{Integration, Method, NoRecord, Schedule, State, TransientError};
 use crate::report::significant;
-use crate::system::{BearingSetup, CoupledSystem, Equilibrium, ModeDamping, ModeSelection, StaticCondition};
+use crate::system::{BearingSetup, CoupledSystem, Equilibrium, ModeSelection, StaticCondition};
 
 /// Forces on the shaft, in units of those given.
 const LOADS: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
@@ -126,9 +127,9 @@ impl Condition {
         let setup = setup_of(run.case, run.bearing, run.shaft)?;
         let setup = BearingSetup { balls_inertia: model.balls_inertia, ..setup };
         let damping = match self {
-            Self::ModalDamping(ratio) => ModeDamping::Modal(ratio),
-            Self::AllModesUndamped => ModeDamping::Modal(0.0),
-            _ => scene.damping,
+            Self::ModalDamping(ratio) => ModalDamping::Uniform(ratio),
+            Self::AllModesUndamped => ModalDamping::Uniform(0.0),
+            _ => scene.damping.clone(),
         };
         let (modes, residual) = match self {
             Self::AllModes | Self::AllModesUndamped => (ModeSelection::All, false),
@@ -137,7 +138,7 @@ impl Condition {
         let stage = &scene.stage;
         let condition = StaticCondition::at(&setup, scene.start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
-        let system = CoupledSystem::new(&stage.structure, &stage.modes, setup, modes, damping, residual)?;
+        let system = CoupledSystem::new(&stage.structure, &stage.modes, setup, modes, &damping, residual)?;
         let state = system.state_at(scene.start, &equilibrium, &stage.modes);
         Ok(Variant { system, state })
     }
