@@ -295,7 +295,11 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         ),
         (
             by(&["--speed", "25", "--high-pass", "9000"]),
-            "error: analysis: cut-off must lie between 0 and 8000 Hz (half the sampling rate), found 9000 Hz\n",
+            "error: --high-pass 9000: expected frequencies below half the sampling rate of bench.csv, channel \"P1\", which is 8000 Hz, found 9000 Hz\nhelp: lower --high-pass; is the sampling rate right (--rate)?\n",
+        ),
+        (
+            by(&["--speed", "25", "--band", "1000:9000"]),
+            "error: --band 1000:9000: expected frequencies below half the sampling rate of bench.csv, channel \"P1\", which is 8000 Hz, found 9000 Hz\nhelp: lower --band; is the sampling rate right (--rate)?\n",
         ),
         (
             by(&["--speed", "25", "--band", "9000:2000"]),

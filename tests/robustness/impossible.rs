@@ -52,7 +52,10 @@ fn impossible_bearings_are_refused() {
     for (set, words) in [
         (&["bearing.inner_groove_radius=1.0000001e-3"][..], ["bearing.inner_groove_radius", "half-axis"]),
         (&["bearing.outer_groove_radius=1.0000001e-3"], ["bearing.outer_groove_radius", "half-axis"]),
-        (&[outside, "bearing.inner_race_radius=50e-3"], ["outer face of the ring", "0.009"]),
+        (
+            &[outside, "bearing.inner_race_radius=50e-3"],
+            ["outer face of the ring that it is cut into", "`ring.sections[0]`"],
+        ),
         (&["ring.sections[1].inertia=9e-9"], ["ring.sections[1].inertia", "reaches the ring's axis"]),
         (&["bearing.waviness=[{on='outer',order=9,amplitude=1e-3}]"], ["amplitude", "a tenth of the ball's radius"]),
     ] {
@@ -79,10 +82,10 @@ fn bearings_in_doubt_are_said() {
         (
             &["materials.steel.young=210e3"],
             &[
-                "materials.steel: young = 2.1000e5 Pa and density = 7.8500e3 kg/m^3 give a speed of sound of 5.172e0 m/s",
+                "materials.steel: young = 210000 Pa and density = 7850 kg/m^3 give a speed of sound of 5.17 m/s, and no solid has these; steel has 2.1e11 Pa, 7850 kg/m^3 and 5.2e3 m/s: 210000 looks like MPa: write 2.1e11",
             ],
         ),
-        (&["materials.steel.density=7.85e-9", "materials.steel.young=210e3"], &["speed of sound of 5.172e6 m/s"]),
+        (&["materials.steel.density=7.85e-9", "materials.steel.young=210e3"], &["speed of sound of 5.17e6 m/s"]),
         (&[], &[]),
     ] {
         let set = [set, &[SHORT]].concat();
@@ -121,4 +124,107 @@ fn a_ring_beyond_its_bore_is_said() {
     refused("seat-beside", "modes", SEAT, &beside, &["does not cut the group \"bore\""]);
     let smaller = ["ring.sections[0].radius=4e-3", FEW];
     warned("seat-smaller", "modes", SEAT, &smaller, &["the tie bridges 1.296e-3 m"]);
+}
+
+const RING: &str = "housings/ring.toml";
+
+/// The bore has a radius of 6 mm, the ring reaches from 4.6 mm to there with its centroid at 5.314 mm, a ball is 2 mm thick.
+#[test]
+fn a_race_outside_of_its_ring_is_refused_and_one_in_doubt_is_said() {
+    let race = |outer: f64| {
+        let inner = outer - 2.0025e-3;
+        [format!("bearing.outer_race_radius={outer:e}"), format!("bearing.inner_race_radius={inner:e}")]
+    };
+    for command in ["run", "modes", "condense", "chart"] {
+        for outer in [6e-3, 8e-3] {
+            let set = race(outer);
+            let set = set.each_ref().map(String::as_str);
+            let found = format!("found {}, expected below `ring.outer_radius`", outer);
+            refused("race-outside", command, RING, &set, &["bearing.outer_race_radius", &found, "(0.006)"]);
+        }
+    }
+    let thin = ["bearing.ball_radius=0.4e-3", "bearing.inner_race_radius=3.954e-3"];
+    for (set, word) in [
+        (race(5.5e-3).to_vec(), "the centroid of its ring lies at 0.005314 m (ring.sections[0].radius)"),
+        (thin.map(str::to_owned).to_vec(), "1.6 times the diameter of a ball"),
+        (vec!["bearing.radial_play=5e-5".to_owned()], "5.0 % of the ball's radius"),
+        (vec!["shaft.mass=1e-4".to_owned()], "shaft.mass is 0.1 g and the 7 balls have 0.23 g together"),
+        (vec!["shaft.unbalance=0.02".to_owned()], "off its axis by 0.133333 m"),
+        (vec!["speed.profile=[{time=0,hz=60000}]".to_owned()], "check that it is in Hz"),
+    ] {
+        let set: Vec<&str> = set.iter().map(String::as_str).chain([FEW]).collect();
+        warned("race-in-doubt", "modes", RING, &set, &[word]);
+    }
+}
+
+/// A case file of its own beside nothing but a mesh of `meshes`, and what a command says of it.
+fn own(name: &str, command: &str, mesh: &str, text: &str) -> Output {
+    let folder = scratch(name);
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(mesh);
+    let text = format!("[housing]\nmesh = \"{}\"\n{text}", mesh.display());
+    std::fs::write(folder.join("a.toml"), text).unwrap();
+    plummer(&folder, &[command, "a.toml", "--out", "out"])
+}
+
+/// Nothing but the mesh says how large the bore is, 6 mm.
+#[test]
+fn a_ring_or_race_outside_of_the_bore_is_refused_without_its_radius_in_the_case() {
+    let case = |race: f64, section: f64| {
+        format!(
+            "length_unit = \"mm\"\nplane = {{ assumption = \"stress\", thickness = 4e-3 }}\n\
+             parts = [{{ group = \"housing\", material = \"aluminium\" }}]\nsupports = [{{ group = \"outer\", fixed = \"all\" }}]\n\
+             [ring]\nsections = [{{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = {section:e} }}]\n\
+             tie = {{ group = \"bore\" }}\n[bearing]\nballs = 7\nball_radius = 1e-3\ninner_race_radius = {:e}\n\
+             outer_race_radius = {race:e}\ninner_groove_radius = 1.04e-3\nouter_groove_radius = 1.07e-3\n[modes]\ncount = 3\n",
+            race - 2.0025e-3
+        )
+    };
+    for (race, section, key) in [
+        (6.3e-3, 5.9e-3, "bearing.outer_race_radius is 0.0063 m"),
+        (22e-3, 23e-3, "bearing.outer_race_radius is 0.022 m"),
+        (5.9e-3, 6.2e-3, "ring.sections[0].radius is 0.0062 m"),
+    ] {
+        for command in ["modes", "condense"] {
+            let output = own("outside-the-bore", command, "ring_6_9.msh", &case(race, section));
+            let said = errors(&output);
+            assert_eq!(output.status.code(), Some(2), "{said}");
+            assert!(said.contains(key) && said.contains("the radius of the bore \"bore\" is 0.006 m"), "{said}");
+        }
+    }
+    let far = own("far-from-the-bore", "modes", "ring_6_9.msh", &case(3.1e-3, 3.5e-3));
+    let text = String::from_utf8(far.stdout).unwrap();
+    assert!(text.contains("warning: the nodes of the bore \"bore\" lie 0.006 m to 0.006 m from the axis"), "{text}");
+}
+
+#[test]
+fn meshes_and_materials_in_other_units_are_said() {
+    let case = |unit: &str, young: f64, density: f64| {
+        format!(
+            "length_unit = \"{unit}\"\nparts = [{{ group = \"housing\", material = \"own\" }}]\n\
+             supports = [{{ group = \"feet\", fixed = \"all\" }}]\n[modes]\ncount = 3\n\
+             [materials.own]\nyoung = {young:e}\npoisson = 0.3\ndensity = {density:e}\n"
+        )
+    };
+    let said = |unit: &str, young: f64, density: f64| {
+        let output = own("other-units", "modes", "pedestal.msh", &case(unit, young, density));
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let warnings = text.lines().filter(|line| line.starts_with("warning"));
+        warnings.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(said("mm", 206e9, 7850.0), Vec::<String>::new());
+    assert_eq!(
+        said("m", 206e9, 7850.0),
+        [
+            "warning: the housing is 44 x 23 x 10 m by housing.length_unit = \"m\": none is as large (the largest rolling bearings are 8 m across); its mesh looks like one in mm: write housing.length_unit = \"mm\" (44 x 23 x 10 mm)"
+        ]
+    );
+    assert_eq!(
+        said("mm", 206e3, 7.85e-9),
+        [
+            "warning: materials.own: young = 206000 Pa and density = 7.85e-9 kg/m^3 give a speed of sound of 5.12e6 m/s, and no solid has these; steel has 2.1e11 Pa, 7850 kg/m^3 and 5.2e3 m/s: 206000 looks like MPa: write 2.06e11; 7.85e-9 looks like t/mm^3: write 7850"
+        ]
+    );
+    let small = said("um", 206e9, 7850.0);
+    assert!(small[0].contains("44 x 23 x 10 um") && small[0].contains("looks like one in mm"), "{small:?}");
 }

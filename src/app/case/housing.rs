@@ -3,15 +3,18 @@
 //! `[housing]`: a mesh with its parts, or a superelement that was condensed elsewhere.
 
 use super::Case;
-use super::schema::{one_of, together};
+use super::schema::{one_of, together, words};
 use super::spring::{Spring, SpringKeys};
 use super::union::{exactly_one, given, mismatch, missing, none_beside, read_as, written_as};
 use crate::fe::element::continuum::{Formulation, Integration, LinearFormulation};
 use crate::fe::model::{Link, OverlapRule, PlaneModel, PointMass, SpringStiffness, SupportShare};
 use crate::numerics::units::LengthUnit;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{self, Deserializer, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The housing around the ring. Frame: the mesh's own, which the ring's tie relates to the bearing.
@@ -79,6 +82,8 @@ pub struct Support {
 /// How a group is held.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hold {
+    /// All displacements are zero.
+    All,
     /// These displacements are zero.
     Fixed(Vec<Axis>),
     /// By springs to the ground. Radial ones alone leave a round housing free to turn and to slide along the axis.
@@ -92,9 +97,9 @@ pub enum Hold {
 struct SupportForm {
     /// Name of a physical group of the mesh.
     group: String,
-    /// These displacements are zero.
+    /// These displacements are zero: "all", or a list of "x", "y" and "z".
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    fixed: Option<Vec<Axis>>,
+    fixed: Option<Fixed>,
     /// Stiffnesses of springs to the ground along the axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     spring: Option<Spring>,
@@ -106,16 +111,61 @@ struct SupportForm {
     per: Option<SupportShare>,
 }
 
+/// The displacements that `fixed` makes zero.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+enum Fixed {
+    All(#[schemars(schema_with = "all")] &'static str),
+    Axes(Vec<Axis>),
+}
+
+const ALL: &str = "all";
+
+fn all(_: &mut SchemaGenerator) -> Schema {
+    words(&[ALL])
+}
+
+impl<'de> Deserialize<'de> for Fixed {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(FixedVisitor)
+    }
+}
+
+struct FixedVisitor;
+
+impl<'de> Visitor<'de> for FixedVisitor {
+    type Value = Fixed;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("\"all\", or a list such as [\"x\", \"y\", \"z\"]")
+    }
+
+    fn visit_str<E: de::Error>(self, word: &str) -> Result<Self::Value, E> {
+        match word {
+            ALL => Ok(Fixed::All(ALL)),
+            _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, axes: A) -> Result<Self::Value, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(axes)).map(Fixed::Axes)
+    }
+}
+
 written_as!(Support, SupportForm, |form| {
     const ONE: &str = "exactly one of `fixed`, `spring`, `radial`";
     let per = form.per.unwrap_or_default();
     let holds = [
-        form.fixed.map(Hold::Fixed),
+        form.fixed.map(|fixed| match fixed {
+            Fixed::All(_) => Hold::All,
+            Fixed::Axes(axes) => Hold::Fixed(axes),
+        }),
         form.spring.map(|spring| Hold::Spring(spring.into(), per)),
         form.radial.map(|radial| Hold::Spring(SpringStiffness::Radial(radial), per)),
     ];
     match exactly_one(holds, ONE)? {
-        Hold::Fixed(_) if form.per.is_some() => {
+        Hold::All | Hold::Fixed(_) if form.per.is_some() => {
             Err(mismatch("`per` beside `fixed`", "`per` beside `spring` or `radial` only"))
         }
         hold => Ok(Self { group: form.group, hold }),
@@ -125,7 +175,8 @@ written_as!(Support, SupportForm, |form| {
 impl From<Support> for SupportForm {
     fn from(support: Support) -> Self {
         let (fixed, keys) = match support.hold {
-            Hold::Fixed(axes) => (Some(axes), SpringKeys::default()),
+            Hold::All => (Some(Fixed::All(ALL)), SpringKeys::default()),
+            Hold::Fixed(axes) => (Some(Fixed::Axes(axes)), SpringKeys::default()),
             Hold::Spring(stiffness, share) => (None, SpringKeys::of(stiffness, share)),
         };
         Self { group: support.group, fixed, spring: keys.spring, radial: keys.radial, per: keys.per }
@@ -242,7 +293,7 @@ read_as!(HousingSource, SourceForm, |form| {
 mod tests {
     use std::path::Path;
 
-    use crate::app::case::{Case, CaseError, HousingSource, Source};
+    use crate::app::case::{Case, CaseError, Hold, HousingSource, Source};
 
     const CASE: &str = "[housing]\nsuperelement = \"s.npz\"\n\n[ring]\n\
         sections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n";
@@ -342,5 +393,28 @@ mod tests {
             ring.unwrap_err().to_string(),
             "a.toml:5: `sensors[0].recovered`: needs `housing.superelement`, which the case lacks"
         );
+    }
+
+    #[test]
+    fn all_motions_are_held_by_one_word() {
+        let held = |fixed: &str| {
+            let text = format!(
+                "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\nparts = [{{ group = \"a\", material = \"steel\" }}]\n\
+                 supports = [{{ group = \"feet\", fixed = {fixed} }}]\n"
+            );
+            Case::from_source(Source { path: "case.toml".into(), text, set: Vec::new() })
+        };
+        let case = held("\"all\"").unwrap();
+        assert_eq!(case.meshed_housing().unwrap().supports[0].hold, Hold::All);
+        let echo = serde_json::to_value(&case).unwrap();
+        assert_eq!(echo["housing"]["supports"][0]["fixed"], "all");
+        let plane = case.source.text.replace("parts", "plane = { assumption = \"stress\", thickness = 1e-3 }\nparts");
+        assert!(Case::from_source(Source { text: plane, ..case.source }).is_ok());
+        for (fixed, found) in [("\"bottom\"", "\"bottom\""), ("true", "true"), ("3", "3")] {
+            let message = held(fixed).unwrap_err().to_string();
+            let rule = format!("found {found}, expected \"all\", or a list such as [\"x\", \"y\", \"z\"]");
+            assert!(message.ends_with(&rule), "{message}");
+        }
+        assert!(held("[\"x\", \"w\"]").unwrap_err().to_string().contains("`housing.supports[0].fixed[1]` is \"w\""));
     }
 }

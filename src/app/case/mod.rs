@@ -50,6 +50,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Slip, Wave};
+pub(crate) use check::short;
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
 pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, ProfileFile};

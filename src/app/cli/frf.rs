@@ -8,6 +8,7 @@ use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report
 use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
+use crate::report::counted;
 
 /// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
 ///
@@ -56,13 +57,13 @@ fn verdict(result: &FrfResult) -> Result<(), CliError> {
 fn summary(result: &FrfResult) -> String {
     let element = result.housing.element();
     let mut lines = vec![format!(
-        "{} paths at {} frequencies from {:.0} to {:.0} Hz; {} interface coordinates, {} vectors",
-        result.paths.len(),
-        result.response.frequencies_hz().len(),
+        "{} at {} from {:.0} to {:.0} Hz; {} interface coordinates, {}",
+        counted(result.paths.len(), "path"),
+        counted(result.response.frequencies_hz().len(), "frequency"),
         result.band_hz[0],
         result.band_hz[1],
         element.interface_dof,
-        element.modal_dof()
+        counted(element.modal_dof(), "vector")
     )];
     lines.extend(warnings(&result.doubts));
     for path in &result.paths {
@@ -83,8 +84,8 @@ fn summary(result: &FrfResult) -> String {
     }
     if let Some((hz, difference)) = result.largest_difference() {
         lines.push(format!(
-            "against the full model at {} frequencies: up to {difference:.1e}, at {hz:.0} Hz",
-            result.compared.len()
+            "against the full model at {}: up to {difference:.1e}, at {hz:.0} Hz",
+            counted(result.compared.len(), "frequency")
         ));
     }
     for ranked in &result.ranking {

@@ -8,11 +8,12 @@ use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection};
 use crate::app::error::ComputeError;
+use crate::app::scene::size_doubt;
 use crate::numerics::units::LengthUnit;
-use crate::report::significant;
+use crate::report::{counted, mass_in_words, significant, size_in_words};
 
-/// Densities (kg/m^3) for which the mass is shown when none is asked for: aluminium and steel.
-const DENSITIES: [f64; 2] = [2700.0, 7850.0];
+/// Densities (kg/m^3) for which the mass is shown when none is asked for.
+const DENSITIES: [(f64, &str); 2] = [(2700.0, "of aluminium"), (7850.0, "of steel")];
 
 /// Inspects a mesh; writes `inspect.json` if a folder was named with `--out`.
 ///
@@ -61,8 +62,9 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
         ),
         (Some(first), ..) => (
             format!(
-                "{} elements are inverted, folded or without size (the first is element {})",
-                found.invalid_elements, first.tag
+                "{} inverted, folded or without size (the first is element {})",
+                counted(found.invalid_elements, "element"),
+                first.tag
             ),
             "mesh again, or look at them in gmsh (Tools, Visibility)",
         ),
@@ -85,14 +87,21 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     line("file", format!("{} ({})", path.display(), inventory.format));
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
-    let [x, y, z] = inventory.bounding_box.extent().map(|side| significant(side, 5));
-    line("extent", format!("{x} x {y} x {z} {unit}"));
+    let extent = inventory.bounding_box.extent();
+    let [x, y, z] = extent.map(|side| significant(side, 5));
+    match found.length_unit {
+        Some(_) => line("extent", size_in_words(extent)),
+        None => line("extent", format!("{x} x {y} x {z} {unit}")),
+    }
     let solid = inventory.dimension == 3;
     let what = if solid { "volume" } else { "area" };
     let power = if solid { 3 } else { 2 };
     line(what, format!("{} {unit}^{power}", significant(found.size, 7)));
     if solid {
         line("mass", masses(found, density));
+    }
+    if let Some(told) = found.length_unit.and_then(|unit| size_doubt(extent, unit, "--length-unit")) {
+        line("warning", told);
     }
     if let Some(worst) = &found.worst {
         let [x, y, z] = worst.shape.position.map(|at| significant(at, 5));
@@ -107,7 +116,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if found.invalid_elements > 0 {
         let tags: Vec<String> = found.invalid.iter().map(|bad| bad.tag.to_string()).collect();
         let more = if found.invalid_elements > tags.len() { ", ..." } else { "" };
-        line("INVALID", format!("{} elements: {}{more}", found.invalid_elements, tags.join(", ")));
+        line("INVALID", format!("{}: {}{more}", counted(found.invalid_elements, "element"), tags.join(", ")));
     }
     found.doubled.iter().for_each(|doubled| line("DOUBLED", doubled.sentence()));
     found.mixed_orders.iter().for_each(|mixed| line("MIXED ORDERS", mixed.sentence()));
@@ -118,16 +127,16 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if inventory.parts.len() > 1 {
         for part in &inventory.parts {
             let [x, y, z] = part.bounding_box.extent().map(|side| significant(side, 4));
-            let size = format!("{} elements, {x} x {y} x {z} {unit}", part.elements);
+            let size = format!("{}, {x} x {y} x {z} {unit}", counted(part.elements, "element"));
             line("", format!("{size}, node {}", part.node_tag));
         }
     }
     if inventory.ungrouped_elements > 0 {
-        line("in no group", format!("{} elements", inventory.ungrouped_elements));
+        line("in no group", counted(inventory.ungrouped_elements, "element"));
     }
     for overlap in &inventory.overlaps {
         let [a, b] = &overlap.names;
-        line("overlap", format!("\"{a}\" and \"{b}\": {} elements", overlap.elements));
+        line("overlap", format!("\"{a}\" and \"{b}\": {}", counted(overlap.elements, "element")));
     }
     let _ = write!(text, "groups");
     for group in &inventory.groups {
@@ -164,15 +173,15 @@ fn node_faults(found: &Inspection) -> String {
 
 /// Mass for the density asked for, else for common ones; without a unit for millimetres and metres.
 fn masses(found: &Inspection, density: Option<f64>) -> String {
-    let densities = density.map_or(DENSITIES.to_vec(), |density| vec![density]);
+    let common = DENSITIES.map(|(density, material)| (density, material.to_owned())).to_vec();
+    let densities = density.map_or(common, |density| vec![(density, format!("at {density} kg/m^3"))]);
     let units = match found.length_unit {
         Some(_) => vec![(1.0, "")],
         None => vec![(1e-9, " if in mm"), (1.0, " if in m")],
     };
     let words = units.into_iter().flat_map(|(scale, unit)| {
-        densities.iter().map(move |density| {
-            let mass = significant(density * scale * found.size, 5);
-            format!("{mass} kg at {density} kg/m^3{unit}")
+        densities.iter().map(move |(density, material)| {
+            format!("{} {material}{unit}", mass_in_words(density * scale * found.size, 5))
         })
     });
     words.collect::<Vec<_>>().join(", ")

@@ -4,7 +4,9 @@
 
 use super::bearing::race_contacts;
 use super::housing::{description, read_mesh};
+use super::plausible::STATIC_RATING;
 use super::ring::{Seat, layer};
+use super::{fit, plausible};
 use crate::app::case;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
@@ -28,18 +30,8 @@ const ARM: f64 = 0.5;
 /// Angle without a node of the bore that is told: three times what a coarse bore of first order has between two nodes.
 const FREE_TURN: f64 = FRAC_PI_2;
 
-/// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
-/// the faces of grooved sections.
-const APART: f64 = 0.5;
-
 /// Densities of balls, kg/m^3: those of solids, from plastics to tungsten.
 const BALL_DENSITIES: [f64; 2] = [800.0, 20_000.0];
-
-/// Bar speeds of sound of solids, `sqrt(E / rho)`, m/s: soft rubber has 30, steel 5200, diamond 18 000.
-const SPEEDS_OF_SOUND: [f64; 2] = [10.0, 20_000.0];
-
-/// Densities of solids, kg/m^3: from foams to osmium (22 590).
-const DENSITIES: [f64; 2] = [5.0, 23_000.0];
 
 /// Distance between the faces of two neighbouring sections that is told, over the lower one's height.
 const GAP: f64 = 0.5;
@@ -59,17 +51,20 @@ pub(crate) fn doubts(
     housing: Option<(&Mesh, &HousingModel)>,
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
 ) -> Result<Vec<String>, ComputeError> {
-    let mut found = material_doubts(case);
+    let mut found = plausible::materials(case);
     if let Some((_, model)) = housing {
+        found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(model));
     }
     if let Some(ring) = &case.ring {
         found.extend(section_doubts(case, ring)?);
         found.extend(ring_doubts(case, ring, housing)?);
     }
+    found.extend(fit::bearing_doubts(case)?);
+    found.extend(plausible::shaft(case));
     if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
-        found.extend(race_in_ring(case)?);
         found.extend(ball_density(setup));
+        found.extend(plausible::contacts(case, setup, &contacts));
         found.extend(contact_doubts(setup, &contacts, equilibrium));
     }
     Ok(found)
@@ -152,32 +147,6 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     tied.chain(shared).chain(flat).chain(stiff).chain(held).collect()
 }
 
-/// Materials that no solid is, which a value in another unit makes.
-fn material_doubts(case: &Case) -> Vec<String> {
-    let told = case.materials.iter().filter_map(|(name, material)| {
-        let density = material.density();
-        let (least, most) = match material {
-            case::Material::Isotropic(material) => (material.young, material.young),
-            case::Material::Orthotropic(material) => {
-                let along = material.young.iter();
-                along.fold((f64::INFINITY, 0.0), |(least, most), young| {
-                    (young.min(least), young.max(most))
-                })
-            }
-        };
-        let speeds = [least, most].map(|young| (young / density).sqrt());
-        let solid = |[low, high]: [f64; 2], value: &f64| (low..=high).contains(value);
-        if solid(DENSITIES, &density) && speeds.iter().all(|speed| solid(SPEEDS_OF_SOUND, speed)) {
-            return None;
-        }
-        Some(format!(
-            "materials.{name}: young = {least:.4e} Pa and density = {density:.4e} kg/m^3 give a speed of sound of {:.3e} m/s, and no solid has these; steel has 2.1e11 Pa, 7850 kg/m^3 and 5.2e3 m/s: check the units (Pa and kg/m^3, with meshes in mm too)",
-            speeds[0]
-        ))
-    });
-    told.collect()
-}
-
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.
 fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, ComputeError> {
     let mut sections = Vec::new();
@@ -255,7 +224,10 @@ fn ring_doubts(
             ));
         }
     }
-    let outer = ring.outer_radius.unwrap_or(face);
+    let Some(outer) = ring.outer_radius else {
+        found.extend(fit::filled(&tie.group, &seat, face, height));
+        return Ok(found);
+    };
     if (outer - face).abs() > ARM * height {
         found.push(format!(
             "ring.outer_radius is {outer:.4e} m and the outer face of ring.sections lies at about {face:.4e} m: the tie bridges {:.3e} m between them as a rigid arm; check both",
@@ -281,27 +253,6 @@ fn bore_in_pieces(mesh: &Mesh, model: &HousingModel, bore: &str) -> Result<Optio
     )))
 }
 
-/// Whether the outer race is in the innermost section of its ring.
-fn race_in_ring(case: &Case) -> Result<Option<String>, ComputeError> {
-    let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
-        return Ok(None);
-    };
-    let Some(innermost) = ring.sections.iter().min_by(|a, b| a.radius.total_cmp(&b.radius)) else {
-        return Ok(None);
-    };
-    let layer = layer(case, innermost)?;
-    let [height, _] = layer.rectangle();
-    let (race, half) = (bearing.outer_race_radius, 0.5 * height);
-    let faces = [layer.radius - half, layer.radius + half];
-    let near = faces[0] - APART * height..faces[1];
-    Ok((!near.contains(&race)).then(|| {
-        format!(
-            "bearing.outer_race_radius is {race:.4e} m and the innermost of ring.sections reaches from about {:.4e} to {:.4e} m: the race is cut into that ring; check both",
-            faces[0], faces[1]
-        )
-    }))
-}
-
 /// Density of a ball of the given mass.
 fn ball_density(setup: &BearingSetup) -> Option<String> {
     let (radius, mass) = (setup.geometry.ball_radius(), setup.geometry.ball_mass());
@@ -313,10 +264,6 @@ fn ball_density(setup: &BearingSetup) -> Option<String> {
         )
     })
 }
-
-/// Largest pressure at the basic static load rating of a ball bearing, Pa: there a ball and its race keep dents of a
-/// ten-thousandth of the ball's diameter (ISO 76:2006, 3.2).
-const STATIC_RATING: f64 = 4.2e9;
 
 /// Largest pressure that any solid bears elastically, over the effective modulus: a tenth, the theoretical strength.
 /// Steel on steel comes to 11.5 GPa, whose mean 2/3 is the hardness of bearing steel, 7.7 GPa.

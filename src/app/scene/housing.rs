@@ -66,7 +66,7 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         parts: parts.collect::<Result<_, ComputeError>>()?,
         plane: housing.plane,
         formulation: housing.formulation,
-        supports: housing.supports.iter().map(support).collect(),
+        supports: housing.supports.iter().map(|asked| support(asked, housing.plane.is_some())).collect(),
         masses: housing.masses.clone(),
         links: housing.links.clone(),
         overlap: housing.overlap,
@@ -113,8 +113,9 @@ fn named(name: &str, source: MaterialError) -> ComputeError {
     ComputeError::wrong(format!("materials.{name}: {source}"))
 }
 
-fn support(support: &case::Support) -> HousingSupport {
+fn support(support: &case::Support, plane: bool) -> HousingSupport {
     let (constraint, share) = match &support.hold {
+        Hold::All => (Constraint::Fixed([true, true, !plane]), SupportShare::PerNode),
         Hold::Fixed(axes) => {
             let fixed = [case::Axis::X, case::Axis::Y, case::Axis::Z].map(|axis| axes.contains(&axis));
             (Constraint::Fixed(fixed), SupportShare::PerNode)

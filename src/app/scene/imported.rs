@@ -1,7 +1,7 @@
 //! A superelement from a file in the housing's place.
 
 use super::places::{Place, PlaceBodies, Spot, of_ring};
-use super::ring::ring;
+use super::ring::{refuse_outside, ring};
 use crate::app::case;
 use crate::app::case::{Case, SensorSpot};
 use crate::app::error::ComputeError;
@@ -67,6 +67,9 @@ impl ImportedHousing {
                 ),
                 "the tie to the bore is within the superelement: give its value, leave the key out, or condense again",
             ));
+        }
+        if let Some(file) = record.outer_radius {
+            refuse_outside(case, asked, &format!("the bore in {}", path.display()), file)?;
         }
         let in_space = record.interface.len() == 6 * asked.nodes;
         if !in_space {

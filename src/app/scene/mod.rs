@@ -9,6 +9,7 @@ pub(crate) mod bearing;
 pub(crate) mod condensed;
 pub(crate) mod damping;
 pub(crate) mod doubts;
+mod fit;
 #[cfg(test)]
 mod free_system_tests;
 pub(crate) mod housing;
@@ -16,6 +17,7 @@ pub(crate) mod imported;
 #[cfg(test)]
 mod imported_tests;
 pub(crate) mod places;
+mod plausible;
 pub(crate) mod ring;
 pub(crate) mod structure;
 pub mod tie_price;
@@ -28,5 +30,6 @@ pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
+pub(crate) use plausible::size_doubt;
 pub use ring::Boundary;
 pub use structure::{CoupledStructure, FreeSystem};

@@ -1,7 +1,7 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
 use super::housing::{AssembledHousing, material};
-use crate::app::case::{self, Case};
+use crate::app::case::{self, Case, short};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{BeamSection, Bond, RingLayer};
@@ -27,8 +27,10 @@ pub(crate) fn ring_and_tie(
     };
     let outer = asked.outer_radius;
     let AssembledHousing { mesh, model, .. } = housing;
-    let tie = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
-    Ok((ring, Some(tie)))
+    let seat = Seat::of(mesh, model, tie)?;
+    let tied = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
+    refuse_outside(case, asked, &format!("the bore \"{}\"", tie.group), seat.radii[1])?;
+    Ok((ring, Some(tied)))
 }
 
 /// A section of a ring as it is asked for.
@@ -76,6 +78,35 @@ pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ri
     Ok(ring)
 }
 
+/// A length of a message, m, as a case file has it: six digits of what was measured.
+pub(super) fn metres(length: f64) -> String {
+    let digits = format!("{length:.5e}");
+    format!("{} m", short(digits.parse().unwrap_or(length)))
+}
+
+/// Refuses a ring or a race that is not inside a bore of which it is known how far its farthest node is from the axis (m); `bore` is
+/// as messages call it.
+///
+/// # Errors
+/// [`ComputeError::Input`] with both radii and their keys.
+pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, farthest: f64) -> Result<(), ComputeError> {
+    let sections = ring.sections.iter().enumerate();
+    let sections = sections.map(|(index, section)| (format!("ring.sections[{index}].radius"), section.radius));
+    let race = case.bearing.iter().map(|bearing| ("bearing.outer_race_radius".to_owned(), bearing.outer_race_radius));
+    let mut outside = race.chain(sections).filter(|(_, radius)| *radius >= farthest);
+    let Some((key, radius)) = outside.next() else {
+        return Ok(());
+    };
+    Err(ComputeError::input(
+        format!(
+            "{key} is {} and the radius of {bore} is {}: expected the race in the ring, and the ring in the bore",
+            metres(radius),
+            metres(farthest)
+        ),
+        "check that the radii are in m and none is a diameter, and housing.length_unit, ring.tie.centre and ring.tie.group",
+    ))
+}
+
 /// What a housing is attached by.
 #[derive(Debug, Clone)]
 pub enum Boundary {
@@ -120,6 +151,8 @@ impl Boundary {
 pub(crate) struct Seat {
     /// Number of its nodes.
     pub nodes: usize,
+    /// Least and largest distance of a node from the axis, m.
+    pub radii: [f64; 2],
     /// First place along the axis, m.
     pub from: f64,
     /// Last place along the axis, m.
@@ -143,7 +176,9 @@ impl Seat {
         let next = angles.iter().skip(1).copied();
         let next = next.chain(angles.first().map(|first| first + TAU));
         let gaps = angles.iter().zip(next).map(|(angle, next)| next - angle);
+        let radii = places.iter().map(|[x, y, _]| x.hypot(*y));
         Ok(Self {
+            radii: radii.fold([f64::INFINITY, 0.0], |[low, high], radius| [low.min(radius), high.max(radius)]),
             free_turn: gaps.fold(0.0, f64::max),
             nodes: along.len(),
             from: along.iter().copied().fold(f64::INFINITY, f64::min),

@@ -43,6 +43,11 @@ pub(crate) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
     (LEFT_OUT * (band_hz / complete_hz).powi(3)).min(1.0)
 }
 
+/// Up to which frequency a housing's vectors have to be complete for [`left_out`] to be this error, Hz.
+pub(crate) fn complete_for(band_hz: f64, error: f64) -> f64 {
+    band_hz * (LEFT_OUT / error).cbrt()
+}
+
 /// The linear model of a case.
 #[derive(Debug, Clone)]
 pub struct CoupledStructure {
@@ -55,7 +60,7 @@ pub struct CoupledStructure {
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
     /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement by
-    /// `ImportedHousing::complete_hz`; infinite without a housing.
+    /// `ImportedHousing::complete_hz`, zero where its file does not tell; infinite without a housing.
     pub complete_hz: f64,
     /// Ring and housing with the case's sensors.
     pub structure: Structure,
@@ -96,7 +101,7 @@ impl CoupledStructure {
             let rows = sensor_rows(case, row)?;
             return Ok(Self {
                 fixed_interface_modes: imported.element.modal_dof(),
-                complete_hz: imported.complete_hz().max(f64::MIN_POSITIVE),
+                complete_hz: imported.complete_hz(),
                 imported: Some(Box::new(imported)),
                 ..Self::solved(structure, case, rows, count, watch)?
             });

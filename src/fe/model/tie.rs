@@ -31,6 +31,10 @@ use std::collections::BTreeSet;
 /// coarse first-order mesh keep their nodes on the circle; a wrong unit or centre does not.
 const RADIUS_TOLERANCE: f64 = 0.01;
 
+/// Share of a group's nodes at the ring's outer radius from which on the others are what is wrong: fewer are where a cylinder of
+/// another radius or centre crosses it.
+const LEAST_SHARE: f64 = 0.25;
+
 /// What the bore follows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -172,6 +176,18 @@ fn check_places(housing: &HousingModel, group: &str, nodes: &[usize], outer_radi
     let tolerance = RADIUS_TOLERANCE * outer_radius;
     let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
+        let at_ring = nodes.iter().filter(|&&node| {
+            let [x, y, _] = housing.ring_coordinates(node);
+            (x.hypot(y) - outer_radius).abs() <= tolerance
+        });
+        let share = at_ring.count() as f64 / nodes.len() as f64;
+        if share >= LEAST_SHARE {
+            return Err(ModelError::Refused(format!(
+                "{:.0} % of the nodes of group \"{group}\" ({}) lie at the ring's outer radius {outer_radius:.6e} m, and the others do not: all lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); a tie takes the cylinder alone: leave shoulders and chamfers out of the group",
+                100.0 * share,
+                housing.path
+            )));
+        }
         return Err(ModelError::Refused(format!(
             "the tie finds no nodes of group \"{group}\" ({}) at the ring's outer radius {outer_radius:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
             housing.path

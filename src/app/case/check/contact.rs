@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Section, Slip,
+    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Ring, Slip,
 };
 use super::range::{
     ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, needs, not_beside, not_empty,
@@ -94,14 +94,7 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
     ABOVE_ZERO.check("bearing.inner_race_radius", inner)?;
     above("bearing.outer_race_radius", bearing.outer_race_radius, "`bearing.inner_race_radius`", inner)?;
-    if let Some(face) = outer_face(case) {
-        below(
-            "bearing.outer_race_radius",
-            bearing.outer_race_radius,
-            "the outer face of the ring: `ring.outer_radius`, or that of its outermost section",
-            face,
-        )?;
-    }
+    case.ring.iter().try_for_each(|ring| race_in_ring(bearing, ring))?;
     for (key, groove) in [
         ("bearing.inner_groove_radius", bearing.inner_groove_radius),
         ("bearing.outer_groove_radius", bearing.outer_groove_radius),
@@ -111,30 +104,40 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-/// Radius of the ring's outer face, m: as given, or by rectangles in the place of the sections, whose radial side is
-/// `sqrt(12 I / A)`.
-fn outer_face(case: &Case) -> Option<f64> {
-    let ring = case.ring.as_ref()?;
-    let of_section = |section: &Section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
-    let faces = ring.sections.iter().map(of_section);
-    faces.chain(ring.outer_radius).reduce(f64::max)
+/// The outer race lies in the bore, and in the innermost of the ring's sections, which it is cut into. The face of a section is that
+/// of a rectangle in its place, of radial side `sqrt(12 I / A)`.
+fn race_in_ring(bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
+    let innermost = ring.sections.iter().enumerate().min_by(|a, b| a.1.radius.total_cmp(&b.1.radius));
+    let face = innermost.map(|(index, section)| {
+        let face = section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
+        (format!("the outer face of the ring that it is cut into, `ring.sections[{index}]` by its radius, area and inertia"), face)
+    });
+    let bore = ring.outer_radius.map(|outer| ("`ring.outer_radius`, the bore that the ring sits in".to_owned(), outer));
+    let race = bearing.outer_race_radius;
+    bore.into_iter().chain(face).try_for_each(|(what, limit)| {
+        kept(race < limit, "bearing.outer_race_radius", || {
+            Rule::beyond(race, &format!("below {what}"), limit)
+                .with_help("the raceway lies inside the ring, and the ring inside the bore: check that these are radii in m, not diameters, and of the same bearing")
+        })
+    })
 }
 
 /// The balls fit between the races and side by side.
 fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
     let limit = 0.1 * bearing.ball_radius;
     let play = bearing.play_from_radii();
-    match bearing.radial_play {
-        None => kept(play.abs() <= limit, "bearing.outer_race_radius", || {
-            let (play, limit) = (short(play), short(limit));
-            Rule::new(format!(
-                "the radii leave a radial play of {play} m, expected at most a tenth of the ball's radius ({limit} m) either way"
-            ))
-            .with_help("check that all radii are in m and none is a diameter; `bearing.radial_play` overrides the play")
-        })?,
-        Some(found) => kept(found.abs() <= limit, "bearing.radial_play", || {
+    // a given play replaces this one, and the balls have to fit all the same
+    kept(play.abs() <= limit, "bearing.outer_race_radius", || {
+        let (play, limit) = (short(play), short(limit));
+        Rule::new(format!(
+            "the radii leave a radial play of {play} m, expected at most a tenth of the ball's radius ({limit} m) either way"
+        ))
+        .with_help("check that all radii are in m and none is a diameter: `bearing.outer_race_radius` less `bearing.inner_race_radius` leaves room for a ball")
+    })?;
+    if let Some(found) = bearing.radial_play {
+        kept(found.abs() <= limit, "bearing.radial_play", || {
             Rule::beyond(found, "at most a tenth of the ball's radius either way", limit)
-        })?,
+        })?;
     }
     let pitch = 0.5 * (bearing.inner_race_radius + bearing.outer_race_radius);
     // A ball of the pitch radius or more leaves no angle: then none fits beside it.

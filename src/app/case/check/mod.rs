@@ -9,6 +9,7 @@ mod tests;
 mod time;
 
 pub(super) use range::{known_isotropic, known_material};
+pub(crate) use rule::short;
 pub use rule::{BrokenRule, Rule};
 
 use super::{Case, Interface, SensorSpot};

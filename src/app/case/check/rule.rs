@@ -59,7 +59,7 @@ pub struct BrokenRule {
 }
 
 /// Writes a number briefly: twelve digits at most, plain where that is short, else with an exponent.
-pub(super) fn short(number: f64) -> String {
+pub(crate) fn short(number: f64) -> String {
     // The text of a number always reads back.
     let number: f64 = format!("{number:.11e}").parse().unwrap_or(number);
     let size = number.abs();

@@ -73,6 +73,7 @@ fn housing_supports(housing: &Housing) -> Result<(), BrokenRule> {
     for (index, support) in housing.supports.iter().enumerate() {
         let at = |key: &str| format!("housing.supports[{index}].{key}");
         match &support.hold {
+            Hold::All => {}
             Hold::Fixed(axes) => {
                 not_empty(at("fixed"), axes.len(), "at least one of x, y, z")?;
                 let names = axes.iter().map(|axis| match axis {

@@ -4,7 +4,7 @@
 
 use super::AnalyzeArguments;
 use super::machine::{Machine, Named, named_bearing};
-use crate::app::case::Case;
+use crate::app::case::{Case, EnvelopeBand};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
@@ -93,6 +93,7 @@ impl Source {
             extend_new(&mut doubts, typed.into_iter().chain(flaws(signal, &settings.windows)));
             extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
+        signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
         Ok(Self { signals, settings, case: case.map(|case| case.source.path), assumptions, doubts, machine })
     }
 
@@ -139,6 +140,25 @@ impl Source {
             .with_help("check --speed and --rate, or what the file says"));
         }
         Ok(kinematics)
+    }
+}
+
+/// Refuses a typed band or high-pass that no signal of that sampling rate has.
+fn below_half_the_rate(asked: &AnalyzeArguments, input: &Path, signal: &MeasuredSignal) -> Result<(), CliError> {
+    let band = asked.band.and_then(|band| match band {
+        EnvelopeBand::Between([from, to]) => Some(("--band", format!("{from}:{to}"), to)),
+        EnvelopeBand::Kurtogram => None,
+    });
+    let typed = band.or(asked.high_pass.map(|corner| ("--high-pass", corner.to_string(), corner)));
+    let half_hz = 0.5 * signal.series.rate_hz();
+    match typed.filter(|(.., highest_hz)| *highest_hz >= half_hz) {
+        None => Ok(()),
+        Some((option, text, highest_hz)) => Err(CliError::input(format!(
+            "{option} {text}: expected frequencies below half the sampling rate of {}, channel \"{}\", which is {half_hz} Hz, found {highest_hz} Hz",
+            input.display(),
+            signal.name
+        ))
+        .with_help(format!("lower {option}; is the sampling rate right (--rate)?"))),
     }
 }
 

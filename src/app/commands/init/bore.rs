@@ -3,6 +3,7 @@
 //! Where an accelerometer may stand: on the outside of the housing, above the bearing.
 
 use super::groups::says;
+use super::partly::{PartlyHole, partly_hole};
 use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
 use crate::fe::mesh::{BoundaryFace, Mesh, PhysicalGroup};
 use nalgebra::Vector3;
@@ -12,7 +13,7 @@ use std::collections::HashMap;
 pub(crate) const TOLERANCE: f64 = 0.01;
 
 /// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
-const LEAST_TURN: f64 = 1.0 / 12.0;
+pub(super) const LEAST_TURN: f64 = 1.0 / 12.0;
 
 /// Parts of names that a bore has.
 const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
@@ -35,6 +36,8 @@ pub(crate) struct Cylinders {
     pub holes: Vec<Candidate>,
     /// Round surfaces with the housing inside of them.
     pub outside: Vec<Candidate>,
+    /// Groups named like a bore, or any where no bore was found, of which a part alone is a hole; largest share first.
+    pub partly: Vec<PartlyHole>,
 }
 
 /// The boundary of the housing's elements by their corners.
@@ -103,19 +106,37 @@ pub(crate) fn cylinders(
     usable: impl Fn(&PhysicalGroup) -> bool,
 ) -> Cylinders {
     let groups = mesh.groups.iter().filter(|group| group.dimension + 1 == dimension && usable(group));
-    let found = groups.filter_map(|group| {
+    let mut rough = Vec::new();
+    let mut found = Vec::new();
+    for group in groups {
         let nodes: Vec<[f64; 3]> = group.nodes.iter().map(|&node| mesh.nodes[node]).collect();
-        let cylinder = fit(&facets(mesh, rim, group), &nodes)?;
-        let rough = cylinder.farthest > TOLERANCE * cylinder.radius || cylinder.turn < LEAST_TURN;
-        (!rough).then(|| Candidate { group: group.name.clone(), cylinder })
-    });
+        let facets = facets(mesh, rim, group);
+        let cylinder = fit(&facets, &nodes);
+        match cylinder.filter(|own| own.farthest <= TOLERANCE * own.radius && own.turn >= LEAST_TURN) {
+            Some(cylinder) => found.push(Candidate { group: group.name.clone(), cylinder }),
+            None => rough.push((group, facets)),
+        }
+    }
+    let found = found.into_iter();
     let (mut holes, outside): (Vec<_>, Vec<_>) = found.partition(|candidate| candidate.cylinder.hole == Some(true));
     // a name before the surface itself: a bearing sits in one hole of many
     let named = |candidate: &Candidate| says(&candidate.group, &NAMES);
     let surface = |candidate: &Candidate| candidate.cylinder.radius * candidate.cylinder.turn;
     holes.sort_by(|a, b| named(b).cmp(&named(a)).then(surface(b).total_cmp(&surface(a))));
     let bore = (!holes.is_empty()).then(|| holes.remove(0));
-    Cylinders { bore, holes, outside }
+    rough.retain(|(group, _)| bore.is_none() || says(&group.name, &NAMES));
+    let partly = rough.iter().filter_map(|(group, facets)| {
+        let elements = group.elements.iter();
+        let corners = elements.map(|id| {
+            let block = &mesh.blocks[id.block];
+            let nodes = block.element(id.index).unwrap_or_default();
+            nodes.iter().take(block.kind.corners()).copied().collect()
+        });
+        partly_hole(&group.name, facets, &corners.collect::<Vec<_>>())
+    });
+    let mut partly: Vec<PartlyHole> = partly.collect();
+    partly.sort_by(|a, b| b.share.total_cmp(&a.share));
+    Cylinders { bore, holes, outside, partly }
 }
 
 /// Cosine of the angle between a face and the direction of the sensor up to which it may stand there.

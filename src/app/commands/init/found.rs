@@ -7,8 +7,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
-use super::groups::{Groups, usable};
+use super::groups::{Groups, PartGuess, usable};
 use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
+use crate::app::case::BUILT_IN_MATERIALS;
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
@@ -65,6 +66,8 @@ pub(crate) struct Found<'a> {
     pub(crate) bore: Option<FoundCylinder>,
     pub(crate) holes: Vec<FoundCylinder>,
     pub(crate) outside: Vec<FoundCylinder>,
+    /// Groups of which a part is a hole: that hole, its share of the group, and whether the rest is a shoulder.
+    pub(crate) partly: Vec<(FoundCylinder, f64, bool)>,
     pub(crate) directions: Directions,
     /// Place of a sensor.
     pub(crate) spot: Option<[f64; 3]>,
@@ -74,6 +77,8 @@ pub(crate) struct Found<'a> {
     pub(crate) ring: RingNumbers,
     /// Connected parts of the mesh.
     pub(crate) bodies: usize,
+    /// Mass of the parts by their materials, kg; of a plane mesh, as thick as the file says.
+    pub(crate) mass: f64,
 }
 
 pub(crate) fn find<'a>(
@@ -95,14 +100,14 @@ pub(crate) fn find<'a>(
     if plane && extent[2] > 1e-9 * inventory.bounding_box.diagonal() {
         return Err(wrong(
             format!(
-                "found a mesh of surfaces over {:e} units of z, expected one in a plane z = const, or volumes",
-                extent[2]
+                "found a mesh of surfaces that reach over {} units of length along z, expected one in a plane z = const, or volumes",
+                page::number(extent[2], 4)
             ),
             "shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned(),
         ));
     }
     let rim = Rim::of(mesh, dimension);
-    let Cylinders { bore, holes, outside } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
+    let Cylinders { bore, holes, outside, partly } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
     let groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
     if groups.parts.is_empty() {
         // a name that two groups share is no name
@@ -138,7 +143,17 @@ pub(crate) fn find<'a>(
     let usual = CatalogueBearing::nearest(diameter).first().map(|(bearing, _)| *bearing);
     let of = bearing.or(request.bearing).or(usual).unwrap_or(&CatalogueBearing::all()[0]);
     let diameter = if diameter > 0.0 { diameter } else { of.outer_diameter };
+    let ring = RingNumbers::of(of, diameter);
+    let thickness = if plane { ring.of.width * ring.scale } else { 1.0 };
+    let of_part = |part: &PartGuess| {
+        let mut sizes = inspection.group_sizes.iter();
+        let size = sizes.find(|size| size.name == part.group && size.dimension == dimension)?.size;
+        let material = BUILT_IN_MATERIALS.iter().find(|(name, _)| *name == part.material)?;
+        Some(size * metres.powi(dimension as i32) * thickness * material.1.density())
+    };
+    let mass = groups.parts.iter().filter_map(of_part).sum();
     Ok(Found {
+        mass,
         request,
         plane,
         extent,
@@ -148,11 +163,12 @@ pub(crate) fn find<'a>(
         bore,
         holes: in_metres(holes),
         outside: in_metres(outside),
+        partly: partly.into_iter().map(|part| (scaled(part.hole, metres), part.share, part.shoulder)).collect(),
         directions,
         spot: spot.map(|point| point.map(|part| part * metres)),
         bearing: bearing.map(BearingNumbers::of),
         same_size,
-        ring: RingNumbers::of(of, diameter),
+        ring,
         bodies: inventory.parts.len(),
     })
 }

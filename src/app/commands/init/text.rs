@@ -4,6 +4,8 @@ use super::found::{Found, FoundCylinder};
 use super::page::{ORIGIN, list, number, numbers, page, quoted};
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
+use crate::app::scene::size_doubt;
+use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, context};
@@ -19,6 +21,16 @@ fn unit_origin(found: &Found<'_>) -> String {
         UnitFrom::Bearing => format!("the unit in which the bearing fits the bore; {size}"),
         UnitFrom::Extent => format!("guess: {size}; the file does not say its unit"),
     }
+}
+
+/// How large and heavy the housing is by what the file says.
+fn size_sentence(found: &Found<'_>) -> String {
+    let size = size_in_words(found.extent.map(|side| side * found.unit.to_metres()));
+    let thick = if found.plane { " and the thickness guessed" } else { "" };
+    format!(
+        "By this unit the housing is {size} large, and by the materials{thick} its mass is {}.",
+        mass_in_words(found.mass, 3)
+    )
 }
 
 /// "a cylinder of radius 6 mm about z, all round, its nodes within ..."
@@ -56,12 +68,26 @@ fn bore_sentence(found: &Found<'_>) -> String {
     let mut sentence = match &found.bore {
         Some(bore) => format!("Group {} is {}.", quoted(&bore.group), describe(bore, found.plane)),
         None => format!(
-            "No group is a {} hole within 1 % of its radius: no bore is known. If there is one, name it in gmsh: \
-             Physical {}(\"bore\").",
+            "No group is a {} hole within 1 % of its radius: no bore is known.{}",
             if found.plane { "round" } else { "cylindrical" },
-            if found.plane { "Curve" } else { "Surface" }
+            match (found.partly.is_empty(), found.plane) {
+                (false, _) => "",
+                (true, true) => " If there is one, name it in gmsh: Physical Curve(\"bore\").",
+                (true, false) => " If there is one, name it in gmsh: Physical Surface(\"bore\").",
+            }
         ),
     };
+    for (hole, share, shoulder) in &found.partly {
+        sentence.push_str(&format!(
+            " Group {} is {} in {} % of its {}; the rest {}: name the round part alone in gmsh, Physical {}(\"bore\").",
+            quoted(&hole.group),
+            describe(hole, found.plane),
+            number(100.0 * share, 2),
+            if found.plane { "length" } else { "area" },
+            if *shoulder { "is flat and lies across its axis, as a shoulder does" } else { "lies beside it" },
+            if found.plane { "Curve" } else { "Surface" }
+        ));
+    }
     if !found.holes.is_empty() {
         sentence.push_str(&format!(" Other round holes: {}.", names(&found.holes)));
     } else if found.bore.is_some() {
@@ -75,7 +101,10 @@ fn bore_sentence(found: &Found<'_>) -> String {
 
 pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     let mut lines =
-        vec![format!("length_unit = \"{}\": {}", found.unit.symbol(), unit_origin(found)), bore_sentence(found)];
+        vec![format!("length_unit = \"{}\": {}", found.unit.symbol(), unit_origin(found)), size_sentence(found)];
+    let sides = found.extent.map(|side| side * found.unit.to_metres());
+    lines.extend(size_doubt(sides, found.unit, "--length-unit").map(|told| format!("warning: {told}")));
+    lines.push(bore_sentence(found));
     lines.push(match (&found.bearing, &found.bore) {
         (Some(numbers), _) => format!("Bearing {}.", bearing_origin(found, numbers)),
         (None, Some(bore)) => format!(

@@ -140,6 +140,8 @@ impl<R: Recording> RunResult<R> {
             Some("the energy balance does not close")
         } else if self.choice.measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST) {
             Some("on a stretch a finer run differs by as much as they are")
+        } else if self.choice.lacks_vectors() && self.choice.measured.is_none_or(|found| found.rms > REST) {
+            Some("the condensed housing has so few vectors that their estimated error is as large as they are")
         } else {
             None
         }

@@ -21,6 +21,8 @@ pub struct ModelChoice {
     pub estimated_error: Option<f64>,
     /// How many times the linear estimate of modes and steps it takes, as balls strike.
     pub growth: f64,
+    /// Up to which frequency the vectors of a condensed housing have to be complete for the target, Hz.
+    pub(crate) complete_for_hz: f64,
     /// The stretch that showed the error of modes and steps; `None` where it was not measured.
     pub measured: Option<Measured>,
     /// The longest step in which small motions at rest do not grow, s, where the case gives a longer one.
@@ -56,6 +58,12 @@ impl ModelChoice {
         unstable.into_iter().chain(self.missed()).collect()
     }
 
+    /// Whether a superelement or the condensed housing lacks so many vectors that its part of the error is as large as the signals.
+    pub(crate) fn lacks_vectors(&self) -> bool {
+        let mut parts = self.parts.iter().filter(|part| [SUPERELEMENT, CONDENSATION].contains(&part.what));
+        parts.any(|part| part.estimated_error.is_some_and(|error| error >= 1.0))
+    }
+
     /// The model's parts with reasons and estimated errors.
     pub(crate) fn table(&self) -> Table {
         let columns = ["Part", "Chosen", "Why, and what is left out", "Estimated error"].map(Column::text);
@@ -88,9 +96,10 @@ impl ModelChoice {
         // what the program chooses keeps the linear estimate below the target
         let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {
-            SUPERELEMENT | CONDENSATION => {
-                "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency"
-            }
+            SUPERELEMENT | CONDENSATION => &format!(
+                "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency, and {{ up_to_hz = {:.1e} }} is enough",
+                self.complete_for_hz
+            ),
             "method" if given("largest step") => "leave transient.step to the program",
             "method" if given("method") && !self.model.method.chooses_its_steps() => {
                 "leave transient.method to the program: its own method takes steps by the target"

@@ -10,7 +10,7 @@ use super::{loaded_errors, pilot, stepping};
 use crate::app::case;
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
-use crate::app::scene::structure::left_out;
+use crate::app::scene::structure::{complete_for, left_out};
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::report::significant;
@@ -111,6 +111,7 @@ impl ModelChoice {
         Ok(Self {
             model,
             estimated_error: sum.map(f64::sqrt),
+            complete_for_hz: complete_for(band_hz, target / growth),
             growth,
             measured: measured.ok().flatten(),
             stable_s: stepping::stable_below(task, &model)?,
@@ -137,7 +138,10 @@ fn vectors(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
         (Some(imported), _) => (
             SUPERELEMENT,
             imported.record.modal_hz.len(),
-            format!("given; vectors above {} kHz were left out when it was condensed", khz(4)),
+            match stage.complete_hz > 0.0 {
+                true => format!("given; vectors above {} kHz were left out when it was condensed", khz(4)),
+                false => "given; its file does not tell which vectors were left out when it was condensed".to_owned(),
+            },
         ),
         (None, Some(_)) => (
             CONDENSATION,
@@ -146,6 +150,7 @@ fn vectors(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
         ),
         (None, None) => return None,
     };
-    let estimated_error = Some(left_out(band_hz, stage.complete_hz));
+    let known = stage.complete_hz > 0.0;
+    let estimated_error = known.then(|| left_out(band_hz, stage.complete_hz));
     Some(ChosenPart { what, chosen: format!("{count} vectors"), why, estimated_error })
 }
