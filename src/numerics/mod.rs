@@ -10,6 +10,7 @@
 //!
 //! Read [`linalg::SparseMatrix`] first, then [`ode::SecondOrderSystem`].
 
+mod brief;
 pub(crate) mod lanes;
 pub mod linalg;
 pub mod ode;
@@ -17,4 +18,5 @@ pub mod series;
 pub mod units;
 mod watch;
 
+pub(crate) use brief::Brief;
 pub use watch::{Unwatched, Watch};

@@ -74,6 +74,10 @@ pub struct MeshFile {
 pub struct Document {
     /// Case file.
     pub case: Option<String>,
+    /// Hash of the case file with the name of the method, if known.
+    pub(crate) case_hash: Option<String>,
+    /// For whom and by whom the results are: names and texts.
+    pub(crate) details: Vec<Fact>,
     /// Mesh files.
     pub meshes: Vec<MeshFile>,
     /// Lines to be signed by hand on paper ("Prepared by", "Checked by").
@@ -128,7 +132,7 @@ pub enum Block {
 
 /// A property of the model: name, value, and where it comes from or what it means.
 #[must_use]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fact {
     /// What it is.
     pub name: String,

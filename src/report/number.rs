@@ -58,6 +58,22 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     out
 }
 
+/// A value as somebody gave it: with up to five significant digits, without the zeros behind them.
+pub(crate) fn given(value: f64) -> String {
+    let text = significant(value, 5);
+    let (number, power) = text.split_once('·').map_or((text.as_str(), String::new()), |(n, p)| (n, format!("·{p}")));
+    match number.contains('.') {
+        true => format!("{}{power}", number.trim_end_matches('0').trim_end_matches('.')),
+        false => text,
+    }
+}
+
+/// A given value with its unit, prefixed where that makes it short: "100 kN/m".
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
+    let shown = display_unit(unit, value.abs());
+    format!("{} {}", given(value / shown.factor), shown.text)
+}
+
 /// A whole number in superscript digits.
 pub(super) fn superscript(n: i32) -> String {
     n.to_string().chars().map(raised).collect()
@@ -164,6 +180,17 @@ mod tests {
         assert_eq!(fixed(-0.001, 2), "0.00");
         assert_eq!(fixed(-1_234_567.0, 1), "−1\u{202f}234\u{202f}567.0");
         assert_eq!(fixed(1234.0, 0), "1234");
+    }
+
+    #[test]
+    fn given_values_have_no_zeros_behind_them() {
+        for (value, text) in
+            [(0.0, "0"), (20.0, "20"), (25_600.0, "25\u{202f}600"), (0.75, "0.75"), (-9.81, "−9.81"), (1e-7, "1·10⁻⁷")]
+        {
+            assert_eq!(given(value), text);
+        }
+        assert_eq!(quantity(1e5, "N/m"), "100 kN/m");
+        assert_eq!(quantity(25_599.999_839_999_375, "Hz"), "25.6 kHz");
     }
 
     #[test]

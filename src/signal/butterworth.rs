@@ -1,5 +1,6 @@
 //! Butterworth filters: low-, high- and band-pass, without phase shift or causal.
 
+use crate::numerics::Brief;
 use std::f64::consts::PI;
 
 use realfft::num_complex::Complex;
@@ -164,15 +165,18 @@ impl Butterworth {
             FilterBand::BandPass { from_hz, to_hz } => {
                 if !(from_hz > 0.0 && from_hz < to_hz && to_hz < nyquist_hz) {
                     return Err(SignalError(format!(
-                        "band must satisfy 0 < from < to < {nyquist_hz} Hz (half the sampling rate), found {from_hz} Hz \
-                         to {to_hz} Hz"
+                        "band must satisfy 0 < from < to < {} Hz (half the sampling rate), found {} Hz to {} Hz",
+                        Brief(nyquist_hz),
+                        Brief(from_hz),
+                        Brief(to_hz)
                     )));
                 }
                 (from_hz, to_hz - from_hz)
             }
         };
         if lowest_hz * step_s < LOWEST_EDGE || width_hz * step_s < NARROWEST_BAND {
-            let [least_hz, narrowest_hz] = [LOWEST_EDGE / step_s, NARROWEST_BAND / step_s];
+            let edges_hz = [lowest_hz, width_hz, LOWEST_EDGE / step_s, NARROWEST_BAND / step_s];
+            let [lowest_hz, width_hz, least_hz, narrowest_hz] = edges_hz.map(Brief);
             return Err(SignalError(format!(
                 "filter edges from {lowest_hz} Hz, {width_hz} Hz wide, leave no digits at this sampling rate: lowest edge \
                  {least_hz} Hz, narrowest band {narrowest_hz} Hz; decimate first"

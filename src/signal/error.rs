@@ -1,5 +1,6 @@
 //! What can be wrong with an analysis of a signal.
 
+use crate::numerics::Brief;
 use crate::numerics::series::SeriesError;
 use std::fmt::Display;
 use thiserror::Error;
@@ -23,6 +24,7 @@ impl SignalError {
 
     /// A cut-off (Hz) that does not lie between zero and half the sampling rate (Hz).
     pub(super) fn cut_off(cut_off_hz: f64, nyquist_hz: f64) -> Self {
+        let [cut_off_hz, nyquist_hz] = [cut_off_hz, nyquist_hz].map(Brief);
         Self(format!("cut-off must lie between 0 and {nyquist_hz} Hz (half the sampling rate), found {cut_off_hz} Hz"))
     }
 

@@ -1,5 +1,6 @@
 //! Peaks of an envelope spectrum and the lines they belong to: shaft, races, balls and their harmonics.
 
+use crate::numerics::Brief;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -40,8 +41,8 @@ impl NamedLine {
         let name = name.into();
         if !(frequency_hz.is_finite() && frequency_hz > 0.0 && harmonics > 0) {
             return Err(SignalError(format!(
-                "line \"{name}\" must have a positive frequency and at least one harmonic, found {frequency_hz} Hz and \
-                 {harmonics}"
+                "line \"{name}\" must have a positive frequency and at least one harmonic, found {} Hz and {harmonics}",
+                Brief(frequency_hz)
             )));
         }
         Ok(Self { name, frequency_hz, harmonics })

@@ -8,6 +8,7 @@
 
 use super::fourier::{MOST_POINTS, fast_length, forward};
 use super::{Peak, SignalError};
+use crate::numerics::Brief;
 use crate::numerics::series::TimeSeries;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
@@ -243,6 +244,7 @@ impl FrequencyAxis {
         // a millionth for what is typed in decimal
         let is_inside = from_hz >= lowest_hz * (1.0 - 1e-6) && to_hz < highest_hz;
         if !(from_hz > 0.0 && from_hz < to_hz && is_inside && (2..=MOST).contains(&count)) {
+            let [lowest_hz, highest_hz, from_hz, to_hz] = [lowest_hz, highest_hz, from_hz, to_hz].map(Brief);
             return Err(SignalError(format!(
                 "frequencies must satisfy {lowest_hz} Hz <= from < to < {highest_hz} Hz and be 2 to {MOST}, found {count} \
                  from {from_hz} Hz to {to_hz} Hz"

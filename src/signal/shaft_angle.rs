@@ -1,5 +1,6 @@
 //! The angle that a shaft has turned through, from its speed.
 
+use crate::numerics::Brief;
 use serde::Serialize;
 
 use super::SignalError;
@@ -63,7 +64,7 @@ impl ShaftAngle {
         }
         let is_speed = |p: &&SpeedPoint| !(p.speed_hz.is_finite() && p.speed_hz > 0.0);
         if let Some(point) = points.iter().find(is_speed) {
-            let SpeedPoint { time_s, speed_hz } = point;
+            let [time_s, speed_hz] = [point.time_s, point.speed_hz].map(Brief);
             return Err(SignalError(format!(
                 "shaft speed must be positive throughout, found {speed_hz} Hz at {time_s} s: take a stretch in which the \
                  shaft turns one way"

@@ -6,6 +6,7 @@
 
 use super::fourier::{Forward, MOST_POINTS, fast_length};
 use super::{SignalError, WindowFunction};
+use crate::numerics::Brief;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use serde::Serialize;
 
@@ -60,7 +61,9 @@ pub fn amplitude_spectrum(
     if !(widest_bin_hz > 0.0 && wanted <= MOST_POINTS as f64) {
         let finest_hz = 1.0 / (series.step_s() * MOST_POINTS as f64);
         return Err(SignalError(format!(
-            "bin width must be positive and at least {finest_hz} Hz for this sampling rate, found {widest_bin_hz} Hz"
+            "bin width must be positive and at least {} Hz for this sampling rate, found {} Hz",
+            Brief(finest_hz),
+            Brief(widest_bin_hz)
         )));
     }
     let points = fast_length((wanted as usize).max(LEAST_PADDING * samples));

@@ -66,12 +66,13 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Tables that say how results are looked at, not what they are.
-const VIEWS: [&str; 1] = ["analysis"];
+/// Tables that say how results are looked at and by whom, not what they are.
+const VIEWS: [&str; 2] = ["analysis", "report"];
 
 impl Source {
     /// SHA-256 of the case's values with the arguments applied, 64 hexadecimal digits. The order of keys, comments and the form of
-    /// numbers play no part, nor does `[analysis]`, which says how signals are looked at.
+    /// numbers play no part, nor do `[analysis]` and `[report]`, which say how
+    /// results are looked at.
     ///
     /// # Errors
     /// [`CaseError`] for a text that is no TOML, or arguments that cannot be applied.
@@ -125,7 +126,7 @@ mod tests {
     #[test]
     fn values_tell_cases_apart_and_their_form_does_not() {
         let case = "[shaft]\nmass = 2.0\n[ring]\nnodes = 24\nname = \"a\"\n";
-        let same = "# words\n[ring]\nname = 'a'\nnodes = 2_4\n[shaft]\nmass = 0.2e1\n[analysis]\nenergy = true\n";
+        let same = "# words\n[ring]\nname = 'a'\nnodes = 2_4\n[shaft]\nmass = 0.2e1\n[analysis]\nenergy = true\n[report]\nauthor = 'A'\n";
         assert_eq!(digest(case, &[]), digest(same, &[]));
         assert_eq!(
             digest(case, &[]),

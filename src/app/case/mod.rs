@@ -34,6 +34,7 @@ mod material;
 mod modes;
 mod motion;
 mod purpose;
+mod report;
 mod ring;
 mod schema;
 mod set;
@@ -64,6 +65,7 @@ pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicM
 pub use modes::{ComparedModes, ConvergenceMeshes, Expected, Linearise, Modes, Variant};
 pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
 pub use purpose::{Purpose, RunCase};
+pub use report::ReportDetails;
 pub use ring::{Bond, Ring, RingSupport, Section, Tie};
 pub(in crate::app) use schema::in_words;
 pub use set::replaced_argument;
@@ -79,6 +81,9 @@ pub struct Case {
     /// What the case is about; the file's name where the file says nothing.
     #[serde(default)]
     pub title: String,
+    /// For whom and by whom reports are made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub report: Option<ReportDetails>,
     /// Materials by name, the built-in ones included.
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,

@@ -6,8 +6,8 @@ use super::report::ReportFiles;
 use super::results::{Job, warnings, write_modes};
 use super::{CliError, Outcome};
 use crate::app::commands::modes::{
-    FileComparison, LoneMode, MeshConvergence, ModesResult, Reading, SequenceMesh, compute_modes, error_text,
-    misses_text, mode_numbers, modes_report, plain, signed,
+    FileComparison, LoneMode, MeshConvergence, ModesResult, Reading, SequenceMesh, completeness, compute_modes,
+    error_text, misses_text, mode_numbers, modes_report, plain, signed,
 };
 use crate::report::significant;
 
@@ -49,13 +49,8 @@ fn summary(result: &ModesResult) -> String {
     let imported = result.structure.iter().flat_map(|stage| &stage.imported);
     lines.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     lines.extend(warnings(&result.doubts));
-    lines.push(match check.above_hz {
-        Some(above) => format!(
-            "between {above:.2} and {:.2} Hz: {} modes counted, {} found",
-            check.below_hz, check.counted, check.found
-        ),
-        None => format!("below {:.2} Hz: {} modes counted, {} found", check.below_hz, check.counted, check.found),
-    });
+    let (_, complete, _) = completeness(check);
+    lines.push(format!("{complete}: {} counted, {} found", check.counted, check.found));
     lines.extend(crate::app::commands::modes::free_motions(result));
     lines.push(format!("unloaded (Hz): {}", listed(&result.base.unloaded_hz)));
     lines.extend(reading(&result.base));

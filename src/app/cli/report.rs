@@ -5,14 +5,16 @@
 use super::output::{extend_new, json};
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
+use crate::app::commands::parts::with_details;
 use crate::app::commands::result::VERSION;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
 use crate::files::{FileDigest, FileError};
-use crate::report::{Document, MeshFile, Report};
+use crate::report::{MeshFile, Report};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
 /// The commands that write reports, by the names of their results.
@@ -151,9 +153,10 @@ impl ReportFiles {
     ) -> Result<Self, CliError> {
         let meshes = mesh_digests(case)?;
         unchanged(&meshes, &progress.files())?;
-        let mut report = report;
-        let head = report.document.get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
-        head.meshes = meshes.iter().map(MeshFile::from).collect();
+        let mut report = with_details(report, case);
+        if let Some(head) = &mut report.document {
+            head.meshes = meshes.iter().map(MeshFile::from).collect();
+        }
         let files = Self::without_case(folder, command, report)?;
         Ok(Self { meshes, ..files })
     }
@@ -164,7 +167,8 @@ impl ReportFiles {
     /// As [`ReportFiles::write`].
     pub(super) fn without_case(folder: &OutputFolder, command: &str, report: Report) -> Result<Self, CliError> {
         let page = folder.report_name(command);
-        let report = report.tables_in(TABLES, command);
+        let date = report.date.clone().unwrap_or_else(today);
+        let report = report.date(date).tables_in(TABLES, command);
         let record = report.to_record().map_err(ComputeError::from)?;
         folder.write(&record_of(&page), &record)?;
         Self::draw(folder, &page, command, &report)
@@ -195,6 +199,33 @@ impl ReportFiles {
         paths.push(folder.write(page, html.as_bytes())?);
         Ok(Self { meshes: Vec::new(), tables: named, paths })
     }
+}
+
+/// The date in UTC, or that of the environment's `SOURCE_DATE_EPOCH` (reproducible-builds.org), by which pages are the same again.
+fn today() -> String {
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    date_of(given.unwrap_or_else(now))
+}
+
+/// Year, month and day (ISO 8601) of so many seconds after 1970 began.
+fn date_of(seconds: u64) -> String {
+    let mut day = seconds / 86_400;
+    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    // what repeats: 146 097 days are 400 years
+    let mut year = 1970 + 400 * (day / 146_097);
+    day %= 146_097;
+    while day >= 365 + u64::from(leap(year)) {
+        day -= 365 + u64::from(leap(year));
+        year += 1;
+    }
+    let months = [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    let mut month = 0;
+    while day >= months[month] {
+        day -= months[month];
+        month += 1;
+    }
+    format!("{year}-{:02}-{:02}", month + 1, day + 1)
 }
 
 /// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
@@ -267,7 +298,7 @@ mod tests {
 
 #[cfg(test)]
 mod report_files_tests {
-    use super::{is_of_report, page_of, record_of, unchanged};
+    use super::{date_of, is_of_report, page_of, record_of, unchanged};
     use crate::files::FileDigest;
 
     #[test]
@@ -277,6 +308,22 @@ mod report_files_tests {
         }
         for other in ["report.html", "notes.cbor.gz", "reports.cbor.gz", ".cbor.gz"] {
             assert_eq!(page_of(other), None, "{other}");
+        }
+    }
+
+    /// By `date -u -d @SECONDS +%F`.
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (seconds, date) in [
+            (0, "1970-01-01"),
+            (951_782_399, "2000-02-28"),
+            (951_782_400, "2000-02-29"),
+            (1_735_689_599, "2024-12-31"),
+            (1_735_689_600, "2025-01-01"),
+            (4_107_542_400, "2100-03-01"),
+            (16_725_225_600, "2500-01-01"),
+        ] {
+            assert_eq!(date_of(seconds), date);
         }
     }
 

@@ -4,14 +4,14 @@ use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
 use super::{CliError, Outcome, OutputFolder, failure, resuming};
-use crate::app::case::{Method, Transient};
+use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::SHOWN_WINDOWS;
-use crate::app::commands::parts::bearing_table;
+use crate::app::commands::parts::{bearing_table, not_shown};
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
-use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, explain_run, run_report};
+use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::significant;
+use crate::report::{given, significant};
 use std::time::Duration;
 
 /// Folder of an unfinished run, in that of the results.
@@ -90,7 +90,7 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
     let (path, json) = job.write_result(&files, &arrays, result.summary())?;
     unfinished.remove()?;
     Ok(Outcome {
-        summary: summary(&result, job.started.elapsed().as_secs_f64()),
+        summary: summary(case, &result, job.started.elapsed().as_secs_f64()),
         result: json,
         written: [arrays, vec![path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
@@ -158,11 +158,11 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
     }
 }
 
-fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
+fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> String {
     let (scene, simulation) = (&result.scene, &result.simulation);
     let mut lines = vec![bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)).plain()];
     lines.push(format!(
-        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, real-time factor {:.4}",
+        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, {} s of computing per simulated second",
         significant(simulation.simulated_s, 4),
         significant(simulation.stepping_s, 3),
         significant(wall_s, 3),
@@ -172,15 +172,15 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
         simulation.modes,
         result.scene.stage.structure.dof(),
         if simulation.residual { " with static residual" } else { "" },
-        simulation.realtime_factor(),
+        cost(simulation.realtime_factor()),
     ));
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         lines.push(format!(
             "{} from {} to {} s (shaft {:.2} Hz): rms {} m/s^2, peak {} m/s^2",
             window.sensor,
-            window.from,
-            window.to,
+            given(window.from),
+            given(window.to),
             window.speed_hz,
             significant(window.rms, 3),
             significant(window.peak, 3)
@@ -189,6 +189,8 @@ fn summary<R: Recording>(result: &RunResult<R>, wall_s: f64) -> String {
             Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
             Err(reason) => format!("  no verdict: {reason}"),
         });
+        let missed = window.diagnosis.as_ref().ok().and_then(|diagnosis| not_shown(case, diagnosis));
+        lines.extend(missed.map(|missed| format!("  {missed}")));
         // a line that the speed smears over Hz is not looked for
         let shown = !result.scene.outer_race_is_sound() && window.smeared_above.is_none();
         for (harmonic, line) in (1..).zip(window.outer.iter().filter(|_| shown)) {

@@ -7,6 +7,7 @@
 //! 1974, as in Oppenheim & Schafer, "Discrete-Time Signal Processing", 3rd ed., eq. (7.75) and (7.76).
 
 use super::time_series::{SeriesError, check_step};
+use crate::numerics::Brief;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -210,6 +211,7 @@ impl KaiserLowPass {
         check_step(step_s)?;
         let nyquist_hz = 0.5 / step_s;
         if !(pass_hz > 0.0 && pass_hz < stop_hz && stop_hz <= nyquist_hz * (1.0 + 1e-12)) {
+            let [nyquist_hz, pass_hz, stop_hz] = [nyquist_hz, pass_hz, stop_hz].map(Brief);
             return Err(SeriesError(format!(
                 "low-pass edges must satisfy 0 < pass < stop <= {nyquist_hz} Hz (half the sampling rate), found pass \
                  {pass_hz} Hz, stop {stop_hz} Hz"

@@ -4,6 +4,7 @@
 //!
 //! Figures that sum a signal up: mean, RMS, peak, kurtosis.
 
+use crate::numerics::Brief;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -73,13 +74,14 @@ impl TimeWindow {
     pub(crate) fn check_inside(self, start_s: f64, step_s: f64, samples: usize) -> Result<(), SeriesError> {
         let (from_s, to_s) = (self.from, self.to);
         if !(from_s.is_finite() && to_s.is_finite() && from_s < to_s) {
+            let [from_s, to_s] = [from_s, to_s].map(Brief);
             return Err(SeriesError(format!("window must end after it starts, found {from_s} s to {to_s} s")));
         }
         let position = |t: f64| (t - start_s) / step_s;
         let samples = samples as f64;
         let tolerance = tolerance_steps(start_s.abs().max(to_s.abs()), step_s);
         if position(from_s) < -tolerance || position(to_s) > samples + tolerance {
-            let end_s = start_s + samples * step_s;
+            let [from_s, to_s, start_s, end_s] = [from_s, to_s, start_s, start_s + samples * step_s].map(Brief);
             return Err(SeriesError(format!(
                 "window {from_s} s to {to_s} s is not inside the series, which covers {start_s} s to {end_s} s"
             )));
@@ -171,7 +173,7 @@ impl TimeSeries {
         };
         let (first, end) = (index(from_s), index(to_s));
         if first >= end {
-            let step_s = self.step_s;
+            let [from_s, to_s, step_s] = [from_s, to_s, self.step_s].map(Brief);
             return Err(SeriesError(format!(
                 "window {from_s} s to {to_s} s holds no sample: the sampling step is {step_s} s"
             )));

@@ -110,7 +110,7 @@ pub struct ModeShapeView {
 impl ShapeMode {
     /// The frequency as it is printed.
     pub(in crate::report) fn frequency(&self) -> String {
-        format!("{} Hz", significant(self.frequency_hz, 4))
+        format!("{} Hz", significant(self.frequency_hz, 7))
     }
 }
 

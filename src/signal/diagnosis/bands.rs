@@ -1,5 +1,6 @@
 //! The envelopes that a verdict is sought in: of bands of the whitened signal, at equal angles of the shaft.
 
+use crate::numerics::Brief;
 use rayon::prelude::*;
 
 use super::DiagnosisError;
@@ -66,8 +67,9 @@ pub(super) fn check_band(asked_hz: Option<[f64; 2]>, signal: &TimeSeries) -> Res
     if from_hz > LATEST_START * end_hz || from_hz >= to_hz {
         let most_hz = LATEST_START * to_hz.min(end_hz);
         return Err(DiagnosisError::Refused(format!(
-            "expected a band that begins below {most_hz} Hz, nine tenths of what the signal is good for, found one from \
-             {from_hz} Hz on"
+            "expected a band that begins below {} Hz, nine tenths of what the signal is good for, found one from {} Hz on",
+            Brief(most_hz),
+            Brief(from_hz)
         )));
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::numerics::Brief;
 use crate::numerics::series::SeriesError;
 use crate::signal::SignalError;
 
@@ -18,7 +19,10 @@ pub enum DiagnosisError {
     #[error("{0}")]
     Refused(String),
     /// A sensor that is dead, or not connected.
-    #[error("from {from_s} s to {to_s} s: expected a signal that changes, found a constant: check sensor and channel")]
+    #[error(
+        "from {} s to {} s: expected a signal that changes, found a constant: check sensor and channel",
+        Brief(*.from_s), Brief(*.to_s)
+    )]
     Constant {
         /// Start of the window, s.
         from_s: f64,
@@ -37,7 +41,8 @@ pub enum DiagnosisError {
     },
     /// A piece of a signal that is repeated: what it holds comes at a fixed rate.
     #[error(
-        "expected a record, found one whose values repeat exactly every {period_s} s: whatever it holds then strikes at that rate; give the original record"
+        "expected a record, found one whose values repeat exactly every {} s: whatever it holds then strikes at that rate; give the original record",
+        Brief(*.period_s)
     )]
     Repeated {
         /// After what time all values come again, s.

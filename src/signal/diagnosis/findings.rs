@@ -71,14 +71,15 @@ impl Search<'_> {
         let too_few = match free {
             0 => format!("each of the first {deciding} harmonics coincides with another line"),
             free if free < LEAST_FREE => {
-                format!("only {free} of the first {deciding} harmonics are free of other lines")
+                format!("of the first {deciding} harmonics, only {free} can be told from lines of other origin")
             }
-            _ => "neither the first nor the second harmonic is free of other lines".to_owned(),
+            _ => "neither the first nor the second harmonic can be told from lines of other origin".to_owned(),
         };
         let shown = hidden.iter().take(2).map(String::as_str);
         let shown: Vec<&str> = shown.collect();
-        let hint =
-            self.beside_the_shafts(fault).unwrap_or_else(|| "Lines that have another reason hide them.".to_owned());
+        let hint = self
+            .beside_the_shafts(fault)
+            .unwrap_or_else(|| "Lines of other origin stand in the same places.".to_owned());
         format!("No verdict: {too_few} ({}). {hint}", shown.join(", "))
     }
 

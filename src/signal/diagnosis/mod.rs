@@ -65,3 +65,4 @@ pub use verdict::{
     LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts,
 };
 pub use window::Diagnosis;
+pub(crate) use window::TAKEN_BACK;

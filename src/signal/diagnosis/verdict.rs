@@ -289,11 +289,14 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
         ));
     }
     let least = evidence.least;
-    let too_few = format!("That is too few: {} have to, the first or the second among them.", least.seen);
+    let too_few = format!(
+        "A verdict needs at least {} harmonics that stand out, one of them the first or the second.",
+        least.seen
+    );
     let objections = [
         (
             chance >= NAMED_BELOW,
-            "Chance makes as much once in a thousand windows or more often. A longer window may decide.",
+            "Of a thousand windows without damage, at least one looks like this by chance. A longer window may decide.",
         ),
         (seen < least.seen || !evidence.first, too_few.as_str()),
         (

@@ -208,7 +208,7 @@ impl Diagnosis {
         let alone = self.by_signal_alone.iter().map(|fault| fault.name());
         let alone: Vec<&str> = alone.collect();
         if !alone.is_empty() {
-            parts.push(format!("the signal alone would indicate a fault of: {}", alone.join(", ")));
+            parts.push(format!("{}: {TAKEN_BACK}", alone.join(", ")));
         }
         parts.extend(self.unexplained.iter().map(|impacts| {
             format!(
@@ -221,6 +221,10 @@ impl Diagnosis {
         parts.join("; ")
     }
 }
+
+/// What is said of parts whose lines stand out, and whose damage is nevertheless not indicated.
+pub(crate) const TAKEN_BACK: &str =
+    "its lines stand out, but what is known of the bearing explains them without damage";
 
 /// Values that have to come again before the rest is compared.
 const BEGINNING: usize = 16;

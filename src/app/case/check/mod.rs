@@ -2,6 +2,7 @@
 
 mod contact;
 mod range;
+mod report;
 mod rule;
 mod structure;
 #[cfg(test)]
@@ -23,6 +24,7 @@ impl Case {
         if self.housing.is_none() && self.ring.is_none() {
             return Err(Rule::nothing_to_model().at("housing"));
         }
+        self.report.iter().try_for_each(report::report)?;
         structure::materials(self)?;
         structure::housing(self)?;
         self.ring.iter().try_for_each(|ring| structure::ring(self, ring))?;

@@ -29,7 +29,7 @@ pub(super) struct Machine {
     setup: Option<(Box<BearingSetup>, f64)>,
     typed: Option<GivenSpeed>,
     of_case: Option<SpeedProfile>,
-    catalogue: Option<String>,
+    pub(super) catalogue: Option<String>,
     /// Whether what a file states of its speed goes before what was typed.
     pub(super) own_first: bool,
 }

@@ -9,8 +9,9 @@ use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
+use crate::app::commands::parts::{not_shown, with_details};
 use crate::report::significant;
-use crate::signal::diagnosis::{ChangeConclusion, Conclusion, change_words};
+use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 
 /// Analyses an input into a folder.
 ///
@@ -38,7 +39,10 @@ pub(super) fn single(
     }
     progress.stage("write");
     let name = input.display().to_string();
-    let mut report = analysis_report(&name, &source.assumptions, &windows, &command(asked));
+    let truth = |diagnosis: &_| source.simulated().and_then(|case| not_shown(case, diagnosis));
+    let report = analysis_report(&name, source.inputs(), &windows, truth, &command(asked));
+    let mut report = source.case.iter().fold(report, |report, case| with_details(report, case));
+    report.assumptions.extend_from_slice(&source.assumptions);
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);
     let orders = source.defect_orders(input, windows.first())?;
@@ -48,12 +52,12 @@ pub(super) fn single(
         head,
         input: InputSummary {
             defect_orders: Some(orders),
-            case: source.case.as_ref().map(|path| path.display().to_string()),
+            case: source.case.as_ref().map(|case| case.source.path.display().to_string()),
             input: name,
         },
         windows: windows.clone(),
     })?;
-    Ok(Outcome { summary: summary(&windows), result, written, verdict: verdict(&windows) })
+    Ok(Outcome { summary: summary(&windows, truth), result, written, verdict: verdict(&windows) })
 }
 
 fn verdict(windows: &[&WindowAnalysis]) -> Result<(), CliError> {
@@ -91,7 +95,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
     lines
 }
 
-fn summary(windows: &[&WindowAnalysis]) -> String {
+fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&Diagnosis) -> Option<String>) -> String {
     let mut lines = Vec::new();
     for window in windows {
         let place =
@@ -107,6 +111,7 @@ fn summary(windows: &[&WindowAnalysis]) -> String {
                 ));
                 let seen = diagnosis.faults.iter().filter(|verdict| verdict.conclusion != Conclusion::NotSeen);
                 lines.extend(seen.map(|verdict| format!("  {}: {}", verdict.fault.name(), verdict.why)));
+                lines.extend(truth(diagnosis).map(|missed| format!("  {missed}")));
             }
         }
         lines.extend(window.change.iter().flat_map(change_lines));

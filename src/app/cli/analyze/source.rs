@@ -4,18 +4,19 @@
 
 use super::AnalyzeArguments;
 use super::machine::{Machine, Named, named_bearing};
-use crate::app::case::{Case, EnvelopeBand};
+use crate::app::case::{Case, EnvelopeBand, Purpose};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis};
+use crate::app::commands::parts;
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::report::significant;
+use crate::report::{Fact, Section, given, pretty_unit, quantity, significant};
 use crate::signal::diagnosis::Kinematics;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The results that a run's signals are taken from.
 const RUN: Wanted = Wanted { command: "run", arrays: "signals.npz", instead: "a file of signals" };
@@ -25,7 +26,9 @@ pub(super) struct Source {
     pub(super) signals: Vec<MeasuredSignal>,
     pub(super) settings: AnalysisSettings,
     /// The case that says something of it.
-    pub(super) case: Option<PathBuf>,
+    pub(super) case: Option<Case>,
+    /// Whether it is a run of that case.
+    is_run: bool,
     /// What is taken for granted, in words.
     pub(super) assumptions: Vec<String>,
     /// What was typed against the file's own words, and what is wrong with the signals.
@@ -94,7 +97,28 @@ impl Source {
             extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
-        Ok(Self { signals, settings, case: case.map(|case| case.source.path), assumptions, doubts, machine })
+        Ok(Self { signals, settings, case, is_run, assumptions, doubts, machine })
+    }
+
+    /// The case whose run it is, if it is one.
+    pub(super) fn simulated(&self) -> Option<&Case> {
+        self.case.as_ref().filter(|_| self.is_run)
+    }
+
+    /// The signals, and what a case says of the machine, in words.
+    pub(super) fn inputs(&self) -> Section {
+        let signals = self.signals.iter().map(|MeasuredSignal { name, series, .. }| {
+            let unit =
+                if series.unit().is_empty() { String::new() } else { format!(" in {}", pretty_unit(series.unit())) };
+            let length = given(series.values().len() as f64 * series.step_s());
+            Fact::new(format!("Signal {name}"), format!("{length} s at {}{unit}", quantity(series.rate_hz(), "Hz")))
+        });
+        let machine: Vec<Fact> = match (&self.case, self.is_run) {
+            (Some(case), true) => parts::inputs(case, Purpose::Run, None),
+            (Some(case), false) => case.bearing.iter().map(parts::bearing_fact).collect(),
+            (None, _) => self.machine.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
+        };
+        Section::new("Inputs").facts(signals.chain(machine))
     }
 
     /// Analyses one of the signals in every window.

@@ -135,7 +135,7 @@ impl Analysed {
         }
         analysed.input = Some(InputSummary {
             input: name,
-            case: source.case.map(|path| path.display().to_string()),
+            case: source.case.map(|case| case.source.path.display().to_string()),
             defect_orders: orders,
         });
         analysed.assumptions = source.assumptions;

@@ -4,32 +4,37 @@ use super::band_search::{band_facts, kurtogram_plot};
 use super::change_report::{change_headlines, change_section, last_order, order_curve};
 use super::window::WindowAnalysis;
 use crate::report::{
-    Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict,
+    Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, given,
     significant,
 };
-use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource};
+use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource, TAKEN_BACK};
 
-/// Composes the report of signals from files; `source` is the file or folder, `command` the line that made it.
+/// Composes the report of signals from files; `source` is the file or folder, `inputs` says in words what was analysed, `truth` what is
+/// known to be there and not shown, `command` is the line that made it.
 pub(crate) fn analysis_report(
     source: &str,
-    assumptions: &[String],
+    inputs: Section,
     windows: &[WindowAnalysis],
+    truth: impl Fn(&Diagnosis) -> Option<String>,
     command: &str,
 ) -> Report {
     let report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
-    let mut report = change_headlines(verdict_headlines(report, windows), windows);
+    let mut report = change_headlines(verdict_headlines(report, windows, truth), windows).section(inputs);
     report.warnings.extend(windows.iter().filter_map(|window| {
         let reason = window.diagnosis.as_ref().err()?;
         Some(format!("{}: no verdict: {reason}", window.sensor))
     }));
     report.sections.extend(windows.iter().map(window_section));
-    report.assumptions.extend_from_slice(assumptions);
     report
 }
 
-/// The verdict on each window, on top of a report.
-pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) -> Report {
+/// The verdict on each window, on top of a report; `truth` says what is known to be there and not shown.
+pub(crate) fn verdict_headlines(
+    mut report: Report,
+    windows: &[WindowAnalysis],
+    truth: impl Fn(&Diagnosis) -> Option<String>,
+) -> Report {
     for window in windows {
         let Ok(diagnosis) = &window.diagnosis else { continue };
         // chance does not make their lines, and they are not indicated
@@ -58,9 +63,12 @@ pub(crate) fn verdict_headlines(mut report: Report, windows: &[WindowAnalysis]) 
             text += &format!("; not judged: {not_judged}");
         }
         if !alone.is_empty() {
-            text += &format!("; the signal alone would indicate a fault of: {alone}");
+            text += &format!("; {alone}: {TAKEN_BACK}");
         }
-        report = report.headline(place_and_time(window), text, Verdict::None);
+        let missed = truth(diagnosis);
+        let verdict = if missed.is_some() { Verdict::Bad } else { Verdict::None };
+        text.extend(missed.map(|missed| format!("; {missed}")));
+        report = report.headline(place_and_time(window), text, verdict);
     }
     report
 }
@@ -77,7 +85,7 @@ pub(crate) fn capital(text: &str) -> String {
 
 /// Sensor and window of time.
 fn place_and_time(window: &WindowAnalysis) -> String {
-    format!("{}, {}-{} s", window.sensor, significant(window.from, 4), significant(window.to, 4))
+    format!("{}, {} to {} s", window.sensor, given(window.from), given(window.to))
 }
 
 /// All about a window.
@@ -114,7 +122,8 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
         .plot(
             Plot::new(title, Axis::new("Time", "s"), Axis::new("Amplitude", &window.unit))
                 .curve(signal)
-                .curve(envelope),
+                .curve(envelope)
+                .caption("The filtered signal and its envelope. Each impact is a burst that dies away; damage strikes at equal distances."),
         )
         .facts(facts.into_iter().chain(band_facts(&window.band)))
         .table(peak_table(window));
@@ -158,7 +167,7 @@ fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
         Axis::new("Amplitude", &spectrum.unit),
     )
     .curve(order_curve("envelope", spectrum))
-    .caption("Order: events per shaft turn; a speed that changes smears nothing here. Marked: the shaft and the lines of each part.")
+    .caption("Spectrum of the envelope over the shaft's angle. An order counts events per shaft turn, so that a speed that changes smears nothing. Damage of a part shows as a row of lines at its mark and the multiples.")
     .marker(Marker::new(1.0, "shaft").family(0));
     plot.families = families(diagnosis, 1.0);
     for (family, verdict) in (1..).zip(&diagnosis.faults) {
@@ -280,7 +289,12 @@ fn envelope_plot(window: &WindowAnalysis) -> Plot {
     );
     match smeared(window) {
         Some(text) => plot = plot.caption(text),
-        None => plot.families.extend(window.diagnosis.iter().flat_map(|found| families(found, window.speed_hz))),
+        None => {
+            plot = plot.caption(
+                "Spectrum of the envelope: how often impacts come back. Damage shows as a row of equally spaced lines at one of the marked frequencies.",
+            );
+            plot.families.extend(window.diagnosis.iter().flat_map(|found| families(found, window.speed_hz)));
+        }
     }
     for (family, line) in window.lines.iter().enumerate() {
         let harmonics = (1..=line.harmonics()).map(|harmonic| (harmonic, f64::from(harmonic) * line.frequency_hz()));

@@ -4,8 +4,8 @@
 
 use super::compute::{CondenseResult, FullComparison, ReducedInterface};
 use super::summary::hz;
-use crate::app::case::Case;
-use crate::app::commands::parts::signed_report;
+use crate::app::case::{Case, Purpose};
+use crate::app::commands::parts::{self, HousingSize, signed_report};
 use crate::app::scene::tie_price::{BeamAndSolid, TiePrice};
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{BasisSize, Bound, Check, SizeErrors};
@@ -24,6 +24,7 @@ pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &st
             Verdict::of(estimate.converged && estimate.largest() <= case.target()),
         )
         .headline("Coordinates", format!("{interface_dof} + {}", result.stage.condensed.basis.count()), Verdict::None)
+        .section(inputs(case, result))
         .section(what(result))
         .section(
             Section::new("Checks")
@@ -72,6 +73,13 @@ pub(crate) fn imported_report(case: &Case, imported: &ImportedHousing, command: 
         );
     report.warnings.extend_from_slice(&imported.notes);
     report
+}
+
+/// The case in words.
+fn inputs(case: &Case, result: &CondenseResult) -> Section {
+    let housing = &result.stage.housing;
+    let size = HousingSize::of(&housing.mesh, &housing.model, Some(housing.matrices.total_mass()));
+    Section::new("Inputs").facts(parts::inputs(case, Purpose::Condense, Some(&size)))
 }
 
 fn checks_passed(report: Report, checks: &[Check]) -> Report {

@@ -2,8 +2,8 @@
 
 use super::compute::FrfResult;
 use super::reduced::{FrfHousing, TransferPath};
-use crate::app::case::Case;
-use crate::app::commands::parts::signed_report;
+use crate::app::case::{Case, Purpose};
+use crate::app::commands::parts::{self, HousingSize, signed_report};
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrfQuantity;
@@ -33,7 +33,7 @@ pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Resu
         None => report.headline("Difference from the full model", "not computed", Verdict::None),
         Some((_, error)) => judged(report, "Largest difference from the full model", error),
     };
-    report = report.section(model(result));
+    report = report.section(inputs(case, result)).section(model(result));
     for path in 0..result.paths.len() {
         report = report.section(of_path(result, path)?);
     }
@@ -46,6 +46,18 @@ pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Resu
     }
     report.warnings.extend_from_slice(&result.doubts);
     Ok(report)
+}
+
+/// The case in words.
+fn inputs(case: &Case, result: &FrfResult) -> Section {
+    let size = match &result.housing {
+        FrfHousing::Mesh(stage) => {
+            let housing = &stage.housing;
+            Some(HousingSize::of(&housing.mesh, &housing.model, Some(housing.matrices.total_mass())))
+        }
+        FrfHousing::File(_) => None,
+    };
+    Section::new("Inputs").facts(parts::inputs(case, Purpose::Frf, size.as_ref()))
 }
 
 fn model(result: &FrfResult) -> Section {
@@ -87,7 +99,7 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
     let reduced: Vec<(f64, c64)> = all.iter().copied().zip(accelerance).collect();
     let [low, high] = result.band_hz;
     let frequency = || Axis::new("Frequency", "Hz").range(low, high);
-    let size = || Axis::new("Acceleration over force", "1/kg").log();
+    let size = || Axis::new("Acceleration over force", "(m/s^2)/N").log();
     let plot = |title: &str, y: Axis, of: fn(c64) -> f64| {
         let plot = Plot::new(title, frequency(), y).curve(curve("reduced", &reduced, of));
         match full.as_slice() {
@@ -95,11 +107,17 @@ fn of_path(result: &FrfResult, index: usize) -> Result<Section, ComputeError> {
             full => plot.curve(curve("full", full, of).style(CurveStyle::Points)),
         }
     };
-    let magnitude = plot("Accelerance, magnitude", size(), |h| h.norm());
-    let phase = plot("Accelerance, phase", Axis::new("Phase", "deg"), |h| h.arg().to_degrees());
+    let magnitude = plot("Accelerance, magnitude", size(), |h| h.norm()).caption(format!(
+        "Acceleration at {} by a force of 1 N at {}, over frequency. Peaks are resonances, where the path transmits most.",
+        path.to, path.from
+    ));
+    let phase = plot("Accelerance, phase", Axis::new("Phase", "deg"), |h| h.arg().to_degrees()).caption(
+        "Phase of the acceleration against the force. It turns by 180 degrees through each resonance that carries the path.",
+    );
     let mut parts =
         Plot::new("Accelerance of the modes that carry most", frequency(), size())
-            .curve(curve("all", &reduced, |h| h.norm()));
+            .curve(curve("all", &reduced, |h| h.norm()))
+            .caption("The whole path, and what each of the modes that carry most would bring alone. Where a mode lies on the whole curve, a change of that mode changes the path.");
     for part in &path.carried {
         let values: Vec<(f64, c64)> =
             all.iter().zip(&part.receptance).map(|(&hz, &receptance)| (hz, accelerance_of(hz, receptance))).collect();
@@ -151,7 +169,8 @@ fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
         Axis::new("Frequency", "Hz").range(low, high),
         Axis::new("Error over response", "").log(),
     )
-    .curve(Curve::new("estimated", Abscissa::Points(hz), error));
+    .curve(Curve::new("estimated", Abscissa::Points(hz), error))
+    .caption("Relative error of the reduced responses. Where the curve is below the target, the reduced model is as good as was asked for.");
     let target = vec![result.target; 2];
     plot = plot.curve(Curve::new("target", Abscissa::Points(vec![low, high]), target));
     if result.compared.is_empty() {
@@ -198,7 +217,7 @@ fn ranking(result: &FrfResult) -> Section {
         let path = &result.paths[ranked.path];
         let columns = [
             Column::text("Variant"),
-            Column::number("Level", "dB re 1/kg"),
+            Column::number("Level", "dB re 1 (m/s^2)/N"),
             Column::number("Above the quietest", "dB"),
         ];
         let rows = ranked.variants.iter().map(|variant| {

@@ -4,17 +4,17 @@ use super::comparison::{ComparedPair, FileComparison, LoneMode, Miss};
 use super::compute::ModesResult;
 use super::convergence::{MeshConvergence, ModeOnMeshes};
 use super::shape_view::shown_places;
+use super::tables::REPEATED;
 use crate::fe::modal::{MatchedBy, ModalSurvey};
-use crate::report::{Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, significant};
+use crate::report::{
+    Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, given, significant,
+};
 
 /// Modes in the plot over the mesh size: as many as have colours of their own.
 const PLOTTED: usize = 6;
 
 /// Column of what a pair misses.
 const MISSES: usize = 6;
-
-/// Relative difference up to which modes are repeated ones in the plot.
-const REPEATED: f64 = 1e-4;
 
 /// A number with its sign, with so many significant digits.
 pub(crate) fn signed(value: f64, digits: usize) -> String {
@@ -88,7 +88,7 @@ pub(crate) fn comparison_section(comparison: &FileComparison, survey: &ModalSurv
         points.matched,
         points.here,
         points.there,
-        comparison.mac_limit,
+        given(comparison.mac_limit),
         plain(100.0 * comparison.within),
     );
     let outside = |modes: &[LoneMode]| modes.iter().filter(|mode| !mode.missing).count();

@@ -18,6 +18,6 @@ pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Mis
 pub(crate) use compute::compute_mode_shapes;
 pub use compute::{ModesResult, Reading, compute_modes};
 pub use convergence::{MeshConvergence, ModeOnMeshes, SequenceMesh};
-pub(crate) use report::modes_report;
+pub(crate) use report::{completeness, modes_report};
 pub use summary::ModesSummary;
 pub(crate) use tables::free_motions;

@@ -4,10 +4,11 @@ use super::checks_report::{comparison_section, convergence_section, headlines};
 use super::compute::{ModesResult, Reading};
 use super::shape_view::shape_view;
 use super::tables;
-use crate::app::case::Case;
+use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, ExpectedMode};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_setup, race_contacts};
+use crate::fe::modal::FrequencyCount;
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, ModeShapeView, Plot, Report, Section, ShapeFigures, Table,
     Verdict, significant,
@@ -24,7 +25,7 @@ const DRAWN: usize = 8;
 pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> Result<Report, ComputeError> {
     let view = shape_view(result);
     let mut report = head(case, result, command);
-    report = report.section(purpose(result)).section(model(case, result, &view)?);
+    report = report.section(inputs(case, result)).section(purpose(result)).section(model(case, result, &view)?);
     if let Some(mass) = &result.survey.mass {
         let section = Section::new("Mass properties");
         let section = section.paragraph("From the mass matrix itself, point masses included.");
@@ -72,6 +73,14 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
     Ok(report)
 }
 
+/// The case in words.
+fn inputs(case: &Case, result: &ModesResult) -> Section {
+    // the mass of housing and ring together has a section of its own
+    let mass = result.survey.mass.as_ref().filter(|_| case.ring.is_none()).map(|mass| mass.mass);
+    let size = result.mesh_and_model().map(|(mesh, model)| parts::HousingSize::of(mesh, model, mass));
+    Section::new("Inputs").facts(parts::inputs(case, Purpose::Modes, size.as_ref()))
+}
+
 fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
     let mut report = parts::signed_report(case, command, "Modal verification report");
     for expected in &result.base.expected {
@@ -80,14 +89,24 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
     }
     report = headlines(report, result);
     let basis = &result.survey.basis;
-    let (found, counted) = (basis.count_check.found, basis.count_check.counted);
-    let modes = format!("{found} of {counted}");
-    report = report.headline("Modes found of those that exist", modes, Verdict::of(found == counted));
+    let (label, text, verdict) = completeness(basis.count_check);
+    report = report.headline(label, text, verdict);
     if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
         let first = format!("{} Hz", significant(*first, 5));
         report = report.headline("First elastic mode", first, Verdict::None);
     }
     report
+}
+
+/// Whether a mode is missed in the range that was counted, in words.
+pub(crate) fn completeness(check: FrequencyCount) -> (&'static str, String, Verdict) {
+    let missed = check.counted.abs_diff(check.found);
+    let what = match missed {
+        0 => "no mode missed".to_owned(),
+        missed if check.found < check.counted => format!("{missed} missed"),
+        surplus => format!("{surplus} too many found"),
+    };
+    ("Modes, by an independent count", format!("{what} {}", tables::counted_range(&check)), Verdict::of(missed == 0))
 }
 
 fn purpose(result: &ModesResult) -> Section {

@@ -1,6 +1,7 @@
 //! The surface of a housing and the line of its ring, with mode shapes, as the report shows them.
 
 use super::compute::ModesResult;
+use super::tables::{ELASTIC, kinds};
 use crate::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh};
 use crate::fe::modal::{ModalSurvey, RingShapes};
 use crate::fe::model::HousingModel;
@@ -23,7 +24,9 @@ pub(crate) fn shape_view(result: &ModesResult) -> ModeShapeView {
         up: UpAxis::Y,
         amplitude: AMPLITUDE,
         figures: ShapeFigures::MeshAndModes,
-        caption: Some("each mode to its own largest displacement".to_owned()),
+        caption: Some(
+            "Mode shapes: how the housing moves at each eigenfrequency. Look for where it moves most, which is where a support or a rib acts, and for nodes at rest, where a sensor is blind".to_owned(),
+        ),
         ..ModeShapeView::new("Mode shapes")
     };
     if let Some((mesh, model)) = result.mesh_and_model() {
@@ -42,7 +45,7 @@ pub(crate) fn shape_view(result: &ModesResult) -> ModeShapeView {
             });
         }
     }
-    let shapes = result.mode_shapes().shapes;
+    let (shapes, kinds) = (result.mode_shapes().shapes, kinds(survey));
     for mode in shown_order(survey) {
         let mut displacement = shapes[mode].as_chunks().0.to_vec();
         if let Some(ring) = &survey.ring {
@@ -51,11 +54,11 @@ pub(crate) fn shape_view(result: &ModesResult) -> ModeShapeView {
             let edges = view.points.len() - first - nodes;
             displacement.extend((0..edges).map(|point| ring.displacements[mode][point % nodes]));
         }
-        let rigid = mode < survey.basis.rigid_modes;
         view.modes.push(ShapeMode {
             label: (mode + 1).to_string(),
             frequency_hz: survey.basis.frequencies_hz[mode],
-            note: if rigid { "rigid" } else { "" }.to_owned(),
+            // the table of frequencies has the same words
+            note: if kinds[mode] == ELASTIC { String::new() } else { kinds[mode].clone() },
             displacement,
         });
     }

@@ -3,8 +3,11 @@
 use super::compute::ModesResult;
 use super::shape_view::shown_places;
 use crate::app::case::{Case, Material};
-use crate::fe::modal::{MassDistribution, MassProperties, ModalSurvey, Participation};
-use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, significant};
+use crate::fe::modal::{FrequencyCount, MassDistribution, MassProperties, ModalSurvey, Participation};
+use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, quantity, significant};
+
+/// Relative difference up to which neighbours are one repeated mode, which a mesh splits.
+pub(crate) const REPEATED: f64 = 1e-4;
 
 /// Direction of a column of a participation, by the number of columns.
 fn directions(columns: usize) -> &'static [&'static str] {
@@ -24,14 +27,13 @@ pub(crate) fn frequency_table(survey: &ModalSurvey) -> Table {
         Column::number("Relative residual", ""),
         Column::text("Kind"),
     ];
-    let rows = (0..basis.count()).map(|mode| {
-        let rigid = mode < basis.rigid_modes;
+    let rows = kinds(survey).into_iter().enumerate().map(|(mode, kind)| {
         [
             Cell::text((mode + 1).to_string()),
             Cell::number(basis.frequencies_hz[mode], 7),
             Cell::number(basis.error_bounds_hz[mode], 2),
             Cell::number(basis.residuals[mode], 2),
-            Cell::text(if rigid { "rigid" } else { "elastic" }),
+            Cell::text(kind),
         ]
     });
     Table::new("Eigenfrequencies without contact", columns)
@@ -40,14 +42,45 @@ pub(crate) fn frequency_table(survey: &ModalSurvey) -> Table {
         .footnote("The bound is that of the computation: how far the frequency may be from that of the same matrices in exact arithmetic. The mesh's own error is not in it.")
 }
 
+/// The frequencies between which modes were counted.
+pub(crate) fn counted_range(check: &FrequencyCount) -> String {
+    let below = quantity(check.below_hz, "Hz");
+    match check.above_hz {
+        Some(above) => format!("between {} and {below}", quantity(above, "Hz")),
+        None => format!("below {below}"),
+    }
+}
+
+/// A mode with strain and with a frequency of its own.
+pub(crate) const ELASTIC: &str = "elastic";
+
+/// What kind of motion each mode is: rigid or elastic, and with which others it has one frequency.
+pub(crate) fn kinds(survey: &ModalSurvey) -> Vec<String> {
+    let basis = &survey.basis;
+    let hz = &basis.frequencies_hz;
+    let same = |a: usize, b: usize| (hz[b] - hz[a]).abs() <= REPEATED * hz[b];
+    let mut kinds = Vec::new();
+    while kinds.len() < basis.rigid_modes.min(basis.count()) {
+        kinds.push("rigid".to_owned());
+    }
+    while kinds.len() < basis.count() {
+        let first = kinds.len();
+        let last = (first..basis.count() - 1).find(|&mode| !same(mode, mode + 1)).unwrap_or(basis.count() - 1);
+        let kind = match last - first + 1 {
+            1 => ELASTIC.to_owned(),
+            2 => format!("elastic, pair of modes {} and {}", first + 1, last + 1),
+            _ => format!("elastic, group of modes {} to {}", first + 1, last + 1),
+        };
+        kinds.extend((first..=last).map(|_| kind.clone()));
+    }
+    kinds
+}
+
 /// The proof that no mode is missing, and how good the modes are.
 pub(crate) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
     let basis = &survey.basis;
     let check = basis.count_check;
-    let range = match check.above_hz {
-        Some(above) => format!("between {} and {} Hz", significant(above, 7), significant(check.below_hz, 7)),
-        None => format!("below {} Hz", significant(check.below_hz, 7)),
-    };
+    let range = counted_range(&check);
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     vec![
         Fact::new(format!("Modes {range}, counted"), check.counted.to_string())
@@ -144,6 +177,7 @@ pub(crate) fn effective_mass_bars(survey: &ModalSurvey, found: &Participation) -
     let labels = (1..=count).map(|mode| mode.to_string());
     let axis = Axis::new("Effective mass", "%");
     let mut bars = Bars::new("Effective mass by mode", "Mode", labels, axis);
+    bars.caption = Some("Effective mass of each mode along the axes. A tall bar is a mode that a shaking foundation excites in that direction.".to_owned());
     for (direction, name) in names.iter().enumerate().take(translations) {
         let share = |mode| 100.0 * found.fraction(mode, direction).unwrap_or(0.0);
         bars = bars.series(*name, (0..count).map(share).collect());

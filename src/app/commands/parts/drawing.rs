@@ -23,7 +23,10 @@ pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&Bearing
     let radius = ring.section().radius;
     let mut drawing = Drawing {
         title: "Model".to_owned(),
-        caption: Some("Drawn to scale; springs and sensors are symbols.".to_owned()),
+        caption: Some(
+            "The model in the plane of the bearing, to scale; springs and sensors are symbols. Defects are red."
+                .to_owned(),
+        ),
         ring: Some(Ring {
             circle: Circle { centre, radius },
             nodes: (0..ring.nodes()).map(|node| centre.polar(radius, ring.node_angle(node))).collect(),

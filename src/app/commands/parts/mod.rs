@@ -1,12 +1,16 @@
 //! Sections that several reports show: model, bearing, statics.
 
 pub(crate) mod bearing_table;
+pub(crate) mod bearing_words;
+pub(crate) mod case_words;
 pub(crate) mod drawing;
 pub(crate) mod statics_report;
 pub(crate) mod summary;
 pub(crate) mod tables;
 
 pub(crate) use bearing_table::bearing_table;
+pub(crate) use bearing_words::{NO_FAULT, bearing_fact, faults, not_shown};
+pub(crate) use case_words::{HousingSize, inputs, with_details};
 pub(crate) use drawing::draw;
 pub(crate) use statics_report::statics_section;
 pub use summary::{CheckSummary, SuperelementSummary};

@@ -56,8 +56,11 @@ fn load_distribution(equilibrium: &Equilibrium) -> Bars {
     balls.sort_by(|a, b| degrees(a.1.angle).total_cmp(&degrees(b.1.angle)));
     let labels = balls.iter().map(|(index, ball)| format!("{index} at {}\u{b0}", significant(degrees(ball.angle), 4)));
     let force = Axis::new("Contact force", "N");
-    Bars::new("Load distribution at rest", "Ball and its angle", labels, force)
-        .series("inner race", balls.iter().map(|(_, ball)| ball.inner).collect())
+    let bars = Bars {
+        caption: Some("Contact forces at rest, ball by ball. The tallest bars are the balls that carry the shaft; a ball without a bar is unloaded.".to_owned()),
+        ..Bars::new("Load distribution at rest", "Ball and its angle", labels, force)
+    };
+    bars.series("inner race", balls.iter().map(|(_, ball)| ball.inner).collect())
         .series("outer race", balls.iter().map(|(_, ball)| ball.outer).collect())
 }
 
@@ -100,7 +103,8 @@ fn ball_pass(section: Section, setup: &BearingSetup, statics: &Statics) -> Secti
         points.map(|point| point.equilibrium.as_ref().map_or(f64::NAN, value)).collect()
     };
     let axis = || Axis::new("Cage turned by", "deg");
-    let mut forces = Plot::new("Load of every ball over a ball pass", axis(), Axis::new("Inner contact force", "N"));
+    let mut forces = Plot::new("Load of every ball over a ball pass", axis(), Axis::new("Inner contact force", "N"))
+        .caption("Load of each ball while the cage turns by one ball spacing. A curve that falls to zero is a ball that leaves the load zone.");
     for ball in 0..setup.balls() {
         let force = over_angle(&|rest| rest.balls.get(ball).map_or(f64::NAN, |ball| ball.inner));
         if force.iter().any(|force| *force > 0.0) {
@@ -113,7 +117,7 @@ fn ball_pass(section: Section, setup: &BearingSetup, statics: &Statics) -> Secti
         axis(),
         Axis::new("Force over displacement", "N/m"),
     )
-    .caption("Against a further force along x and along y, with balls, ring and housing following; linearised at the equilibrium of each angle.");
+    .caption("Stiffness against a further force along x and along y, with balls, ring and housing following; linearised at the equilibrium of each angle. Its changes excite vibration at the ball pass frequency.");
     for (name, direction) in [("along x", [1.0, 0.0]), ("along y", [0.0, 1.0])] {
         let values = over_angle(&|rest| stiffness_along(rest, direction));
         stiffness = stiffness.curve(Curve::new(name, Abscissa::Points(turned.clone()), values));

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::app::case::{Bond, Case, Damping, Expected};
+use super::case_words::damping_words;
+use crate::app::case::{Bond, Case, Expected};
 use crate::app::scene::CoupledStructure;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
@@ -112,24 +113,6 @@ pub(crate) fn expected_table(expected: &[ExpectedMode]) -> Table {
             Cell::text(if row.ok { "passes" } else { "fails" }).judged(verdict),
         ]
     }))
-}
-
-/// Damping in words, with units.
-fn damping_words(damping: &Damping) -> String {
-    let percent = |ratio: f64| format!("{} % of critical", significant(100.0 * ratio, 3));
-    match damping {
-        Damping::Ratios(points) => {
-            let points =
-                points.each_ref().map(|at| format!("{} at {} Hz", percent(at.ratio), significant(at.frequency_hz, 4)));
-            format!("{} (Rayleigh)", points.join(" and "))
-        }
-        Damping::Rayleigh { alpha, beta } => format!(
-            "Rayleigh, {} 1/s times the mass and {} s times the stiffness",
-            significant(*alpha, 4),
-            significant(*beta, 4)
-        ),
-        Damping::Modal(ratio) => format!("{} in every mode", percent(*ratio)),
-    }
 }
 
 /// What a reader must know to judge the numbers.

@@ -19,7 +19,7 @@ pub mod unfinished;
 pub use compute::{RunResult, compute_run};
 pub(crate) use compute::{compute_kept_run, explain_run};
 pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};
-pub(crate) use report::run_report;
+pub(crate) use report::{cost, run_report};
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
 pub use summary::{EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary};

@@ -1,17 +1,18 @@
 //! The report of `plummer run`.
 
+use super::choice::ChosenPart;
 use super::compute::RunResult;
 use super::recording::Recording;
 use super::scalogram::SensorScalogram;
 use super::simulation::RunEnd;
-use crate::app::case::Case;
+use crate::app::case::{Case, Purpose};
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::table::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, OuterRaceLine, SHOWN_WINDOWS};
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
-use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, significant};
+use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, given, significant};
 use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
@@ -26,19 +27,23 @@ pub(crate) fn run_report<R: Recording>(
     result: &RunResult<R>,
     command: &str,
 ) -> Result<Report, ComputeError> {
-    let mut report = Report::new(&case.title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle("Run-up transient of a ball bearing in its housing");
+    let mut report = parts::signed_report(case, command, "Simulated run of a ball bearing in its housing");
     let few = result.windows.len() <= SHOWN_WINDOWS;
     let name = case.source.path.display().to_string();
     let of_many = result.windows.iter().filter(|_| !few);
     let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
-    report = if few { verdict_headlines(report, &result.windows) } else { counts(report, &rows) };
+    let faults = case.bearing.iter().flat_map(parts::faults).collect::<Vec<_>>().join("; ");
+    let faults = if faults.is_empty() { parts::NO_FAULT.to_owned() } else { faults };
+    report = report.headline("Fault of the bearing in this case", faults, Verdict::None);
+    let truth = |diagnosis: &_| parts::not_shown(case, diagnosis);
+    report = if few { verdict_headlines(report, &result.windows, truth) } else { counts(report, &rows) };
     report = headlines(report, result);
     if let RunEnd::BlewUp(error) = &result.simulation.end {
         report = report.warning(format!("{error} The signals end there."));
     }
     report.warnings.extend(result.not_analysed.iter().map(|text| format!("Not analysed: {text}")));
     report.warnings.extend_from_slice(&result.warnings);
+    report = report.section(inputs(case, result));
     if few {
         report.sections.extend(result.windows.iter().map(window_section));
     } else {
@@ -71,16 +76,30 @@ pub(crate) fn run_report<R: Recording>(
     ))
 }
 
+/// The case in words, and the model that was chosen for it.
+fn inputs<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
+    let housing = result.scene.stage.housing.as_ref();
+    let size = housing.map(|h| parts::HousingSize::of(&h.mesh, &h.model, Some(h.matrices.total_mass())));
+    let part = |part: &ChosenPart| Fact::new(format!("Model: {}", part.what), &part.chosen).note(capital(&part.why));
+    let chosen = result.choice.parts.iter().map(part);
+    Section::new("Inputs").facts(parts::inputs(case, Purpose::Run, size.as_ref()).into_iter().chain(chosen))
+}
+
+/// Seconds of computing per simulated second.
+pub(crate) fn cost(realtime_factor: f64) -> String {
+    significant(1.0 / realtime_factor, 2)
+}
+
 fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
     let simulation = &result.simulation;
     let complete = matches!(simulation.end, RunEnd::Complete);
-    let (length, realtime) = (significant(simulation.simulated_s, 4), significant(simulation.realtime_factor(), 3));
+    let length = significant(simulation.simulated_s, 4);
     let mut report = report
         .headline("Simulated", format!("{length} s"), Verdict::of(complete && result.distrust().is_none()))
-        .headline("Real-time factor", realtime, Verdict::None);
+        .headline("Computing per simulated second", format!("{} s", cost(simulation.realtime_factor())), Verdict::None);
     if let Some(window) = result.windows.first() {
         report = report.headline(
-            format!("{} peak, {}-{} s", window.sensor, window.from, window.to),
+            format!("{} peak, {} to {} s", window.sensor, given(window.from), given(window.to)),
             format!("{} m/s^2", significant(window.peak, 3)),
             Verdict::None,
         );
@@ -127,7 +146,9 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
         section = section.plot(
             Plot::new(format!("Acceleration at {name}"), Axis::new("Time", "s"), Axis::new("Acceleration", "m/s^2"))
                 .curve(Curve::of_thinned(name, grid, thinner))
-                .caption("Drag to zoom, double click to reset."),
+                .caption(format!(
+                    "Acceleration at {name} over the whole run, as an accelerometer with this sampling rate records it. Look for impacts that come back at equal distances."
+                )),
         );
     }
     Ok(section)
@@ -148,7 +169,7 @@ fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
     let simulation = &result.simulation;
-    let (steps, realtime) = (simulation.statistics.steps, significant(simulation.realtime_factor(), 3));
+    let steps = simulation.statistics.steps;
     let energy = simulation.energy.map(|energy| {
         let [input, taken, stored, error] =
             [energy.input_j(), energy.dissipated_j(), energy.stored_j, energy.error().abs()]
@@ -164,7 +185,8 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
         Fact::new("Steps", steps.to_string()),
         Fact::new("Kept modes", format!("{} of {}", simulation.modes, result.scene.stage.structure.dof())).note(others),
         Fact::new("Wall time of the stepping", format!("{} s", significant(simulation.stepping_s, 3))),
-        Fact::new("Real-time factor", realtime).note("simulated time over wall time"),
+        Fact::new("Computing per simulated second", format!("{} s", cost(simulation.realtime_factor())))
+            .note("wall time of the stepping over simulated time"),
         Fact::new(
             "Time per step",
             format!("{} \u{b5}s", significant(1e6 * simulation.stepping_s / steps.max(1) as f64, 3)),

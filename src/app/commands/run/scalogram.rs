@@ -5,7 +5,7 @@ use super::simulation::Simulation;
 use crate::app::case::ScalogramWindow;
 use crate::app::error::ComputeError;
 use crate::numerics::series::TimeWindow;
-use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Raster, Section, significant};
+use crate::report::{Abscissa, Axis, Curve, CurveStyle, Plot, Raster, Section, given, significant};
 use crate::signal::{FrequencyAxis, Scalogram, WaveletTransform};
 use std::f64::consts::TAU;
 
@@ -78,7 +78,7 @@ impl SensorScalogram {
         let half = 0.5 * (last - before);
         let colours = Axis::new("Amplitude", scalogram.unit.clone());
         let plot = Plot::new(
-            format!("Scalogram of {sensor}, {from}-{to} s"),
+            format!("Scalogram of {sensor}, {} to {} s", given(from), given(to)),
             Axis::new("Time", "s").range(from, to),
             Axis::new("Frequency", "Hz").log(),
         )

@@ -72,6 +72,7 @@ impl Horizon {
     /// For how long the estimate holds, after "estimated error ...".
     pub fn sentence(&self) -> String {
         let ms = |seconds: f64| significant(1e3 * seconds, 2);
+        let precise = |seconds: f64| significant(1e3 * seconds, 3);
         let whole = ms(self.run_s);
         let later = match self.strikes {
             true => "the waveform depends on the smallest disturbance: compare spectra and verdicts, not samples",
@@ -79,16 +80,16 @@ impl Horizon {
         };
         let held = ms(self.held_s);
         let place = match self.from_s > self.start_s {
-            true => format!("for {held} ms from rest at {} s", significant(self.from_s, 4)),
+            true => format!("from {} to {} ms", precise(self.from_s), precise(self.from_s + self.held_s)),
             false => format!("in the first {held} ms of {whole}"),
         };
         match (self.passed(), self.looked_s < self.run_s) {
             (true, _) if self.held_s <= 0.0 => {
                 format!("passed within {} ms; then {later}", ms(self.looked_s))
             }
-            (true, _) => format!("{place}; later, {later}"),
+            (true, _) => format!("{place}; after that, {later}"),
             (false, true) if self.strikes => {
-                format!("{place}, as far as it was looked at; at some time later, {later}")
+                format!("{place}, beyond which it was not checked; at some later time, {later}")
             }
             (false, true) => format!("{place} at least"),
             (false, false) => "over the whole run".to_owned(),
@@ -134,7 +135,7 @@ mod tests {
         assert!((3e-3..5.6e-3).contains(&horizon.held_s), "{horizon:?}");
         assert!(horizon.passed() && horizon.strikes);
         let sentence = horizon.sentence();
-        assert!(sentence.contains(" ms of 20; later, the waveform"), "{sentence}");
+        assert!(sentence.contains(" ms of 20; after that, the waveform"), "{sentence}");
     }
 
     /// The same references: 0.015 is passed after 2.5 ms, where the first ball that the preload does not hold comes back.

@@ -1,0 +1,219 @@
+//! A bearing, its faults and what moves and loads it, in words and units.
+
+use super::case_words::{and, direction_words, length, listed};
+use crate::app::case::{Bearing, Case, ContactStiffness, Defect, DentProfile, Load, Shaft, Slip, Speed};
+use crate::app::scene::race_contacts;
+use crate::bearing::Race;
+use crate::report::{Fact, given, quantity, significant};
+use crate::signal::diagnosis::{Diagnosis, Fault};
+
+/// Points of a profile that are told one by one.
+const TOLD_POINTS: usize = 6;
+
+/// The bearing with its faults and loads; with its speed and the time that is simulated where it `moves`.
+pub(super) fn facts(case: &Case, moves: bool) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    if let Some(bearing) = &case.bearing {
+        facts.push(bearing_fact(bearing));
+        facts.extend(contact(case, bearing));
+        facts.extend(imperfections(bearing));
+        let faults = faults(bearing);
+        facts.push(
+            listed("Fault of the bearing", faults).unwrap_or_else(|| Fact::new("Fault of the bearing", NO_FAULT)),
+        );
+    }
+    facts.extend(case.shaft.iter().flat_map(shaft));
+    facts.extend(case.speed.iter().filter(|_| moves).map(|speed| Fact::new("Speed of the shaft", speed_words(speed))));
+    if let (true, Some(transient)) = (moves, &case.transient) {
+        let recorded = quantity(transient.output_hz, "Hz");
+        let text = format!("from {} s to {} s, recorded at {recorded}", given(transient.start), given(transient.end));
+        facts.push(Fact::new("Simulated time", text));
+    }
+    if let (true, Some(accuracy)) = (moves, &case.accuracy) {
+        let [low, high] = accuracy.band_hz.map(|hz| quantity(hz, "Hz"));
+        let text = format!("{} % of the signals' RMS between {low} and {high}", given(100.0 * accuracy.target));
+        facts.push(Fact::new("Accuracy asked for", text));
+    }
+    facts
+}
+
+/// Of a bearing without defects.
+pub(crate) const NO_FAULT: &str = "none, a sound bearing";
+
+/// A bearing with its dimensions.
+pub(crate) fn bearing_fact(bearing: &Bearing) -> Fact {
+    let [inner, outer] = [bearing.inner_race_radius, bearing.outer_race_radius].map(|radius| length(2.0 * radius));
+    let clearance = 2.0 * bearing.play();
+    let clearance = match clearance < 0.0 {
+        true => format!("a preload of {} over the diameter", length(-clearance)),
+        false => format!("a diametral clearance of {}", length(clearance)),
+    };
+    let grooves = [bearing.inner_groove_radius, bearing.outer_groove_radius];
+    let [inner_groove, outer_groove] = grooves.map(|radius| given(50.0 * radius / bearing.ball_radius));
+    let text = format!(
+        "{} balls of {}, races of {inner} and {outer}, groove radii of {inner_groove} % and {outer_groove} % of the ball's diameter, {clearance}",
+        bearing.balls,
+        length(2.0 * bearing.ball_radius)
+    );
+    Fact::new("Bearing", text)
+}
+
+/// Stiffness and damping of the contacts.
+fn contact(case: &Case, bearing: &Bearing) -> Vec<Fact> {
+    let text = |[inner, outer]: [f64; 2]| {
+        let [inner, outer] = [inner, outer].map(|k| significant(1e-9 * k, 4));
+        format!("{inner} (inner race) and {outer} (outer race) GN/m^1.5")
+    };
+    let stiffness = match bearing.stiffness {
+        ContactStiffness::Given { inner, outer } => {
+            Some(Fact::new("Contact stiffness", text([inner, outer])).note("as the case gives it"))
+        }
+        ContactStiffness::Hertz => race_contacts(case).ok().flatten().map(|contacts| {
+            let value = text([contacts.inner.stiffness, contacts.outer.stiffness]);
+            Fact::new("Contact stiffness", value).note("by Hertz from the geometry and the materials")
+        }),
+    };
+    let damping = (bearing.contact_damping > 0.0)
+        .then(|| Fact::new("Contact damping", format!("{} s/m (Hunt-Crossley)", given(bearing.contact_damping))));
+    stiffness.into_iter().chain(damping).collect()
+}
+
+/// Slip, waves and balls of different size, as far as there are any.
+fn imperfections(bearing: &Bearing) -> Vec<Fact> {
+    let percent = |slip: f64| given(100.0 * slip);
+    let between = |points: &[(f64, f64)], over: &str| {
+        let (low, high) =
+            points.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (_, s)| (low.min(*s), high.max(*s)));
+        Some(format!("{} % to {} % over {over}", percent(low), percent(high)))
+    };
+    let slip = match &bearing.slip {
+        Slip::Constant(slip) if *slip == 0.0 => None,
+        Slip::Constant(slip) => Some(format!("{} %", percent(*slip))),
+        Slip::OverTime(points) => between(points, "the time"),
+        Slip::OverSpeed(points) => between(points, "the speed"),
+    };
+    let waves = bearing
+        .waviness
+        .iter()
+        .map(|wave| format!("{} waves of {} on the {} race", wave.order, length(wave.amplitude), wave.on));
+    let largest = bearing.ball_radius_differences.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+    let sizes = (largest > 0.0).then(|| format!("radii differ by up to {}", length(largest)));
+    [listed("Slip of the cage", slip), listed("Waviness", waves), listed("Balls of different size", sizes)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Every fault of a bearing: what it is, its size and its place.
+pub(crate) fn faults(bearing: &Bearing) -> Vec<String> {
+    bearing.defects.iter().map(fault).collect()
+}
+
+fn fault(defect: &Defect) -> String {
+    let place = |race: Race, degrees: f64| {
+        let turns = if race == Race::Inner { " when the shaft's angle is zero" } else { "" };
+        format!("in the {race} race at {}\u{b0}{turns}", given(degrees))
+    };
+    match defect {
+        Defect::Dent(dent) => {
+            let mut sizes = vec![format!("{} long", length(dent.length))];
+            sizes.extend(dent.width.map(|width| format!("{} wide", length(width))));
+            sizes.push(format!("{} deep", length(dent.depth)));
+            let felt = match dent.profile {
+                DentProfile::InPlane => "felt as if it were as wide as the groove",
+                DentProfile::Surface => "bridged by the ball as its surface allows",
+            };
+            format!("a dent {} {}, {felt}", and(&sizes), place(dent.on, dent.angle_deg))
+        }
+        Defect::Measured(measured) => {
+            let file = measured.profile.csv.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            format!("a measured profile ({file}) {}", place(measured.on, measured.angle_deg))
+        }
+        Defect::Flat(flat) => {
+            let (radius, depth) = (length(flat.flat_radius), length(flat.depth));
+            format!("a flat of radius {radius}, {depth} deep, on ball {}", flat.ball)
+        }
+    }
+}
+
+fn of_race(race: Race) -> Fault {
+    match race {
+        Race::Inner => Fault::InnerRace,
+        Race::Outer => Fault::OuterRace,
+    }
+}
+
+/// That a case has damage of which a signal shows nothing: a judged part that is damaged and not indicated. `None` where all damage
+/// is indicated or none could be judged.
+pub(crate) fn not_shown(case: &Case, diagnosis: &Diagnosis) -> Option<String> {
+    let damaged = |defect: &Defect| match defect {
+        Defect::Dent(dent) => (of_race(dent.on), format!("a dent in the {} race", dent.on)),
+        Defect::Measured(profile) => (of_race(profile.on), format!("a measured profile in the {} race", profile.on)),
+        Defect::Flat(_) => (Fault::Ball, "a flat on a ball".to_owned()),
+    };
+    let missed = |part: &Fault| {
+        let judged = diagnosis.faults.iter().find(|verdict| verdict.fault == *part);
+        judged.is_some_and(|verdict| verdict.false_alarm.is_some())
+            && !diagnosis.named().any(|verdict| verdict.fault == *part)
+    };
+    let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects).map(damaged);
+    let mut missed: Vec<String> = defects.filter(|(part, _)| missed(part)).map(|(_, words)| words).collect();
+    missed.dedup();
+    let shows = match diagnosis.by_signal_alone.is_empty() {
+        true => "does not show it",
+        false => "does not prove it",
+    };
+    (!missed.is_empty()).then(|| format!("the case has {}; the signal {shows}", and(&missed)))
+}
+
+fn shaft(shaft: &Shaft) -> Vec<Fact> {
+    let mut text = format!("{} kg", given(shaft.mass));
+    text += &match shaft.gravity {
+        [0.0, 0.0] => ", without weight".to_owned(),
+        gravity => format!(", gravity {}", vector(gravity, "m/s\u{b2}")),
+    };
+    if shaft.unbalance > 0.0 {
+        text += &format!(", unbalance {} g mm", given(1e6 * shaft.unbalance));
+    }
+    let load = |load: &Load| match load {
+        Load::Constant(force) => vector(*force, "N"),
+        Load::Profile(points) if points.len() > TOLD_POINTS => format!("a profile of {} points", points.len()),
+        Load::Profile(points) => {
+            let points = points.iter().map(|point| format!("{} at {} s", vector(point.force, "N"), given(point.time)));
+            points.collect::<Vec<_>>().join(", ")
+        }
+    };
+    let loads = listed("Loads on the shaft", shaft.loads.iter().map(load));
+    let loads = loads.unwrap_or_else(|| Fact::new("Loads on the shaft", "none but its weight and unbalance"));
+    vec![Fact::new("Shaft", text), loads]
+}
+
+/// Size and direction of a vector in the plane of the bearing.
+fn vector(vector: [f64; 2], unit: &str) -> String {
+    let size = vector[0].hypot(vector[1]);
+    if size == 0.0 { format!("0 {unit}") } else { format!("{} {unit} {}", given(size), direction_words(&vector)) }
+}
+
+/// Speed over time, in Hz and in revolutions per minute.
+pub(crate) fn speed_words(speed: &Speed) -> String {
+    let both = |hz: f64| format!("{} Hz ({} rpm)", given(hz), given(60.0 * hz));
+    match speed.profile.as_slice() {
+        [] => "not given".to_owned(),
+        [first, rest @ ..] if rest.iter().all(|point| point.frequency_hz == first.frequency_hz) => {
+            format!("constant, {}", both(first.frequency_hz))
+        }
+        [first, last] => {
+            let what = if last.frequency_hz.abs() > first.frequency_hz.abs() { "run-up" } else { "run-down" };
+            let from = match first.frequency_hz {
+                0.0 => "0".to_owned(),
+                hz => both(hz),
+            };
+            format!("{what} from {from} to {} in {} s", both(last.frequency_hz), given(last.time - first.time))
+        }
+        points if points.len() > TOLD_POINTS => format!("a profile of {} points", points.len()),
+        points => {
+            let points = points.iter().map(|point| format!("{} at {} s", both(point.frequency_hz), given(point.time)));
+            points.collect::<Vec<_>>().join(", ")
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! A case in words and units, as the first page of every report says it: the housing, the ring and what holds them.
+
+use super::bearing_words;
+use crate::app::case::{
+    Axis, Bond, Case, Damping, Hold, Housing, Material, Purpose, Push, ReportDetails, Ring, Sensor, SensorSpot,
+};
+use crate::app::commands::analyze::report::capital;
+use crate::fe::element::continuum::PlaneAssumption;
+use crate::fe::element::curved_beam::RingInterpolation;
+use crate::fe::mesh::Mesh;
+use crate::fe::model::{Connection, Fit, HousingModel, SpringShare, SpringStiffness, SupportShare};
+use crate::files::FileDigest;
+use crate::report::{Document, Fact, MeshFile, Report, given, quantity};
+
+/// What a mesh says of a housing.
+pub(crate) struct HousingSize {
+    /// Extent along the mesh's axes, m.
+    extent: [f64; 3],
+    nodes: usize,
+    elements: usize,
+    /// Mass of the housing, kg, where it is known apart from that of the ring.
+    mass: Option<f64>,
+}
+
+impl HousingSize {
+    pub(crate) fn of(mesh: &Mesh, model: &HousingModel, mass: Option<f64>) -> Self {
+        let nodes = model.dof() / model.dimension().max(1);
+        Self { extent: mesh.inventory().bounding_box.extent(), nodes, elements: model.elements().len(), mass }
+    }
+}
+
+/// The inputs of a computation: what of the case a command uses, with the size of its housing.
+pub(crate) fn inputs(case: &Case, purpose: Purpose, size: Option<&HousingSize>) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    match (case.meshed_housing(), case.superelement()) {
+        (Some(housing), _) => facts.extend(housing_facts(case, housing, size)),
+        (None, Some(path)) => {
+            facts.push(Fact::new("Housing", format!("a superelement from the file {}", path.display())));
+        }
+        (None, None) => {}
+    }
+    facts.extend(case.ring.iter().flat_map(|ring| ring_facts(case, ring)));
+    let moves = matches!(purpose, Purpose::Run | Purpose::Chart);
+    if moves || case.modes.linearise == crate::app::case::Linearise::Static && purpose == Purpose::Modes {
+        facts.extend(bearing_words::facts(case, moves));
+    }
+    if moves || purpose == Purpose::Frf {
+        let damping = case.damping.as_ref().map_or_else(|| "none".to_owned(), damping_words);
+        facts.push(Fact::new("Damping of ring and housing", damping));
+        facts.extend(listed("Sensors", case.sensors.iter().map(sensor_words)));
+    }
+    if let (Purpose::Frf, Some(frf)) = (purpose, &case.frf) {
+        facts.extend(listed("Forces", frf.from.iter().map(push_words)));
+    }
+    facts
+}
+
+/// A report with the entries of the case's `[report]` in its head.
+pub(crate) fn with_details(mut report: Report, case: &Case) -> Report {
+    let head = report.document.get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
+    head.case_hash = MeshFile::from(&FileDigest::of_bytes(&case.source.path, case.source.text.as_bytes())).hash;
+    for (key, text) in case.report.iter().flat_map(ReportDetails::entries) {
+        match (key, text) {
+            ("title", Some(title)) => title.clone_into(&mut report.title),
+            (_, Some(text)) => head.details.push(Fact::new(capital(key), text)),
+            (_, None) => {}
+        }
+    }
+    report
+}
+
+/// A fact with several values, one after the other; none without values.
+pub(super) fn listed(name: &str, values: impl IntoIterator<Item = String>) -> Option<Fact> {
+    let values: Vec<String> = values.into_iter().collect();
+    (!values.is_empty()).then(|| Fact::new(name, values.join("; ")))
+}
+
+/// Words in a row: "x", "x and y", "x, y and z".
+pub(super) fn and(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// A length, m: in mm, below a tenth of it in µm.
+pub(super) fn length(metres: f64) -> String {
+    if metres == 0.0 || metres.abs() >= 1e-4 {
+        format!("{} mm", given(1e3 * metres))
+    } else {
+        format!("{} \u{b5}m", given(1e6 * metres))
+    }
+}
+
+fn housing_facts(case: &Case, housing: &Housing, size: Option<&HousingSize>) -> Vec<Fact> {
+    let file = housing.mesh.file_name().unwrap_or(housing.mesh.as_os_str()).to_string_lossy();
+    let mut text = file.into_owned();
+    if let Some(HousingSize { extent, nodes, elements, mass }) = size {
+        let extent = extent.map(|metres| given(1e3 * metres));
+        text += &format!(", {} x {} x {} mm", extent[0], extent[1], extent[2]);
+        text.extend(mass.map(|kg| format!(", {} kg", given(kg))));
+        text += &format!(", {nodes} nodes, {elements} elements");
+    }
+    let mut facts = vec![Fact::new("Housing", text)];
+    if let Some(plane) = housing.plane {
+        let assumption = match plane.assumption {
+            PlaneAssumption::Stress => "stress",
+            PlaneAssumption::Strain => "strain",
+        };
+        facts.push(Fact::new("Plane model", format!("plane {assumption}, {} thick", length(plane.thickness))));
+    }
+    let material = |part: &crate::app::case::Part| format!("{}: {}", part.group, material_words(case, &part.material));
+    facts.extend(listed("Materials of the housing", housing.parts.iter().map(material)));
+    let supports: Vec<String> =
+        housing.supports.iter().map(|s| format!("{} {}", s.group, hold_words(&s.hold))).collect();
+    facts.push(listed("Supports", supports).unwrap_or_else(|| Fact::new("Supports of the housing", "none")));
+    let masses = housing.masses.iter().map(|mass| format!("{} kg on {}", given(mass.mass), mass.group));
+    facts.extend(listed("Added masses", masses));
+    let links = housing.links.iter().map(|link| {
+        let [a, b] = &link.between;
+        match &link.connection {
+            Connection::Tie => format!("{a} and {b} move as one"),
+            Connection::Spring(stiffness, share) => {
+                format!("{a} and {b} are connected by {}", springs_words(stiffness, *share == SupportShare::PerNode))
+            }
+        }
+    });
+    facts.extend(listed("Links", links));
+    facts
+}
+
+fn ring_facts(case: &Case, ring: &Ring) -> Vec<Fact> {
+    let sections = ring.sections.iter().map(|section| {
+        format!(
+            "{}, area {} mm\u{b2}, second moment of area {} mm\u{2074}, radius of its centroid {}",
+            section.material,
+            given(1e6 * section.area),
+            given(1e12 * section.inertia),
+            length(section.radius)
+        )
+    });
+    let together = match (ring.sections.len(), ring.bond) {
+        (1, _) => "",
+        (_, Bond::Slip) => "; in radial contact, free to slide",
+        (_, Bond::Composite) => "; as one body",
+    };
+    let element = match ring.element {
+        RingInterpolation::ExactArc => "curved beams, exact circular arcs",
+        RingInterpolation::Raveendranath => "curved beams with Raveendranath's polynomials",
+    };
+    let with = |on: bool| if on { "with" } else { "without" };
+    let kind =
+        format!("{} {element}, {} shear, {} rotary inertia", ring.nodes, with(ring.shear), with(ring.rotary_inertia));
+    let sections: Vec<String> = sections.collect();
+    let mut facts = vec![Fact::new("Outer ring", sections.join("; ") + together).note(kind)];
+    let materials: std::collections::BTreeSet<&str> = ring.sections.iter().map(|s| s.material.as_str()).collect();
+    facts.extend(listed("Materials of the ring", materials.into_iter().map(|name| material_words(case, name))));
+    facts.extend(ring.tie.as_ref().map(|tie| {
+        let fit = match tie.fit {
+            Fit::Bonded => "bonded in every direction",
+            Fit::Sliding => "free to slide in the bore",
+        };
+        Fact::new("Fit of the ring", format!("in the bore {}, {fit}", tie.group))
+    }));
+    let supports = ring.supports.iter().map(|support| {
+        let stiffness = SpringStiffness::from(support.spring);
+        let springs = springs_words(&stiffness, support.per == SpringShare::PerNode);
+        format!("{springs}, from {}\u{b0} to {}\u{b0}", given(support.from_deg), given(support.to_deg))
+    });
+    facts.extend(listed("Supports of the ring", supports));
+    facts
+}
+
+/// A material with its constants.
+fn material_words(case: &Case, name: &str) -> String {
+    let constants = match case.material(name) {
+        Some(Material::Isotropic(m)) => format!("E = {} GPa, \u{3bd} = {}", given(1e-9 * m.young), given(m.poisson)),
+        Some(Material::Orthotropic(m)) => {
+            let young = m.young.map(|young| given(1e-9 * young));
+            let poisson = m.poisson.map(given);
+            let shear = m.shear.map(|shear| given(1e-9 * shear));
+            format!(
+                "orthotropic, E = {} GPa, \u{3bd} = {}, G = {} GPa",
+                young.join(" / "),
+                poisson.join(" / "),
+                shear.join(" / ")
+            )
+        }
+        None => return name.to_owned(),
+    };
+    let density = case.material(name).map_or(0.0, Material::density);
+    let loss = case.material(name).map_or(0.0, Material::loss_factor);
+    let loss = if loss > 0.0 { format!(", loss factor {}", given(loss)) } else { String::new() };
+    format!("{name} ({constants}, \u{3c1} = {} kg/m\u{b3}{loss})", given(density))
+}
+
+fn hold_words(hold: &Hold) -> String {
+    match hold {
+        Hold::Fixed(axes) => {
+            let axes: Vec<String> = axes.iter().map(|axis| axis_name(*axis).to_owned()).collect();
+            format!("held along {}", and(&axes))
+        }
+        Hold::Spring(stiffness, share) => format!("on {}", springs_words(stiffness, *share == SupportShare::PerNode)),
+    }
+}
+
+const fn axis_name(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X => "x",
+        Axis::Y => "y",
+        Axis::Z => "z",
+    }
+}
+
+fn springs_words(stiffness: &SpringStiffness, per_node: bool) -> String {
+    let along = match stiffness {
+        SpringStiffness::Global(stiffness) => {
+            let along = stiffness.iter().zip(["x", "y", "z"]).filter(|(k, _)| **k > 0.0);
+            let along: Vec<String> = along.map(|(k, axis)| format!("{} along {axis}", quantity(*k, "N/m"))).collect();
+            and(&along)
+        }
+        SpringStiffness::Radial(k) => format!("{} along the radius", quantity(*k, "N/m")),
+    };
+    format!("springs of {along} {}", if per_node { "at each node" } else { "all together" })
+}
+
+/// Damping of ring and housing, in words.
+pub(super) fn damping_words(damping: &Damping) -> String {
+    let percent = |ratio: f64| format!("{} % of critical", given(100.0 * ratio));
+    match damping {
+        Damping::Ratios(points) => {
+            let points = points.each_ref().map(|at| format!("{} at {} Hz", percent(at.ratio), given(at.frequency_hz)));
+            format!("{} (Rayleigh)", points.join(" and "))
+        }
+        Damping::Rayleigh { alpha, beta } => {
+            format!("Rayleigh, {} 1/s times the mass and {} s times the stiffness", given(*alpha), given(*beta))
+        }
+        Damping::Modal(ratio) => format!("{} in every mode", percent(*ratio)),
+    }
+}
+
+fn sensor_words(sensor: &Sensor) -> String {
+    let direction = match sensor.spot {
+        SensorSpot::Recovered(_) => String::new(),
+        _ => format!(", {}", direction_words(&sensor.direction)),
+    };
+    format!("{}: {}{direction}", sensor.name, spot_words(&sensor.spot))
+}
+
+fn push_words(push: &Push) -> String {
+    format!("1 N at {}: {}, {}", push.name, spot_words(&push.spot), direction_words(&push.direction))
+}
+
+fn spot_words(spot: &SensorSpot) -> String {
+    match spot {
+        SensorSpot::Group(group) => format!("mean over {group}"),
+        SensorSpot::RingDeg(degrees) => format!("on the ring at {}\u{b0}", given(*degrees)),
+        SensorSpot::Node(tag) => format!("node {tag}"),
+        SensorSpot::Point(point) => {
+            let [x, y, z] = point.map(|metres| given(1e3 * metres));
+            format!("the node nearest to ({x}, {y}, {z}) mm")
+        }
+        SensorSpot::Recovered(row) => format!("row {row} of the superelement"),
+    }
+}
+
+/// "along +y", or the components.
+pub(super) fn direction_words(vector: &[f64]) -> String {
+    let mut along = vector.iter().zip(["x", "y", "z"]).filter(|(part, _)| **part != 0.0);
+    match (along.next(), along.next()) {
+        (Some((part, axis)), None) => format!("along {}{axis}", if *part > 0.0 { "+" } else { "\u{2212}" }),
+        _ => {
+            let parts: Vec<String> = vector.iter().map(|part| given(*part)).collect();
+            format!("along ({})", parts.join(", "))
+        }
+    }
+}
