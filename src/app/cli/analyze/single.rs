@@ -10,7 +10,7 @@ use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
 use crate::app::commands::parts::{not_shown, with_details};
-use crate::report::significant;
+use crate::report::{given, significant};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 
 /// Analyses an input into a folder.
@@ -98,8 +98,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
 fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&Diagnosis) -> Option<String>) -> String {
     let mut lines = Vec::new();
     for window in windows {
-        let place =
-            format!("{} from {} to {} s", window.sensor, significant(window.from, 5), significant(window.to, 5));
+        let place = format!("{} from {} to {} s", window.sensor, given(window.from), given(window.to));
         match &window.diagnosis {
             Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
             Ok(diagnosis) => {

@@ -77,8 +77,7 @@ pub(crate) fn imported_report(case: &Case, imported: &ImportedHousing, command: 
 
 /// The case in words.
 fn inputs(case: &Case, result: &CondenseResult) -> Section {
-    let housing = &result.stage.housing;
-    let size = HousingSize::of(&housing.mesh, &housing.model, Some(housing.matrices.total_mass()));
+    let size = HousingSize::of_housing(&result.stage.housing);
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Condense, Some(&size)))
 }
 

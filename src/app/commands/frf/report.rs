@@ -51,10 +51,7 @@ pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Resu
 /// The case in words.
 fn inputs(case: &Case, result: &FrfResult) -> Section {
     let size = match &result.housing {
-        FrfHousing::Mesh(stage) => {
-            let housing = &stage.housing;
-            Some(HousingSize::of(&housing.mesh, &housing.model, Some(housing.matrices.total_mass())))
-        }
+        FrfHousing::Mesh(stage) => Some(HousingSize::of_housing(&stage.housing)),
         FrfHousing::File(_) => None,
     };
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Frf, size.as_ref()))

@@ -137,22 +137,14 @@ fn purpose(result: &ModesResult) -> Section {
 
 fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Section, ComputeError> {
     let mut section = Section::new("Model");
-    if let Some((mesh, model)) = result.mesh_and_model() {
-        let inventory = mesh.inventory();
-        let extent = inventory.bounding_box.extent().map(|length| 1e3 * length);
-        section = section.facts([
-            Fact::new("Mesh", mesh.source.display().to_string()),
-            Fact::new("Size", format!("{:.3} x {:.3} x {:.3} mm", extent[0], extent[1], extent[2])),
-            Fact::new("Elements", model.elements().len().to_string()),
-            Fact::new("Degrees of freedom", result.survey.dof.to_string()),
-            Fact::new("Free ones", result.survey.free_dof.to_string()),
-        ]);
-    }
+    section = section.facts([
+        Fact::new("Degrees of freedom", result.survey.dof.to_string()),
+        Fact::new("Free ones", result.survey.free_dof.to_string()),
+    ]);
     if let Some(stage) = &result.structure {
-        let facts = parts::model_facts(case, stage, result.base.loaded.is_some());
+        let facts = parts::model_facts(stage, result.base.loaded.is_some());
         section = section.drawing(parts::draw(case, stage, bearing_setup(case)?.as_ref())).facts(facts);
     }
-    section = section.table(tables::material_table(case));
     if result.mesh_and_model().is_some() {
         let (title, figures) = ("The model".to_owned(), ShapeFigures::Mesh);
         section = section.shapes(ModeShapeView { title, figures, modes: Vec::new(), ..view.clone() });

@@ -2,7 +2,6 @@
 
 use super::compute::ModesResult;
 use super::shape_view::shown_places;
-use crate::app::case::{Case, Material};
 use crate::fe::modal::{FrequencyCount, MassDistribution, MassProperties, ModalSurvey, Participation};
 use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, quantity, significant};
 
@@ -118,34 +117,6 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
     let centroid = Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
     let whole = Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)));
     [vec![whole, centroid], more].concat()
-}
-
-/// Materials that the case's parts and sections use.
-pub(crate) fn material_table(case: &Case) -> Table {
-    let columns = [
-        Column::text("Part"),
-        Column::text("Material"),
-        Column::text("Elasticity"),
-        Column::number("Density", "kg/m^3"),
-    ];
-    let parts = case.meshed_housing().into_iter().flat_map(|housing| &housing.parts);
-    let parts = parts.map(|part| (part.group.as_str(), &part.material));
-    let layers = case.ring.iter().flat_map(|ring| &ring.sections);
-    let layers = layers.map(|layer| ("ring", &layer.material));
-    Table::new("Materials", columns).rows(parts.chain(layers).map(|(part, name)| {
-        let (elasticity, density) = match case.material(name) {
-            Some(Material::Isotropic(m)) => (
-                format!("E = {} GPa, nu = {}", significant(m.young * 1e-9, 4), significant(m.poisson, 3)),
-                Cell::number(m.density, 5),
-            ),
-            Some(Material::Orthotropic(m)) => {
-                let young = m.young.map(|young| significant(young * 1e-9, 4));
-                (format!("orthotropic, E = {} GPa", young.join(", ")), Cell::number(m.density, 5))
-            }
-            None => (String::new(), Cell::text("")),
-        };
-        [Cell::text(part), Cell::text(name), Cell::text(elasticity), density]
-    }))
 }
 
 /// Effective mass of every mode along every direction, in per cent of the whole.

@@ -17,10 +17,9 @@ pub(super) fn facts(case: &Case, moves: bool) -> Vec<Fact> {
         facts.push(bearing_fact(bearing));
         facts.extend(contact(case, bearing));
         facts.extend(imperfections(bearing));
-        let faults = faults(bearing);
-        facts.push(
-            listed("Fault of the bearing", faults).unwrap_or_else(|| Fact::new("Fault of the bearing", NO_FAULT)),
-        );
+        let name = "Fault of the bearing";
+        let faults = listed(name, faults(bearing)).unwrap_or_else(|| Fact::new(name, NO_FAULT));
+        facts.push(Fact { note: felt(bearing), ..faults });
     }
     facts.extend(case.shaft.iter().flat_map(shaft));
     facts.extend(case.speed.iter().filter(|_| moves).map(|speed| Fact::new("Speed of the shaft", speed_words(speed))));
@@ -119,11 +118,7 @@ fn fault(defect: &Defect) -> String {
             let mut sizes = vec![format!("{} long", length(dent.length))];
             sizes.extend(dent.width.map(|width| format!("{} wide", length(width))));
             sizes.push(format!("{} deep", length(dent.depth)));
-            let felt = match dent.profile {
-                DentProfile::InPlane => "felt as if it were as wide as the groove",
-                DentProfile::Surface => "bridged by the ball as its surface allows",
-            };
-            format!("a dent {} {}, {felt}", and(&sizes), place(dent.on, dent.angle_deg))
+            format!("a dent {} {}", and(&sizes), place(dent.on, dent.angle_deg))
         }
         Defect::Measured(measured) => {
             let file = measured.profile.csv.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -134,6 +129,19 @@ fn fault(defect: &Defect) -> String {
             format!("a flat of radius {radius}, {depth} deep, on ball {}", flat.ball)
         }
     }
+}
+
+/// How a ball feels the dents; `None` without one.
+fn felt(bearing: &Bearing) -> Option<String> {
+    let dent = bearing.defects.iter().find_map(|defect| match defect {
+        Defect::Dent(dent) => Some(dent.profile),
+        Defect::Measured(_) | Defect::Flat(_) => None,
+    });
+    let felt = match dent? {
+        DentProfile::InPlane => "in the plane of the bearing: as if the dent were as wide as the groove",
+        DentProfile::Surface => "in three dimensions: the ball bridges the dent as far as its surface lets it",
+    };
+    Some(felt.to_owned())
 }
 
 fn of_race(race: Race) -> Fault {
@@ -215,5 +223,53 @@ pub(crate) fn speed_words(speed: &Speed) -> String {
             let points = points.iter().map(|point| format!("{} at {} s", both(point.frequency_hz), given(point.time)));
             points.collect::<Vec<_>>().join(", ")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::diagnosis::{Conclusion, EnvelopeOrderSpectrum, FaultVerdict, SpeedSource};
+
+    fn diagnosis(conclusion: Conclusion, false_alarm: Option<f64>) -> Diagnosis {
+        let (order, amplitude, unit) = (Vec::new(), Vec::new(), String::new());
+        let verdict = FaultVerdict { fault: Fault::InnerRace, conclusion, false_alarm, ..FaultVerdict::default() };
+        Diagnosis {
+            envelope: String::new(),
+            envelopes: 1,
+            spectrum: EnvelopeOrderSpectrum { order, amplitude, unit, turns: 30.0, mean: 0.0, highest: 0.0 },
+            speed_hz: 25.0,
+            given_speed_hz: 25.0,
+            speed_error: 0.0,
+            speed_source: SpeedSource::Exact,
+            faults: vec![verdict],
+            unexplained: Vec::new(),
+            by_signal_alone: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn damage_that_a_verdict_does_not_see_is_told() {
+        let case = Case::example("tadina2011/inner-dent", &[]);
+        let told = |conclusion, chance| not_shown(&case, &diagnosis(conclusion, chance));
+        let expected = "the case has a dent in the inner race; the signal does not show it";
+        assert_eq!(told(Conclusion::NotSeen, Some(0.5)).as_deref(), Some(expected));
+        assert_eq!(told(Conclusion::NotEnough, Some(1e-2)).as_deref(), Some(expected));
+        assert_eq!(told(Conclusion::Named, Some(1e-9)), None);
+        // too short a window says so itself
+        assert_eq!(told(Conclusion::NotEnough, None), None);
+        let sound = Case::example("tadina2011/healthy", &[]);
+        assert_eq!(not_shown(&sound, &diagnosis(Conclusion::NotSeen, Some(0.5))), None);
+    }
+
+    #[test]
+    fn speeds_are_in_hertz_and_revolutions_per_minute() {
+        let words = |points: &[(f64, f64)]| {
+            let knot = |&(time, frequency_hz): &(f64, f64)| crate::bearing::SpeedKnot { time, frequency_hz };
+            speed_words(&Speed { profile: points.iter().map(knot).collect() })
+        };
+        assert_eq!(words(&[(0.0, 0.0), (1.0, 25.0)]), "run-up from 0 to 25 Hz (1500 rpm) in 1 s");
+        assert_eq!(words(&[(0.0, 25.0), (2.5, 20.0)]), "run-down from 25 Hz (1500 rpm) to 20 Hz (1200 rpm) in 2.5 s");
+        assert_eq!(words(&[(0.0, 22.0)]), "constant, 22 Hz (1320 rpm)");
     }
 }

@@ -5,6 +5,7 @@ use crate::app::case::{
     Axis, Bond, Case, Damping, Hold, Housing, Material, Purpose, Push, ReportDetails, Ring, Sensor, SensorSpot,
 };
 use crate::app::commands::analyze::report::capital;
+use crate::app::scene::AssembledHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::mesh::Mesh;
@@ -26,6 +27,10 @@ impl HousingSize {
     pub(crate) fn of(mesh: &Mesh, model: &HousingModel, mass: Option<f64>) -> Self {
         let nodes = model.dof() / model.dimension().max(1);
         Self { extent: mesh.inventory().bounding_box.extent(), nodes, elements: model.elements().len(), mass }
+    }
+
+    pub(crate) fn of_housing(housing: &AssembledHousing) -> Self {
+        Self::of(&housing.mesh, &housing.model, Some(housing.matrices.total_mass()))
     }
 }
 
@@ -97,8 +102,9 @@ fn housing_facts(case: &Case, housing: &Housing, size: Option<&HousingSize>) -> 
     let file = housing.mesh.file_name().unwrap_or(housing.mesh.as_os_str()).to_string_lossy();
     let mut text = file.into_owned();
     if let Some(HousingSize { extent, nodes, elements, mass }) = size {
-        let extent = extent.map(|metres| given(1e3 * metres));
-        text += &format!(", {} x {} x {} mm", extent[0], extent[1], extent[2]);
+        // a plane mesh has no third extent
+        let extent: Vec<String> = extent.iter().filter(|m| **m > 0.0).map(|metres| given(1e3 * metres)).collect();
+        text += &format!(", {} mm", extent.join(" x "));
         text.extend(mass.map(|kg| format!(", {} kg", given(kg))));
         text += &format!(", {nodes} nodes, {elements} elements");
     }
@@ -161,7 +167,7 @@ fn ring_facts(case: &Case, ring: &Ring) -> Vec<Fact> {
             Fit::Bonded => "bonded in every direction",
             Fit::Sliding => "free to slide in the bore",
         };
-        Fact::new("Fit of the ring", format!("in the bore {}, {fit}", tie.group))
+        Fact::new("Fit of the ring", format!("in the bore (group \"{}\"), {fit}", tie.group))
     }));
     let supports = ring.supports.iter().map(|support| {
         let stiffness = SpringStiffness::from(support.spring);
@@ -216,13 +222,22 @@ const fn axis_name(axis: Axis) -> &'static str {
 fn springs_words(stiffness: &SpringStiffness, per_node: bool) -> String {
     let along = match stiffness {
         SpringStiffness::Global(stiffness) => {
-            let along = stiffness.iter().zip(["x", "y", "z"]).filter(|(k, _)| **k > 0.0);
-            let along: Vec<String> = along.map(|(k, axis)| format!("{} along {axis}", quantity(*k, "N/m"))).collect();
-            and(&along)
+            let along: Vec<(f64, &str)> =
+                stiffness.iter().copied().zip(["x", "y", "z"]).filter(|(k, _)| *k > 0.0).collect();
+            let axes: Vec<String> = along.iter().map(|(_, axis)| (*axis).to_owned()).collect();
+            match along.as_slice() {
+                [(first, _), rest @ ..] if rest.iter().all(|(k, _)| k == first) => {
+                    format!("{} along {}", quantity(*first, "N/m"), and(&axes))
+                }
+                all => {
+                    let each = all.iter().map(|(k, axis)| format!("{} along {axis}", quantity(*k, "N/m")));
+                    and(&each.collect::<Vec<_>>())
+                }
+            }
         }
         SpringStiffness::Radial(k) => format!("{} along the radius", quantity(*k, "N/m")),
     };
-    format!("springs of {along} {}", if per_node { "at each node" } else { "all together" })
+    format!("springs of {along} {}", if per_node { "at each node" } else { "in the sum of all nodes" })
 }
 
 /// Damping of ring and housing, in words.
@@ -274,5 +289,40 @@ pub(super) fn direction_words(vector: &[f64]) -> String {
             let parts: Vec<String> = vector.iter().map(|part| given(*part)).collect();
             format!("along ({})", parts.join(", "))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(case: &Case, purpose: Purpose) -> String {
+        let facts = inputs(case, purpose, None);
+        facts.iter().map(|fact| format!("{}: {}\n", fact.name, fact.value)).collect()
+    }
+
+    #[test]
+    fn a_case_is_said_in_words_and_units() {
+        let case = Case::example("housings/ring", &["damping.modal=0.02", "bearing.defects.0.depth=5e-6"]);
+        let run = said(&case, Purpose::Run);
+        for line in [
+            "Housing: ring_6_9.msh\n",
+            "Plane model: plane stress, 4 mm thick\n",
+            "Materials of the housing: housing: aluminium (E = 70 GPa, \u{3bd} = 0.33, \u{3c1} = 2700 kg/m\u{b3})\n",
+            "Supports: lower on springs of 3.6 MN/m along x and y in the sum of all nodes\n",
+            "Fit of the ring: in the bore (group \"bore\"), bonded in every direction\n",
+            "Fault of the bearing: a dent 0.75 mm long, 0.41 mm wide and 5 \u{b5}m deep in the outer race at 270\u{b0}\n",
+            "Shaft: 0.15 kg, gravity 9.81 m/s\u{b2} along \u{2212}y, unbalance 20 g mm\n",
+            "Loads on the shaft: none but its weight and unbalance\n",
+            "Speed of the shaft: constant, 22 Hz (1320 rpm)\n",
+            "Simulated time: from 0 s to 0.7 s, recorded at 100 kHz\n",
+            "Damping of ring and housing: 2 % of critical in every mode\n",
+            "Sensors: P1: mean over top, along +y\n",
+        ] {
+            assert!(run.contains(line), "{line}{run}");
+        }
+        // a condensed housing has no bearing and no speed
+        let condensed = said(&case, Purpose::Condense);
+        assert!(condensed.contains("Supports: ") && !condensed.contains("Bearing") && !condensed.contains("Speed"));
     }
 }

@@ -7,7 +7,6 @@ use super::case_words::damping_words;
 use crate::app::case::{Bond, Case, Expected};
 use crate::app::scene::CoupledStructure;
 use crate::fe::element::continuum::PlaneAssumption;
-use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::RadiusRule;
 use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
@@ -16,7 +15,7 @@ use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 const LISTED_MODES: usize = 20;
 
 /// The linear model in facts; `condensed`: how, where something of the report was computed with it.
-pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool) -> Vec<Fact> {
+pub(crate) fn model_facts(stage: &CoupledStructure, condensed: bool) -> Vec<Fact> {
     let ring = stage.structure.ring();
     let section = ring.section();
     let mut facts = vec![
@@ -25,15 +24,6 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
         Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
         Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
     ];
-    if let Some(asked) = &case.ring {
-        let on = |value: bool| if value { "on" } else { "off" };
-        let element = match asked.element {
-            RingInterpolation::ExactArc => "exact circular arc",
-            RingInterpolation::Raveendranath => "Raveendranath's polynomials",
-        };
-        let (shear, inertia) = (on(asked.shear), on(asked.rotary_inertia));
-        facts.push(Fact::new("Element", format!("{element}, shear {shear}, rotary inertia {inertia}")));
-    }
     let modes = stage.fixed_interface_modes;
     if let Some(imported) = &stage.imported {
         let interface_dof = imported.element.interface_dof;
@@ -42,15 +32,9 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
             Fact::new("Its coordinates", format!("{interface_dof} ring displacements and {modes} modes")),
         ]);
     }
-    if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
-        let (model, mass) = (&housing.model, significant(housing.matrices.total_mass(), 5));
-        let (nodes, elements) = (model.dof() / model.dimension(), model.elements().len());
-        facts.extend([
-            Fact::new("Housing mesh", asked.mesh.display().to_string()),
-            Fact::new("Housing", format!("{nodes} nodes, {elements} elements, {mass} kg")),
-        ]);
+    if stage.housing.is_some() && condensed {
         let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
-        facts.extend(condensed.then(|| Fact::new("Condensed to", coordinates).note("Craig-Bampton")));
+        facts.push(Fact::new("Condensed to", coordinates).note("Craig-Bampton"));
     }
     facts
 }

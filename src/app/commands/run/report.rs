@@ -55,9 +55,8 @@ pub(crate) fn run_report<R: Recording>(
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     let (stage, setup) = (&result.scene.stage, &result.scene.setup);
-    let model = Section::new("Model")
-        .drawing(parts::draw(case, stage, Some(setup)))
-        .facts(parts::model_facts(case, stage, true));
+    let model =
+        Section::new("Model").drawing(parts::draw(case, stage, Some(setup))).facts(parts::model_facts(stage, true));
     let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
@@ -78,8 +77,7 @@ pub(crate) fn run_report<R: Recording>(
 
 /// The case in words, and the model that was chosen for it.
 fn inputs<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
-    let housing = result.scene.stage.housing.as_ref();
-    let size = housing.map(|h| parts::HousingSize::of(&h.mesh, &h.model, Some(h.matrices.total_mass())));
+    let size = result.scene.stage.housing.as_ref().map(parts::HousingSize::of_housing);
     let part = |part: &ChosenPart| Fact::new(format!("Model: {}", part.what), &part.chosen).note(capital(&part.why));
     let chosen = result.choice.parts.iter().map(part);
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Run, size.as_ref()).into_iter().chain(chosen))
@@ -229,6 +227,23 @@ mod tests {
         let said = said
             .filter(|block| matches!(block, Block::Paragraph(text) if text.starts_with("The first 12 of 13 sensors")));
         assert_eq!(said.count(), 1);
+    }
+
+    /// The first section says the case, and what is known of the bearing stands beside the verdicts.
+    #[test]
+    fn a_report_begins_with_the_case_in_words() {
+        let case = Case::example("scenes/smooth", &["transient.end=1e-3", "transient.modes=3"]);
+        let report = run_report(&case, &compute_run(&case, &Unwatched).unwrap(), "").unwrap();
+        let headline = |label: &str| report.headlines.iter().find(|found| found.label == label).unwrap();
+        assert_eq!(headline("Fault of the bearing in this case").value, "none, a sound bearing");
+        assert!(headline("Computing per simulated second").value.ends_with(" s"));
+        let [Block::Facts(facts)] = report.sections[0].blocks.as_slice() else { panic!("{:?}", report.sections[0]) };
+        for name in ["Outer ring", "Bearing", "Shaft", "Speed of the shaft", "Sensors", "Model: modes", "Model: method"]
+        {
+            assert!(facts.iter().any(|fact| fact.name == name), "{name}");
+        }
+        let damping = facts.iter().find(|fact| fact.name == "Damping of ring and housing").unwrap();
+        assert_eq!(damping.value, "3 % of critical in every mode");
     }
 
     /// A run to its end in steps that are too long is no good one.

@@ -3,8 +3,8 @@
 use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
 use super::{Chart, GROWTHS, Parameter, Point, model_name};
-use crate::app::case::Case;
-use crate::app::commands::parts::{assumptions, bearing_table, model_facts};
+use crate::app::case::{Case, Purpose};
+use crate::app::commands::parts::{HousingSize, assumptions, bearing_table, inputs, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
 
 /// Composes the report; `command` is the line that made it.
@@ -22,7 +22,9 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
     report.warnings.extend(chart.scene.doubts.iter().cloned());
     report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
     report.assumptions = assumptions(case, Some(&chart.scene.setup));
+    let size = chart.scene.stage.housing.as_ref().map(HousingSize::of_housing);
     report
+        .section(Section::new("Inputs").facts(inputs(case, Purpose::Chart, size.as_ref())))
         .section(
             Section::new("Speed against accuracy")
                 .plot(work_precision(chart))
@@ -36,7 +38,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         .section(Section::new("All points").table(points_table(chart)))
         .section(
             Section::new("Model")
-                .facts(model_facts(case, &chart.scene.stage, true))
+                .facts(model_facts(&chart.scene.stage, true))
                 .table(bearing_table(&chart.scene.setup, &chart.scene.contacts, Some(&chart.scene.equilibrium))),
         )
         .assumption("Every run begins at rest in the equilibrium of its own instant; what follows of switching on unbalance and speed is part of the comparison.")
