@@ -17,6 +17,7 @@ pub(crate) mod imported;
 mod imported_tests;
 pub(crate) mod places;
 pub(crate) mod ring;
+mod start;
 pub(crate) mod structure;
 pub mod tie_price;
 

@@ -5,6 +5,7 @@ pub(crate) mod draft;
 pub(crate) mod found;
 pub(crate) mod groups;
 pub(crate) mod page;
+pub(crate) mod pit;
 pub(crate) mod run_text;
 pub(crate) mod scene;
 pub(crate) mod summary;
