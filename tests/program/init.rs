@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plummer::app::case::{Case, Purpose, Source};
+use plummer::app::case::{Bearing, Case, Defect, DentProfile, Purpose, Source};
 use serde_json::Value;
 
 use super::common::{errors, plummer, scratch};
@@ -43,6 +43,21 @@ fn switched_on(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n") + "\n"
 }
 
+/// The dent is a pit that a ball bridges, and no ball starts within its length of either end of it.
+fn starts_beside_its_dent(bearing: &Bearing, name: &str) {
+    let [Defect::Dent(dent)] = &bearing.defects[..] else {
+        panic!("{name}: {:?}", bearing.defects);
+    };
+    assert_eq!(dent.profile, DentProfile::Surface, "{name}");
+    assert!(dent.width.is_some_and(|width| width > dent.length), "{name}");
+    for ball in 0..bearing.balls {
+        let angle = bearing.first_ball_deg + 360.0 * ball as f64 / bearing.balls as f64;
+        let away = (angle - dent.angle_deg + 180.0).rem_euclid(360.0) - 180.0;
+        let way = away.to_radians().abs() * bearing.outer_race_radius;
+        assert!(way > 1.5 * dent.length, "{name}: ball {ball} is {way} m from a dent of {} m", dent.length);
+    }
+}
+
 #[test]
 fn every_mesh_makes_a_case_that_loads() {
     let folder = scratch("init-every");
@@ -62,7 +77,7 @@ fn every_mesh_makes_a_case_that_loads() {
         assert_eq!(fs::canonicalize(found).unwrap(), fs::canonicalize(&mesh).unwrap());
         let whole = Case::from_source(Source { path: file.clone(), text: switched_on(&text), set: Vec::new() });
         let whole = whole.unwrap_or_else(|error| panic!("{name}: {error}\n{}", switched_on(&text)));
-        assert!(whole.bearing.is_some_and(|bearing| !bearing.defects.is_empty()), "{name}");
+        starts_beside_its_dent(whole.bearing.as_ref().unwrap(), &name);
         assert!(whole.ring.is_some_and(|ring| ring.tie.is_some()), "{name}");
         // the same mesh, the same file
         init(&folder, &[mesh.to_str().unwrap(), "--force"]);

@@ -1,7 +1,8 @@
 //! `plummer frf`: transfer paths.
 
+use super::analyze::warn;
 use super::report::ReportFiles;
-use super::results::{Job, warnings};
+use super::results::Job;
 use super::{CliError, Outcome};
 use crate::app::case::{Case, SensorSpot};
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
@@ -23,6 +24,8 @@ pub(super) fn frf(job: &Job<'_>) -> Result<Outcome, CliError> {
     let uff = job.folder.path.join("frf.uff");
     write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(ComputeError::from)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
+    progress.finish();
+    warn(&result.doubts, job.options);
     Ok(Outcome {
         summary: summary(&result),
         result: json,
@@ -65,7 +68,6 @@ fn summary(result: &FrfResult) -> String {
         element.interface_dof,
         counted(element.modal_dof(), "vector")
     )];
-    lines.extend(warnings(&result.doubts));
     for path in &result.paths {
         if path.is_closed() {
             lines.push(format!("{} to {}: {}", path.from, path.to, TransferPath::CLOSED));
@@ -78,9 +80,6 @@ fn summary(result: &FrfResult) -> String {
     }
     if let Some((hz, error)) = result.largest_estimate() {
         lines.push(format!("estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"));
-    }
-    if let Some(why) = &result.not_compared {
-        lines.push(format!("nothing was compared with the full model: {why}"));
     }
     if let Some((hz, difference)) = result.largest_difference() {
         lines.push(format!(

@@ -4,6 +4,7 @@ use super::bearing::{contacts_of, setup_of};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
 use super::doubts::accept_contacts;
+use super::start::starts_in_damage;
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
@@ -87,15 +88,9 @@ impl Scene {
         let condition = StaticCondition::at(&setup, start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         accept_contacts(&setup, &contacts, &equilibrium)?;
-        Ok(Self {
-            doubts: doubts(case, stage.mesh_and_model(), Some((&setup, &equilibrium)))?,
-            stage,
-            setup,
-            contacts,
-            damping: damping(case)?,
-            start,
-            equilibrium,
-        })
+        let mut doubts = doubts(case, stage.mesh_and_model(), Some((&setup, &equilibrium)))?;
+        doubts.extend(starts_in_damage(&setup, start));
+        Ok(Self { doubts, stage, setup, contacts, damping: damping(case)?, start, equilibrium })
     }
 
     /// The scene in a model's coordinates.

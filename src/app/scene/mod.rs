@@ -19,6 +19,7 @@ mod imported_tests;
 pub(crate) mod places;
 mod plausible;
 pub(crate) mod ring;
+mod start;
 pub(crate) mod structure;
 pub mod tie_price;
 

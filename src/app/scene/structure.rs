@@ -36,7 +36,7 @@ const LEFT_OUT: f64 = 3.2;
 /// Part of the target that this may be in a run whose vectors are chosen, and the most numbers that they have, ten seconds' work: 300
 /// vectors of 13 000 degrees of freedom.
 const LEFT_OUT_SHARE: f64 = 0.5;
-const MOST_NUMBERS: usize = 4_000_000;
+pub(crate) const MOST_NUMBERS: usize = 4_000_000;
 
 /// The relative error of a run in the band up to `band_hz` by the vectors of its housing that were left out, all above `complete_hz`.
 pub(crate) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
@@ -46,6 +46,14 @@ pub(crate) fn left_out(band_hz: f64, complete_hz: f64) -> f64 {
 /// Up to which frequency a housing's vectors have to be complete for [`left_out`] to be this error, Hz.
 pub(crate) fn complete_for(band_hz: f64, error: f64) -> f64 {
     band_hz * (LEFT_OUT / error).cbrt()
+}
+
+/// Frequency up to which a run's housing has all its vectors by the target; `None` where the case says how many.
+pub(crate) fn wanted_hz(case: &Case) -> Option<f64> {
+    let BasisChoice { size: BasisSize::Auto(target), band_hz, .. } = basis_choice(case) else {
+        return None;
+    };
+    Some(complete_for(band_hz, LEFT_OUT_SHARE * target).max(MODELLED * band_hz))
 }
 
 /// The linear model of a case.
@@ -109,12 +117,9 @@ impl CoupledStructure {
         let asked_basis = basis_choice(case);
         let choice = BasisChoice {
             band_hz: MODELLED * asked_basis.band_hz,
-            size: match (asked_basis.size, &case.transient) {
-                (BasisSize::Auto(target), Some(_)) => {
-                    let over_band = (LEFT_OUT / (LEFT_OUT_SHARE * target)).cbrt();
-                    BasisSize::AtMost(over_band.max(MODELLED) * asked_basis.band_hz, MOST_NUMBERS)
-                }
-                (size, _) => size,
+            size: match (wanted_hz(case), &case.transient) {
+                (Some(wanted_hz), Some(_)) => BasisSize::AtMost(wanted_hz, MOST_NUMBERS),
+                _ => asked_basis.size,
             },
             ..asked_basis
         };

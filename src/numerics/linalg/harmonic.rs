@@ -13,7 +13,7 @@ mod matrices;
 pub use dense::ComplexSolution;
 pub(crate) use dense::complex_solve;
 pub use error::HarmonicError;
-pub use matrices::HarmonicDamping;
+pub use matrices::{HarmonicDamping, MotionDamping};
 
 use super::{
     ComplexMatrix, DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, Symbolic, analysed,

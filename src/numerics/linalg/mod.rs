@@ -38,7 +38,9 @@ pub use eigen::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
 pub(in crate::numerics::linalg) use error::gigabytes;
 pub(in crate::numerics::linalg) use factor::{Factor, FactorMemory};
-pub use harmonic::{ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes};
+pub use harmonic::{
+    ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes, MotionDamping,
+};
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub(crate) use lu::SmallLu;

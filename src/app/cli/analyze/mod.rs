@@ -45,7 +45,7 @@ pub(crate) fn analyze(asked: &AnalyzeArguments, options: &Options) -> Result<Out
 }
 
 /// Says warnings on standard error; reports have them too.
-fn warn(texts: &[String], options: &Options) {
+pub(super) fn warn(texts: &[String], options: &Options) {
     for text in texts.iter().filter(|_| !options.quiet) {
         // nothing can be done about a closed standard error
         let _ = emit(&mut io::stderr().lock(), &format!("warning: {text}"));

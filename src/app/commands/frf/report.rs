@@ -1,6 +1,7 @@
 //! The report of `plummer frf`.
 
 use super::compute::FrfResult;
+use super::full::FullDamping;
 use super::reduced::{FrfHousing, TransferPath};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, HousingSize, signed_report};
@@ -40,9 +41,6 @@ pub(crate) fn frf_report(case: &Case, result: &FrfResult, command: &str) -> Resu
     report.sections.extend(result.estimate.as_ref().map(|estimate| errors(result, estimate)));
     if !result.ranking.is_empty() {
         report = report.section(ranking(result));
-    }
-    if let Some(why) = &result.not_compared {
-        report = report.warning(format!("Nothing was compared with the full model: {why}."));
     }
     report.warnings.extend_from_slice(&result.doubts);
     Ok(report)
@@ -177,14 +175,22 @@ fn errors(result: &FrfResult, estimate: &ResponseEstimate) -> Section {
     let (hz, difference) = compared.filter_map(|at| positive((at.frequency_hz, at.difference))).unzip();
     let points = Curve::new("against the full model", Abscissa::Points(hz), difference);
     let residual = result.compared.iter().map(|compared| compared.residual);
-    Section::new("Error of the reduced responses")
+    let damping = result.full_damping.map(|FullDamping { modes, up_to_hz, ritz_vectors, left_out }| format!(
+        "Every mode of the full model has the ratio of the case: {modes} modes up to {} Hz by themselves, those above by {ritz_vectors} Ritz vectors of the forces and sensors, which leave out damping that makes up to {} of a response.",
+        significant(up_to_hz, 4),
+        significant(left_out, 1)
+    ));
+    let mut section = Section::new("Error of the reduced responses")
         .plot(plot.curve(points.style(CurveStyle::Points)))
         .paragraph(format!(
             "Full: direct solutions of (K - w^2 M + i (w C + K_s)) x = f over all degrees of freedom, with residuals up to {}. The difference is that of complex receptances, phase included, relative to the response where it is read; it passes up to {}.",
             significant(residual.fold(0.0, f64::max), 1),
             significant(result.target, 2)
-        ))
-        .table(compared_table(result))
+        ));
+    if let Some(damping) = damping {
+        section = section.paragraph(damping);
+    }
+    section.table(compared_table(result))
 }
 
 fn compared_table(result: &FrfResult) -> Table {

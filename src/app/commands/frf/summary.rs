@@ -1,6 +1,6 @@
 //! What `frf.json` says.
 
-use super::{FrfResult, RankedPath};
+use super::{FrfResult, FullDamping, RankedPath};
 use crate::fe::reduction::frf::ModeShare;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -34,6 +34,8 @@ pub struct FrfSummary<'a> {
     pub target: f64,
     /// Why nothing was compared with the full model, if nothing was.
     pub not_compared: Option<&'a str>,
+    /// Modes by which the full model was damped where the case has one ratio for every mode.
+    pub full_damping: Option<FullDamping>,
     /// What of the model may be meant otherwise, a sentence each.
     pub warnings: &'a [String],
     /// Variants of the case by path, indices from 0 into `paths`.
@@ -93,6 +95,7 @@ impl FrfResult {
             difference: compared.map(|at| at.difference).collect(),
             target: self.target,
             not_compared: self.not_compared.as_deref(),
+            full_damping: self.full_damping,
             warnings: &self.doubts,
             ranking: &self.ranking,
         }

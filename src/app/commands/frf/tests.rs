@@ -168,6 +168,36 @@ fn undamped_and_lossy_housings_are_compared_too() {
     assert!(imaginary(&lossy) > 10.0 * imaginary(&result(&accuracy("1e-3"), &[])));
 }
 
+/// One ratio for every mode has a counterpart in the full model. With all vectors of the interior both are the same; with the program's
+/// choice the difference is what was estimated.
+#[test]
+fn one_ratio_for_every_mode_is_compared_with_the_full_model() {
+    let damping = ["damping={modal=0.02}"];
+    let found = result("[accuracy]\nband_hz = [0, 60000]\ntarget = 1e-3\n", &damping);
+    assert!(found.compared.len() > 4 && found.not_compared.is_none() && found.passes(), "{:?}", found.compared);
+    let of_full = found.full_damping.unwrap();
+    assert!(of_full.modes > 4 && of_full.ritz_vectors > 4 && of_full.up_to_hz >= 90e3, "{of_full:?}");
+    assert!(of_full.left_out < 1e-4, "{of_full:?}");
+    // what the damping above lacks, beside what the estimate says
+    for at in &found.compared {
+        assert!(at.residual < 1e-10 && at.difference < 1.5 * at.estimated.unwrap() + of_full.left_out, "{at:?}");
+    }
+    let all = ["damping={modal=0.02}", "condense.fixed_interface_modes={up_to_hz=1e9}"];
+    let whole = result("[accuracy]\nband_hz = [0, 60000]\ntarget = 1e-3\n", &all);
+    let (_, difference) = whole.largest_difference().unwrap();
+    println!("{difference:e} {:?}", whole.full_damping);
+    assert!(difference < 2.0 * whole.full_damping.unwrap().left_out, "{difference:e}");
+}
+
+/// Where nothing is compared, a warning says why.
+#[test]
+fn what_is_not_compared_is_a_warning() {
+    let found = result(&accuracy("1e-2"), &["frf.check_hz=[]"]);
+    let told = "nothing was compared with the full model: no frequency was asked for";
+    assert!(found.doubts.iter().any(|doubt| doubt == told), "{:?}", found.doubts);
+    assert!(!result(&accuracy("1e-2"), &[]).doubts.iter().any(|doubt| doubt.contains("compared")));
+}
+
 #[test]
 fn the_modes_that_carry_a_path_add_up_to_it() {
     let found = result(&accuracy("1e-3"), &[]);

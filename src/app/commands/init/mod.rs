@@ -6,6 +6,7 @@ pub(crate) mod found;
 pub(crate) mod groups;
 pub(crate) mod page;
 mod partly;
+pub(crate) mod pit;
 pub(crate) mod run_text;
 pub(crate) mod scene;
 pub(crate) mod summary;

@@ -17,8 +17,8 @@ pub(crate) const BALANCE: f64 = 6.3e-3;
 /// The shaft is as thick as the bearing's bore, and so many times longer on each bearing's share. A guess.
 pub(crate) const SHAFT_LENGTHS: f64 = 10.0;
 
-/// Density of the shaft, kg/m^3: steel.
-const STEEL: f64 = 7850.0;
+/// Density of shaft and balls, kg/m^3: steel.
+pub(crate) const STEEL: f64 = 7850.0;
 
 /// The bearing as a case file has it. SI.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

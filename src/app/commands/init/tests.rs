@@ -1,5 +1,6 @@
 //! What is made of the numbers behind a case file.
 
+use super::pit::Pit;
 use super::scene::{BALANCE, BearingNumbers, RingNumbers, SPEED_HZ, shaft};
 use super::scene::{UnitFrom, unit_of};
 use std::path::Path;
@@ -70,6 +71,22 @@ fn numbers_of_6205() {
     assert!((mass - 0.9633).abs() < 1e-3, "{mass}");
     assert!((unbalance / (mass * 40.107e-6) - 1.0).abs() < 1e-4, "{unbalance}");
     assert!((BALANCE / SPEED_HZ - 2.52e-4).abs() < 1e-12);
+}
+
+/// A ball bridges the pit and drops less far than into a groove, whichever bearing of the catalogue has it, scaled or not.
+#[test]
+fn a_ball_drops_into_every_pit_and_no_farther_than_its_depth() {
+    for bearing in CatalogueBearing::all() {
+        for scale in [0.5, 1.0, 2.0] {
+            let pit = Pit::of(&BearingNumbers::of(bearing), scale);
+            let [surface, plane] = pit.drops.unwrap_or_else(|| panic!("{}", bearing.name));
+            assert!(0.0 < surface && surface < plane, "{}: {surface} {plane}", bearing.name);
+            assert!((pit.first_ball_deg - 270.0 - 180.0 / f64::from(bearing.balls)).abs() < 1e-9);
+        }
+    }
+    // measured by a run of 6204 with this pit
+    let [surface, plane] = Pit::of(&BearingNumbers::of(named("6204")), 1.0).drops.unwrap();
+    assert!((surface - 20.65e-6).abs() < 0.5e-6 && (plane - 32e-6).abs() < 0.5e-6, "{surface} {plane}");
 }
 
 /// Two squares side by side, nodes 1 to 6; the groups after them are each test's own.

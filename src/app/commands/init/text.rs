@@ -2,6 +2,7 @@
 
 use super::found::{Found, FoundCylinder};
 use super::page::{ORIGIN, list, number, numbers, page, quoted};
+use super::pit::Pit;
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use crate::app::scene::size_doubt;
@@ -206,6 +207,7 @@ pub(crate) fn case_text(found: &Found<'_>) -> Result<String, minijinja::Error> {
         shaft => context! { bore => shaft_bore, mass, unbalance, lengths => SHAFT_LENGTHS, balance => BALANCE },
         speed_hz => SPEED_HZ,
         window => Serde(Window::of(found)),
+        pit => Serde(Pit::of(&of_bearing, if found.bearing.is_some() { 1.0 } else { found.ring.scale })),
     };
     let mut environment = Environment::new();
     environment.add_filter("quoted", |text: String| quoted(&text));

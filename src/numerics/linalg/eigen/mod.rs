@@ -1,5 +1,6 @@
 //! Eigenpairs of a sparse symmetric problem, with a residual and a bound for each and a proof that none is missing.
 
+mod beyond;
 mod cuts;
 mod iteration;
 mod pairs;

@@ -1,8 +1,9 @@
 //! The matrices of a harmonic problem and the product with `Z`.
 
+use super::super::basis::times;
 use super::super::{DenseMatrix, HarmonicError, LinalgError, Ordering, SparseMatrix, SymmetricMatrix};
 
-/// Damping of a harmonic problem: `w C + K_s` with `C = alpha M + beta K + C_v`. All parts add up; the default is none.
+/// Damping of a harmonic problem: `w C + K_s` with `C = alpha M + beta K + C_v + C_m`. All parts add up; the default is none.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct HarmonicDamping<'a> {
     /// Mass-proportional, 1/s, >= 0.
@@ -14,6 +15,17 @@ pub struct HarmonicDamping<'a> {
     /// Structural matrix `K_s` [n x n], N/m (sum of loss factor times stiffness), symmetric positive semidefinite, both
     /// triangles stored.
     pub structural: Option<&'a SparseMatrix>,
+    /// Damping `C_m` of each motion by itself, as of modes.
+    pub motions: Option<MotionDamping<'a>>,
+}
+
+/// Damping `M Phi diag(c) Phi^T M` of motions Phi that are orthonormal in the mass.
+#[derive(Debug, Clone, Copy)]
+pub struct MotionDamping<'a> {
+    /// Phi [n x m], `Phi^T M Phi = 1`, over the rows that are kept.
+    pub shapes: &'a DenseMatrix,
+    /// c \[m\], 1/s, >= 0: `2 zeta w` of a mode.
+    pub rates: &'a [f64],
 }
 
 /// K, M and damping in the order in which they are factorised.
@@ -25,6 +37,8 @@ pub(super) struct HarmonicMatrices {
     beta: f64,
     viscous: Option<SymmetricMatrix>,
     structural: Option<SymmetricMatrix>,
+    /// S with `C_m = S S^T` [n x m].
+    motions: Option<DenseMatrix>,
 }
 
 impl HarmonicMatrices {
@@ -53,9 +67,13 @@ impl HarmonicMatrices {
             }
             _ => Ok(None),
         };
+        let mass = SymmetricMatrix::permuted(m, ordering);
+        let motions = damping.motions.map(|motions| spread(motions, &mass, ordering)).transpose()?;
+        let motions = motions.filter(|motions| motions.ncols() > 0);
         Ok(Self {
             stiffness: SymmetricMatrix::permuted(k, ordering),
-            mass: SymmetricMatrix::permuted(m, ordering),
+            mass,
+            motions,
             alpha: damping.alpha,
             beta: damping.beta,
             viscous: permuted("viscous damping", damping.viscous)?,
@@ -65,7 +83,7 @@ impl HarmonicMatrices {
 
     /// Whether anything dissipates at this frequency, rad/s.
     pub(super) fn is_damped(&self, omega: f64) -> bool {
-        let viscous = self.alpha > 0.0 || self.beta > 0.0 || self.viscous.is_some();
+        let viscous = self.alpha > 0.0 || self.beta > 0.0 || self.viscous.is_some() || self.motions.is_some();
         self.structural.is_some() || (viscous && omega > 0.0)
     }
 
@@ -114,6 +132,9 @@ impl HarmonicMatrices {
         if let Some(viscous) = &self.viscous {
             add(omega, &viscous.times(x.as_ref()));
         }
+        if let Some(motions) = &self.motions {
+            add(omega, &times(motions.as_ref(), times(motions.transpose(), x.as_ref()).as_ref()));
+        }
         if let Some(structural) = &self.structural {
             add(1.0, &structural.times(x.as_ref()));
         }
@@ -154,6 +175,40 @@ impl HarmonicMatrices {
         if let Some(structural) = &self.structural {
             add(1.0, structural);
         }
+        if let Some(motions) = &self.motions {
+            for motion in motions.col_iter() {
+                let along: f64 = motion.iter().zip(&x).map(|(s, x)| s.abs() * x).sum();
+                for (sum, s) in sum.iter_mut().zip(motion.iter()) {
+                    *sum += omega * s.abs() * along;
+                }
+            }
+        }
         sum.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
     }
+}
+
+/// `M Phi diag(sqrt(c))` in the factor's order, without motions that are not damped; its product with its transpose is C.
+///
+/// # Errors
+/// [`LinalgError::Shape`]; [`HarmonicError::Input`] for rates out of range.
+fn spread(
+    MotionDamping { shapes, rates }: MotionDamping<'_>,
+    mass: &SymmetricMatrix,
+    ordering: &Ordering,
+) -> Result<DenseMatrix, HarmonicError> {
+    for (what, expected, found) in
+        [("damped motions", mass.order(), shapes.nrows()), ("damping rates", shapes.ncols(), rates.len())]
+    {
+        if found != expected {
+            return Err(LinalgError::Shape { what, expected, found }.into());
+        }
+    }
+    if let Some(rate) = rates.iter().find(|rate| !(**rate >= 0.0 && rate.is_finite())) {
+        return Err(HarmonicError::Input(format!("a damping rate must be zero or more and finite, found {rate} 1/s")));
+    }
+    let damped: Vec<usize> = (0..rates.len()).filter(|&motion| rates[motion] > 0.0).collect();
+    let scaled = DenseMatrix::from_fn(shapes.nrows(), damped.len(), |row, column| {
+        shapes[(row, damped[column])] * rates[damped[column]].sqrt()
+    });
+    Ok(mass.times(ordering.forward(&scaled).as_ref()))
 }

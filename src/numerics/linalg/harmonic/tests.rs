@@ -45,7 +45,8 @@ fn two_masses_in_closed_form() {
     let (alpha, beta, eta) = (4.0, 2e-5, 0.03);
     let rows = |a: &[[f64; 2]; 2]| matrix(&[&a[0], &a[1]]);
     let structural = k.map(|row| row.map(|entry| eta * entry));
-    let damping = HarmonicDamping { alpha, beta, viscous: Some(&rows(&c)), structural: Some(&rows(&structural)) };
+    let damping =
+        HarmonicDamping { alpha, beta, viscous: Some(&rows(&c)), structural: Some(&rows(&structural)), motions: None };
     let mass = [[m[0], 0.0], [0.0, m[1]]];
     let problem = HarmonicProblem::new(&rows(&k), &rows(&mass), &damping).expect("regular");
     for omega in [0.0, 300.0, 1034.7, 1900.0, 1e5] {
@@ -228,4 +229,67 @@ fn both_precisions_lead_to_the_same_response() {
     assert!(found[1].iterations[0] >= found[0].iterations[0]);
     // a third of what a solve may take
     assert!(found[1].iterations[0] <= 90, "{:?}", found[1].iterations);
+}
+
+/// One ratio for every mode: a few modes, and Ritz vectors of the forces for the others, against the sum of all modes.
+#[test]
+fn a_few_modes_and_ritz_vectors_damp_as_all_modes_do() {
+    let (order, kept, ratio) = (60, 12, 0.05);
+    let (k, m) = chain(order, 1.0);
+    let problem = EigenProblem::new(&k, &m).expect("held");
+    let modes = problem.lowest(kept).expect("held");
+    let places = [17, 40];
+    let forces = DenseMatrix::from_fn(order, 2, |row, force| f64::from(u8::from(row == places[force])));
+    let all = |mode: usize| {
+        let angle = (mode + 1) as f64 * PI / (order + 1) as f64;
+        let shape = |node: usize| ((node + 1) as f64 * angle).sin() * (2.0 / (order + 1) as f64).sqrt();
+        (2.0 - 2.0 * angle.cos(), places.map(shape))
+    };
+    let limit = 0.5 * (modes.values[kept - 1] + all(kept).0);
+    let top = (limit / 2.25).sqrt();
+    // without Ritz vectors what the modes above take is left out; each block takes its part
+    for (blocks, least, most) in [(0, 1e-3, 0.1), (2, 1e-6, 2e-4), (4, 0.0, 2e-5)] {
+        let beyond = problem.beyond(&modes.vectors, limit, &forces, blocks).expect("definite");
+        let shapes = faer::concat![[modes.vectors, beyond.vectors]];
+        let gram = shapes.transpose() * &shapes;
+        let off = (gram - DenseMatrix::identity(shapes.ncols(), shapes.ncols())).norm_max();
+        assert!(off < 1e-10, "{blocks}: {off:e}");
+        let squared = modes.values.iter().chain(&beyond.values);
+        let rates: Vec<f64> = squared.map(|squared| 2.0 * ratio * squared.sqrt()).collect();
+        let motions = Some(MotionDamping { shapes: &shapes, rates: &rates });
+        let damping = HarmonicDamping { motions, ..HarmonicDamping::default() };
+        let problem = HarmonicProblem::new(&k, &m, &damping).expect("regular");
+        let mut largest = 0.0_f64;
+        // on a resonance, between two, and at the top
+        for omega in [all(3).0.sqrt(), 0.5 * top, top] {
+            let loads = complex_columns(&forces);
+            let solution = problem.solve(omega, &loads).expect("damped");
+            assert!(solution.residuals.iter().all(|residual| *residual <= 1e-11));
+            for (row, load) in [(0, 0), (0, 1), (1, 1)] {
+                let part = |mode: usize| {
+                    let (squared, shape) = all(mode);
+                    let stiffness = c64::new(squared - omega * omega, 2.0 * ratio * squared.sqrt() * omega);
+                    shape[row] * shape[load] / stiffness
+                };
+                let exact: c64 = (0..order).map(part).sum();
+                largest = largest.max((solution.displacements[(places[row], load)] - exact).norm() / exact.norm());
+            }
+        }
+        assert!((least..most).contains(&largest), "{blocks} blocks: {largest:e}");
+    }
+}
+
+#[test]
+fn damped_motions_that_do_not_fit_are_refused() {
+    let (k, m) = chain(4, 1.0);
+    let message = |shapes: &DenseMatrix, rates: &[f64]| {
+        let damping = HarmonicDamping { motions: Some(MotionDamping { shapes, rates }), ..HarmonicDamping::default() };
+        HarmonicProblem::new(&k, &m, &damping).map_or_else(|error| error.to_string(), |_| String::new())
+    };
+    let one = DenseMatrix::identity(4, 1);
+    assert_eq!(message(&DenseMatrix::identity(3, 1), &[1.0]), "damped motions: expected 4 rows, found 3");
+    assert_eq!(message(&one, &[1.0, 2.0]), "damping rates: expected 1 rows, found 2");
+    assert_eq!(message(&one, &[-1.0]), "a damping rate must be zero or more and finite, found -1 1/s");
+    // rates of zero damp nothing
+    assert_eq!(message(&one, &[0.0]), "");
 }

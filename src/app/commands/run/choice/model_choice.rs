@@ -29,6 +29,8 @@ pub struct ModelChoice {
     pub stable_s: Option<f64>,
     /// `accuracy.target`.
     pub target: f64,
+    /// What the estimated error may be: the target, or `accuracy.with_impacts` where balls strike.
+    pub admissible: f64,
 }
 
 /// One part of a model.
@@ -89,7 +91,7 @@ impl ModelChoice {
             ));
         };
         let (part, error) = largest?;
-        if together <= target {
+        if together <= self.admissible {
             return None;
         }
         let given = |what: &str| self.parts.iter().any(|part| part.what == what && part.why.starts_with("given"));
@@ -119,9 +121,10 @@ impl ModelChoice {
             }
         };
         Some(format!(
-            "the estimated error is {} where accuracy.target is {}, most of it of the {} ({}; {}): {help}",
+            "the estimated error is {} where accuracy.{} is {}, most of it of the {} ({}; {}): {help}",
             significant(together, 2),
-            significant(target, 2),
+            if self.admissible > target { "with_impacts" } else { "target" },
+            significant(self.admissible, 2),
             part.what,
             part.chosen,
             significant(error, 2),

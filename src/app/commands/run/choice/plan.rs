@@ -10,7 +10,7 @@ use super::{loaded_errors, pilot, stepping};
 use crate::app::case;
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
-use crate::app::scene::structure::{complete_for, left_out};
+use crate::app::scene::structure::{MOST_NUMBERS, complete_for, left_out, wanted_hz};
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::report::significant;
@@ -99,7 +99,7 @@ impl ModelChoice {
             }
         }
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
-        parts.extend(vectors(scene, band_hz));
+        parts.extend(vectors(case, scene, band_hz));
         for part in &mut parts {
             if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
                 part.estimated_error = Some(growth * error);
@@ -116,6 +116,10 @@ impl ModelChoice {
             measured: measured.ok().flatten(),
             stable_s: stepping::stable_below(task, &model)?,
             target,
+            admissible: match growth > 1.0 {
+                true => case.accuracy.and_then(|accuracy| accuracy.with_impacts).unwrap_or(target),
+                false => target,
+            },
             parts,
         })
     }
@@ -131,7 +135,7 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
 }
 
 /// What a superelement from a file or the condensed housing lacks, by [`left_out`].
-fn vectors(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
+fn vectors(case: &case::Case, scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     let stage = &scene.stage;
     let khz = |digits| significant(stage.complete_hz / 1e3, digits);
     let (what, count, why) = match (&stage.imported, &stage.housing) {
@@ -143,14 +147,42 @@ fn vectors(scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
                 false => "given; its file does not tell which vectors were left out when it was condensed".to_owned(),
             },
         ),
-        (None, Some(_)) => (
-            CONDENSATION,
-            stage.fixed_interface_modes,
-            format!("of the housing's interior; those above {} kHz are left out", khz(3)),
-        ),
+        (None, Some(_)) => {
+            (CONDENSATION, stage.fixed_interface_modes, condensed_words(stage.complete_hz, wanted_hz(case)))
+        }
         (None, None) => return None,
     };
     let known = stage.complete_hz > 0.0;
     let estimated_error = known.then(|| left_out(band_hz, stage.complete_hz));
     Some(ChosenPart { what, chosen: format!("{count} vectors"), why, estimated_error })
+}
+
+/// What of a condensed housing is left out, and that the program stopped before `wanted_hz` if it did, both Hz.
+fn condensed_words(complete_hz: f64, wanted_hz: Option<f64>) -> String {
+    let khz = |hz: f64| significant(hz / 1e3, 3);
+    let left_out = format!("of the housing's interior; those above {} kHz are left out", khz(complete_hz));
+    match wanted_hz.filter(|wanted_hz| *wanted_hz > complete_hz) {
+        None => left_out,
+        Some(wanted_hz) => format!(
+            "{left_out}, where the target asks for those up to {} kHz: the program takes at most {} million numbers, vectors times degrees of freedom",
+            khz(wanted_hz),
+            MOST_NUMBERS / 1_000_000
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::condensed_words;
+
+    #[test]
+    fn a_choice_of_vectors_that_the_limit_stops_names_it() {
+        let all = "of the housing's interior; those above 175 kHz are left out";
+        assert_eq!(condensed_words(175e3, Some(172e3)), all);
+        assert_eq!(condensed_words(175e3, None), all);
+        assert_eq!(
+            condensed_words(114e3, Some(172e3)),
+            "of the housing's interior; those above 114 kHz are left out, where the target asks for those up to 172 kHz: the program takes at most 4 million numbers, vectors times degrees of freedom"
+        );
+    }
 }

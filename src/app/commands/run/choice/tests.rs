@@ -57,3 +57,18 @@ fn a_condensed_housing_is_part_of_the_estimate() {
     assert!((4e-3..5.5e-3).contains(&auto), "{auto}");
     assert!(few > 0.1, "{few}");
 }
+
+/// What impacts make of the estimate is admissible if the case says so; the choice itself is the same.
+#[test]
+fn impacts_may_have_a_larger_error_than_the_target() {
+    let asked = |set: &[&str]| {
+        let choice = choice("scenes/impact", set);
+        (choice.warnings(), choice.model)
+    };
+    let (usual, model) = asked(&[]);
+    assert!(usual[0].contains("where accuracy.target is 0.010"), "{usual:?}");
+    let (told, same) = asked(&["accuracy.with_impacts=0.011"]);
+    assert!(told[0].contains("where accuracy.with_impacts is 0.011"), "{told:?}");
+    assert_eq!(same, model);
+    assert_eq!(asked(&["accuracy.with_impacts=0.9"]), (Vec::new(), model));
+}
