@@ -106,7 +106,7 @@ impl<'a> Reader<'a> {
                         places.insert(node, place.map(|x| metres * x));
                     })?;
                 }
-                "100CL" if line.columns(56, 58) == FREQUENCIES => modes.extend(self.mode(line)?),
+                "100C" if line.columns(56, 58) == FREQUENCIES => modes.extend(self.mode(line)?),
                 _ => {}
             }
         }

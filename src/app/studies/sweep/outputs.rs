@@ -1,12 +1,16 @@
 //! What of a point's result goes into the tables and plots.
 
-use super::tables::MODEL;
 use super::{Plan, SweptCommand};
 use crate::signal::diagnosis::Fault;
 use serde_json::Value;
 
 /// Most frequencies of a point in the table; its own result has all of them.
 const MOST_FREQUENCIES: usize = 20;
+
+/// Title of the table of what is not a signal or a mode.
+pub(super) const MODEL: &str = "Model";
+/// What the plots of the parts' lines show.
+pub(super) const LINES: &str = "Envelope amplitude";
 
 /// One figure of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,8 +101,10 @@ fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
         ("kurtosis", "kurtosis", "", "Kurtosis"),
     ] {
         let plot = PlotOf { title: axis.to_owned(), axis, curve: title.to_owned() };
-        let output = Output::number(format!("{name}.{key}"), label, unit, &window[key]).in_table(title);
-        outputs.push(Output { plot: Some(plot), indicated: !named.is_empty(), ..output });
+        let output = Output::number(format!("{name}.{key}"), label, unit, &window[key]);
+        // a table with the peak is too wide for a page
+        let table = (key != "peak").then(|| title.to_owned());
+        outputs.push(Output { plot: Some(plot), table, indicated: !named.is_empty(), ..output });
     }
     // that of a whitened signal has no unit
     let unit = if window["whitened"] == true { "" } else { "m/s^2" };
@@ -112,7 +118,7 @@ fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
         }
         let plot = PlotOf {
             title: format!("Envelope at the lines of the bearing's parts: {title}"),
-            axis: "Envelope amplitude",
+            axis: LINES,
             curve: line.to_owned(),
         };
         let indicated = named.iter().any(|fault| found["fault"] == fault.name());

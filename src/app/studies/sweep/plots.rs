@@ -1,14 +1,14 @@
 //! The figures of a sweep over what was varied.
 
 use super::SweepResult;
-use super::outputs::PlotOf;
+use super::outputs::{LINES, PlotOf};
 use super::result::{NamedColumn, Values};
-use super::tables::Scaled;
-use crate::report::{Abscissa, Axis as PlotAxis, Curve, Plot, Symbol};
+use super::tables::{Scaled, last_name};
+use crate::report::{Abscissa, Axis as PlotAxis, Curve, CurveStyle, Plot, Symbol};
 
 /// Most curves of a plot: as many as can be told apart.
 const MOST_CURVES: usize = 12;
-/// Colours of curves; a further one has the next symbol.
+/// Colours of curves; further ones are dashed and have the next symbol.
 const COLOURS: usize = 6;
 const SYMBOLS: [Symbol; 4] = [Symbol::Dot, Symbol::Diamond, Symbol::Square, Symbol::Triangle];
 
@@ -37,6 +37,8 @@ pub(super) fn plots(result: &SweepResult) -> Vec<Plot> {
             titles.push(plot);
         }
     }
+    // what a fault is looked for by comes first
+    titles.sort_by_key(|plot| plot.axis != LINES);
     let of_title = |of: &PlotOf| {
         let same = |column: &&NamedColumn| column.plot.as_ref().is_some_and(|plot| plot.title == of.title);
         let columns: Vec<&NamedColumn> = figures.iter().filter(same).collect();
@@ -93,12 +95,6 @@ fn families(result: &SweepResult, varied: &[NamedColumn], place: usize, column: 
     families
 }
 
-/// The key's own name, without its path.
-fn last_name(key: &str) -> &str {
-    let name = key.rsplit('.').find(|name| !name.bytes().all(|b| b.is_ascii_digit()));
-    name.unwrap_or(key)
-}
-
 /// A value of a column with its unit.
 fn in_words(column: &NamedColumn, row: usize) -> String {
     match &column.values {
@@ -127,7 +123,8 @@ fn draw(mut plot: Plot, mut families: Vec<Family>, key: &NamedColumn) -> Plot {
         let (x, y) = points(&family.points);
         let labels = family.points.iter().map(|point| format!("{}, {}", family.name, scaled.words(point.x)));
         let symbol = SYMBOLS[(number / COLOURS) % SYMBOLS.len()];
-        let line = Curve::new(family.name.clone(), x.clone(), y.clone()).colour(number);
+        let style = if (number / COLOURS).is_multiple_of(2) { CurveStyle::Line } else { CurveStyle::Dashed };
+        let line = Curve::new(family.name.clone(), x.clone(), y.clone()).style(style).colour(number);
         plot = plot.curve(line).curve(Curve::new("", x, y).points(symbol).colour(number).labels(labels.collect()));
     }
     let indicated: Vec<At> =
@@ -136,7 +133,8 @@ fn draw(mut plot: Plot, mut families: Vec<Family>, key: &NamedColumn) -> Plot {
     if !indicated.is_empty() {
         let (x, y) = points(&indicated);
         plot = plot.curve(Curve::new("fault indicated", x, y).points(Symbol::Ring).colour(COLOURS - 1));
-        caption.push_str(" A ring is around points at which the verdict indicates a fault of that part, or of any.");
+        let part = if plot.y.label == LINES { " of that part" } else { "" };
+        caption.push_str(&format!(" A ring is around points at which the verdict indicates a fault{part}."));
     }
     if left_out > 0 {
         caption.push_str(&format!(" {left_out} curves more, all below these, are in sweep.csv alone."));
@@ -176,6 +174,7 @@ mod tests {
     fn the_amplitude_of_a_faults_line_stands_over_what_was_varied_in_its_unit() {
         let plots = plots(&dents());
         let lines = plots.iter().find(|plot| plot.title.starts_with("Envelope at the lines")).unwrap();
+        assert_eq!(lines.title, plots[0].title, "what a fault is looked for by comes first");
         assert_eq!([lines.x.label.as_str(), &lines.x.unit], ["bearing.defects[0].depth", "m"]);
         assert_eq!([lines.y.label.as_str(), &lines.y.unit], ["Envelope amplitude", "m/s^2"]);
         let named = lines.curves.iter().filter(|curve| !curve.name.is_empty());

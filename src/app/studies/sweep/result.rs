@@ -2,8 +2,7 @@
 //!
 //! What became of one point.
 
-use super::outputs::{Output, PlotOf, outputs_of, plain};
-use super::tables::MODEL;
+use super::outputs::{MODEL, Output, PlotOf, outputs_of, plain};
 use super::unit::unit_of;
 use super::{Plan, SweepPoint};
 use crate::app::error::ComputeError;

@@ -1,11 +1,10 @@
 //! The tables of a sweep's page: narrow ones, one a window or part of the model, in units that a reader takes in.
 
 use super::SweepResult;
+use super::outputs::MODEL;
 use super::result::{NamedColumn, Values};
 use crate::report::{Cell, Column, Table, display_unit, pretty_unit};
 
-/// Title of the table of what is not a signal or a mode.
-pub(super) const MODEL: &str = "Model";
 /// Most figures in a table: more do not fit a page beside what was varied.
 const MOST_FIGURES: usize = 8;
 /// Digits of a figure.
@@ -42,7 +41,13 @@ impl SweepResult {
     }
 
     fn table_of(&self, title: &str, figures: &[&NamedColumn]) -> Table {
-        let (axes, states) = (self.axes(), self.states());
+        let (mut axes, states) = (self.axes(), self.states());
+        let names: Vec<String> = axes.iter().map(|axis| last_name(&axis.label).to_owned()).collect();
+        for (axis, name) in axes.iter_mut().zip(&names) {
+            if names.iter().filter(|other| *other == name).count() == 1 {
+                axis.label.clone_from(name);
+            }
+        }
         let all_done = self.not_done().next().is_none();
         let states = Some(&states).filter(|_| !all_done);
         let columns: Vec<&NamedColumn> = axes.iter().chain(states).chain(figures.iter().copied()).collect();
@@ -56,6 +61,12 @@ impl SweepResult {
             std::iter::once(Cell::text(number.to_string()).value(number as f64)).chain(cells)
         }))
     }
+}
+
+/// The key's own name, without its path.
+pub(super) fn last_name(key: &str) -> &str {
+    let name = key.rsplit('.').find(|name| !name.bytes().all(|b| b.is_ascii_digit()));
+    name.unwrap_or(key)
 }
 
 /// A column in the unit in which it is shown.
@@ -75,10 +86,12 @@ impl Shown {
             }
         };
         let scaled = Scaled::of(column.unit, numbers);
+        // counts
+        let whole = numbers.iter().all(|number| number.is_nan() || number.fract().abs() < f64::MIN_POSITIVE);
         let cell = |&value: &f64| {
             let value = Some(value / scaled.factor).filter(|value| value.is_finite());
             match value {
-                Some(value) if typed => Cell::text(short(value)).value(value),
+                Some(value) if typed || whole => Cell::text(short(value)).value(value),
                 value => Cell::number_or(value, DIGITS, "–"),
             }
         };
@@ -136,8 +149,8 @@ mod tests {
         let titles: Vec<&str> = tables.iter().map(|table| table.caption.as_str()).collect();
         assert_eq!(titles, ["Model", "Eigenfrequencies"]);
         let heads: Vec<&str> = tables[1].columns.iter().map(|column| column.title.as_str()).collect();
-        assert_eq!(heads, ["point", "ring.nodes", "ring.element", "state", "mode 1", "mode 2", "mode 3"]);
-        assert_eq!(tables[1].rows[0][4].text, "8201");
+        assert_eq!(heads, ["point", "nodes", "element", "state", "mode 1", "mode 2", "mode 3"]);
+        assert_eq!(tables[1].rows[1][4].text, "8100");
         assert_eq!(tables[1].rows[2][4].text, "–");
     }
 

@@ -19,7 +19,7 @@ const NAMES: [(&str, &[&str]); 13] = [
     ("N", &["force"]),
     ("1/s", &["alpha"]),
     ("s/m", &["contact_damping"]),
-    ("", &["zero_deg"]), // a direction
+    ("", &["spectral_radius", "zero_deg"]), // of a method; a direction
 ];
 
 /// The unit of the numbers under a key, as `--set` names it ("" for none, or where it depends on other keys).

@@ -296,3 +296,27 @@ fn one_direction_a_place_is_compared_along_it() {
     });
     assert!(!as_if_in_space.expect("compares").ok);
 }
+
+/// `tests/data/frd/cube.frd` is of CalculiX 2.20 on the same mesh, in mm, t and MPa.
+#[test]
+fn modes_of_calculix_are_those_of_this_program() {
+    const CUBE: &str = "[materials.of_ccx]\nyoung = 210e9\npoisson = 0.3\ndensity = 7850\n\
+        [housing]\nmesh = \"../tests/data/cube_tet10_msh22.msh\"\nlength_unit = \"mm\"\n\
+        parts = [{ group = \"body\", material = \"of_ccx\" }]\n[modes]\ncount = 9\n";
+    let compared = |more: &str| {
+        let case = case(&format!("{CUBE}compare = [{{ file = \"../tests/data/frd/cube.frd\", {more} }}]\n"));
+        let result = compute_modes(&case, &Unwatched).expect("modes");
+        let files = ComparedFile::read_all(&case).expect("a file of modes");
+        files[0].compare(&result.survey, result.mesh_and_model())
+    };
+    // six digits of displacements
+    let found = compared("mac = 0.999999, within = 1e-4").expect("compares");
+    assert!(found.ok, "{:?}", found.pairs);
+    assert_eq!(
+        (found.points.by, found.points.matched, found.pairs.last().unwrap().here.len()),
+        (MatchedBy::Tag, 125, 1)
+    );
+    // the file does not say its unit: that of the mesh unless told
+    let error = compared("length_unit = \"m\"").expect_err("a cube of 1 m");
+    assert!(error.help().unwrap().contains("`length_unit` the unit of a .frd file"), "{error}");
+}
