@@ -309,8 +309,9 @@ fn modes_of_calculix_are_those_of_this_program() {
         let files = ComparedFile::read_all(&case).expect("a file of modes");
         files[0].compare(&result.survey, result.mesh_and_model())
     };
-    // six digits of displacements
-    let found = compared("mac = 0.999999, within = 1e-4").expect("compares");
+    // CalculiX integrates the mass of a Tet10 with four points: 0.5 % on a mesh of two elements a side. With the full mass
+    // the seventh frequency of this mesh is 1524499.6 Hz, with four points 1531366.2 Hz, as in the file
+    let found = compared("mac = 0.99, within = 6e-3").expect("compares");
     assert!(found.ok, "{:?}", found.pairs);
     assert_eq!(
         (found.points.by, found.points.matched, found.pairs.last().unwrap().here.len()),
