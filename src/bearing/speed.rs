@@ -20,19 +20,56 @@
 //! the piece to the right.
 
 use super::error::{BearingError, refused};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::{Deserializer, Error, Unexpected};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Shaft speed at a time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// Shaft speed at a time. A file gives it by `hz` or by `rpm`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SpeedKnot {
     /// In s.
     pub time: f64,
     /// Revolutions per second, positive from +x towards +y; negative turns clockwise.
     #[serde(rename = "hz")]
     pub frequency_hz: f64,
+}
+
+/// Shaft speed at a time: exactly one of `hz` and `rpm`, positive from +x towards +y; negative turns clockwise.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = serde_json::json!([{ "required": ["hz"] }, { "required": ["rpm"] }])))]
+struct SpeedKnotForm {
+    /// In s.
+    time: f64,
+    /// Revolutions per second.
+    hz: Option<f64>,
+    /// Revolutions per minute.
+    rpm: Option<f64>,
+}
+
+impl<'de> Deserialize<'de> for SpeedKnot {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let SpeedKnotForm { time, hz, rpm } = SpeedKnotForm::deserialize(from)?;
+        let wrong = |found| Err(D::Error::invalid_value(Unexpected::Other(found), &"exactly one of `hz`, `rpm`"));
+        match (hz, rpm) {
+            (Some(frequency_hz), None) => Ok(Self { time, frequency_hz }),
+            (None, Some(rpm)) => Ok(Self { time, frequency_hz: rpm / 60.0 }),
+            (None, None) => wrong("none of them"),
+            (Some(_), Some(_)) => wrong("both"),
+        }
+    }
+}
+
+impl JsonSchema for SpeedKnot {
+    fn schema_name() -> Cow<'static, str> {
+        "SpeedKnot".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        SpeedKnotForm::json_schema(generator)
+    }
 }
 
 /// Piecewise linear speed over time.

@@ -5,6 +5,7 @@
 //! | VTK XML unstructured grid ([`vtu`]) | `.vtu` | mesh, fields | |
 //! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes, frequency responses | mode shapes, frequency responses |
 //! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
+//! | result file of CalculiX ([`frd`]) | `.frd` | | mode shapes |
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
@@ -22,6 +23,7 @@ pub mod csv;
 pub mod dof_table;
 mod error;
 mod fortran;
+pub mod frd;
 pub mod matrix_market;
 pub mod measured;
 mod mode_shapes;
@@ -37,12 +39,14 @@ pub(crate) use columns::column_name;
 pub use csv::{read_modes_csv, write_modes_csv};
 pub use dof_table::{DofBody, DofDirection, DofLabel, write_dofs_csv, write_dofs_npz};
 pub use error::FormatError;
+pub use frd::read_modes_frd;
 pub use matrix_market::{write_dense_matrix_market, write_matrix_market};
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::ModeShapes;
 pub use npz::{NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, write_modes_npz, write_sparse_npz};
 pub use op4::{Op4Format, Op4Matrix, op4_from_bytes, read_op4, write_op4};
 pub use read_modes::read_mode_shapes;
+pub(crate) use read_modes::read_mode_shapes_in;
 pub use superelement::{
     FieldRecovery, InterfaceRecovery, MbdynReference, MbdynSummary, SensorRow, SuperelementRecord,
     read_superelement_npz, read_superelement_op4, write_mbdyn_fem, write_superelement_npz, write_superelement_op4,

@@ -18,6 +18,9 @@ pub struct ModeShapes {
     pub points: Option<Vec<[f64; 3]>>,
     /// Displacements of each mode: (u_x, u_y, u_z) of the first point, of the second, ...
     pub shapes: Vec<Vec<f64>>,
+    /// The one direction in which each point was measured, of length 1; its displacements are along it. A point stands there
+    /// once for each of its directions. `None`: displacements are known in space.
+    pub directions: Option<Vec<[f64; 3]>>,
 }
 
 impl ModeShapes {
@@ -78,12 +81,41 @@ impl ModeShapes {
             }
         }
         let mut seen = HashSet::new();
-        let mut tags = self.node_tags.iter().flatten();
-        match tags.find(|&&tag| !seen.insert(tag)) {
-            Some(tag) => Err(Fault::new("each node once", format!("node {tag} twice"))),
+        let mut tags = self.node_tags.iter().flatten().enumerate();
+        if let Some(directions) = &self.directions {
+            let found = format_args!("{} directions at {count} points", directions.len());
+            Fault::unless(directions.len() == count, "a direction a point", found)?;
+            let mut seen = HashSet::new();
+            // of opposite ones one is enough
+            let mut twice = tags.find(|&(row, tag)| !seen.insert((tag, directions[row].map(|x| x.abs().to_bits()))));
+            return match twice.take() {
+                Some((_, tag)) => Err(Fault::new("each direction of a node once", format!("node {tag} twice in one"))),
+                None => Ok(()),
+            };
+        }
+        match tags.find(|&(_, &tag)| !seen.insert(tag)) {
+            Some((_, tag)) => Err(Fault::new("each node once", format!("node {tag} twice"))),
             None => Ok(()),
         }
     }
+}
+
+/// Real part of a complex shape turned by the angle that makes its imaginary part least.
+///
+/// For `phi exp(-i a)` the sum of squared imaginary parts is `(sum |phi|^2 - Re(exp(-2 i a) sum phi^2)) / 2`, least at
+/// `a = arg(sum phi^2) / 2`. Real shapes are left as they are.
+pub(super) fn real_part(shape: &[[f64; 2]]) -> Vec<f64> {
+    // so that squares neither overflow nor vanish
+    let largest = shape.as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let scale = if largest > 0.0 { largest } else { 1.0 };
+    let [mut real, mut imaginary] = [0.0, 0.0];
+    for [re, im] in shape {
+        let (re, im) = (re / scale, im / scale);
+        real += re * re - im * im;
+        imaginary += 2.0 * re * im;
+    }
+    let (sine, cosine) = (imaginary.atan2(real) / 2.0).sin_cos();
+    shape.iter().map(|[re, im]| re * cosine + im * sine).collect()
 }
 
 #[cfg(test)]
@@ -100,6 +132,7 @@ pub(super) mod samples {
                 vec![1.0, 0.0, -0.5, 0.25, 1e-3, 0.0, -1.0, 2.0 / 3.0, 1e-30],
                 vec![0.1, 0.2, 0.3, -0.4, 0.5, 0.6, 0.7, -0.8, 0.9],
             ],
+            directions: None,
         }
     }
 }

@@ -74,6 +74,16 @@ pub(crate) fn quantity(value: f64, unit: &str) -> String {
     format!("{} {}", given(value / shown.factor), shown.text)
 }
 
+/// A shaft's speed in both units that people use, with so many significant digits each: "29.95 Hz (1797 rpm)".
+///
+/// ```
+/// use plummer::report::shaft_speed;
+/// assert_eq!(shaft_speed(25.0, 3), "25.0 Hz (1500 rpm)");
+/// ```
+pub fn shaft_speed(hz: f64, digits: usize) -> String {
+    format!("{} Hz ({} rpm)", significant(hz, digits), significant(60.0 * hz, digits.max(4)))
+}
+
 /// A whole number in superscript digits.
 pub(super) fn superscript(n: i32) -> String {
     n.to_string().chars().map(raised).collect()
@@ -117,16 +127,16 @@ pub(super) fn raised_powers(text: &str) -> String {
 
 /// By what an axis' values are divided, and how its unit is written then.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct DisplayUnit {
+pub(crate) struct DisplayUnit {
     /// Shown value = value / factor.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
     /// The unit with its prefix or power of ten.
-    pub(super) text: String,
+    pub(crate) text: String,
 }
 
 /// Chooses a prefix such that a largest absolute value reads from 0.1 to below 10 000; for units that take no prefix a
 /// power of ten outside 0.001 .. 1 000 000.
-pub(super) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
+pub(crate) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
     const PREFIXES: [(i32, &str); 8] =
         [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
     let takes_prefix = matches!(unit, "Hz" | "s" | "m" | "N" | "Pa" | "W" | "J" | "V" | "N/m");

@@ -191,7 +191,7 @@ fn wrong_files_are_exit_code_2_with_file_and_line() {
     assert_eq!(errors("no.csv"), "error: cannot read no.csv: No such file or directory (os error 2)\n");
     assert_eq!(
         errors("ring.toml"),
-        "error: expected a file of mode shapes (.npz, .csv, .uff or .unv), found ring.toml\n"
+        "error: expected a file of mode shapes (.npz, .csv, .uff, .unv or .frd), found ring.toml\n"
     );
     let far = "mode,frequency_hz,x,y,z,ux,uy,uz\n1,500,9,0,0,1,0,0\n1,500,0,9,0,1,0,0\n1,500,6,0,0,1,0,0\n";
     fs::write(folder.join("far.csv"), far).unwrap();

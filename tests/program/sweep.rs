@@ -208,6 +208,19 @@ fn interrupted_runs_go_on() {
     }
     let rms = |out: &str| json(&folder.join(out).join("sweep.json"))["done"].clone();
     assert_eq!(rms("parts"), rms("whole"));
+    // page, CSV and JSON have the amplitudes of the parts' lines over what was varied, in its unit
+    let sweep = json(&folder.join("whole/sweep.json"));
+    assert_eq!(sweep["axes"][0]["unit"], "kg");
+    let amplitude = |point: usize| sweep["points"][point]["figures"]["P1.1.BPFO.1"].as_f64().unwrap();
+    assert!(amplitude(0) > 0.0 && amplitude(1) > 0.0);
+    let page = fs::read_to_string(folder.join("whole/report.html")).unwrap();
+    for text in ["Envelope at the lines of the bearing", "shaft.mass [kg]", "BPFO", "2 x BSF"] {
+        assert!(page.contains(text), "{text}");
+    }
     let header = fs::read_to_string(folder.join("whole/sweep.csv")).unwrap();
-    assert!(header.starts_with("point,shaft.mass,state,wall_s [s],P1.1.speed_hz [Hz],P1.1.rms [m/s²],"), "{header}");
+    assert!(header.contains(",P1.1.BPFO.1 [m/s²],"), "{header}");
+    assert!(
+        header.starts_with("point,shaft.mass [kg],state,wall_s [s],P1.1.speed_hz [Hz],P1.1.rms [m/s²],"),
+        "{header}"
+    );
 }

@@ -98,7 +98,8 @@ fn words_against_the_file_are_said() {
     file.array("speed_hz", &[30.5]).unwrap();
     file.finish().unwrap();
     let output = analyze(&folder, "own.npz", "--bearing 6205 --rate 8000");
-    let said = "--speed takes 29.9500 Hz, on the average, for what the file says are 30.5000 Hz";
+    let said =
+        "--speed takes 29.9500 Hz (1797.00 rpm), on the average, for what the file says are 30.5000 Hz (1830.00 rpm)";
     assert!(errors(&output).contains(said), "{}", errors(&output));
     let output = analyze(&folder, "good.csv", "--orders outer=3.585,inner=3.585");
     assert_eq!(output.status.code(), Some(2));

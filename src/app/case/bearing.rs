@@ -187,6 +187,8 @@ pub enum Slip {
     OverTime(Vec<(f64, f64)>),
     /// Magnitude of the shaft's speed (Hz) and slip, at least one point, speeds not below 0 and increasing.
     OverSpeed(Vec<(f64, f64)>),
+    /// The same with speeds in revolutions per minute.
+    OverRpm(Vec<(f64, f64)>),
 }
 
 impl Default for Slip {
@@ -212,17 +214,21 @@ struct SlipPoint {
     /// Speed of the shaft in Hz, >= 0; in every point, or in none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     hz: Option<f64>,
+    /// Speed of the shaft in revolutions per minute, >= 0; in every point, or in none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rpm: Option<f64>,
     /// Share of the cage's rolling speed that is lost, >= 0 and < 1.
     slip: f64,
 }
 
-/// Every point over time, or every point over speed.
+/// Every point over time, or every point over speed in the same unit.
 fn one_axis() -> Value {
-    let over = |key, other| {
-        let point = json!({ "required": [key], "not": { "required": [other] } });
+    let over = |key, others: [&str; 2]| {
+        let other = others.map(|other| json!({ "required": [other] }));
+        let point = json!({ "required": [key], "not": { "anyOf": other } });
         json!({ "properties": { "profile": { "items": point } } })
     };
-    json!([over("time", "hz"), over("hz", "time")])
+    json!([over("time", ["hz", "rpm"]), over("hz", ["time", "rpm"]), over("rpm", ["time", "hz"])])
 }
 
 written_as!(Slip, Loose<SlipForm>, or_table::<SlipForm>(vec![number()]), |form| {
@@ -231,39 +237,40 @@ written_as!(Slip, Loose<SlipForm>, or_table::<SlipForm>(vec![number()]), |form| 
         Loose::Whole(slip) => return Ok(Self::Constant(slip as f64)),
         Loose::Table(form) => form,
         other => {
-            return Err(other.mismatch(&[], "a number, or { profile = [{ time or hz, slip }, ...] }"));
+            return Err(other.mismatch(&[], "a number, or { profile = [{ time, hz or rpm, slip }, ...] }"));
         }
     };
-    let points = form.profile.iter();
-    let over_time = points.clone().map(|point| match (point.time, point.hz) {
-        (Some(time), None) => Some((time, point.slip)),
-        _ => None,
-    });
-    if let Some(points) = over_time.collect() {
-        return Ok(Self::OverTime(points));
-    }
-    let over_speed = points.map(|point| match (point.time, point.hz) {
-        (None, Some(hz)) => Some((hz, point.slip)),
-        _ => None,
-    });
-    if let Some(points) = over_speed.collect() {
-        return Ok(Self::OverSpeed(points));
-    }
-    Err(mismatch(
-        "points with neither, both, or now the one and now the other",
-        "`time` in every point, or `hz` in every point",
-    ))
+    let over = |key: fn(&SlipPoint) -> [Option<f64>; 3]| -> Option<Vec<(f64, f64)>> {
+        let point = |point: &SlipPoint| match key(point) {
+            [Some(place), None, None] => Some((place, point.slip)),
+            _ => None,
+        };
+        form.profile.iter().map(point).collect()
+    };
+    let over_time = over(|point| [point.time, point.hz, point.rpm]).map(Self::OverTime);
+    let over_speed = over(|point| [point.hz, point.time, point.rpm]).map(Self::OverSpeed);
+    let over_rpm = over(|point| [point.rpm, point.time, point.hz]).map(Self::OverRpm);
+    over_time.or(over_speed).or(over_rpm).ok_or_else(|| {
+        mismatch(
+            "points with none, several, or now the one and now the other",
+            "`time` in every point, or `hz` in every point, or `rpm` in every point",
+        )
+    })
 });
 
 impl From<Slip> for Loose<SlipForm> {
     fn from(slip: Slip) -> Self {
+        let none = |slip| SlipPoint { time: None, hz: None, rpm: None, slip };
         let profile = match slip {
             Slip::Constant(slip) => return Self::Number(slip),
             Slip::OverTime(points) => {
-                points.into_iter().map(|(time, slip)| SlipPoint { time: Some(time), hz: None, slip }).collect()
+                points.into_iter().map(|(time, slip)| SlipPoint { time: Some(time), ..none(slip) }).collect()
             }
             Slip::OverSpeed(points) => {
-                points.into_iter().map(|(hz, slip)| SlipPoint { time: None, hz: Some(hz), slip }).collect()
+                points.into_iter().map(|(hz, slip)| SlipPoint { hz: Some(hz), ..none(slip) }).collect()
+            }
+            Slip::OverRpm(points) => {
+                points.into_iter().map(|(rpm, slip)| SlipPoint { rpm: Some(rpm), ..none(slip) }).collect()
             }
         };
         Self::Table(SlipForm { profile })

@@ -15,12 +15,15 @@ fn slip_is_a_number_or_a_table_over_time_or_speed() {
     assert!(matches!(over, Slip::OverTime(points) if near(points[1].0, 1.0)));
     let over = slip("{profile=[{hz=0,slip=0.1},{hz=20,slip=0}]}").unwrap();
     assert!(matches!(over, Slip::OverSpeed(points) if near(points[1].0, 20.0)));
+    let over = slip("{profile=[{rpm=0,slip=0.1},{rpm=1200,slip=0}]}").unwrap();
+    assert!(matches!(over, Slip::OverRpm(points) if near(points[1].0, 1200.0)));
     for (set, message) in [
         (
-            "{profile=[{hz=0,slip=0.1},{time=20,slip=0}]}",
-            "found points with neither, both, or now the one and now the other, expected `time` in every point, or `hz` in every point",
+            "{profile=[{hz=0,slip=0.1},{rpm=20,slip=0}]}",
+            "found points with none, several, or now the one and now the other, expected `time` in every point, or `hz` in every point, or `rpm` in every point",
         ),
-        ("[0,0.1]", "found an array, expected a number, or { profile = [{ time or hz, slip }, ...] }"),
+        ("[0,0.1]", "found an array, expected a number, or { profile = [{ time, hz or rpm, slip }, ...] }"),
+        ("{profile=[{rpm=-60,slip=0.1}]}", "`bearing.slip.profile[0].rpm`: found -60, expected a number not below 0"),
         ("{profile=[{hz=-1,slip=0.1}]}", "`bearing.slip.profile[0].hz`: found -1, expected a number not below 0"),
         ("{profile=[{hz=1,slip=1}]}", "`bearing.slip.profile[0].slip`: found 1, expected a number from 0 to below 1"),
         (
@@ -30,6 +33,27 @@ fn slip_is_a_number_or_a_table_over_time_or_speed() {
         ("{profile=[]}", "expected at least one point"),
     ] {
         let error = slip(set).unwrap_err().to_string();
+        assert!(error.contains(message), "{set}: {error}");
+    }
+}
+
+#[test]
+fn a_speed_is_in_hz_or_in_rpm() {
+    let speed = |set: &[&str]| read(FULL, set).map(|case| case.speed.unwrap().profile);
+    let profile = speed(&["speed.profile=[{time=0,rpm=1500},{time=2,hz=30}]"]).unwrap();
+    assert!(near(profile[0].frequency_hz, 25.0) && near(profile[1].frequency_hz, 30.0));
+    // of the two, what is set takes the place of what is there
+    let profile = speed(&["speed.profile=[{time=0,hz=10}]", "speed.profile[0].rpm=1770"]).unwrap();
+    assert!(near(profile[0].frequency_hz, 29.5));
+    let profile = speed(&["speed.profile=[{time=0,rpm=10}]", "speed.profile[0].hz=29.5"]).unwrap();
+    assert!(near(profile[0].frequency_hz, 29.5));
+    for (set, message) in [
+        ("[{time=0}]", "`speed.profile[0]`: found none of them, expected exactly one of `hz`, `rpm`"),
+        ("[{time=0,hz=25,rpm=1500}]", "`speed.profile[0]`: found both, expected exactly one of `hz`, `rpm`"),
+        ("[{time=0,rpm=\"fast\"}]", "`speed.profile[0].rpm`: found \"fast\", expected a number"),
+        ("[{time=0,rpms=1500}]", "unknown key `speed.profile[0].rpms`"),
+    ] {
+        let error = speed(&[&format!("speed.profile={set}")]).unwrap_err().to_string();
         assert!(error.contains(message), "{set}: {error}");
     }
 }

@@ -9,6 +9,7 @@ use serde_json::json;
 use super::schema::together;
 use super::union::{mismatch, read_as};
 use crate::fe::modal::ModeRange;
+use crate::numerics::units::LengthUnit;
 
 /// What the `modes` command computes and checks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -140,7 +141,7 @@ read_as!(Modes, ModesForm, |form| {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedModes {
-    /// File of mode shapes (`.npz`, `.csv`, `.uff`, `.unv`). Relative paths in a case file are relative to that file; here
+    /// File of mode shapes (`.npz`, `.csv`, `.uff`, `.unv`, `.frd`). Relative paths in a case file are relative to that file; here
     /// they are resolved.
     pub file: PathBuf,
     /// Where they come from; empty: the file's name says it.
@@ -156,6 +157,9 @@ pub struct ComparedModes {
     /// Distance in m up to which a point of the file is a node of this model, > 0; `None`: a thousandth of the model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points_within: Option<f64>,
+    /// Unit of length of the coordinates in a `.frd` file, which does not say it; `None`: that of the housing's mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<LengthUnit>,
 }
 
 fn default_mac() -> f64 {

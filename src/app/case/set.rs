@@ -25,10 +25,24 @@ pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), R
     let value = read_value(value, mark)?;
     let mut node = root;
     for (depth, step) in steps.iter().enumerate() {
+        if let (Value::Table(entries), Step::Key(key), true) = (&mut node.value, step, depth + 1 == steps.len())
+            && let Some(other) = in_place_of(key)
+        {
+            entries.remove(other);
+        }
         node = descend(node, &steps[..depth], step, mark)?;
     }
     *node = value;
     Ok(())
+}
+
+/// The key that says the same in another unit: of the two a table has one, and what is set takes the place of what is there.
+fn in_place_of(key: &str) -> Option<&'static str> {
+    match key {
+        "hz" => Some("rpm"),
+        "rpm" => Some("hz"),
+        _ => None,
+    }
 }
 
 /// The first argument of which a later one leaves nothing, and that one: it sets the same key, or a table or array around it.
@@ -46,6 +60,7 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
     let names = |argument: &String| -> Option<Vec<String>> {
         let (key, _) = split_argument(argument)?;
         let name = |step: Step| match step {
+            Step::Key(key) if key == "rpm" => "hz".to_owned(),
             Step::Key(key) => key,
             Step::Index(index) => index.to_string(),
         };

@@ -98,7 +98,7 @@ many files in one table
   plummer analyze records/*.csv --bearing 6205 --speed 1797rpm --out out/records
 
 Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
-the header: P1 (m/s^2); decimal points), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+the header: P1 (m/s^2); decimal points or commas), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
 
 Several files: the table has a row for each file, channel and window. Every channel counts unless --channel names some. A file
 that cannot be analysed has a row that says why, the others are analysed, and the exit code is 2.

@@ -14,6 +14,7 @@ use crate::system::Column;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -105,7 +106,7 @@ pub(super) fn write_modes(folder: &OutputFolder, result: &ModesResult) -> Result
     Ok(path)
 }
 
-/// `signals.npz`.
+/// `signals.npz`: the columns of the record, then the shaft's speed and its angle since t = 0, which goes on over the turns.
 ///
 /// # Errors
 /// [`CliError`] if it cannot be written.
@@ -125,6 +126,18 @@ pub(super) fn write_signals<R: Recording>(
         };
         let mut array = npz.begin(name, shape)?;
         record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
+        array.end()?;
+    }
+    // what the case prescribes, at the instants of the signals
+    let shaft = result.scene.setup.cage.shaft();
+    let at: [(&str, &dyn Fn(f64) -> f64); 2] =
+        [("shaft_speed_hz", &|time| shaft.speed(time) / TAU), ("shaft_angle_rad", &|time| shaft.angle(time))];
+    for (name, value) in at {
+        let mut array = npz.begin(name, &[rows])?;
+        record.read(Column::Time, 0..rows, &mut |times| {
+            let values: Vec<f64> = times.iter().map(|&time| value(time)).collect();
+            Ok(array.extend(&values)?)
+        })?;
         array.end()?;
     }
     npz.finish()?;

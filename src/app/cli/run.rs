@@ -177,11 +177,12 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         lines.push(format!(
-            "{} from {} to {} s (shaft {:.2} Hz): rms {} m/s^2, peak {} m/s^2",
+            "{} from {} to {} s (shaft {:.2} Hz, {} rpm): rms {} m/s^2, peak {} m/s^2",
             window.sensor,
             given(window.from),
             given(window.to),
             window.speed_hz,
+            significant(60.0 * window.speed_hz, 4),
             significant(window.rms, 3),
             significant(window.peak, 3)
         ));

@@ -138,6 +138,10 @@ pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
         Slip::Constant(slip) => SlipProfile::constant(*slip),
         Slip::OverTime(points) => SlipProfile::over_time(points),
         Slip::OverSpeed(points) => SlipProfile::over_speed(points),
+        Slip::OverRpm(points) => {
+            let points: Vec<_> = points.iter().map(|(rpm, slip)| (rpm / 60.0, *slip)).collect();
+            SlipProfile::over_speed(&points)
+        }
     };
     profile.map_err(ComputeError::bearing(""))
 }

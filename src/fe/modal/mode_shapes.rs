@@ -27,7 +27,7 @@ pub(crate) fn mode_set(
         }
     });
     let node_tags = housing.filter(|_| ring.is_none()).map(|(mesh, ..)| mesh.node_tags.clone());
-    ModeSet { frequencies_hz: frequencies_hz.to_vec(), points, node_tags, shapes }
+    ModeSet { frequencies_hz: frequencies_hz.to_vec(), points, node_tags, shapes, directions: None }
 }
 
 /// A mode that belongs to another one.

@@ -5,6 +5,11 @@
 //! blank lines are left out. Separator: comma or semicolon, whichever the header has; with semicolons, numbers may have a
 //! decimal comma. Every mode has the same points in the same order; modes are in the order of first appearance.
 //!
+//! A measurement by accelerometers of one axis has `mode,frequency_hz,x,y,z,direction,value` or
+//! `mode,frequency_hz,node,direction,value`, after it `imaginary` where shapes are complex: a line a mode and direction of a
+//! place, as in a roving test. A direction is an axis (`x`, `-y`, `+z`) or three numbers with blanks between (`0.6 0.8 0`).
+//! Complex shapes are turned by the angle that makes their imaginary part least, then their real part is taken.
+//!
 //! ```text
 //! # measured on the bench
 //! mode,frequency_hz,node,ux,uy,uz

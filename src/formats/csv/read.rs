@@ -6,6 +6,7 @@ use std::path::Path;
 
 use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 
+use super::super::mode_shapes::real_part;
 use super::super::{FormatError, ModeShapes};
 use crate::files::{Fault, bytes_of};
 
@@ -13,6 +14,11 @@ use crate::files::{Fault, bytes_of};
 pub(super) const BY_POINT: [&str; 8] = ["mode", "frequency_hz", "x", "y", "z", "ux", "uy", "uz"];
 /// The header of a table by labels.
 pub(super) const BY_NODE: [&str; 6] = ["mode", "frequency_hz", "node", "ux", "uy", "uz"];
+
+/// The headers of tables with one direction a place; `imaginary` may follow.
+pub(super) const POINT_AXIS: [&str; 7] = ["mode", "frequency_hz", "x", "y", "z", "direction", "value"];
+pub(super) const NODE_AXIS: [&str; 5] = ["mode", "frequency_hz", "node", "direction", "value"];
+const IMAGINARY: &str = "imaginary";
 
 /// Line of a record: the library tells where it began to look, which may be comments and blank lines before.
 pub(in crate::formats) fn line_of(text: &str, record: &StringRecord) -> u64 {
@@ -43,13 +49,21 @@ enum Place {
     Point([f64; 3]),
 }
 
+/// Where a displacement is, and along what; `None`: in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Spot {
+    place: Place,
+    direction: Option<[f64; 3]>,
+}
+
 /// A mode as gathered so far.
 struct Mode {
     number: u64,
     frequency_hz: f64,
     /// Line of its first row.
     line: u64,
-    shape: Vec<f64>,
+    /// Real and imaginary parts, three a row.
+    shape: Vec<[f64; 2]>,
 }
 
 /// Reads the mode shapes of a table; the format is that of [the module](super).
@@ -93,9 +107,12 @@ impl Row<'_> {
 
     fn real(&self, column: usize, what: &str) -> Result<f64, Fault> {
         let text = self.text(column);
+        self.number(text).ok_or_else(|| self.fault(format!("a number for {what}"), text))
+    }
+
+    fn number(&self, text: &str) -> Option<f64> {
         let value = if self.decimal_comma { text.replace(',', ".").parse::<f64>() } else { text.parse() };
-        let value = value.ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| self.fault(format!("a number for {what}"), text))
+        value.ok().filter(|value| value.is_finite())
     }
 
     fn reals(&self, columns: [usize; 3], what: [&str; 3]) -> Result<[f64; 3], Fault> {
@@ -107,7 +124,7 @@ impl Row<'_> {
 fn read(text: &str) -> Result<ModeShapes, Fault> {
     let semicolon = first_line(text).contains(';');
     let mut table = table_of(text, if semicolon { b';' } else { b',' });
-    let mut columns: Option<&[&str]> = None;
+    let mut columns: Option<Vec<String>> = None;
     let (mut modes, mut places) = (Vec::<Mode>::new(), Vec::new());
     let mut index_of = HashMap::new();
     for record in table.records() {
@@ -120,7 +137,7 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
             continue;
         }
         let row = Row { line: line_of(text, &record), record: &record, decimal_comma: semicolon };
-        let Some(columns) = columns else {
+        let Some(columns) = &columns else {
             columns = Some(header_of(&row)?);
             continue;
         };
@@ -143,57 +160,98 @@ fn read(text: &str) -> Result<ModeShapes, Fault> {
             places.push(place);
         } else if places.get(row_of_mode) != Some(&place) {
             let expected = match places.get(row_of_mode) {
-                Some(first) => format!("{} as in the first mode", place_text(*first)),
+                Some(first) => format!("{} as in the first mode", spot_text(*first)),
                 None => format!("{} points as in the first mode", places.len()),
             };
-            return Err(Fault::new(expected, place_text(place)).line(row.line));
+            return Err(Fault::new(expected, spot_text(place)).line(row.line));
         }
     }
     complete(modes, places)
 }
 
-fn place_text(place: Place) -> String {
-    match place {
+fn spot_text(spot: Spot) -> String {
+    let place = match spot.place {
         Place::Node(tag) => format!("node {tag}"),
         Place::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
+    };
+    match spot.direction {
+        Some([x, y, z]) => format!("{place} along ({x}, {y}, {z})"),
+        None => place,
     }
 }
 
 /// Checks the header and returns it.
-fn header_of(row: &Row) -> Result<&'static [&'static str], Fault> {
+fn header_of(row: &Row) -> Result<Vec<String>, Fault> {
     let names: Vec<String> = row.record.iter().map(str::to_lowercase).collect();
-    let headers: [&[&str]; 2] = [&BY_POINT, &BY_NODE];
-    headers.into_iter().find(|header| names == *header).ok_or_else(|| {
-        let expected = format!("the header {} or {}", BY_POINT.join(","), BY_NODE.join(","));
-        row.fault(expected, names.join(","))
-    })
+    let in_space: [&[&str]; 2] = [&BY_POINT, &BY_NODE];
+    let along: [&[&str]; 2] = [&POINT_AXIS, &NODE_AXIS];
+    let without = match names.split_last() {
+        Some((last, rest)) if last == IMAGINARY => rest,
+        _ => &names,
+    };
+    if in_space.into_iter().any(|header| names == *header) || along.into_iter().any(|header| without == header) {
+        return Ok(names);
+    }
+    let expected = if names.iter().any(|name| name == "direction") {
+        format!("the header {} or {}, and {IMAGINARY} after it or not", POINT_AXIS.join(","), NODE_AXIS.join(","))
+    } else {
+        format!("the header {} or {}", BY_POINT.join(","), BY_NODE.join(","))
+    };
+    Err(row.fault(expected, names.join(",")))
 }
 
-/// Mode, place and displacement of a line.
-fn values(row: &Row, columns: &[&str]) -> Result<(Mode, Place, [f64; 3]), Fault> {
+/// Mode, spot and displacement of a line, real and imaginary.
+fn values(row: &Row, columns: &[String]) -> Result<(Mode, Spot, [[f64; 2]; 3]), Fault> {
     let (number, frequency_hz) = (row.whole(0, "mode")?, row.real(1, "frequency_hz")?);
     let mode = Mode { number, frequency_hz, line: row.line, shape: Vec::new() };
-    let place = if columns.len() == BY_NODE.len() {
-        Place::Node(row.whole(2, "node")?)
+    let (place, next) = if columns[2] == BY_NODE[2] {
+        (Place::Node(row.whole(2, "node")?), 3)
     } else {
-        Place::Point(row.reals([2, 3, 4], ["x", "y", "z"])?)
+        (Place::Point(row.reals([2, 3, 4], ["x", "y", "z"])?), 5)
     };
-    let last = columns.len();
-    let displacement = row.reals([last - 3, last - 2, last - 1], ["ux", "uy", "uz"])?;
-    Ok((mode, place, displacement))
+    if columns[next] != POINT_AXIS[5] {
+        let displacement = row.reals([next, next + 1, next + 2], ["ux", "uy", "uz"])?;
+        return Ok((mode, Spot { place, direction: None }, displacement.map(|real| [real, 0.0])));
+    }
+    let direction = direction(row, next)?;
+    let real = row.real(next + 1, "value")?;
+    let imaginary = if columns.len() > next + 2 { row.real(next + 2, IMAGINARY)? } else { 0.0 };
+    Ok((mode, Spot { place, direction: Some(direction) }, direction.map(|part| [part * real, part * imaginary])))
 }
 
-fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
+/// A direction of length 1: an axis with its sign, or three numbers with blanks between.
+fn direction(row: &Row, column: usize) -> Result<[f64; 3], Fault> {
+    const EXPECTED: &str = "a direction such as x, -y, +z or 0.6 0.8 0";
+    let text = row.text(column);
+    let (sign, axis) = match text.strip_prefix('-') {
+        Some(axis) => (-1.0, axis),
+        None => (1.0, text.strip_prefix('+').unwrap_or(text)),
+    };
+    if let Some(place) = ["x", "y", "z"].iter().position(|name| axis.eq_ignore_ascii_case(name)) {
+        let mut direction = [0.0; 3];
+        direction[place] = sign;
+        return Ok(direction);
+    }
+    let numbers = text.split_whitespace().map(|part| row.number(part)).collect::<Option<Vec<f64>>>();
+    let vector = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+    let length = vector.map(|[x, y, z]| x.hypot(y).hypot(z)).filter(|length| length.is_normal());
+    match vector.zip(length) {
+        Some((vector, length)) => Ok(vector.map(|part| part / length)),
+        None => Err(row.fault(EXPECTED, text)),
+    }
+}
+
+fn complete(modes: Vec<Mode>, places: Vec<Spot>) -> Result<ModeShapes, Fault> {
     if let Some(mode) = modes.iter().find(|mode| mode.shape.len() != 3 * places.len()) {
         let expected = format!("{} points in every mode", places.len());
         let found = format!("{} in mode {}", mode.shape.len() / 3, mode.number);
         return Err(Fault::new(expected, found).line(mode.line));
     }
-    let tag = |place: &Place| match *place {
+    let tag = |spot: &Spot| match spot.place {
         Place::Node(tag) => Some(tag),
         Place::Point(_) => None,
     };
-    let point = |place: &Place| match *place {
+    let point = |spot: &Spot| match spot.place {
         Place::Node(_) => None,
         Place::Point(point) => Some(point),
     };
@@ -201,6 +259,7 @@ fn complete(modes: Vec<Mode>, places: Vec<Place>) -> Result<ModeShapes, Fault> {
         frequencies_hz: modes.iter().map(|mode| mode.frequency_hz).collect(),
         node_tags: places.iter().map(tag).collect(),
         points: places.iter().map(point).collect(),
-        shapes: modes.into_iter().map(|mode| mode.shape).collect(),
+        shapes: modes.iter().map(|mode| real_part(&mode.shape)).collect(),
+        directions: places.iter().map(|spot| spot.direction).collect(),
     })
 }

@@ -37,6 +37,7 @@ fn comments_blank_lines_semicolons_and_decimal_commas_are_read() {
         node_tags: Some(vec![4, 2]),
         points: None,
         shapes: vec![vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0], vec![-1.0, 0.5, 0.0, 1e-3, 0.0, 0.0]],
+        directions: None,
     };
     let comma = "# bench; 3 March\n\n Mode, Frequency_Hz, node, ux, uy, uz\n1,10.5,4,1,2,3\n\n# half\n\
                  1,10.5,2,4,5,6\n7,20,4,-1,0.5,0\n7,20,2,1e-3,0,0\n";
@@ -90,5 +91,47 @@ proptest! {
         if let Ok(modes) = modes_from_bytes(&file, Path::new("r.csv")) {
             prop_assert!(modes.check().is_ok());
         }
+    }
+}
+
+#[test]
+fn one_direction_a_place_is_read() {
+    let read = |text: &str| modes_from_bytes(text.as_bytes(), Path::new("bench.csv"));
+    let real = "mode,frequency_hz,node,direction,value\n1,500,12,z,0.5\n1,500,12,-X,2\n1,500,17,3 0 4,-1\n";
+    let modes = read(real).unwrap();
+    assert_eq!(modes.node_tags, Some(vec![12, 12, 17]));
+    assert_eq!(modes.directions, Some(vec![[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.6, 0.0, 0.8]]));
+    assert_eq!(modes.shapes, [[0.0, 0.0, 0.5, -2.0, 0.0, 0.0, -0.6, 0.0, -0.8]]);
+    // complex, at points, with semicolons and decimal commas: a real shape turned by 30 degrees is the real one, but for its sign
+    let complex = "mode;frequency_hz;x;y;z;direction;value;imaginary\n\
+                   1;500,5;0,01;0;0;z;0,866025403784439;0,5\n1;500,5;0,02;0;0;0,6 0,8 0;-1,732050807568877;-1\n";
+    let modes = read(complex).unwrap();
+    assert_eq!(modes.points, Some(vec![[0.01, 0.0, 0.0], [0.02, 0.0, 0.0]]));
+    let expected = [0.0, 0.0, 1.0, -1.2, -1.6, 0.0];
+    let apart = modes.shapes[0].iter().zip(expected).map(|(found, expected)| (found - expected).abs());
+    assert!(apart.fold(0.0, f64::max) < 1e-12, "{:?}", modes.shapes);
+    for (text, message) in [
+        (
+            "mode,frequency_hz,node,direction,value\n1,5,1,up,1\n",
+            "bench.csv:2: expected a direction such as x, -y, +z or 0.6 0.8 0, found \"up\"",
+        ),
+        (
+            "mode,frequency_hz,node,direction,value\n1,5,1,0 0 0,1\n",
+            "bench.csv:2: expected a direction such as x, -y, +z or 0.6 0.8 0, found \"0 0 0\"",
+        ),
+        (
+            "mode,frequency_hz,node,direction,value\n1,5,1,x,1\n1,5,1,-x,1\n",
+            "bench.csv: expected each direction of a node once, found node 1 twice in one",
+        ),
+        (
+            "mode,frequency_hz,node,direction,value\n1,5,1,x,1\n1,5,1,y,1\n2,6,1,y,1\n2,6,1,x,1\n",
+            "bench.csv:4: expected node 1 along (1, 0, 0) as in the first mode, found node 1 along (0, 1, 0)",
+        ),
+        (
+            "mode,frequency_hz,node,direction\n1,5,1,x\n",
+            "bench.csv:1: expected the header mode,frequency_hz,x,y,z,direction,value or mode,frequency_hz,node,direction,value, and imaginary after it or not, found \"mode,frequency_hz,node,direction\"",
+        ),
+    ] {
+        assert_eq!(read(text).unwrap_err().to_string(), message);
     }
 }

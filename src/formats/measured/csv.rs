@@ -1,5 +1,9 @@
 //! Signals in a table.
+//!
+//! Numbers have a decimal point or, where a semicolon or a tab separates the columns or quotes stand around, a decimal comma:
+//! the same in all of the table, and no sign between thousands.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::rc::Rc;
 
@@ -25,6 +29,8 @@ struct Columns {
 struct Table<'a> {
     path: &'a Path,
     text: &'a str,
+    /// The decimal sign of the first number that has one, and its line.
+    sign: Cell<Option<(char, u64)>>,
 }
 
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
@@ -35,7 +41,7 @@ pub(super) fn from_bytes(bytes: &[u8], path: &Path, request: &SignalRequest) -> 
     // comments may be in any encoding; header and numbers are text
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
-    Table { path, text }.channels(request)
+    Table { path, text, sign: Cell::new(None) }.channels(request)
 }
 
 impl Table<'_> {
@@ -67,7 +73,7 @@ impl Table<'_> {
                 continue;
             };
             // a row of units below the names
-            if first_row == 0 && record.iter().all(|cell| cell.parse::<f64>().is_err() && !is_comma_number(cell)) {
+            if first_row == 0 && record.iter().all(|cell| real(cell).is_none()) {
                 self.units(&record, found)?;
                 continue;
             }
@@ -95,10 +101,6 @@ impl Table<'_> {
     }
 
     fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
-        let line = line_of(self.text, record);
-        if let Some(cell) = record.iter().find(|cell| is_comma_number(cell)) {
-            return Err(self.comma(line, cell));
-        }
         let count = record.len();
         let (names, time): (Vec<(usize, String, String)>, _) = if numbers(record) {
             // without names the first column is the time, unless a rate is given
@@ -150,8 +152,7 @@ impl Table<'_> {
         values: &mut [Vec<f64>],
     ) -> Result<(), MeasuredError> {
         if record.len() != columns.count {
-            let expected = format!("{} columns, as in the first line", columns.count);
-            return Err(self.content(line_of(self.text, record), &expected, &record.len().to_string()));
+            return Err(self.other_columns(record, columns.count));
         }
         if let Some((place, unit)) = columns.time {
             times.push(self.number(record, place, "the time")? * unit);
@@ -164,11 +165,42 @@ impl Table<'_> {
 
     fn number(&self, record: &StringRecord, place: usize, what: &str) -> Result<f64, MeasuredError> {
         let cell = record.get(place).unwrap_or_default();
-        match cell.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ if is_comma_number(cell) => Err(self.comma(line_of(self.text, record), cell)),
-            _ => Err(self.content(line_of(self.text, record), &format!("a finite number for {what}"), cell)),
+        let value = real(cell).filter(|value| value.is_finite());
+        let line = || line_of(self.text, record);
+        let Some(value) = value else {
+            return Err(if cell.contains(',') && cell.contains('.') {
+                self.content(line(), &format!("a number for {what} without a sign between thousands"), cell)
+            } else {
+                self.content(line(), &format!("a finite number for {what}"), cell)
+            });
+        };
+        let sign = cell.chars().find(|sign| matches!(sign, ',' | '.'));
+        match (sign, self.sign.get()) {
+            (Some(sign), None) => self.sign.set(Some((sign, line()))),
+            (Some(sign), Some((first, of))) if sign != first => {
+                let name = |sign| if sign == ',' { "comma" } else { "point" };
+                let expected = format!("a decimal {} for {what}, as in line {of}", name(first));
+                return Err(self.content(line(), &expected, cell));
+            }
+            _ => {}
         }
+        Ok(value)
+    }
+
+    /// A line of more or fewer columns than the first; twice as many may be decimal commas.
+    fn other_columns(&self, record: &StringRecord, count: usize) -> MeasuredError {
+        let (line, found) = (line_of(self.text, record), record.len());
+        let expected = format!("{count} columns, as in the first line");
+        if self.separator() == b',' && found == 2 * count && numbers(record) {
+            let path = self.path.display();
+            return MeasuredError::refused_with(
+                format!(
+                    "{path}:{line}: expected {expected}, found \"{found}\": are commas both separators and decimal signs?"
+                ),
+                "write the table with semicolons between the columns: decimal commas are read then",
+            );
+        }
+        self.content(line, &expected, &found.to_string())
     }
 
     fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
@@ -176,22 +208,18 @@ impl Table<'_> {
         let fault = Fault::new(expected.to_owned(), format!("\"{short}\""));
         fault.line(line).of(self.path).into()
     }
-
-    fn comma(&self, line: u64, found: &str) -> MeasuredError {
-        let path = self.path.display();
-        MeasuredError::refused_with(
-            format!("{path}:{line}: expected numbers with a decimal point, found \"{found}\""),
-            "write the table with decimal points; the separator may stay a semicolon",
-        )
-    }
 }
 
 /// Whether a line has numbers alone.
 fn numbers(record: &StringRecord) -> bool {
-    record.iter().all(|cell| cell.parse::<f64>().is_ok())
+    record.iter().all(|cell| real(cell).is_some())
 }
 
-/// Whether a cell is a number but for its comma.
-fn is_comma_number(cell: &str) -> bool {
-    cell.contains(',') && cell.replacen(',', ".", 1).parse::<f64>().is_ok()
+/// A number with a decimal point, or with one decimal comma in its place.
+fn real(cell: &str) -> Option<f64> {
+    match cell.contains(',') {
+        false => cell.parse().ok(),
+        true if cell.contains('.') => None,
+        true => cell.replacen(',', ".", 1).parse().ok(),
+    }
 }

@@ -76,11 +76,35 @@ fn tables_are_read_with_names_units_and_separators() {
 }
 
 #[test]
+fn decimal_commas_are_read_where_they_separate_no_columns() {
+    let any = request(&[], None);
+    let point = only(table("time;P1 (g)\n0;1\n0.25;-2.5\n0.5;1e-3\n0.75;4\n", &any).unwrap());
+    let german = "# Messung vom 3. Mai\r\nZeit;P1 (g)\r\n0;1\r\n0,25;-2,5\r\n0,5;1,0E-3\r\n0,75;4,000\r\n";
+    assert_eq!(only(table(german, &any).unwrap()), point);
+    // units below the names, tabs, quotes; without names
+    let units = "Zeit\tP1\ns\tg\n0,00\t1\n0,25\t-2,5\n0,50\t0,001\n0,75\t4\n";
+    assert_eq!(only(table(units, &any).unwrap()), point);
+    let quoted = "time,P1 (g)\n\"0,00\",1\n\"0,25\",\"-2,5\"\n\"0,50\",\"0,001\"\n\"0,75\",4\n";
+    assert_eq!(only(table(quoted, &any).unwrap()), point);
+    let bare = only(table("0,00;1\n0,25;-2,5\n0,50;0,001\n0,75;4\n", &any).unwrap());
+    assert_eq!(bare.series.values(), point.series.values());
+}
+
+#[test]
 fn tables_are_refused_with_line_and_reason() {
     let any = request(&[], None);
     let cases = [
-        ("time;P1\n0,1;2,5\n", "m.csv:2: expected numbers with a decimal point, found \"0,1\""),
-        ("0,0;2,5\n0,1;2,5\n", "m.csv:1: expected numbers with a decimal point, found \"0,0\""),
+        ("time;P1\n0,1;2,5\n0,2;2.5\n", "m.csv:3: expected a decimal comma for P1, as in line 2, found \"2.5\""),
+        ("time;P1\n0;2.5\n1;2,5\n", "m.csv:3: expected a decimal point for P1, as in line 2, found \"2,5\""),
+        (
+            "time;P1\n0,1;1.002,5\n",
+            "m.csv:2: expected a number for P1 without a sign between thousands, found \"1.002,5\"",
+        ),
+        ("time;P1\n0,1;1,002,5\n", "m.csv:2: expected a finite number for P1, found \"1,002,5\""),
+        (
+            "time,P1\n0,1,2,5\n",
+            "m.csv:2: expected 2 columns, as in the first line, found \"4\": are commas both separators and decimal signs?",
+        ),
         ("time,P1\n0,1\n1,two\n", "m.csv:3: expected a finite number for P1, found \"two\""),
         ("time,P1\n0,1\n# a pause\n1,NaN\n", "m.csv:4: expected a finite number for P1, found \"NaN\""),
         ("time,P1\n0,1\n1,2,3\n", "m.csv:3: expected 2 columns, as in the first line, found \"3\""),

@@ -73,6 +73,7 @@ pub fn read_modes_npz(path: &Path) -> Result<ModeShapes, FormatError> {
         node_tags,
         points,
         shapes: shapes.map(<[f64]>::to_vec).collect(),
+        directions: None,
     };
     modes.check().map_err(|fault| fault.of(path))?;
     Ok(modes)

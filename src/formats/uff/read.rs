@@ -2,6 +2,7 @@
 //!
 //! One dataset 55: a mode, or results of another kind, which are passed over.
 
+use super::super::mode_shapes::real_part;
 use super::super::{FormatError, ModeShapes};
 use super::binary::read_binary;
 use super::cursor::{Cursor, Line};
@@ -216,6 +217,7 @@ impl Content {
             points: tags.iter().map(point).collect(),
             shapes: self.modes.iter().map(shape).collect(),
             node_tags: Some(tags),
+            directions: None,
         }
     }
 }
@@ -275,8 +277,9 @@ pub(super) fn read_mode(cursor: &mut Cursor) -> Result<Option<Mode>, Fault> {
         (3 | 7, &[real, imaginary, ..]) => real.hypot(imaginary) / TAU,
         _ => return Err(line.fault("a mode with its frequency or eigenvalue")),
     };
-    let shape = real_part(&shape);
-    Ok(Some(Mode { frequency_hz, displacements: tags.into_iter().zip(shape).collect() }))
+    let shape = real_part(shape.as_flattened());
+    let (shape, _) = shape.as_chunks::<3>();
+    Ok(Some(Mode { frequency_hz, displacements: tags.into_iter().zip(shape.iter().copied()).collect() }))
 }
 
 /// Records 7 and 8: how many whole and real numbers, the whole ones, the real ones. Returns the real ones.
@@ -295,24 +298,4 @@ fn specific(cursor: &mut Cursor) -> Result<Vec<f64>, Fault> {
         missing -= line.integers(WHOLE)?.len() as i64;
     }
     cursor.reals(real as usize, 13, "the mode's real numbers, its frequency among them")
-}
-
-/// Real part of a complex shape turned by the angle that makes its imaginary part least.
-///
-/// For `phi exp(-i a)` the sum of squared imaginary parts is `(sum |phi|^2 - Re(exp(-2 i a) sum phi^2)) / 2`, least at
-/// `a = arg(sum phi^2) / 2`. Real shapes are left as they are.
-fn real_part(shape: &[[[f64; 2]; 3]]) -> Vec<[f64; 3]> {
-    let values = || shape.iter().flatten();
-    // so that squares neither overflow nor vanish
-    let largest = values().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let scale = if largest > 0.0 { largest } else { 1.0 };
-    let [mut real, mut imaginary] = [0.0, 0.0];
-    for [re, im] in values() {
-        let (re, im) = (re / scale, im / scale);
-        real += re * re - im * im;
-        imaginary += 2.0 * re * im;
-    }
-    let (sine, cosine) = (imaginary.atan2(real) / 2.0).sin_cos();
-    let turned = |[re, im]: [f64; 2]| re * cosine + im * sine;
-    shape.iter().map(|point| point.map(turned)).collect()
 }

@@ -48,6 +48,7 @@ fn a_mesh_with_modes_is_written_in_the_format_s_columns() {
         node_tags: Some(mesh.node_tags[..2].to_vec()),
         points: None,
         shapes: vec![vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]],
+        directions: None,
     };
     write_uff(&path, "cube", &mesh, ids.clone(), &modes).unwrap();
     let text = fs::read_to_string(&path).unwrap();

@@ -167,17 +167,17 @@ impl Diagnosis {
             (None, []) if self.is_judged() => "at a wrong speed, faults stay hidden",
             _ => return None,
         };
-        let speed = format!("{:.2}", self.speed_hz);
+        let speed = both(self.speed_hz);
         match self.speed_source {
             SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
             SpeedSource::Given => {
-                Some(format!("no line of the signal confirms the shaft speed of {speed} Hz: {consequence}"))
+                Some(format!("no line of the signal confirms the shaft speed of {speed}: {consequence}"))
             }
             SpeedSource::EverySecond => Some(format!(
-                "lines stand halfway between those of a shaft at {speed} Hz, so that it may turn half as fast: {consequence}"
+                "lines stand halfway between those of a shaft at {speed}, so that it may turn half as fast: {consequence}"
             )),
             SpeedSource::EvenOnly => Some(format!(
-                "only even multiples of {speed} Hz stand out, so that the shaft may turn twice as fast: {consequence}"
+                "only even multiples of {speed} stand out, so that the shaft may turn twice as fast: {consequence}"
             )),
         }
     }
@@ -187,10 +187,10 @@ impl Diagnosis {
         let change = self.speed_hz / self.given_speed_hz - 1.0;
         (change.abs() > SAID_CHANGE).then(|| {
             format!(
-                "the speed that is used is {:.2} Hz, {}, where {:.2} Hz were given: check that these lines are not another machine's",
-                self.speed_hz,
+                "the speed that is used is {}, {}, where {} were given: check that these lines are not another machine's",
+                both(self.speed_hz),
                 self.speed_source.words(),
-                self.given_speed_hz
+                both(self.given_speed_hz)
             )
         })
     }
@@ -225,6 +225,11 @@ impl Diagnosis {
 /// What is said of parts whose lines stand out, and whose damage is nevertheless not indicated.
 pub(crate) const TAKEN_BACK: &str =
     "its lines stand out, but what is known of the bearing explains them without damage";
+
+/// A speed in both units that people use.
+fn both(speed_hz: f64) -> String {
+    format!("{speed_hz:.2} Hz ({:.0} rpm)", 60.0 * speed_hz)
+}
 
 /// Values that have to come again before the rest is compared.
 const BEGINNING: usize = 16;

@@ -62,12 +62,13 @@ fn slip(slip: &Slip) -> Result<(), BrokenRule> {
         Slip::Constant(slip) => return RATIO.check("bearing.slip", *slip),
         Slip::OverTime(points) => ("time", points),
         Slip::OverSpeed(points) => ("hz", points),
+        Slip::OverRpm(points) => ("rpm", points),
     };
     let key = "bearing.slip.profile";
     not_empty(key, points.len(), "at least one point")?;
     for (index, &(place, slip)) in points.iter().enumerate() {
-        if name == "hz" {
-            ZERO_OR_MORE.check(format!("{key}[{index}].hz"), place)?;
+        if name != "time" {
+            ZERO_OR_MORE.check(format!("{key}[{index}].{name}"), place)?;
         }
         RATIO.check(format!("{key}[{index}].slip"), slip)?;
     }

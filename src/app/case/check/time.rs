@@ -13,7 +13,8 @@ use crate::fe::modal::ModeRange;
 use crate::formats::is_array_name;
 
 /// Signals that every simulation records under these names.
-const RESERVED_NAMES: [&str; 6] = ["time_s", "shaft_x", "shaft_y", "ball_radius", "outer_force", "inner_force"];
+const RESERVED_NAMES: [&str; 8] =
+    ["time_s", "shaft_x", "shaft_y", "ball_radius", "outer_force", "inner_force", "shaft_speed_hz", "shaft_angle_rad"];
 
 pub(super) fn shaft(shaft: &Shaft) -> Result<(), BrokenRule> {
     ABOVE_ZERO.check("shaft.mass", shaft.mass)?;
@@ -120,6 +121,11 @@ fn mode_checks(case: &Case) -> Result<(), BrokenRule> {
         SHARE.check(at("mac"), other.mac)?;
         FRACTION.check(at("within"), other.within)?;
         ABOVE_ZERO.check(at("points_within"), other.points_within)?;
+        let frd = other.file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("frd"));
+        kept(other.length_unit.is_none() || frd, at("length_unit"), || {
+            Rule::new(format!("{} says its own unit or is in m", other.file.display()))
+                .with_help("`length_unit` is for files of CalculiX (.frd)")
+        })?;
     }
     let Some(convergence) = &case.modes.convergence else {
         return Ok(());

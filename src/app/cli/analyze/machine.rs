@@ -11,7 +11,7 @@ use crate::bearing::catalogue::CatalogueBearing;
 use crate::bearing::kinematics::{BallRow, DefectOrders};
 use crate::bearing::{BearingError, SpeedProfile};
 use crate::formats::MeasuredSignal;
-use crate::report::significant;
+use crate::report::{shaft_speed, significant};
 use crate::signal::diagnosis::{Fault, FaultOrders, Kinematics};
 use crate::system::BearingSetup;
 use std::path::Path;
@@ -114,9 +114,9 @@ impl Machine {
         let typed = turns / (span.to - span.from);
         if let Some(own) = own_speed(signal).filter(|&own| !self.own_first && differ(typed, own)) {
             said.push(format!(
-                "--speed takes {} Hz, on the average, for what the file says are {} Hz",
-                hz(typed),
-                hz(own)
+                "--speed takes {}, on the average, for what the file says are {}",
+                shaft_speed(typed, 6),
+                shaft_speed(own, 6)
             ));
         }
         if let &[first, .., last] = profile.knot_times().collect::<Vec<f64>>().as_slice()
@@ -138,7 +138,7 @@ impl Machine {
             return Some((typed.profile.clone(), words));
         }
         if let Some(hz) = signal.and_then(own_speed) {
-            let words = format!("The shaft turns as the file says: {} Hz.", significant(hz, 6));
+            let words = format!("The shaft turns as the file says: {}.", shaft_speed(hz, 6));
             return Some((SpeedProfile::constant(hz).ok()?, words));
         }
         let of_case = self.setup.as_ref().map(|(setup, _)| setup.cage.shaft());

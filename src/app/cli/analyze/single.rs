@@ -103,8 +103,9 @@ fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&Diagnosis) -> Option<Str
             Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
             Ok(diagnosis) => {
                 lines.push(format!(
-                    "{place} (shaft {} Hz, {} turns): {}",
+                    "{place} (shaft {} Hz, {} rpm, {} turns): {}",
                     significant(diagnosis.speed_hz, 4),
+                    significant(60.0 * diagnosis.speed_hz, 4),
                     significant(diagnosis.spectrum.turns, 3),
                     diagnosis.sentence()
                 ));

@@ -407,6 +407,7 @@ mod terminal_tests {
             kurtosis: Some(3.0),
             band: UsedBand::default(),
             outer: Vec::new(),
+            fault_lines: Vec::new(),
             smeared_above: None,
             peaks: Vec::new(),
             diagnosis,

@@ -71,6 +71,7 @@ impl Bodies {
             node_tags: None,
             points: shapes.points.as_ref().map(|points| points[from..to].to_vec()),
             shapes: shapes.shapes.iter().map(|shape| shape[3 * from..3 * to].to_vec()).collect(),
+            directions: None,
         };
         let all = shapes.count_points();
         let housing = mesh.map(|mesh| (mesh, part(0, nodes)));
@@ -155,5 +156,6 @@ fn at_used_nodes(mesh: &Mesh, elements: &[ElementId], shapes: &ModeShapes) -> Mo
         node_tags: Some(nodes.iter().map(|&node| mesh.node_tags[node]).collect()),
         points: Some(nodes.iter().map(|&node| mesh.nodes[node]).collect()),
         shapes: shapes.shapes.iter().map(of_nodes).collect(),
+        directions: None,
     }
 }

@@ -217,6 +217,8 @@ fn merge(plan: Plan, folder: OutputFolder, options: &Options, progress: &Progres
 fn summary(result: &SweepResult) -> String {
     /// Points and warnings that are listed here; the report has all.
     const LISTED: usize = 10;
+    /// Most rows of a table here.
+    const ROWS: usize = 30;
     let done = result.count(PointState::Done);
     let all = result.points.len();
     let told = result.warnings();
@@ -225,6 +227,9 @@ fn summary(result: &SweepResult) -> String {
     if told.len() > LISTED {
         let more = told.len() - LISTED;
         lines.push(format!("and {more} more warnings, see the report"));
+    }
+    if done > 0 && all <= ROWS {
+        lines.extend(result.results_table().map(|table| table.plain()));
     }
     lines.push(format!("{done} of {all} points done"));
     for point in result.not_done().take(LISTED) {

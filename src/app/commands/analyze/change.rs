@@ -4,7 +4,7 @@ use super::window::{WindowAnalysis, WindowChange, stretch};
 use crate::app::error::ComputeError;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::report::significant;
+use crate::report::shaft_speed;
 use crate::signal::diagnosis::{
     ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, Kinematics, LineChange,
     level_changes, line_changes,
@@ -124,9 +124,9 @@ pub(crate) fn compare_window(
     let ratio = change.speed_hz / window.speed_hz;
     if (ratio - 1.0).abs() > SAME_SPEED {
         change.warnings.push(format!(
-            "The shaft turned at {} Hz in the earlier signal and turns at {} Hz in this one: resonances are excited differently, and levels change with that.",
-            significant(change.speed_hz, 4),
-            significant(window.speed_hz, 4)
+            "The shaft turned at {} in the earlier signal and turns at {} in this one: resonances are excited differently, and levels change with that.",
+            shaft_speed(change.speed_hz, 4),
+            shaft_speed(window.speed_hz, 4)
         ));
     }
     if let Ok(diagnosis) = &mut window.diagnosis {

@@ -5,7 +5,7 @@ use super::change_report::{change_headlines, change_section, last_order, order_c
 use super::window::WindowAnalysis;
 use crate::report::{
     Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, given,
-    significant,
+    shaft_speed, significant,
 };
 use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource, TAKEN_BACK};
 
@@ -142,7 +142,7 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
 /// The mean speed that the verdict rests on, and what shows it.
 fn speed_fact(window: &WindowAnalysis) -> Fact {
     let name = "Mean shaft speed";
-    let hz = |speed_hz: f64| format!("{} Hz", significant(speed_hz, 5));
+    let hz = |speed_hz: f64| shaft_speed(speed_hz, 5);
     let Ok(diagnosis) = &window.diagnosis else {
         return Fact::new(name, hz(window.speed_hz));
     };

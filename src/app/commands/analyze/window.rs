@@ -3,6 +3,7 @@
 //! What of a simulated bearing a signal cannot show, and the case knows.
 
 use super::band_search::{AskedBand, UsedBand};
+use super::fault_lines::{FaultLine, fault_lines};
 use crate::app::case::{Case, Defect, DentDefect, Load, MeasuredDefect};
 use crate::app::error::ComputeError;
 use crate::bearing::Race;
@@ -97,6 +98,8 @@ pub struct WindowAnalysis {
     /// The outer race's line and its second harmonic; empty where its order is not known.
     #[serde(rename = "outer_race")]
     pub outer: Vec<OuterRaceLine>,
+    /// The lines of every part in the envelope over the shaft's angle.
+    pub fault_lines: Vec<FaultLine>,
     /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
     #[serde(rename = "lines_smeared_above_order")]
     pub smeared_above: Option<f64>,
@@ -216,7 +219,8 @@ pub fn analyse(
             });
             let whitened = whitened.transpose()?;
             let part = stretch.window(from, to)?;
-            let spectrum = filter.window_of(whitened.as_ref().unwrap_or(&envelope), from, to)?;
+            let of_lines = whitened.as_ref().unwrap_or(&envelope);
+            let spectrum = filter.window_of(of_lines, from, to)?;
             let turns = |time| kinematics.turns(time);
             let mut diagnosis =
                 Diagnosis::of(&stretch, band.judged_hz(settings.band, settings.good_to_hz), window, turns, &orders);
@@ -252,6 +256,7 @@ pub fn analyse(
                 shown: [thinned(sensor, &part), thinned("envelope", &envelope.window(from, to)?)],
                 whitened: settings.whiten,
                 outer: outer.flat_map(|order| [near(1.0, order), near(2.0, order)]).collect(),
+                fault_lines: fault_lines(of_lines, window, turns, &orders, speed_hz),
                 band,
                 spectrum,
                 lines,

@@ -5,8 +5,9 @@ use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{ComparisonOptions, MatchedBy, ModalComparison, ModalError, ModalSurvey, ModePair, ModeSet};
 use crate::fe::model::HousingModel;
-use crate::formats::{ModeShapes, read_mode_shapes};
+use crate::formats::{ModeShapes, read_mode_shapes_in};
 use crate::numerics::linalg::DenseMatrix;
+use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::cmp::Ordering;
@@ -141,7 +142,9 @@ impl<'c> ComparedFile<'c> {
     /// [`ComputeError::ModeShapes`] with file and line.
     pub(crate) fn read_all(case: &'c Case) -> Result<Vec<Self>, ComputeError> {
         let read = |asked: &'c ComparedModes| {
-            let modes = read_mode_shapes(&asked.file).map_err(ComputeError::ModeShapes)?;
+            let of_mesh = case.meshed_housing().map(|housing| housing.length_unit);
+            let metres = asked.length_unit.or(of_mesh).map_or(1.0, LengthUnit::to_metres);
+            let modes = read_mode_shapes_in(&asked.file, metres).map_err(ComputeError::ModeShapes)?;
             Ok(Self { asked, modes })
         };
         case.modes.compare.iter().map(read).collect()
@@ -160,11 +163,13 @@ impl<'c> ComparedFile<'c> {
         let covered = [check.above_hz.unwrap_or(0.0), check.below_hz];
         let own = &Side { set: survey.mode_set(housing), covers_hz: covered };
         let there = placed(&asked.file, &self.modes, housing.map(|(mesh, _)| mesh))?;
-        let failed = |source: ModalError| ComputeError::Input {
+        let failed = |source: ModalError| {
+            ComputeError::Input {
             what: format!("{}: {source}", asked.file.display()),
             help: matches!(source, ModalError::TooFewPoints { .. }).then(|| {
-                "points are in m; `points_within` beside `file` is the distance up to which two are one".to_owned()
+                "points are in m; `points_within` beside `file` is the distance up to which two are one, `length_unit` the unit of a .frd file".to_owned()
             }),
+        }
         };
         let mut options = ComparisonOptions::default();
         // what passes must be paired
@@ -292,6 +297,7 @@ fn placed(file: &Path, modes: &ModeShapes, mesh: Option<&Mesh>) -> Result<ModeSe
     Ok(ModeSet {
         frequencies_hz: modes.frequencies_hz.clone(),
         node_tags: tags.map(|tags| rows.iter().map(|&row| tags[row]).collect()),
+        directions: modes.directions.as_ref().map(|all| rows.iter().map(|&row| all[row]).collect()),
         shapes: DenseMatrix::from_fn(3 * rows.len(), modes.count_modes(), |row, mode| {
             modes.shapes[mode][3 * rows[row / 3] + row % 3]
         }),

@@ -268,7 +268,13 @@ fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) ->
         (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
         _ => None,
     };
-    ModeShapes { frequencies_hz: survey.basis.frequencies_hz.clone(), node_tags, points: Some(points), shapes }
+    ModeShapes {
+        frequencies_hz: survey.basis.frequencies_hz.clone(),
+        node_tags,
+        points: Some(points),
+        shapes,
+        directions: None,
+    }
 }
 
 /// Computes the modes of a case, as many as it asks for, and nothing else: the mesh, if it has one, and the shapes.

@@ -237,6 +237,7 @@ impl Points {
             points: self.places.clone(),
             node_tags: Some(self.tags.clone()),
             shapes,
+            directions: None,
         }
     }
 }

@@ -9,17 +9,22 @@
 //! its housing anew: condense a large one once and name it by `housing.superelement`.
 
 mod axis;
+mod outputs;
 mod plan;
+mod plots;
 mod report;
 mod result;
 mod slurm;
 mod summary;
+mod tables;
+mod unit;
 
 pub use axis::Axis;
+pub use outputs::{Output, PlotOf};
 pub use plan::{Plan, SweepPoint, SweptCommand};
 pub(crate) use report::sweep_report;
 pub(crate) use result::write_sweep_npz;
-pub use result::{Output, PointRecord, PointResult, PointState, PointWarning, SweepResult};
+pub use result::{PointRecord, PointResult, PointState, PointWarning, SweepResult};
 pub use slurm::SlurmScripts;
 pub(crate) use slurm::slurm_scripts;
-pub use summary::{PointSummary, ScriptsSummary, SweepSummary, TaskSummary};
+pub use summary::{AxisSummary, ColumnSummary, FigureValue, PointSummary, ScriptsSummary, SweepSummary, TaskSummary};

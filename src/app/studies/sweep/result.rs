@@ -1,10 +1,10 @@
 //! The points of a sweep with what became of them.
 //!
 //! What became of one point.
-//!
-//! What of a point's result goes into the table.
 
-use super::{Plan, SweepPoint, SweptCommand};
+use super::outputs::{MODEL, Output, PlotOf, outputs_of, plain};
+use super::unit::unit_of;
+use super::{Plan, SweepPoint};
 use crate::app::error::ComputeError;
 use crate::formats::{FormatError, NpzWriter};
 use crate::report::{Cell, Column, Table};
@@ -60,9 +60,15 @@ pub(super) enum Values {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NamedColumn {
     pub(super) name: String,
+    /// What it is, in words.
+    pub(super) label: String,
     pub(super) unit: &'static str,
-    pub(super) group: Option<&'static str>,
+    /// Title of its table; `None`: only the files have it.
+    pub(super) table: Option<String>,
+    pub(super) plot: Option<PlotOf>,
     pub(super) values: Values,
+    /// Whether each point's verdict indicates what shows in it.
+    pub(super) indicated: Vec<bool>,
 }
 
 impl PointWarning {
@@ -79,6 +85,13 @@ impl PointWarning {
             all if all > LISTED => format!("{all} of {of} points, the first {}: {}", numbers[0], self.text),
             _ => format!("points {}: {}", numbers.join(", "), self.text),
         }
+    }
+}
+
+impl PointResult {
+    /// A figure by its name.
+    fn output(&self, name: &str) -> Option<&Output> {
+        self.outputs.iter().find(|output| output.name == name)
     }
 }
 
@@ -99,7 +112,7 @@ impl SweepResult {
             let record = PointRecord::read(&folder);
             let state = PointRecord::state(record.as_ref(), result.is_some());
             let outputs = match &result {
-                Some(result) if state.has_result() => outputs_of(plan.command, result),
+                Some(result) if state.has_result() => outputs_of(&plan, result),
                 _ => Vec::new(),
             };
             let warnings = result.as_ref().and_then(|result| result["warnings"].as_array());
@@ -137,52 +150,75 @@ impl SweepResult {
         all
     }
 
-    /// All columns but the points' numbers: axes, state, wall time, the points' figures in the order in which they first occur.
-    pub(super) fn columns(&self) -> Vec<NamedColumn> {
-        let column = |name: &str, unit, values| NamedColumn { name: name.to_owned(), unit, group: None, values };
-        let mut columns = Vec::new();
-        for (place, axis) in self.plan.axes.iter().enumerate() {
+    /// The columns of what was varied, one an axis.
+    pub(super) fn axes(&self) -> Vec<NamedColumn> {
+        let axes = self.plan.axes.iter().enumerate();
+        let columns = axes.map(|(place, axis)| {
             let texts = self.points.iter().map(|point| point.point.values[place].clone());
-            let values = if axis.numbers().is_some() {
-                Values::Numbers(texts.map(|text| text.parse().unwrap_or(f64::NAN)).collect())
+            let (unit, values) = if axis.numbers().is_some() {
+                let numbers = texts.map(|text| text.parse().unwrap_or(f64::NAN));
+                (unit_of(&axis.key), Values::Numbers(numbers.collect()))
             } else {
-                Values::Texts(texts.collect())
+                ("", Values::Texts(texts.collect()))
             };
-            columns.push(column(&axis.name(), "", values));
-        }
+            self.column(&axis.name(), &axis.key, unit, values)
+        });
+        columns.collect()
+    }
+
+    /// The points' states.
+    pub(super) fn states(&self) -> NamedColumn {
         let states = self.points.iter().map(|point| point.state.name().to_owned());
-        columns.push(column("state", "", Values::Texts(states.collect())));
+        self.column("state", "state", "", Values::Texts(states.collect()))
+    }
+
+    /// Their wall times.
+    fn wall(&self) -> NamedColumn {
         let wall = |point: &PointResult| point.record.as_ref().map_or(f64::NAN, |r| r.wall_s);
         let walls = self.points.iter().map(wall).collect();
-        columns.push(column("wall_s", "s", Values::Numbers(walls)));
+        NamedColumn { table: Some(MODEL.to_owned()), ..self.column("wall_s", "wall time", "s", Values::Numbers(walls)) }
+    }
+
+    fn column(&self, name: &str, label: &str, unit: &'static str, values: Values) -> NamedColumn {
+        let indicated = vec![false; self.points.len()];
+        let (name, label) = (name.to_owned(), label.to_owned());
+        NamedColumn { name, label, unit, table: None, plot: None, values, indicated }
+    }
+
+    /// The points' figures, in the order in which they first occur.
+    pub(super) fn figures(&self) -> Vec<NamedColumn> {
         let mut kinds: Vec<&Output> = Vec::new();
         for output in self.points.iter().flat_map(|point| &point.outputs) {
             if !kinds.iter().any(|kind| kind.name == output.name) {
                 kinds.push(output);
             }
         }
-        columns.extend(kinds.into_iter().map(|kind| NamedColumn {
-            name: kind.name.clone(),
-            unit: kind.unit,
-            group: kind.group,
-            values: self.values_of(kind),
-        }));
-        columns
-    }
-
-    fn values_of(&self, kind: &Output) -> Values {
-        let values = self.points.iter().map(|point| {
-            let output = point.outputs.iter().find(|output| output.name == kind.name);
-            output.map(|output| &output.value)
+        let figures = kinds.into_iter().map(|kind| {
+            let outputs = self.points.iter().map(|point| point.output(&kind.name));
+            let value = |output: Option<&'_ Output>| output.map(|output| output.value.clone());
+            let values = outputs.clone().map(value);
+            let values = if kind.value.is_string() {
+                let text = |value: Option<Value>| value.as_ref().and_then(Value::as_str).unwrap_or_default().to_owned();
+                Values::Texts(values.map(text).collect())
+            } else {
+                Values::Numbers(values.map(|value| value.and_then(|v| v.as_f64()).unwrap_or(f64::NAN)).collect())
+            };
+            NamedColumn {
+                table: kind.table.clone(),
+                plot: kind.plot.clone(),
+                indicated: outputs.map(|output| output.is_some_and(|output| output.indicated)).collect(),
+                ..self.column(&kind.name, &kind.label, kind.unit, values)
+            }
         });
-        if kind.value.is_string() {
-            Values::Texts(values.map(|value| value.and_then(Value::as_str).unwrap_or_default().to_owned()).collect())
-        } else {
-            Values::Numbers(values.map(|value| value.and_then(Value::as_f64).unwrap_or(f64::NAN)).collect())
-        }
+        figures.collect()
     }
 
-    /// The table: a row a point.
+    /// All columns of the files but the points' numbers: axes, state, wall time, figures.
+    pub(super) fn columns(&self) -> Vec<NamedColumn> {
+        [self.axes(), vec![self.states(), self.wall()], self.figures()].concat()
+    }
+
+    /// The table of the files: a row a point.
     pub(crate) fn table(&self) -> Table {
         let columns = self.columns();
         let mut heads = vec![Column::number("point", "")];
@@ -294,112 +330,6 @@ impl PointRecord {
     }
 }
 
-/// Most frequencies of a point in the table; its own result has all of them.
-const MOST_FREQUENCIES: usize = 20;
-
-/// One figure of a point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Output {
-    /// Name of its column and array: letters, digits, points.
-    pub name: String,
-    /// Its unit, "" for none.
-    pub unit: &'static str,
-    /// What it belongs to in plots: outputs of one group share an axis. `None`: not plotted.
-    pub group: Option<&'static str>,
-    /// A number, null where the result has none, or a text.
-    pub value: Value,
-}
-
-/// The figures of a result: the content of `run.json` or `modes.json`.
-///
-/// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `peak`, `kurtosis` and `named` (the parts that
-/// are called damaged), the estimated error, the equilibrium's shaft position and largest force, times. Of modes: mass,
-/// frequencies `frequency.k`, and `loaded.k` where contacts are linearised.
-pub(crate) fn outputs_of(command: SweptCommand, result: &Value) -> Vec<Output> {
-    match command {
-        SweptCommand::Run => of_run(result),
-        SweptCommand::Modes => of_modes(result),
-    }
-}
-
-fn of_run(result: &Value) -> Vec<Output> {
-    let mut outputs = Vec::new();
-    let windows = result["windows"].as_array().map_or(&[][..], Vec::as_slice);
-    let sensor = |window: &'_ Value| window["sensor"].as_str().unwrap_or_default().to_owned();
-    for (place, window) in windows.iter().enumerate() {
-        let sensor_name = sensor(window);
-        let count = windows[..=place].iter().filter(|other| sensor(other) == sensor_name).count();
-        let part = plain(&sensor_name, |letter| letter.is_alphanumeric() || "_-".contains(letter));
-        let name = |what: &str| format!("{part}.{count}.{what}");
-        outputs.push(number(name("speed_hz"), "Hz", None, &window["speed_hz"]));
-        for (what, unit, group) in
-            [("rms", "m/s^2", "Root mean square"), ("peak", "m/s^2", "Peak"), ("kurtosis", "", "Kurtosis")]
-        {
-            outputs.push(number(name(what), unit, Some(group), &window[what]));
-        }
-        outputs.push(Output {
-            name: name("named"),
-            unit: "",
-            group: None,
-            value: Value::String(named(&window["verdict"])),
-        });
-    }
-    let equilibrium = &result["equilibrium"];
-    let forces = equilibrium["outer_force_n"].as_array();
-    let largest = forces.into_iter().flatten().filter_map(Value::as_f64);
-    let largest = largest.reduce(f64::max).map_or(Value::Null, Value::from);
-    let model = &result["model"];
-    outputs.extend([
-        number("shaft_x", "m", None, &equilibrium["shaft_m"][0]),
-        number("shaft_y", "m", None, &equilibrium["shaft_m"][1]),
-        number("largest_static_force", "N", None, &largest),
-        number("modes", "", None, &model["modes"]),
-        number("estimated_error", "", None, &result["estimated_error"]),
-        number("estimate_held", "s", None, &result["estimate_held_s"]),
-        number("stepping_s", "s", None, &result["stepping_s"]),
-    ]);
-    outputs
-}
-
-/// Parts that a verdict names, "none" if it names none, nothing where there is no verdict.
-fn named(verdict: &Value) -> String {
-    let Some(faults) = verdict["faults"].as_array() else {
-        return String::new();
-    };
-    let named =
-        faults.iter().filter(|fault| fault["conclusion"] == "named").filter_map(|fault| fault["fault"].as_str());
-    let names: Vec<&str> = named.collect();
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
-fn of_modes(result: &Value) -> Vec<Output> {
-    let mut outputs = vec![number("mass", "kg", None, &result["mass_kg"])];
-    let mut frequencies = |name: &str, group, values: &mut dyn Iterator<Item = &Value>| {
-        for (k, value) in (1..).zip(values.take(MOST_FREQUENCIES)) {
-            outputs.push(number(format!("{name}.{k}"), "Hz", Some(group), value));
-        }
-    };
-    let list = |value: &'_ Value| value.as_array().map_or(&[][..], Vec::as_slice).to_vec();
-    let unloaded = list(&result["frequencies_hz"]);
-    frequencies("frequency", "Eigenfrequencies", &mut unloaded.iter());
-    let loaded = list(&result["loaded"]["modes"]);
-    frequencies(
-        "loaded",
-        "Eigenfrequencies with contacts linearised",
-        &mut loaded.iter().map(|mode| &mode["frequency_hz"]),
-    );
-    outputs
-}
-
-fn number(name: impl Into<String>, unit: &'static str, group: Option<&'static str>, value: &Value) -> Output {
-    Output { name: name.into(), unit, group, value: value.as_f64().map_or(Value::Null, Value::from) }
-}
-
-/// A name with `_` in the place of all letters but the allowed ones.
-pub(super) fn plain(name: &str, allowed: impl Fn(char) -> bool) -> String {
-    name.chars().map(|letter| if allowed(letter) { letter } else { '_' }).collect()
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
@@ -433,6 +363,47 @@ pub(super) mod tests {
         );
         write(3, 2, None, "<script>alert(1)</script>");
         SweepResult::collect(plan, folder.path()).unwrap()
+    }
+
+    /// Two runs with dents of 5 and 15 um, whose verdict names the race at the deeper one.
+    pub(in crate::app::studies::sweep) fn dents() -> SweepResult {
+        let case = Case::example("tadina2011/outer-dent", &[]);
+        let axes = vec![Axis::parse("bearing.defects[0].depth=5e-6,15e-6").unwrap()];
+        let plan = Plan::new(&case, SweptCommand::Run, axes).unwrap();
+        let points = plan.points().map(|point| {
+            let deep = point.number == 2;
+            let line = |fault: &str, line: &str, amplitude: f64| {
+                serde_json::json!({ "fault": fault, "line": line, "harmonic": 1, "amplitude": amplitude })
+            };
+            let conclusion = if deep { "named" } else { "not seen" };
+            let verdict = serde_json::json!({ "faults": [
+                { "fault": "outer race", "conclusion": conclusion, "false_alarm": 1e-4 },
+                { "fault": "inner race", "conclusion": "not seen", "false_alarm": 0.5 },
+            ] });
+            let outer = if deep { 20.0 } else { 2.0 };
+            let result = serde_json::json!({ "windows": [{
+                "sensor": "P1", "from": 2.3, "to": 2.4, "rms": 30.0, "verdict": verdict,
+                "fault_lines": [line("outer race", "BPFO", outer), line("inner race", "BPFI", 1.0)],
+            }] });
+            let outputs = outputs_of(&plan, &result);
+            PointResult { point, state: PointState::Done, record: None, outputs, warnings: Vec::new() }
+        });
+        let points = points.collect();
+        SweepResult { plan, points }
+    }
+
+    #[test]
+    fn json_and_table_have_the_same_figures() {
+        let result = dents();
+        let summary = serde_json::to_value(result.summary()).unwrap();
+        assert_eq!(summary["axes"][0]["unit"], "m");
+        assert_eq!(summary["points"][1]["figures"]["P1.1.BPFO.1"], 20.0);
+        assert_eq!(summary["points"][1]["figures"]["P1.1.named"], "outer race");
+        let names = summary["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap());
+        let table = result.table();
+        let heads: Vec<&str> = table.columns.iter().map(|column| column.title.as_str()).collect();
+        assert_eq!(heads[..4], ["point", "bearing.defects.0.depth", "state", "wall_s"]);
+        assert_eq!(names.collect::<Vec<_>>(), heads[4..]);
     }
 
     #[test]
@@ -510,60 +481,5 @@ mod record_tests {
             assert_eq!(state(code, result), PointState::Failed, "{code:?} {result}");
         }
         assert_eq!(PointRecord::state(None, true), PointState::Missing);
-    }
-}
-
-#[cfg(test)]
-mod outputs_tests {
-    use serde_json::json;
-
-    use super::{SweptCommand, Value, outputs_of};
-
-    fn found(command: SweptCommand, result: &Value) -> Vec<(String, Value)> {
-        let outputs = outputs_of(command, result).into_iter();
-        outputs.map(|output| (output.name, output.value)).collect()
-    }
-
-    #[test]
-    fn windows_are_counted_for_each_sensor() {
-        let window = |sensor: &str, rms: f64, conclusion: &str| {
-            json!({
-                "sensor": sensor, "speed_hz": 22.0, "rms": rms, "peak": 2.0, "kurtosis": 3.0,
-                "verdict": { "faults": [{ "fault": "ball", "conclusion": conclusion },
-                                        { "fault": "cage", "conclusion": conclusion }] },
-            })
-        };
-        let result = json!({
-            "windows": [window("P 1", 1.0, "named"), window("P 1", 4.0, "not seen"), window("top", 5.0, "named")],
-            "equilibrium": { "shaft_m": [1e-6, -2e-6], "outer_force_n": [0.0, 3.0, 1.0] },
-            "model": { "modes": 7 }, "estimated_error": null, "stepping_s": 0.5,
-        });
-        let found = found(SweptCommand::Run, &result);
-        let value = |name: &str| {
-            let found = found.iter().find(|(other, _)| other == name);
-            found.map(|(_, value)| value.clone())
-        };
-        let text = |text: &str| Some(Value::from(text));
-        assert_eq!(value("P_1.1.rms"), Some(Value::from(1.0)));
-        assert_eq!(value("P_1.2.rms"), Some(Value::from(4.0)));
-        assert_eq!(value("top.1.rms"), Some(Value::from(5.0)));
-        assert_eq!(value("P_1.1.named"), text("ball, cage"));
-        assert_eq!(value("P_1.2.named"), text("none"));
-        assert_eq!(value("largest_static_force"), Some(Value::from(3.0)));
-        assert_eq!(value("shaft_y"), Some(Value::from(-2e-6)));
-        assert_eq!(value("estimated_error"), Some(Value::Null));
-    }
-
-    #[test]
-    fn frequencies_are_numbered() {
-        let result = json!({
-            "mass_kg": 0.1, "frequencies_hz": (1..30).map(f64::from).collect::<Vec<_>>(),
-            "loaded": { "modes": [{ "frequency_hz": 7.5 }] },
-        });
-        let found = found(SweptCommand::Modes, &result);
-        assert_eq!(found[0], ("mass".to_owned(), Value::from(0.1)));
-        assert_eq!(found[20], ("frequency.20".to_owned(), Value::from(20.0)));
-        assert_eq!(found[21], ("loaded.1".to_owned(), Value::from(7.5)));
-        assert_eq!(found.len(), 22);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::result::plain;
+use super::outputs::plain;
 use crate::app::shell_word::shell_word;
 
 /// The scripts, and how to submit them.

@@ -60,7 +60,8 @@ pub struct ModalComparison {
 }
 
 impl ModalComparison {
-    /// Compares `second` with `first`, in the displacements at their common points (unweighted).
+    /// Compares `second` with `first`, in the displacements at their common points (unweighted). The first set is known in
+    /// space; of the second each point may have one direction alone, along which both are compared then.
     ///
     /// Of clusters with unlike numbers of modes the smaller is compared with its projection on the larger one.
     /// Sources: Allemang and Brown (1982) for MAC, Bjorck and Golub (1973) for the principal angles.
@@ -74,8 +75,8 @@ impl ModalComparison {
         options.check()?;
         let tolerance = options.point_tolerance * first.diagonal();
         let points = matched_points(first, second, tolerance)?;
-        let here = Side::new(first, &points, 0);
-        let there = Side::new(second, &points, 1);
+        let here = Side::new(first, &points, 0, second);
+        let there = Side::new(second, &points, 1, second);
         let mac = DenseMatrix::from_fn(here.shapes.ncols(), there.shapes.ncols(), |a, b| {
             mac(here.shapes.col_as_slice(a), there.shapes.col_as_slice(b))
         });
@@ -141,10 +142,17 @@ struct Side<'s> {
 }
 
 impl<'s> Side<'s> {
-    fn new(set: &'s ModeSet, points: &PointMatch, side: usize) -> Self {
+    /// Its displacements at the common points; where the `second` set is known in one direction a point, along that.
+    fn new(set: &'s ModeSet, points: &PointMatch, side: usize, second: &ModeSet) -> Self {
         let rows = 3 * points.pairs.len();
         let shapes = DenseMatrix::from_fn(rows, set.shapes.ncols(), |row, mode| {
-            set.shapes[(3 * points.pairs[row / 3][side] + row % 3, mode)]
+            let pair = points.pairs[row / 3];
+            let at = |axis: usize| set.shapes[(3 * pair[side] + axis, mode)];
+            let Some(directions) = &second.directions else {
+                return at(row % 3);
+            };
+            let direction = directions[pair[1]];
+            direction[row % 3] * (0..3).map(|axis| direction[axis] * at(axis)).sum::<f64>()
         });
         Self { frequencies_hz: &set.frequencies_hz, shapes }
     }

@@ -21,6 +21,9 @@ pub struct ModeSet {
     /// Displacements (x, y, z) of each point [3 points x modes], any scale; zero for a component that a plane model
     /// has not.
     pub shapes: DenseMatrix,
+    /// The one direction of each point in which its shapes are known, of length 1; displacements are along it. A point is
+    /// there once for each of its directions. `None`: shapes are known in space.
+    pub directions: Option<Vec<[f64; 3]>>,
 }
 
 /// How points were found to be the same.
@@ -55,6 +58,10 @@ impl ModeSet {
         if let Some(tags) = &self.node_tags {
             check_count("node tags", self.points.len(), tags.len())?;
         }
+        if let Some(directions) = &self.directions {
+            check_count("directions", self.points.len(), directions.len())?;
+            check_finite("direction", directions.as_flattened())?;
+        }
         check_finite("coordinate", self.points.as_flattened())?;
         check_finite("frequency", &self.frequencies_hz)?;
         let mut frequencies = self.frequencies_hz.iter();
@@ -88,6 +95,7 @@ pub(super) fn matched_points(first: &ModeSet, second: &ModeSet, tolerance: f64) 
         None => (MatchedBy::Place, nearest_pairs(first, second, tolerance)),
     };
     let [own, other] = [first.points.len(), second.points.len()];
+    let alone_here = own - pairs.len();
     if pairs.len() < LEAST_POINTS {
         return Err(ModalError::TooFewPoints {
             matched: pairs.len(),
@@ -97,13 +105,25 @@ pub(super) fn matched_points(first: &ModeSet, second: &ModeSet, tolerance: f64) 
             tolerance,
         });
     }
+    let pairs = if second.directions.is_some() { at_all_directions(second, &pairs) } else { pairs };
     let distances = pairs.iter().map(|&pair| distance(first, second, pair));
     Ok(PointMatch {
         by,
-        alone: [own - pairs.len(), other - pairs.len()],
+        alone: [alone_here, other - pairs.len()],
         largest_distance: distances.fold(0.0, f64::max),
         pairs,
     })
+}
+
+/// The pairs with each direction of the second set's points: those rows have the very same place.
+fn at_all_directions(second: &ModeSet, pairs: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let place = |row: usize| second.points[row].map(f64::to_bits);
+    let mut rows: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
+    for row in 0..second.points.len() {
+        rows.entry(place(row)).or_default().push(row);
+    }
+    let of = |&[own, other]: &[usize; 2]| rows[&place(other)].iter().map(move |&row| [own, row]).collect::<Vec<_>>();
+    pairs.iter().flat_map(of).collect()
 }
 
 fn distance(first: &ModeSet, second: &ModeSet, [a, b]: [usize; 2]) -> f64 {

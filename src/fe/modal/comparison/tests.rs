@@ -27,7 +27,7 @@ fn ring(doublets: usize, turn: f64, split: f64) -> ModeSet {
         let u = -(k * (phi - turn) - quarter).sin() / k;
         [w * phi.cos() - u * phi.sin(), w * phi.sin() + u * phi.cos(), 0.0][row % 3]
     });
-    ModeSet { frequencies_hz, points, node_tags: None, shapes }
+    ModeSet { frequencies_hz, points, node_tags: None, shapes, directions: None }
 }
 
 /// The modes of a set in another order, each times a factor.
@@ -213,6 +213,7 @@ fn rigid_modes_are_compared_as_a_space() {
         frequencies_hz: (0..6).map(|k| noise * f64::from(k)).chain([900.0]).collect(),
         points: points.clone(),
         node_tags: None,
+        directions: None,
         shapes: DenseMatrix::from_fn(
             36,
             7,

@@ -95,7 +95,7 @@ fn a_changed_speed_is_said_and_own_lines_hold_the_given_one() {
     shaft_lines(&mut values, 24.6, 3.0);
     let alone = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
     assert!((alone.speed_hz / 24.6 - 1.0).abs() < 2e-3);
-    assert!(alone.sentence().contains("where 25.00 Hz were given"));
+    assert!(alone.sentence().contains("where 25.00 Hz (1500 rpm) were given"));
     shaft_lines(&mut values, 25.0, 1.0);
     let both = judged(&with_noise(&values, 1.0, 26), steady, &bearing(), 0.01);
     assert!((both.speed_hz / 25.0 - 1.0).abs() < 2e-3, "{}", both.speed_hz);

@@ -65,6 +65,7 @@ fn nothing_stands_twice() {
         full(&format!("modes.convergence.meshes[1]={mesh}"), &twice(&format!("folder/{mesh}")));
     }
     full("sensors[0].name=shaft_x", "\"shaft_x\" is the name of another signal");
+    full("sensors[0].name=shaft_speed_hz", "\"shaft_speed_hz\" is the name of another signal");
     full(
         "sensors[0].name='../P1'",
         "found \"../P1\", expected letters, digits, `_`, `-`, `.` and spaces: the signal is saved under this name",

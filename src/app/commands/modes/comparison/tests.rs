@@ -34,6 +34,7 @@ fn limits() -> ComparedModes {
         mac: 0.95,
         within: 0.01,
         points_within: None,
+        length_unit: None,
     }
 }
 
@@ -248,4 +249,75 @@ fn points_within_widens_the_match() {
     let found = file.compare(&result.survey, result.mesh_and_model()).expect("compares");
     assert_eq!(found.points.matched, 120);
     assert!((found.points.largest_distance_m - 1e-4).abs() < 1e-12);
+}
+
+/// Accelerometers of one axis, radial ones and a few along x: what they do not see counts nowhere.
+#[test]
+fn one_direction_a_place_is_compared_along_it() {
+    let result = free_ring();
+    let along = |modes: &mut ModeShapes| {
+        let points = modes.points.clone().unwrap();
+        let radial = points.iter().map(|[x, y, _]| [x / x.hypot(*y), y / x.hypot(*y), 0.0]);
+        // every fourth place radially, and the first five along x too
+        let mut rows: Vec<(usize, [f64; 3])> = radial.enumerate().step_by(4).collect();
+        rows.extend((0..5).map(|k| (4 * k, [1.0, 0.0, 0.0])));
+        for shape in &mut modes.shapes {
+            let of_row = |(place, direction): &(usize, [f64; 3])| {
+                let value: f64 = (0..3).map(|axis| direction[axis] * shape[3 * place + axis]).sum();
+                direction.map(|part| part * value)
+            };
+            *shape = rows.iter().flat_map(of_row).collect();
+        }
+        let places = rows.iter().map(|(place, _)| *place);
+        modes.node_tags = modes.node_tags.as_ref().map(|tags| places.clone().map(|place| tags[place]).collect());
+        modes.points = Some(places.map(|place| points[place]).collect());
+        modes.directions = Some(rows.into_iter().map(|(_, direction)| direction).collect());
+    };
+    let found = against(&result, along).expect("compares");
+    assert_eq!((found.points.by, found.points.matched, found.points.there), (MatchedBy::Tag, 35, 35));
+    assert!(found.ok, "{found:?}");
+    assert!(found.pairs.iter().all(|pair| pair.mac > 1.0 - 1e-9), "{:?}", found.pairs);
+    // by place it is the same
+    let by_place = against(&result, |modes| {
+        along(modes);
+        modes.node_tags = None;
+    });
+    let by_place = by_place.expect("compares");
+    assert_eq!((by_place.points.by, by_place.points.matched), (MatchedBy::Place, 35));
+    assert_eq!(by_place.pairs, found.pairs);
+    // the same numbers as shapes in space say that what was not measured is zero
+    let as_if_in_space = against(&result, |modes| {
+        along(modes);
+        let tags = modes.node_tags.as_ref().unwrap();
+        modes.node_tags = Some((0..30).map(|row| tags[row]).collect());
+        modes.points = modes.points.as_ref().map(|points| points[..30].to_vec());
+        modes.shapes.iter_mut().for_each(|shape| shape.truncate(90));
+        modes.directions = None;
+    });
+    assert!(!as_if_in_space.expect("compares").ok);
+}
+
+/// `tests/data/frd/cube.frd` is of CalculiX 2.20 on the same mesh, in mm, t and MPa.
+#[test]
+fn modes_of_calculix_are_those_of_this_program() {
+    const CUBE: &str = "[materials.of_ccx]\nyoung = 210e9\npoisson = 0.3\ndensity = 7850\n\
+        [housing]\nmesh = \"../tests/data/cube_tet10_msh22.msh\"\nlength_unit = \"mm\"\n\
+        parts = [{ group = \"body\", material = \"of_ccx\" }]\n[modes]\ncount = 9\n";
+    let compared = |more: &str| {
+        let case = case(&format!("{CUBE}compare = [{{ file = \"../tests/data/frd/cube.frd\", {more} }}]\n"));
+        let result = compute_modes(&case, &Unwatched).expect("modes");
+        let files = ComparedFile::read_all(&case).expect("a file of modes");
+        files[0].compare(&result.survey, result.mesh_and_model())
+    };
+    // CalculiX integrates the mass of a Tet10 with four points: 0.5 % on a mesh of two elements a side. With the full mass
+    // the seventh frequency of this mesh is 1524499.6 Hz, with four points 1531366.2 Hz, as in the file
+    let found = compared("mac = 0.99, within = 6e-3").expect("compares");
+    assert!(found.ok, "{:?}", found.pairs);
+    assert_eq!(
+        (found.points.by, found.points.matched, found.pairs.last().unwrap().here.len()),
+        (MatchedBy::Tag, 125, 1)
+    );
+    // the file does not say its unit: that of the mesh unless told
+    let error = compared("length_unit = \"m\"").expect_err("a cube of 1 m");
+    assert!(error.help().unwrap().contains("`length_unit` the unit of a .frd file"), "{error}");
 }
