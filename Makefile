@@ -24,7 +24,7 @@ setup:
 	@sh scripts/setup.sh
 
 demo: setup
-	cargo run --release -- run $(CASE) --set '$(WINDOWS)' --force
+	cargo run --release -- run $(CASE) --set '$(WINDOWS)'
 	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
 
 # cargo-nextest where it is installed; it leaves out documentation tests. The profile `release` takes over what `make demo` has built, `ci` checks
