@@ -24,8 +24,7 @@ setup:
 	@sh scripts/setup.sh
 
 demo: setup
-	cargo build --release
-	target/release/plummer run $(CASE) --set '$(WINDOWS)' --force
+	cargo run --release -- run $(CASE) --set '$(WINDOWS)'
 	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
 
 # cargo-nextest where it is installed; it leaves out documentation tests. The profile `release` takes over what `make demo` has built, `ci` checks
@@ -70,5 +69,4 @@ bench-peers: setup
 
 clean:
 	cargo clean
-	rm -rf benches/peers/target
-	rm -rf out
+	rm -rf target benches/peers/target out

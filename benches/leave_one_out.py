@@ -1,7 +1,7 @@
 """The verdict's two thresholds chosen without the specimen that they then judge.
 
     cargo build --release
-    python3 benches/leave_one_out.py FOLDER [--plummer target/release/plummer]
+    python3 benches/leave_one_out.py FOLDER [--plummer PROGRAM]
 
 FOLDER is that of verdicts.py; `records.csv` tells specimens apart by `set`, `truth`, `size_mil` and `place_oclock`. Each specimen's records are
 judged with the threshold of a race (dB) and that of a ball by the cage's lines (dB) that are best on all others: most right verdicts, less five
@@ -14,9 +14,12 @@ import collections
 import csv
 import itertools
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
+
+PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", "target"), "release/plummer")
 
 PARTS = ("outer", "inner", "ball", "cage")
 RACES = [0.5 * half for half in range(16, 45)]
@@ -76,7 +79,7 @@ def main():
     as_written = argparse.RawDescriptionHelpFormatter
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
     arguments.add_argument("folder", type=pathlib.Path)
-    arguments.add_argument("--plummer", type=pathlib.Path, default=pathlib.Path("target/release/plummer"))
+    arguments.add_argument("--plummer", type=pathlib.Path, default=PROGRAM)
     asked = arguments.parse_args()
     with open(asked.folder / "records.csv", newline="") as table:
         records = list(csv.DictReader(table))

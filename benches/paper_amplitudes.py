@@ -2,7 +2,7 @@
 
     pip install numpy
     cargo build --release
-    python3 benches/paper_amplitudes.py [--plummer target/release/plummer] [--tables ours,source,damping,angle]
+    python3 benches/paper_amplitudes.py [--plummer PROGRAM] [--tables ours,source,damping,angle]
 
 `ours` are examples/tadina2011/*.toml with one choice at a time changed to the source's. `source` is what it prints, as far
 as plummer has keys: its beams on 36 springs (beam.toml), Table 1's stiffness, no contact damping, C = beta K (17), dents
@@ -19,12 +19,15 @@ One thread a run; results do not depend on it.
 
 import argparse
 import functools
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
+
+PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", "target"), "release/plummer")
 
 EXAMPLES = pathlib.Path(__file__).parent.parent / "examples/tadina2011"
 STARTS = (2.0, 2.0137, 2.0274)
@@ -145,7 +148,7 @@ def table(program, head, base, rows, kinds=KINDS):
 def main():
     as_written = argparse.RawDescriptionHelpFormatter
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    arguments.add_argument("--plummer", type=pathlib.Path, default=pathlib.Path("target/release/plummer"))
+    arguments.add_argument("--plummer", type=pathlib.Path, default=PROGRAM)
     arguments.add_argument("--tables", default="ours,source,damping,angle")
     asked = arguments.parse_args()
     program = asked.plummer.resolve()

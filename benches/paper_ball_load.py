@@ -2,7 +2,7 @@
 
     pip install numpy
     cargo build --release
-    python3 benches/paper_ball_load.py [--plummer target/release/plummer] [--beta 1.5e-6]
+    python3 benches/paper_ball_load.py [--plummer PROGRAM] [--beta 1.5e-6]
 
 (15) prints the centrifugal load as `rho omega^2`: without the ball's mass, and with an omega that has no index. plummer
 takes `m_b rho omega_c^2` with the cage's speed and has no key for anything else. So this script steps the printed
@@ -16,12 +16,15 @@ largest, medians of the starts).
 """
 
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
+
+PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", "target"), "release/plummer")
 
 TAU = 2 * np.pi
 OUTER, INNER, BALL, BALL_MASS, COUNT = 4.7565e-3, 2.754e-3, 1e-3, 3.29e-5, 7
@@ -188,7 +191,7 @@ def below(signals, rate, corner):
 def main():
     as_written = argparse.RawDescriptionHelpFormatter
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    arguments.add_argument("--plummer", type=pathlib.Path, default=pathlib.Path("target/release/plummer"))
+    arguments.add_argument("--plummer", type=pathlib.Path, default=PROGRAM)
     arguments.add_argument("--beta", type=float, default=1.5e-6, help="s; C = beta K, (17)")
     asked = arguments.parse_args()
     if not asked.plummer.exists():

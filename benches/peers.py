@@ -55,7 +55,8 @@ CHOSEN = "plummer, as the program chooses"
 def built():
     """The module, built and loaded."""
     command = ["cargo", "build", "--release", "--manifest-path", str(CRATE / "Cargo.toml")]
-    subprocess.run(command, check=True)
+    # named, whatever CARGO_TARGET_DIR says
+    subprocess.run([*command, "--target-dir", str(CRATE / "target")], check=True)
     release = CRATE / "target" / "release"
     library = next(p for p in (release / "libpeers.so", release / "libpeers.dylib", release / "peers.dll") if p.exists())
     module = release / ("peers.pyd" if library.suffix == ".dll" else "peers.so")

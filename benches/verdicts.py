@@ -2,7 +2,7 @@
 
     pip install numpy scipy
     cargo build --release
-    python3 benches/verdicts.py FOLDER [--plummer target/release/plummer] [--combs 500] [--each]
+    python3 benches/verdicts.py FOLDER [--plummer PROGRAM] [--combs 500] [--each]
 
 FOLDER holds records.csv and its files: a row a record, with `id`, `file` (.npz with `signal` and `rate_hz`), `set`,
 `grade`, `speed_hz`, the orders `outer`, `inner`, `ball` and `cage`, and `truth` ("outer race", "inner race", "ball" or
@@ -24,6 +24,7 @@ import argparse
 import collections
 import csv
 import json
+import os
 import pathlib
 import platform
 import statistics
@@ -35,6 +36,8 @@ import time
 import numpy as np
 import scipy
 from scipy import fft, ndimage, signal
+
+PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", "target"), "release/plummer")
 
 PARTS = ("outer", "inner", "ball")
 NAMES = ("outer race", "inner race", "ball")
@@ -148,7 +151,7 @@ def main():
     as_written = argparse.RawDescriptionHelpFormatter
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
     arguments.add_argument("folder", type=pathlib.Path)
-    arguments.add_argument("--plummer", type=pathlib.Path, default=pathlib.Path("target/release/plummer"))
+    arguments.add_argument("--plummer", type=pathlib.Path, default=PROGRAM)
     arguments.add_argument("--combs", type=int, default=500, help="random combs that the best part must be above")
     each = "a line a record too: scores of outer race, inner race and ball, and the threshold"
     arguments.add_argument("--each", action="store_true", help=each)

@@ -4,7 +4,7 @@
 #   PLUMMER=path/to/plummer sh scripts/figures.sh [paper] [path] [run-up] [report] [verification]
 set -eu
 cd "$(dirname "$0")/.."
-plummer=${PLUMMER:-target/release/plummer}
+plummer=${PLUMMER:-$(sh scripts/target.sh)/release/plummer}
 
 paper() {
     out=out/paper

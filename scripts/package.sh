@@ -4,9 +4,11 @@ set -eu
 cd "$(dirname "$0")/.."
 
 cargo build --release --locked
+plummer=$(sh scripts/target.sh)/release/plummer
+# where Cargo.toml names them for cargo-deb
 rm -rf target/shell
-target/release/plummer man --out target/shell
-target/release/plummer completions bash > target/shell/plummer.bash
-target/release/plummer completions zsh > target/shell/_plummer
-target/release/plummer completions fish > target/shell/plummer.fish
+"$plummer" man --out target/shell
+"$plummer" completions bash > target/shell/plummer.bash
+"$plummer" completions zsh > target/shell/_plummer
+"$plummer" completions fish > target/shell/plummer.fish
 cargo deb --no-build --locked

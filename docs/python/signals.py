@@ -1,33 +1,34 @@
-"""Order spectrum of a run's envelope: signals.npz with NumPy and SciPy alone.
+"""Order spectrum of the envelope of a run's signal, and what stands out of it at the orders of the bearing's parts.
 
-    python3 signals.py out/outer-dent/signals.npz
+    python3 signals.py out/outer-dent P1 1.0 2.6
 """
 
+import json
 import sys
 
 import numpy as np
 from scipy.signal import butter, hilbert, sosfiltfilt
 
-signals = np.load(sys.argv[1])
-time, p1 = signals["time_s"], signals["P1"]  # s, m/s^2
-rate = 1 / (time[1] - time[0])
-envelope = np.abs(hilbert(sosfiltfilt(butter(4, 5000, "highpass", fs=rate, output="sos"), p1)))
+folder, sensor, begin, end = sys.argv[1:]
+run = np.load(f"{folder}/signals.npz")
+time, turns = run["time_s"], run["shaft_angle_rad"] / (2 * np.pi)
+high_pass = butter(4, 5000, "highpass", fs=1 / (time[1] - time[0]), output="sos")
+envelope = np.abs(hilbert(sosfiltfilt(high_pass, run[sensor])))
 
-# the shaft's turns of this run-up: 10 Hz a second from 0.2 s on
-turns = 5 * np.clip(time - 0.2, 0, None) ** 2
-window = (time >= 1.0) & (time <= 2.6)
+# means over equal angles, so that no frequency above them is folded down
 a_turn = 64
-even = np.arange(turns[window][0], turns[window][-1], 1 / a_turn)
-# averages over equal angles, so that nothing above them is folded down
-sums = np.interp(even, turns, np.cumsum(envelope))
-counts = np.interp(even, turns, np.arange(len(time)))
-over_angle = np.diff(sums) / np.diff(counts)
+window = (time >= float(begin)) & (time <= float(end))
+angles = np.arange(turns[window][0], turns[window][-1], 1 / a_turn)
+sums, counts = np.interp(angles, turns, np.cumsum(envelope)), np.interp(angles, turns, np.arange(len(time)))
+means = np.diff(sums) / np.diff(counts)
 
-spectrum = np.abs(np.fft.rfft((over_angle - over_angle.mean()) * np.hanning(len(over_angle)))) * 4 / len(over_angle)
-orders = np.fft.rfftfreq(len(over_angle), 1 / a_turn)
-for harmonic in (1, 2, 3):
-    expected = harmonic * 2.56797
-    near = np.abs(orders - expected) < 0.1
-    best = np.argmax(np.where(near, spectrum, 0))
-    floor = np.median(spectrum[np.abs(orders - expected) < 1])
-    print(f"{harmonic} x outer race: order {orders[best]:.2f}, {spectrum[best] / floor:.0f} times the median about it")
+spectrum = np.abs(np.fft.rfft((means - means.mean()) * np.hanning(len(means))))
+orders = np.fft.rfftfreq(len(means), 1 / a_turn)
+with open(f"{folder}/run.json") as file:
+    parts = json.load(file)["defect_orders"]
+for part in ("outer", "inner", "ball"):
+    heights = []
+    for line in parts[part] * np.arange(1, 4):
+        about = np.abs(orders - line)
+        heights.append(spectrum[about < 0.05].max() / np.median(spectrum[about < 1]))
+    print(f"{part}: order {parts[part]:.3f}, its harmonics {np.round(heights, 1)} times the median about them")

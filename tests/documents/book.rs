@@ -1,12 +1,12 @@
 //! The documents hang together: every link and every anchor leads somewhere, `SUMMARY.md` lists every page, no picture comes from
-//! a network, and the page of the case file names every key.
+//! a network, copies are those of the files, and the page of the case file names every key.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
-use super::markdown::{root, split};
+use super::markdown::{renews, replace_blocks, root, split};
 
 /// A link of a page, or a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -157,20 +157,69 @@ fn every_link_leads_somewhere() {
     assert!(count > 200, "{count}");
 }
 
+/// GitHub shows a page as it is: nothing in it waits for the book to be built.
 #[test]
-fn what_is_included_exists() {
-    let mut count = 0;
+fn pages_can_be_read_where_they_lie() {
     for path in documents() {
         let text = fs::read_to_string(&path).unwrap();
-        for rest in text.split("{{#include ").skip(1) {
-            let file = rest.split(['}', ':']).next().unwrap().trim();
-            // contributing.md and the like may speak of it in words
-            let to = path.parent().unwrap().join(file);
-            assert!(to.is_file(), "{}: {file}", path.display());
-            count += 1;
+        assert!(!text.contains("{{#"), "{}: a page that only the book shows whole", path.display());
+    }
+}
+
+/// Whether each line is the beginning of one of the file's, in the file's order.
+fn stands_in(lines: &[String], file: &str) -> bool {
+    let mut rest = file.lines();
+    lines.iter().filter(|line| !line.is_empty()).all(|line| rest.any(|other| other.starts_with(line.as_str())))
+}
+
+/// A block `file=PATH` is that file, a block `from=PATH` has lines of it; with PLUMMER_WRITE the files are copied.
+#[test]
+fn copies_are_those_of_the_files() {
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for path in documents() {
+        let blocks = split(&fs::read_to_string(&path).unwrap()).0;
+        let mut new = Vec::new();
+        for block in &blocks {
+            let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
+            let place = || format!("{}:{}: {}", path.display(), block.line, block.info);
+            if let Some(file) = block.word("file") {
+                count += 1;
+                let lines: Vec<String> = read(file).lines().map(str::to_owned).collect();
+                if lines != block.lines {
+                    wrong.push(place());
+                    new.push((block.line, lines));
+                }
+            }
+            if let Some(file) = block.word("from") {
+                count += 1;
+                if !stands_in(&block.lines, &read(file)) {
+                    wrong.push(place());
+                }
+            }
+        }
+        if renews() {
+            replace_blocks(&path, &new);
         }
     }
-    assert!(count > 2, "{count}");
+    assert!(renews() || wrong.is_empty(), "not as in the file:\n{}", wrong.join("\n"));
+    // that the search finds them
+    assert!(count > 7, "{count}");
+}
+
+/// With CARGO_TARGET_DIR the program is elsewhere.
+#[test]
+fn nothing_takes_for_granted_where_cargo_builds() {
+    let mut files = documents();
+    files.push(root().join("Makefile"));
+    for folder in ["scripts", "benches", "docs/python", "meshes"] {
+        let entries = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+        files.extend(entries.filter(|path| path.extension().is_some_and(|ending| ending == "sh" || ending == "py")));
+    }
+    assert!(files.len() > 50, "{}", files.len());
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(!text.contains("target/release"), "{} names target/release", path.display());
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! What tests of the documents have in common: where they are, and what stands in a page.
 
+use std::env;
+use std::fs;
 use std::path::Path;
 
 /// The repository's folder.
@@ -35,6 +37,45 @@ pub fn split(text: &str) -> (Vec<Block>, Vec<(usize, &str)>) {
     }
     assert!(!open, "a fence is not closed");
     (blocks, prose)
+}
+
+impl Block {
+    /// The value of a word `NAME=VALUE` behind the fence; GitHub and the book show none of them.
+    pub fn word(&self, name: &str) -> Option<&str> {
+        let mut words = self.info.split(' ').filter_map(|word| word.split_once('='));
+        words.find(|(key, _)| *key == name).map(|(_, value)| value)
+    }
+}
+
+/// Whether a page is to be brought up to date instead of being judged.
+pub fn renews() -> bool {
+    env::var_os("PLUMMER_WRITE").is_some()
+}
+
+/// Puts other lines into blocks of a page: the line of each one's fence, from 1, and its new lines.
+pub fn replace_blocks(page: &Path, new: &[(usize, Vec<String>)]) {
+    if new.is_empty() {
+        return;
+    }
+    let text = fs::read_to_string(page).unwrap();
+    let mut lines: Vec<&str> = text.lines().collect();
+    for (fence, new) in new.iter().rev() {
+        let end = *fence + lines[*fence..].iter().position(|line| line.trim_start().starts_with("```")).unwrap();
+        lines.splice(*fence..end, new.iter().map(String::as_str));
+    }
+    fs::write(page, format!("{}\n", lines.join("\n"))).unwrap();
+}
+
+#[test]
+fn a_block_is_replaced() {
+    let page = tempfile::NamedTempFile::new().unwrap();
+    fs::write(&page, "a\n```sh\nb\n```\nc\n```text of=d\n```\n").unwrap();
+    let new = |lines: &[&str]| lines.iter().map(|&line| line.to_owned()).collect();
+    replace_blocks(page.path(), &[(2, new(&["x", "y"])), (6, new(&["z"]))]);
+    let text = fs::read_to_string(&page).unwrap();
+    assert_eq!(text, "a\n```sh\nx\ny\n```\nc\n```text of=d\nz\n```\n");
+    assert_eq!(split(&text).0[1].word("of"), Some("d"));
+    assert_eq!(split(&text).0[0].word("of"), None);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The program from outside: exit codes, where text goes, and that nothing is overwritten.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::common::{errors, plummer};
@@ -20,6 +20,11 @@ fn help_goes_to_standard_output_and_a_misspelt_command_to_standard_error() {
     let help = plummer(&folder, &["--help"]);
     assert_eq!(help.status.code(), Some(0));
     assert!(String::from_utf8(help.stdout).unwrap().contains("--set <KEY=VALUE>"));
+    // what every command takes stands together, below what the command alone takes
+    let help = String::from_utf8(plummer(&folder, &["analyze", "--help"]).stdout).unwrap();
+    let (own, of_every) = help.split_once("Options of every command:").unwrap();
+    assert!(own.contains("--baseline-window") && !own.contains("--out"), "{own}");
+    assert!(of_every.contains("--out <DIR>") && !of_every.contains("--baseline"), "{of_every}");
     let wrong = plummer(&folder, &["mods", "ring.toml"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(wrong.stdout.is_empty());
@@ -68,6 +73,42 @@ fn an_earlier_result_is_not_touched_without_force() {
     assert_ne!(elsewhere.status.code(), Some(2));
     let forced = plummer(&folder, &["modes", "ring.toml", "--force"]);
     assert_ne!(forced.status.code(), Some(2));
+}
+
+/// Computing the same again loses nothing; results of other values or of another mesh would be lost.
+#[test]
+fn the_same_case_replaces_its_own_result() {
+    let folder = super::common::scratch("again");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mesh = |name: &str| fs::copy(root.join("meshes").join(name), folder.join("ring.msh")).unwrap();
+    mesh("ring_6_9.msh");
+    let case = "[housing]\nmesh = \"ring.msh\"\nlength_unit = \"mm\"\nplane = { assumption = \"stress\", thickness = 4e-3 }\n\
+                parts = [{ group = \"housing\", material = \"aluminium\" }]\n[modes]\ncount = 5\n";
+    fs::write(folder.join("ring.toml"), case).unwrap();
+    let modes = |more: &[&str]| {
+        let output = plummer(&folder, &[&["modes", "ring.toml", "--quiet"], more].concat());
+        (output.status.code(), errors(&output))
+    };
+    let lost = |of: &str| {
+        let said = format!("error: out/ring/modes.json is the result of an earlier run{of}\n");
+        (Some(2), said + "help: replace it with --force, or choose another folder with --out\n")
+    };
+    assert_eq!(modes(&[]), (Some(0), String::new()));
+    // words and order are no values, and [analysis] says how signals are looked at
+    fs::write(folder.join("ring.toml"), format!("# again\n{case}[analysis]\nenergy = true\n")).unwrap();
+    assert_eq!(modes(&[]), (Some(0), String::new()));
+    assert_eq!(modes(&["--set", "modes.count=6"]), lost(" of other values"));
+    fs::write(folder.join("ring.msh"), format!("{}\n", fs::read_to_string(folder.join("ring.msh")).unwrap())).unwrap();
+    assert_eq!(modes(&[]), lost(" of another mesh"));
+    assert_eq!(modes(&["--force"]), (Some(0), String::new()));
+    // what is no result of the command
+    fs::write(folder.join("out/ring/modes.json"), "{\"command\":\"run\"}").unwrap();
+    assert_eq!(modes(&[]), lost(""));
+    // the page keeps its name where another command has come into the folder
+    assert_eq!(modes(&["--force"]), (Some(0), String::new()));
+    fs::write(folder.join("out/ring/analysis.json"), "{}").unwrap();
+    assert_eq!(modes(&[]), (Some(0), String::new()));
+    assert!(!folder.join("out/ring/modes-report.html").exists());
 }
 
 #[test]

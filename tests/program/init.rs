@@ -181,6 +181,8 @@ fn the_bearing_tells_the_unit() {
     fs::write(folder.join("a.msh"), tube.msh()).unwrap();
     let found = init(&folder, &["a.msh", "--bearing", "6205-2RS"]);
     assert_eq!(found["length_unit"], "cm");
+    // the same file again is no loss
+    init(&folder, &["a.msh", "--bearing", "6205-2RS"]);
     let found = init(&folder, &["a.msh", "--force"]);
     assert_eq!(found["length_unit"], "mm", "by the extent");
     let found = init(&folder, &["a.msh", "--force", "--length-unit", "cm"]);

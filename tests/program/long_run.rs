@@ -110,7 +110,7 @@ fn a_run_that_is_killed_again_and_again_comes_to_the_same_bytes() {
     assert!(!killed.partial().exists());
     let (code, text) = killed.ended(&["--resume"]);
     assert_eq!(code, 2);
-    assert!(text.contains("run.json is the result of a finished run: there is nothing to go on with\nhelp: leave --resume out, and begin anew with --force\n"), "{text}");
+    assert!(text.contains("run.json is the result of a finished run: there is nothing to go on with\nhelp: leave --resume out to compute it anew\n"), "{text}");
 }
 
 #[test]

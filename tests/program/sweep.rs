@@ -148,14 +148,14 @@ fn shares_of_a_job_array_merge_to_the_same_table() {
     let array = fs::read_to_string(folder.join("ar ray/sweep/array.sbatch")).unwrap();
     assert!(array.contains("#SBATCH --array=1-2\n"), "{array}");
     let share = |share: &str| told(plummer(&folder, &["sweep", "--task", share, "ar ray"]));
-    let merge = |force: &[&str]| told(plummer(&folder, &[&["sweep", "--merge", "ar ray"], force].concat()));
+    let merge = || told(plummer(&folder, &["sweep", "--merge", "ar ray"]));
     assert_eq!(share("1/2").0, 0);
-    let (code, _, err) = merge(&[]);
+    let (code, _, err) = merge();
     assert_eq!(code, 1);
     assert!(err.contains("2 of 5 points are not computed"), "{err}");
     let (code, out, _) = share("2/2");
     assert_eq!((code, out.lines().next()), (0, Some("point 2: done")));
-    let (code, _, err) = merge(&["--force"]);
+    let (code, _, err) = merge();
     assert_eq!((code, err.as_str()), (0, ""));
     assert_eq!(rows(&folder.join("ar ray")), rows(&folder.join("out/Ring ä")));
     // the case is not the one that was planned

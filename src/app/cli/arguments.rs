@@ -6,6 +6,7 @@ use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::app::shell_word::shell_word;
 use crate::numerics::units::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -28,8 +29,8 @@ Examples: the dented bearing with a deeper dent, in a folder of its own; the sam
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper --resume
 
 Long runs: memory does not grow with the simulated time. Signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
-keeps a checkpoint and ends with exit code 1; a second Ctrl-C ends at once. With --resume the run goes on. Its signals are then
-to the last bit those of a run without a stop, if program, case, --set and meshes are the same.";
+keeps a checkpoint and ends with exit code 1; a second Ctrl-C ends at once. With --resume the run goes on. With the same program,
+case, --set and meshes its signals are those of a run without a stop, bit by bit.";
 
 const INIT_EXAMPLE: &str = "\
 Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings that the program knows
@@ -37,8 +38,9 @@ Examples: a case file beside a mesh, with the bearing that fits its bore; the be
   plummer init housing.msh --length-unit mm --bearing 6205 --out motor.toml
   plummer init --list-bearings
 
-The file says of every value whether it is from the mesh, the catalogue, usual or a guess. Tables that the mesh says nothing of
-are templates, commented out. plummer modes FILE runs at once where the mesh allows it.
+--out FILE names the case file (default: the mesh's name, ending in .toml). It says of every value whether it is from the mesh,
+the catalogue, usual or a guess. Tables that the mesh says nothing of are templates, commented out. plummer modes FILE runs at
+once where the mesh allows it.
 
 The bore is the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports are
 groups named like a foot, base, bolt, clamp or support.";
@@ -176,8 +178,8 @@ Examples: a schema by which an editor with taplo or Even Better TOML completes a
   plummer schema --results modes
 
 The first line of a case file names the schema, relative to the case: #:schema plummer.schema.json
-The schema has the keys, kinds of values, options, and keys that exclude each other. Every command that reads a case checks ranges
-and what needs the mesh.";
+The schema has the keys, kinds of values, options, and keys that exclude each other. Ranges, and what depends on the mesh, are
+checked by every command that reads a case.";
 
 /// Computes vibration signals from a housing mesh and a ball bearing's data, and diagnoses them.
 #[derive(Debug, Clone, Parser)]
@@ -205,11 +207,11 @@ pub enum Command {
         /// Go on with the unfinished run in the folder for the results
         #[arg(long)]
         resume: bool,
-        /// Seconds of wall time between checkpoints; the pause is longer where checkpoints would take more than 4 % of the time
+        /// Seconds between checkpoints; more where they would take above 4 % of the time
         #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = pause, default_value_t = CHECKPOINT_S)]
         checkpoint_every: f64,
     },
-    /// Write a commented case file for a mesh, with bore, parts and supports by its named groups and a bearing that fits
+    /// Write a commented case file for a mesh: bore, parts and supports from its named groups, and a bearing that fits
     #[command(after_help = INIT_EXAMPLE)]
     Init(InitArguments),
     /// Show what a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
@@ -239,13 +241,13 @@ pub enum Command {
         #[arg(long)]
         compare_full: bool,
     },
-    /// Compute transfer paths from forces to sensors by the reduced model, and compare with the full one
+    /// Compute transfer paths from forces to sensors with the reduced model, and compare with the full one
     #[command(after_help = FRF_EXAMPLE)]
     Frf {
         /// Case file (TOML)
         case: PathBuf,
     },
-    /// Chart speed against accuracy of the simulation over methods, steps and sizes of the model, and map its stability
+    /// Chart how fast and how accurate methods, steps and model sizes are, and map where they are stable
     #[command(after_help = CHART_EXAMPLE)]
     Chart {
         /// Case file (TOML)
@@ -257,7 +259,7 @@ pub enum Command {
         #[arg(long, value_name = "PART", value_enum)]
         only: Option<ChartPart>,
     },
-    /// Judge which part of a bearing is damaged, by a run's signal or a measured one
+    /// Tell which part of a bearing is damaged, from the signal of a run or a measured one
     #[command(after_help = ANALYZE_EXAMPLE)]
     Analyze(Box<AnalyzeArguments>),
     /// Run many variants of a case into one table, on all cores or on a cluster
@@ -283,7 +285,7 @@ pub enum Command {
     /// Print the manual page, or with --out write one for each command
     #[command(after_help = MAN_EXAMPLE)]
     Man,
-    /// Draw the pages of earlier results again, with their tables and figures, as this version draws them
+    /// Draw the pages, tables and figures of earlier results again, with this version of the program
     #[command(after_help = REPORT_EXAMPLE)]
     Report {
         /// Folder with the results of one or more commands
@@ -378,6 +380,18 @@ impl Command {
         }
     }
 
+    /// What an earlier result of the command has that this one would lack, behind "an earlier run".
+    pub(super) fn lost_with(&self, earlier: &Value) -> Option<&'static str> {
+        match self {
+            // hours of computing, whose extent the options choose
+            Self::Chart { .. } => Some(""),
+            Self::Condense { compare_full: false, .. } if !earlier["full_frequencies_hz"].is_null() => {
+                Some(" with --compare-full")
+            }
+            _ => None,
+        }
+    }
+
     /// The result files that it writes, which an earlier result is known by.
     #[must_use]
     pub(crate) fn result_files(&self) -> Vec<String> {
@@ -401,11 +415,12 @@ fn number_of_threads(text: &str) -> Result<NonZeroUsize, String> {
 
 /// Options that every command takes.
 #[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Options of every command")]
 pub struct Options {
-    /// Folder for the results, or the case file of init (default: out/ and the name of the case or signal)
+    /// Folder for the results (default: one of its own in out/)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// How many threads to compute with (default: all cores)
+    /// Number of threads (default: all cores)
     #[arg(long, global = true, allow_hyphen_values = true, value_name = "N", value_parser = number_of_threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print errors only, no progress and no summary
@@ -414,10 +429,10 @@ pub struct Options {
     /// Print the result as JSON instead of the summary
     #[arg(long, global = true)]
     pub json: bool,
-    /// Replace an earlier result of the same command
+    /// Replace results of another case, and give up an unfinished run
     #[arg(long, global = true)]
     pub force: bool,
-    /// Set a key of the case file, e.g. bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
+    /// Set a key of the case, as bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }

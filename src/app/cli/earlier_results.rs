@@ -1,4 +1,5 @@
-//! The results of an earlier command that another one reads: files that belong together, and the case that they are of.
+//! The results of an earlier command: what another one reads, files that belong together and the case that they are of;
+//! and what of them the same command may replace.
 
 use std::path::{Path, PathBuf};
 
@@ -7,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::CliError;
 use crate::app::case::Case;
+use crate::app::scene::mesh_digests;
 use crate::app::shell_word::shell_word;
 use crate::files::{self, FileDigest, FileError};
 
@@ -112,6 +114,27 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
         .with_help("--set can change only [analysis] of earlier results; compute new results with these values"));
     }
     Ok(looked_at)
+}
+
+/// A result of this command; null where the file holds none.
+pub(super) fn result_of(command: &str, path: &Path) -> Value {
+    let result = files::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    result.filter(|result: &Value| result["command"] == command).unwrap_or_default()
+}
+
+/// What a result of a command is of, behind "an earlier run"; `None`: of this case and of the meshes that are there now, so that
+/// computing it again loses nothing. `[analysis]`, which says how signals are looked at, may differ.
+pub(super) fn lost_with(result: &Value, case: &Case) -> Option<&'static str> {
+    if result.is_null() {
+        return Some("");
+    }
+    if result[CASE_DIGEST].as_str() != case.source.digest().ok().as_deref() {
+        return Some(" of other values");
+    }
+    let then: Vec<FileDigest> = serde_json::from_value(result["meshes"].clone()).unwrap_or_default();
+    let now = mesh_digests(case).unwrap_or_default();
+    let same = then.iter().map(|mesh| &mesh.sha256).eq(now.iter().map(|mesh| &mesh.sha256));
+    (!same).then_some(" of another mesh")
 }
 
 /// The error of a file that was replaced or damaged since a result speaks of it; `expected` and `found` are SHA-256.

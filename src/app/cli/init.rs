@@ -22,10 +22,6 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     };
     let bearing = asked.bearing.as_deref().map(named).transpose()?;
     let case = case_file(mesh, options)?;
-    if case.exists() && !options.force {
-        return Err(CliError::input(format!("{} exists", case.display()))
-            .with_help("replace it with --force, or name another file with --out"));
-    }
     let folder = case.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     let mesh_in_case = path_from(folder, mesh);
@@ -36,6 +32,10 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     if let Err(error) = verdict(&inspection) {
         let what = format!("{}: {error}; no case file was written", mesh.display());
         return Err(CliError { help: error.help, ..CliError::input(what) });
+    }
+    if case.exists() && !options.force && fs::read_to_string(&case).ok().as_ref() != Some(&draft.text) {
+        return Err(CliError::input(format!("{} exists", case.display()))
+            .with_help("replace it with --force, or name another file with --out"));
     }
     fs::create_dir_all(folder).map_err(|error| CliError::folder(folder, &error))?;
     write_atomic(&case, draft.text.as_bytes())?;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use super::earlier_results::result_of;
 use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::commands::result::VERSION;
@@ -38,7 +39,9 @@ pub(crate) fn inspect(
     let mut written = Vec::new();
     if let Some(folder) = &options.out {
         let folder = OutputFolder::at(folder);
-        folder.claim("inspect", options.force)?;
+        folder.claim_unless(&["inspect.json"], options.force, |earlier| {
+            (result_of("inspect", earlier)["mesh"] != result["mesh"]).then_some("")
+        })?;
         written.push(folder.write_json("inspect.json", &result)?.0);
     }
     Ok(Outcome { summary: summary(path, &found, density), result, written, verdict: verdict(&found) })

@@ -35,6 +35,7 @@ use clap::Parser;
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
 use arguments::{command_line, resuming, word};
+use earlier_results::{lost_with, result_of};
 pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
@@ -150,9 +151,10 @@ fn compute(
     match arguments.command {
         Command::Run { explain: true, .. } => {}
         Command::Run { resume: true, .. } => run::claim_unfinished(&job.folder, options.force)?,
-        _ => {
-            job.folder.claim_files(&arguments.command.result_files(), options.force)?;
-        }
+        _ => job.folder.claim_unless(&arguments.command.result_files(), options.force, |path| {
+            let earlier = result_of(job.command, path);
+            arguments.command.lost_with(&earlier).or_else(|| lost_with(&earlier, &case))
+        })?,
     }
     let outcome = work(&job);
     progress.finish();

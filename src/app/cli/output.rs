@@ -93,11 +93,26 @@ impl OutputFolder {
     /// # Errors
     /// As [`claim`](Self::claim).
     pub(crate) fn claim_files<N: AsRef<Path>>(&self, names: &[N], force: bool) -> Result<(), CliError> {
+        self.claim_unless(names, force, |_| Some(""))
+    }
+
+    /// Makes the folder, takes it for this process and checks that no earlier result would be lost without `force`:
+    /// `lost` says of a file that is there what it is the result of, behind "an earlier run"; `None`: of what is computed now.
+    ///
+    /// # Errors
+    /// As [`claim`](Self::claim).
+    pub(super) fn claim_unless<N: AsRef<Path>>(
+        &self,
+        names: &[N],
+        force: bool,
+        lost: impl Fn(&Path) -> Option<&'static str>,
+    ) -> Result<(), CliError> {
         fs::create_dir_all(&self.path).map_err(|error| CliError::folder(&self.path, &error))?;
         self.lock()?;
-        let mut paths = names.iter().map(|name| self.path.join(name));
-        match paths.find(|path| !force && path.exists()) {
-            Some(path) => Err(CliError::input(format!("{} is the result of an earlier run", path.display()))
+        let paths = names.iter().map(|name| self.path.join(name));
+        let mut lost = paths.filter(|path| !force && path.exists()).filter_map(|path| lost(&path).map(|of| (path, of)));
+        match lost.next() {
+            Some((path, of)) => Err(CliError::input(format!("{} is the result of an earlier run{of}", path.display()))
                 .with_help("replace it with --force, or choose another folder with --out")),
             None => Ok(()),
         }
@@ -117,12 +132,17 @@ impl OutputFolder {
         }
     }
 
-    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command has its results.
+    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command had its results first.
     #[must_use]
     pub(crate) fn report_name(&self, command: &str) -> String {
+        let own = format!("{command}-report.html");
+        let has = |name: &str| self.path.join(name).exists();
+        if has(&format!("{command}.json")) && has("report.html") && !has(&own) {
+            return "report.html".to_owned();
+        }
         let mut all = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"].into_iter();
-        let shared = all.any(|other| other != command && self.path.join(format!("{other}.json")).exists());
-        if shared { format!("{command}-report.html") } else { "report.html".to_owned() }
+        let shared = all.any(|other| other != command && has(&format!("{other}.json")));
+        if shared { own } else { "report.html".to_owned() }
     }
 
     /// Writes a result as JSON; gives its path, and what it says.

@@ -31,7 +31,7 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
             "{} is the result of a finished run: there is nothing to go on with",
             finished.display()
         ))
-        .with_help("leave --resume out, and begin anew with --force"))
+        .with_help("leave --resume out to compute it anew"))
     } else {
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! `plummer verify`: the built-in verification suite.
 
+use super::earlier_results::result_of;
 use super::report::ReportFiles;
 use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
@@ -17,7 +18,11 @@ const FOLDER: &str = "out/verify";
 /// [`CliError`] when a check cannot be carried out or a file cannot be written.
 pub(crate) fn verify(full: bool, options: &Options) -> Result<Outcome, CliError> {
     let folder = OutputFolder::at(options.out.as_deref().unwrap_or(Path::new(FOLDER)));
-    folder.claim("verify", options.force)?;
+    folder.claim_unless(&["verify.json"], options.force, |path| {
+        let earlier = result_of("verify", path);
+        let less = (earlier["full"] == true && !full).then_some(" with --full");
+        if earlier.is_null() { Some("") } else { less }
+    })?;
     let progress = Progress::new(options.shows_progress());
     let started = std::time::Instant::now();
     let sections = suite(full, &progress).map_err(|error| CliError::failed(error.to_string()));

@@ -21,8 +21,8 @@ pub struct AnalyzeArguments {
     /// Sampling rate in Hz, instead of the file's
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
-    /// Case file with the bearing, and with the shaft's speed unless --speed gives it; or the bearing's name in the catalogue, as
-    /// 6205 (plummer init --list-bearings). A file goes before a bearing of the same name
+    /// Case file with bearing and shaft speed (--speed replaces that speed), or a bearing of the catalogue, as 6205: plummer init
+    /// --list-bearings. A file of that name comes first
     #[arg(long, value_name = "CASE.toml|NAME")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
@@ -38,7 +38,7 @@ pub struct AnalyzeArguments {
     #[arg(long, allow_hyphen_values = true, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
     pub contact_angle: f64,
     /// Events per revolution of the shaft: some of outer=3.58,inner=5.42,ball=4.71,cage=0.398, or of BPFO, BPFI, BSF and FTF.
-    /// BSF is the spin of a ball: a flaw on it strikes both races, so that ball = 2 x BSF
+    /// BSF is the spin of a ball. A flaw on the ball strikes twice a spin: ball = 2 x BSF
     #[arg(long, allow_hyphen_values = true, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
     pub orders: Option<GivenOrders>,
     /// Shaft speed: 29.95Hz, 1797rpm, "1797 1/min" or 29.95 in Hz; over time 0:600rpm,8:3000rpm, T in s, with straight lines between
@@ -47,18 +47,18 @@ pub struct AnalyzeArguments {
     /// Window of time in s; can be repeated (default: the case's windows, or the whole signal)
     #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO", value_parser = window)]
     pub window: Vec<TimeWindow>,
-    /// Corner of the high-pass before the envelope in Hz (default: the case's; else 5000 or an eighth of the sampling rate, the
-    /// lower one)
+    /// Corner of the high-pass before the envelope in Hz (default: the case's; else 5000, but at most an eighth of the
+    /// sampling rate)
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub high_pass: Option<f64>,
-    /// Band before the envelope in Hz, where the housing rings, instead of --high-pass. With `kurtogram` it is the most impulsive
-    /// band of each window, or the high-pass where noise may be as impulsive
+    /// Band before the envelope in Hz, where the housing rings, instead of --high-pass. `kurtogram` takes the most impulsive band
+    /// of each window; where noise may be as impulsive, it takes the high-pass
     #[arg(long, allow_hyphen_values = true, value_name = "FROM:TO|kurtogram", value_parser = band, conflicts_with = "high_pass")]
     pub band: Option<EnvelopeBand>,
     /// Show the spectrum of the whitened signal's squared envelope; verdicts look at both anyway
     #[arg(long)]
     pub whiten: bool,
-    /// Relative error of the orders, 0 to 0.1: contact angle, slip, speed (default: 0.01; of a simulated bearing 0)
+    /// How far orders may be off by contact angle, slip and speed, relative, 0 to 0.1 (default: 0.01; of a simulated bearing 0)
     #[arg(long, allow_hyphen_values = true, value_name = "PART")]
     pub geometry_error: Option<f64>,
     /// Earlier signal of the same machine, sensor, place and gain, with which the signal is compared

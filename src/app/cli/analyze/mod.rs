@@ -16,6 +16,7 @@ pub use arguments::AnalyzeArguments;
 pub(super) use machine::{bearing_names, catalogue_orders};
 pub use orders::{GivenOrders, GivenSpeed};
 
+use super::earlier_results::result_of;
 use super::report::ReportFiles;
 use super::results::result_head;
 use super::{CliError, Options, Outcome, OutputFolder, Progress, emit};
@@ -77,6 +78,18 @@ fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
         (None, [file]) => OutputFolder::at(&Path::new("out").join(file.file_stem().unwrap_or_default())),
         (None, _) => OutputFolder::at(Path::new("out/analysis")),
     }
+}
+
+/// Takes the folder for these inputs; an analysis of others in it is lost only by `force`.
+fn claim(folder: &OutputFolder, inputs: &[PathBuf], force: bool) -> Result<(), CliError> {
+    folder.claim_unless(&[format!("{RESULT}.json")], force, |path| {
+        let earlier = result_of("analyze", path);
+        let several = earlier["inputs"].as_array().map(|all| all.iter().map(|one| &one["input"]).collect());
+        let analysed: Vec<&Value> = several.unwrap_or_else(|| vec![&earlier["input"]]);
+        let same =
+            analysed.iter().map(|input| input.as_str().map(Path::new)).eq(inputs.iter().map(|input| Some(&**input)));
+        (!same).then_some(if earlier.is_null() { "" } else { " of another signal" })
+    })
 }
 
 /// The command line that analyses this again.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::baseline::{Baseline, analyse};
 use super::source::{Source, Unnamed};
-use super::{AnalyzeArguments, RESULT, command, warn, write_results};
+use super::{AnalyzeArguments, claim, command, warn, write_results};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
@@ -31,7 +31,7 @@ pub(super) fn single(
     let mut doubts = source.doubts.clone();
     doubts.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&doubts, options);
-    folder.claim(RESULT, options.force)?;
+    claim(folder, &asked.inputs, options.force)?;
     progress.stage("analyse");
     let mut windows = Vec::new();
     for signal in &source.signals {

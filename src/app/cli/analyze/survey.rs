@@ -7,7 +7,7 @@
 use super::baseline::{Baseline, analyse};
 use super::single::no_part_judged;
 use super::source::{Source, Unnamed};
-use super::{AnalyzeArguments, RESULT, command, warn, write_results};
+use super::{AnalyzeArguments, claim, command, warn, write_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
@@ -45,7 +45,7 @@ pub(super) fn survey(
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let baseline = Baseline::open(asked, options)?;
-    folder.claim(RESULT, options.force)?;
+    claim(folder, inputs, options.force)?;
     let progress = Progress::new(options.shows_progress());
     progress.stage("analyse");
     let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));

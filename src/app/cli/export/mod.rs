@@ -46,7 +46,7 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     // what `plummer modes` left in the folder is a source, not in the way
     let stays = |name: &&str| !(*name == "modes.npz" && source.folder.as_ref() == Some(&folder.path));
     let names: Vec<&str> = to.files(case).into_iter().filter(stays).collect();
-    folder.claim_files(&names, options.force)?;
+    folder.claim_unless(&names, options.force, |path| source::lost_with(path, case))?;
     let exported = match to {
         ExportFormat::Mtx => matrices::mtx(case, folder, &progress),
         ExportFormat::Npz => matrices::npz(&source, folder, &progress),

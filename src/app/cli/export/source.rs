@@ -4,7 +4,7 @@
 
 use super::CliError;
 use crate::app::case::Case;
-use crate::app::cli::earlier_results::{Wanted, case_of_results, other_file};
+use crate::app::cli::earlier_results::{self, Wanted, case_of_results, other_file, result_of};
 use crate::app::cli::{Options, Progress};
 use crate::app::commands::modes::compute_mode_shapes;
 use crate::app::error::ComputeError;
@@ -159,6 +159,19 @@ impl WrittenFile {
         let found = fs::metadata(&path).map_err(FileError::write(&path))?;
         Ok(Self { file: name.to_owned(), bytes: found.len(), what })
     }
+}
+
+/// What a file of an export is of, behind "an earlier run"; `None`: of this case, by the `export.json` beside it.
+pub(super) fn lost_with(file: &Path, case: &Case) -> Option<&'static str> {
+    let mut last = result_of("export", &file.with_file_name("export.json"));
+    let earlier = last["earlier"].take();
+    let exports = std::iter::once(&last).chain(earlier.as_array().into_iter().flatten());
+    let name = file.file_name().unwrap_or_default();
+    let wrote = |export: &&Value| {
+        let files = export["files"].as_array().into_iter().flatten();
+        files.filter_map(|file| file["file"].as_str()).any(|file| file == name)
+    };
+    exports.filter(wrote).map(|export| earlier_results::lost_with(export, case)).next().unwrap_or(Some(""))
 }
 
 /// Exports to other formats that a folder's `export.json` speaks of.

@@ -8,6 +8,7 @@ use std::path::Path;
 
 pub use arguments::{Share, SweepArguments};
 
+use super::earlier_results::result_of;
 use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
@@ -43,7 +44,8 @@ pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome
     } else if asked.merge {
         let folder = OutputFolder::at(&asked.from);
         let plan = read_plan(&folder)?;
-        folder.claim("sweep", options.force)?;
+        let other = |path: &Path| result_of("sweep", path).is_null().then_some("");
+        folder.claim_unless(&["sweep.json"], options.force, other)?;
         merge(plan, folder, options, &progress)
     } else {
         whole(asked, options, &progress)
