@@ -41,6 +41,7 @@ pub use curve::{Abscissa, Curve, CurveStyle, Symbol};
 pub(crate) use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
+pub(crate) use number::duration;
 pub(crate) use number::pretty_unit;
 pub(in crate::report) use number::{display_unit, raised_powers, with_unit};
 pub use number::{fixed, significant};
