@@ -31,6 +31,31 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A time (s) in words: "7.3 s" below ten seconds, "45 s", "1 min 50 s", "2 h 5 min".
+pub(crate) fn duration(seconds: f64) -> String {
+    let whole = seconds.round();
+    if seconds < 9.95 {
+        format!("{} s", fixed(seconds, 1))
+    } else if whole < 60.0 {
+        format!("{} s", fixed(whole, 0))
+    } else if whole < 3600.0 {
+        let (minutes, rest) = ((whole / 60.0).floor(), whole % 60.0);
+        if rest < 1.0 {
+            format!("{} min", fixed(minutes, 0))
+        } else {
+            format!("{} min {} s", fixed(minutes, 0), fixed(rest, 0))
+        }
+    } else {
+        let minutes = (seconds / 60.0).round();
+        let (hours, rest) = ((minutes / 60.0).floor(), minutes % 60.0);
+        if rest < 1.0 {
+            format!("{} h", fixed(hours, 0))
+        } else {
+            format!("{} h {} min", fixed(hours, 0), fixed(rest, 0))
+        }
+    }
+}
+
 /// The number with so many decimals, in groups of three digits from 10 000 on, with a true minus sign; never "−0".
 ///
 /// ```
@@ -164,6 +189,21 @@ pub(crate) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_read_as_one_says_them() {
+        for (seconds, words) in [
+            (0.04, "0.0 s"),
+            (7.26, "7.3 s"),
+            (44.6, "45 s"),
+            (59.7, "1 min"),
+            (110.0, "1 min 50 s"),
+            (3599.8, "1 h"),
+            (7500.0, "2 h 5 min"),
+        ] {
+            assert_eq!(super::duration(seconds), words);
+        }
+    }
 
     #[test]
     fn significant_digits() {

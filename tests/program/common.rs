@@ -86,7 +86,11 @@ fn identifiers_and_raw_numbers_on_a_page_are_found() {
     assert_eq!(unreadable(page, "MySensor"), ["ExactArc", "25599.999839999375"]);
 }
 
-/// What it wrote to standard error.
+/// What it wrote to standard error behind the lines of its progress: from the first error or warning on.
 pub fn errors(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    let mut lines =
+        text.split_inclusive('\n').skip_while(|line| !line.starts_with("error") && !line.starts_with("warning"));
+    let first = lines.next().unwrap_or_default().to_owned();
+    lines.fold(first, |all, line| all + line)
 }

@@ -16,6 +16,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
+use super::common::errors;
+
 /// Side of a cube, m.
 const SIDE: f64 = 0.01;
 
@@ -183,8 +185,8 @@ fn run(folder: &PathBuf, case: &str, words: &[&str]) -> Said {
     let _ = fs::remove_dir_all(folder.join("out"));
     Said {
         code,
+        error: errors(&output),
         summary: text(output.stdout),
-        error: text(output.stderr),
         json: json.map(|json| serde_json::from_str(&json).unwrap()),
     }
 }

@@ -18,6 +18,8 @@ use sprs::io::read_matrix_market;
 use vtkio::Vtk;
 use vtkio::model::{Attribute, DataSet, Piece};
 
+use super::common::errors;
+
 const RING: &str = "[ring]\nnodes = 24\nouter_radius = 6e-3\n\
     sections = [{ material = \"steel\", area = 5.37e-6, inertia = 8.88e-13, radius = 5.314e-3 }]\n";
 const SPRINGS: &str = "supports = [{ from_deg = 180, to_deg = 360, spring = { x = 1e5, y = 1e5 } }]\n";
@@ -48,8 +50,7 @@ fn plummer(folder: &Path, words: &str) -> Output {
 
 fn good(folder: &Path, words: &str) -> String {
     let output = plummer(folder, words);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{words}: {errors}");
+    assert_eq!(output.status.code(), Some(0), "{words}: {}", errors(&output));
     String::from_utf8(output.stdout).unwrap()
 }
 
@@ -57,7 +58,7 @@ fn refused(folder: &Path, words: &str) -> String {
     let output = plummer(folder, words);
     assert_eq!(output.status.code(), Some(2), "{words}");
     assert!(output.stdout.is_empty(), "{words}");
-    String::from_utf8(output.stderr).unwrap()
+    errors(&output)
 }
 
 /// Names the shapes that stand in a folder now in its `modes.json`, as if they had been computed so.

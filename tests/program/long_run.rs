@@ -13,6 +13,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use super::common::errors;
+
 const DENT: &str =
     "bearing.defects=[{on='outer',angle_deg=270,length=0.75e-3,width=0.41e-3,depth=15e-6,rim_radius=0.05e-3}]";
 
@@ -76,8 +78,7 @@ impl Run {
 }
 
 fn told(output: Output) -> (i32, String) {
-    let text = String::from_utf8(output.stderr).unwrap();
-    (output.status.code().unwrap_or(-1), text)
+    (output.status.code().unwrap_or(-1), errors(&output))
 }
 
 #[test]

@@ -9,6 +9,8 @@ use plummer::fe::model::PlaneModel;
 use plummer::prelude::*;
 use serde_json::Value;
 
+use super::common;
+
 fn project(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
@@ -148,9 +150,9 @@ fn a_frequency_that_is_off_is_exit_code_1() {
     let narrow = modes(&folder, &[&with("0.005")]);
     assert_eq!(narrow.status.code(), Some(1));
     assert!(
-        text(&narrow.stderr).starts_with("error: 8 of 9 modes agree with the bench (bench.csv)\nhelp: "),
+        common::errors(&narrow).starts_with("error: 8 of 9 modes agree with the bench (bench.csv)\nhelp: "),
         "{}",
-        text(&narrow.stderr)
+        common::errors(&narrow)
     );
     let shown = text(&narrow.stdout);
     assert_eq!(shown.matches("FAILS").count(), 1, "{shown}");
@@ -166,11 +168,11 @@ fn a_frequency_that_is_off_is_exit_code_1() {
     let both = modes(&folder, &[&with("0.005"), expected]);
     assert_eq!(both.status.code(), Some(1));
     assert!(
-        text(&both.stderr).starts_with(
+        common::errors(&both).starts_with(
             "error: 1 of 1 expected eigenfrequencies were not found within their tolerance; 8 of 9 modes agree"
         ),
         "{}",
-        text(&both.stderr)
+        common::errors(&both)
     );
 }
 
@@ -180,7 +182,7 @@ fn wrong_files_are_exit_code_2_with_file_and_line() {
     let errors = |file: &str| {
         let output = modes(&folder, &[&format!("modes.compare=[{{file=\"{file}\"}}]")]);
         assert_eq!(output.status.code(), Some(2), "{file}");
-        text(&output.stderr)
+        common::errors(&output)
     };
     fs::write(folder.join("hz.csv"), "# a list\nmode,frequency_hz\n1,500\n").unwrap();
     assert_eq!(
@@ -201,9 +203,10 @@ fn wrong_files_are_exit_code_2_with_file_and_line() {
     let missing = modes(&folder, &["modes.convergence.meshes=[\"no.msh\"]"]);
     assert_eq!(missing.status.code(), Some(2));
     assert!(
-        text(&missing.stderr).starts_with("error: modes.convergence.meshes[0] (no.msh): cannot read the mesh no.msh: "),
+        common::errors(&missing)
+            .starts_with("error: modes.convergence.meshes[0] (no.msh): cannot read the mesh no.msh: "),
         "{}",
-        text(&missing.stderr)
+        common::errors(&missing)
     );
     assert!(!folder.join("out/ring/modes.json").exists());
 }

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -79,6 +80,7 @@ const CHART_EXAMPLE: &str = "\
 Examples: which method and step the dented bearing needs; a first look in a fraction of the time
   plummer chart examples/scenes/impact.toml
   plummer chart examples/scenes/smooth.toml --quick
+  plummer chart examples/scenes/impact.toml --budget 5min
   plummer chart examples/scenes/impact.toml --only stability
 
 Files:
@@ -88,6 +90,7 @@ Files:
   stability.svg   the same as a map; resonance.svg: a mode in resonance with the step
   report.html     the same to zoom into, and tables
 
+Points are shown as they come, and are in chart.csv.partial until chart.json is there.
 Wall times are measured on one thread, one run at a time: run nothing else on the machine meanwhile.";
 
 const ANALYZE_EXAMPLE: &str = "\
@@ -252,9 +255,12 @@ pub enum Command {
     Chart {
         /// Case file (TOML)
         case: PathBuf,
-        /// Take a first look: fewer starts, models, conditions and steps, and shorter runs
+        /// Take a first look within 45 s: fewer starts, models, conditions and steps, and shorter runs
         #[arg(long)]
         quick: bool,
+        /// End within this time, such as 45s, 2min or 1h, with what is cheapest and tells most; what was left out is said
+        #[arg(long, allow_hyphen_values = true, value_name = "TIME", value_parser = budget)]
+        budget: Option<Duration>,
         /// Make one of the two charts alone
         #[arg(long, value_name = "PART", value_enum)]
         only: Option<ChartPart>,
@@ -442,6 +448,18 @@ fn pause(text: &str) -> Result<f64, String> {
     number(text, |pause| (0.0..=3.2e7).contains(&pause), "seconds from 0 to 3.2e7")
 }
 
+/// A time with its unit: positive, at most a year.
+fn budget(text: &str) -> Result<Duration, String> {
+    const UNITS: [(&str, f64); 3] = [("min", 60.0), ("h", 3600.0), ("s", 1.0)];
+    let read = UNITS.iter().find_map(|(unit, seconds)| {
+        let number: f64 = text.trim().strip_suffix(unit)?.trim().parse().ok()?;
+        Some(number * seconds).filter(|time| (1.0..=3.2e7).contains(time))
+    });
+    let read =
+        read.ok_or_else(|| format!("expected a time from 1s to 8000h, such as 45s, 2min or 1h, found \"{text}\""));
+    read.map(Duration::from_secs_f64)
+}
+
 /// A density: positive and finite.
 fn density(text: &str) -> Result<f64, String> {
     number(text, |density| density > 0.0 && density.is_finite(), "a number of kg/m^3 above 0")
@@ -558,6 +576,20 @@ mod tests {
     #[test]
     fn the_definition_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_budget_has_its_unit() {
+        for (text, seconds) in [("45s", 45.0), ("2min", 120.0), ("2 min", 120.0), ("1.5h", 5400.0), ("1e2s", 100.0)] {
+            assert!((super::budget(text).unwrap().as_secs_f64() - seconds).abs() < 1e-9, "{text}");
+        }
+        for text in ["45", "2m", "", "min", "-1min", "0s", "0.5s", "nans", "infh", "1e9h", "2 weeks", "1:30min"] {
+            let error = super::budget(text).unwrap_err();
+            let expected = format!("expected a time from 1s to 8000h, such as 45s, 2min or 1h, found \"{text}\"");
+            assert_eq!(error, expected);
+        }
+        let Arguments { command, .. } = parse("plummer chart a.toml --budget 2min").unwrap();
+        assert!(matches!(command, Command::Chart { budget: Some(time), quick: false, .. } if time.as_secs() == 120));
     }
 
     #[test]

@@ -5,34 +5,71 @@
 use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
-use super::{ChartPart, CliError, Outcome, OutputFolder, word};
+use super::{ChartPart, CliError, Outcome, OutputFolder, Progress, word};
 use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{
-    Chart, ChartResult, Condition, Effort, Parameter, Point, Stability, chart_report, compute_chart, compute_stability,
-    model_name, resonance_plot, stability_map, stability_report, stability_section, work_precision,
+    Budget, Chart, ChartResult, Condition, Effort, NO_TIME, News, Parameter, Plan, Point, Stability, Stage,
+    chart_report, compute_chart, compute_stability, model_name, resonance_plot, stability_map, stability_report,
+    stability_section, work_precision,
 };
-use crate::report::significant;
-use std::path::PathBuf;
+use crate::report::{duration, significant};
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// What a quick chart may take where nothing else is said: a minute, with some of it to spare.
+const QUICK: Duration = Duration::from_secs(45);
+
+/// What is asked of a chart.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    effort: Effort,
+    budget: Option<Duration>,
+    /// Whether the budget was given, rather than that of a quick chart.
+    given: bool,
+    only: Option<ChartPart>,
+}
+
+impl Asked {
+    pub(super) fn new(quick: bool, budget: Option<Duration>, only: Option<ChartPart>) -> Self {
+        let effort = if quick { Effort::Quick } else { Effort::Full };
+        Self { effort, budget: budget.or(quick.then_some(QUICK)), given: budget.is_some(), only }
+    }
+
+    /// The command line with what it computed.
+    fn command(self, line: &str) -> String {
+        let part = self.only.map_or(String::new(), |part| format!(" --only {}", word(part)));
+        let quick = if self.effort == Effort::Quick { " --quick" } else { "" };
+        let budget = self.budget.filter(|_| self.given);
+        let budget = budget.map_or(String::new(), |time| format!(" --budget {}s", time.as_secs_f64()));
+        format!("{line}{part}{quick}{budget}")
+    }
+}
 
 /// Computes the charts of a case and writes their pictures, the report, its tables and, last, `stability.json` and
 /// `chart.json`; of one part alone what belongs to it.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn chart(job: &Job<'_>, effort: Effort, only: Option<ChartPart>) -> Result<Outcome, CliError> {
+pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     let Job { case, progress, ref folder, .. } = *job;
-    let command = result_command(effort, only, &job.command_line());
+    let Asked { effort, only, .. } = asked;
+    let command = asked.command(&job.command_line());
+    let budget = Budget::new(job.started, asked.budget, only.is_none());
     if only == Some(ChartPart::Stability) {
-        return alone(job, effort, &command);
+        return alone(job, effort, budget, &command);
     }
     let run = case.for_chart().map_err(ComputeError::from)?;
-    let result = compute_chart(run, effort, progress)?;
+    let so_far = SoFar::begin(folder, progress)?;
+    let result = compute_chart(run, effort, budget, &|news| so_far.hear(news), progress)?;
     let stability = match only {
         None => {
             let conditions = Condition::all(case, effort);
-            let map = compute_stability(run, &result.scene, conditions, effort, progress)?;
+            let map = compute_stability(run, &result.scene, conditions, effort, budget.until(Stage::Map), progress)?;
             Some(map)
         }
         Some(_) => None,
@@ -57,6 +94,7 @@ pub(super) fn chart(job: &Job<'_>, effort: Effort, only: Option<ChartPart>) -> R
     }
     let (path, _) = folder.write_json("chart.json", &shown.chart)?;
     written.push(path);
+    so_far.end()?;
     Ok(Outcome {
         summary: lines,
         result: json(&shown)?,
@@ -65,13 +103,71 @@ pub(super) fn chart(job: &Job<'_>, effort: Effort, only: Option<ChartPart>) -> R
     })
 }
 
-/// The command line with what it computed.
-fn result_command(effort: Effort, only: Option<ChartPart>, line: &str) -> String {
-    let part = only.map_or(String::new(), |part| format!(" --only {}", word(part)));
-    match effort {
-        Effort::Full => format!("{line}{part}"),
-        Effort::Quick => format!("{line}{part} --quick"),
+/// The points so far, on the terminal and in a file that is there as long as `chart.json` is not: whatever ends the program,
+/// they are kept.
+struct SoFar<'a> {
+    progress: &'a Progress,
+    path: PathBuf,
+    rows: Mutex<File>,
+    /// Why a row could not be written.
+    failed: Mutex<Option<io::Error>>,
+}
+
+impl<'a> SoFar<'a> {
+    /// # Errors
+    /// [`CliError`] if the file cannot be written.
+    fn begin(folder: &OutputFolder, progress: &'a Progress) -> Result<Self, CliError> {
+        let path = folder.path.join("chart.csv.partial");
+        let mut file = File::create(&path).map_err(|error| not_kept(&path, &error))?;
+        let columns = writeln!(file, "method,model,step_s,tolerance,error,deviation,largest_error,reason");
+        columns.map_err(|error| not_kept(&path, &error))?;
+        Ok(Self { progress, path, rows: Mutex::new(file), failed: Mutex::new(None) })
     }
+
+    fn hear(&self, news: News<'_>) {
+        match news {
+            News::Plan(Plan { points, seconds }) => {
+                self.progress.note(&format!("up to {points} points, about {}", duration(seconds)));
+            }
+            News::Point(point) => {
+                self.progress.note(&line(point));
+                let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Err(error) = rows.write_all(row(point).as_bytes()) {
+                    self.failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                }
+            }
+        }
+    }
+
+    /// Takes the file away.
+    ///
+    /// # Errors
+    /// [`CliError`] if it could not be written or cannot be removed.
+    fn end(self) -> Result<(), CliError> {
+        let failed = self.failed.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failed
+            .map_or(Ok(()), Err)
+            .and_then(|()| fs::remove_file(&self.path))
+            .map_err(|error| not_kept(&self.path, &error))
+    }
+}
+
+fn not_kept(path: &Path, error: &io::Error) -> CliError {
+    CliError::failed(format!("cannot write {}: {error}", path.display()))
+}
+
+/// A point as a row of the file of points so far.
+fn row(point: &Point) -> String {
+    let (step, tolerance) = match Parameter::of(&point.model) {
+        Parameter::StepS(step) => (step.to_string(), String::new()),
+        Parameter::Tolerance(tolerance) => (String::new(), tolerance.to_string()),
+    };
+    let (errors, reason) = match &point.error {
+        Ok(error) => (format!("{},{},{}", error.mean, error.deviation, error.largest), String::new()),
+        Err(failure) => (",,".to_owned(), failure.reason.replace('"', "'")),
+    };
+    let (method, model) = (point.model.method.name(), model_name(&point.model));
+    format!("{method},{model},{step},{tolerance},{errors},\"{reason}\"\n")
 }
 
 fn verdict(result: &Chart) -> Result<(), CliError> {
@@ -113,16 +209,23 @@ fn summary(result: &Chart) -> String {
         ),
     ];
     lines.extend(warnings(&result.scene.doubts));
-    lines.extend(result.front.iter().map(|&place| line(&result.points[place])));
+    lines.extend(result.front.iter().map(|&place| shown(&result.points[place], result)));
     let [chosen, source] = &result.over_all_starts;
     let starts = reference.starts.len();
     for (name, place, error) in
         [("the program's choice", result.chosen, chosen), ("the source's method", result.source, source)]
     {
         lines.push(format!("{name}, error over all {starts} starts:"));
-        lines.push(line(&Point { error: error.clone(), ..result.points[place].clone() }));
+        lines.push(shown(&Point { error: error.clone(), ..result.points[place].clone() }, result));
     }
+    lines.extend(result.without().map(|text| format!("warning: {text}")));
     lines.join("\n")
+}
+
+/// A point's line, with what is to be said of its error.
+fn shown(point: &Point, of: &Chart) -> String {
+    let floor = if of.below_floor(point) { "; below the floor: the reference is not finer" } else { "" };
+    format!("{}{floor}", line(point))
 }
 
 fn line(point: &Point) -> String {
@@ -134,20 +237,21 @@ fn line(point: &Point) -> String {
         Ok(error) => format!("error {} (+- {})", significant(error.mean, 2), significant(error.deviation, 2)),
         Err(failure) => failure.reason.clone(),
     };
-    let wall = point.wall_s.map_or_else(|| "–".to_owned(), |wall| significant(wall, 3));
-    format!("  {wall} s/s  {}, {}, {parameter}: {error}", point.model.method.name(), model_name(&point.model))
+    let wall = point.wall_s.map_or_else(String::new, |wall| format!("{} s/s  ", significant(wall, 3)));
+    format!("  {wall}{}, {}, {parameter}: {error}", point.model.method.name(), model_name(&point.model))
 }
 
 /// Computes the map alone and writes `stability.svg`, `resonance.svg`, the report, its tables and, last, `stability.json`.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn alone(job: &Job<'_>, effort: Effort, command: &str) -> Result<Outcome, CliError> {
+pub(super) fn alone(job: &Job<'_>, effort: Effort, budget: Budget, command: &str) -> Result<Outcome, CliError> {
     let Job { case, progress, ref folder, .. } = *job;
     let run = case.for_chart().map_err(ComputeError::from)?;
     let scene = Scene::with_all_modes(run, progress)?;
+    let until = budget.after_scene()?.until(Stage::Map);
     let conditions = Condition::all(case, effort);
-    let stability = compute_stability(run, &scene, conditions, effort, progress)?;
+    let stability = compute_stability(run, &scene, conditions, effort, until, progress)?;
     progress.stage("write");
     let report = stability_report(case, &stability, command);
     let files = ReportFiles::write(folder, "stability", case, report, progress)?;
@@ -205,6 +309,10 @@ pub(super) fn stability_lines(stability: &Stability) -> String {
             micro(of.measured_limit_s)
         ));
     }
+    let cut = stability.conditions.iter().filter(|of| of.reason.as_deref() == Some(NO_TIME)).count();
+    if cut > 0 {
+        lines.push(format!("warning: the budget left {cut} of {} conditions out", stability.conditions.len()));
+    }
     lines.join("\n")
 }
 
@@ -218,7 +326,7 @@ mod tests {
 
     use serde_json::Value;
 
-    use super::{ChartPart, Effort, Job, chart};
+    use super::{Asked, ChartPart, Effort, Job, chart};
     use crate::app::case::Case;
     use crate::app::cli::{Options, Progress};
 
@@ -237,7 +345,9 @@ mod tests {
         let options = Options { out: Some(out.clone()), ..Options::default() };
         let progress = Progress::new(false);
         let job = Job::new("chart", &case, &options, &progress);
-        let outcome = chart(&job, Effort::Quick, Some(ChartPart::Accuracy)).unwrap();
+        let only = Some(ChartPart::Accuracy);
+        let endless = Asked { effort: Effort::Quick, budget: None, given: false, only };
+        let outcome = chart(&job, endless).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");
         // nothing grows where all balls stay in contact: the span, in whole windows of ten periods

@@ -16,6 +16,7 @@ mod inspect;
 mod modes;
 mod output;
 mod progress;
+mod progress_lines;
 mod report;
 mod results;
 mod run;
@@ -44,7 +45,6 @@ use results::Job;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
-use crate::app::studies::chart::Effort;
 
 /// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
 const STACK: usize = 8 << 20;
@@ -120,9 +120,10 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
             compute(case, Purpose::Condense, arguments, |job| condense::condense(job, *compare_full))
         }
         Command::Frf { case } => compute(case, Purpose::Frf, arguments, frf::frf),
-        Command::Chart { case, quick, only } => compute(case, Purpose::Chart, arguments, |job| {
-            chart::chart(job, if *quick { Effort::Quick } else { Effort::Full }, *only)
-        }),
+        Command::Chart { case, quick, budget, only } => {
+            let asked = chart::Asked::new(*quick, *budget, *only);
+            compute(case, Purpose::Chart, arguments, |job| chart::chart(job, asked))
+        }
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Sweep(asked) => sweep::sweep(asked, options),

@@ -1,48 +1,107 @@
 //! Progress on a terminal, with the time left; and how long each stage took.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::io::{IsTerminal, Write, stderr};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::progress_lines::ProgressLines;
+use crate::app::shell_word::printable;
 use crate::files::FileDigest;
 
 /// Steps of the bar: finer than any terminal shows.
 const STEPS: u64 = 10_000;
 const WITHOUT_END: &str = "{spinner} {msg} {elapsed}";
-const WITH_END: &str = "{spinner} {msg} {bar:30} {percent} %, {eta} left";
+const WITH_END: &str = "{spinner} {msg} {bar:30} {percent} %, {elapsed}, {eta} left";
 const COUNTED: &str = "{spinner} {msg} {bar:30} {pos} of {len} files, {eta} left";
+
+/// Time between two movements of what is shown: four a second, also where a foreign library computes and tells nothing.
+const TICK: Duration = Duration::from_millis(250);
 
 /// The progress of a command through its stages. It can be shared between threads.
 #[derive(Debug)]
 pub struct Progress {
-    bar: ProgressBar,
+    shown: Arc<Shown>,
     stages: Mutex<Vec<(String, Instant)>>,
     files: Mutex<Vec<FileDigest>>,
+    ticker: Option<JoinHandle<()>>,
+}
+
+/// What a reader sees, moved by a thread of its own.
+#[derive(Debug)]
+struct Shown {
+    bar: ProgressBar,
+    /// Lines for a pipe or a file; `None` on a terminal, and where nothing is shown.
+    lines: Option<Mutex<ProgressLines>>,
+    begun: Instant,
+    ended: AtomicBool,
+}
+
+impl Shown {
+    fn say(&self, of: impl FnOnce(&mut ProgressLines, Duration) -> Option<String>) {
+        let Some(lines) = &self.lines else {
+            return;
+        };
+        let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(line) = of(&mut lines, self.begun.elapsed()) {
+            // nobody to tell it to is no failure
+            let _ = writeln!(stderr(), "{}", printable(&line));
+        }
+    }
+
+    fn tick(&self) {
+        self.bar.tick();
+        self.say(ProgressLines::tick);
+    }
 }
 
 impl Progress {
-    /// Starts without a stage. Later ones are shown on standard error, if that is a terminal, or never.
+    /// Starts without a stage. Later ones are shown on standard error: as a bar on a terminal, as lines elsewhere; or never.
     #[must_use]
     pub fn new(shown: bool) -> Self {
-        Self::on(if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() })
+        match (shown, stderr().is_terminal()) {
+            (false, _) => Self::on(ProgressDrawTarget::hidden(), None, false),
+            (true, true) => Self::on(ProgressDrawTarget::stderr(), None, true),
+            (true, false) => Self::on(ProgressDrawTarget::hidden(), Some(ProgressLines::default()), true),
+        }
     }
 
-    fn on(target: ProgressDrawTarget) -> Self {
-        Self {
+    fn on(target: ProgressDrawTarget, lines: Option<ProgressLines>, moving: bool) -> Self {
+        let shown = Arc::new(Shown {
             bar: ProgressBar::with_draw_target(None, target),
-            stages: Mutex::new(Vec::new()),
-            files: Mutex::new(Vec::new()),
-        }
+            lines: lines.map(Mutex::new),
+            begun: Instant::now(),
+            ended: AtomicBool::new(false),
+        });
+        let ticked = Arc::clone(&shown);
+        let tick = move || {
+            while !ticked.ended.load(Ordering::Relaxed) {
+                ticked.tick();
+                thread::park_timeout(TICK);
+            }
+        };
+        // without the thread a stage that tells nothing stands still, and that is all
+        let ticker = moving.then(|| thread::Builder::new().name("progress".to_owned()).spawn(tick).ok()).flatten();
+        Self { shown, stages: Mutex::new(Vec::new()), files: Mutex::new(Vec::new()), ticker }
+    }
+
+    /// Shows a line that stays.
+    pub(crate) fn note(&self, line: &str) {
+        self.shown.bar.println(printable(line));
+        self.shown.say(|_, _| Some(line.to_owned()));
     }
 
     /// Ends the stage before and begins one of this name, of unknown length until [`Progress::set`].
     pub(crate) fn stage(&self, name: &str) {
         self.stages().push((name.to_owned(), Instant::now()));
-        self.bar.unset_length();
-        self.bar.set_style(style(WITHOUT_END));
-        self.bar.reset();
-        self.bar.set_message(name.to_owned());
+        self.shown.bar.unset_length();
+        self.shown.bar.set_style(style(WITHOUT_END));
+        self.shown.bar.reset();
+        self.shown.bar.set_message(name.to_owned());
+        self.shown.say(|lines, now| lines.begin(name, now));
     }
 
     /// Shows how much of the stage is done: 0 to 1; values beyond are taken as the nearest of these, NaN as 0. The first value is
@@ -50,26 +109,28 @@ impl Progress {
     pub(crate) fn set(&self, fraction: f64) {
         // From 0 to STEPS; NaN gives 0.
         let position = (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64;
-        if self.bar.length().is_none() {
-            self.bar.set_length(STEPS);
-            self.bar.set_style(style(WITH_END));
-            self.bar.set_position(position);
+        self.shown.say(|lines, now| lines.done(format!("{} %", 100 * position / STEPS), now));
+        if self.shown.bar.length().is_none() {
+            self.shown.bar.set_length(STEPS);
+            self.shown.bar.set_style(style(WITH_END));
+            self.shown.bar.set_position(position);
             // what was done before the stage began, by a run that goes on, says nothing of the time left: the estimate sees
             // it and forgets it
-            self.bar.tick();
-            self.bar.reset_eta();
+            self.shown.bar.tick();
+            self.shown.bar.reset_eta();
             return;
         }
-        self.bar.set_position(position);
+        self.shown.bar.set_position(position);
     }
 
     /// Shows how many files of a stage are done.
     pub(crate) fn count(&self, done: usize, of: usize) {
-        if self.bar.length().is_none() {
-            self.bar.set_style(style(COUNTED));
-            self.bar.set_length(of as u64);
+        if self.shown.bar.length().is_none() {
+            self.shown.bar.set_style(style(COUNTED));
+            self.shown.bar.set_length(of as u64);
         }
-        self.bar.set_position(done as u64);
+        self.shown.bar.set_position(done as u64);
+        self.shown.say(|lines, now| lines.done(format!("{done} of {of} files"), now));
     }
 
     /// The meshes that were read, with each content that they had.
@@ -79,9 +140,10 @@ impl Progress {
         files.clone()
     }
 
-    /// Takes the bar off the terminal.
+    /// Takes the bar off the terminal; nothing moves from then on.
     pub fn finish(&self) {
-        self.bar.finish_and_clear();
+        self.shown.ended.store(true, Ordering::Relaxed);
+        self.shown.bar.finish_and_clear();
     }
 
     /// Returns each stage with the time that it took, s; the last one lasts until now.
@@ -99,6 +161,17 @@ impl Progress {
     /// The list stays usable when a thread that held it panicked.
     fn stages(&self) -> MutexGuard<'_, Vec<(String, Instant)>> {
         self.stages.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.shown.ended.store(true, Ordering::Relaxed);
+        if let Some(ticker) = self.ticker.take() {
+            ticker.thread().unpark();
+            // it ended, one way or the other
+            let _ = ticker.join();
+        }
     }
 }
 
@@ -181,7 +254,7 @@ mod tests {
     fn a_terminal_shows_stage_share_and_time_left() {
         let paper = Paper::default();
         let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
-        let progress = Progress::on(target);
+        let progress = Progress::on(target, None, false);
         progress.stage("factor");
         sleep(Duration::from_millis(100));
         assert!(paper.0.lock().unwrap().contains("factor"));
@@ -199,32 +272,55 @@ mod tests {
     }
 
     #[test]
+    fn a_stage_that_tells_nothing_moves_by_itself_until_the_end() {
+        let paper = Paper::default();
+        let length = || paper.0.lock().unwrap().len();
+        let progress = Progress::on(ProgressDrawTarget::term_like(Box::new(paper.clone())), None, true);
+        progress.stage("factor");
+        let mut before = length();
+        for _ in 0..3 {
+            // a few ticks of a quarter of a second, or ten seconds of a machine that stands still
+            let moved = (0..100).any(|_| {
+                sleep(Duration::from_millis(100));
+                length() > before
+            });
+            assert!(moved, "{}", paper.0.lock().unwrap());
+            before = length();
+        }
+        progress.note("a point");
+        assert!(paper.0.lock().unwrap().contains("a point"));
+        let shown = std::sync::Arc::clone(&progress.shown);
+        drop(progress);
+        assert!(shown.ended.load(std::sync::atomic::Ordering::Relaxed));
+    }
+
+    #[test]
     fn what_was_done_before_is_not_taken_for_speed() {
         let progress = Progress::new(false);
         progress.stage("step");
         progress.set(0.9);
         sleep(Duration::from_millis(100));
         progress.set(0.91);
-        progress.bar.tick();
+        progress.shown.bar.tick();
         // a hundredth took a tenth of a second: nine more take 0.9 s, or longer on a busy machine; 0.9 in no time at all would
         // leave a hundredth of a second
-        let left = progress.bar.eta();
+        let left = progress.shown.bar.eta();
         assert!(left > Duration::from_millis(300), "{left:?}");
     }
 
     #[test]
     fn files_are_counted() {
         let paper = Paper::default();
-        let progress = Progress::on(ProgressDrawTarget::term_like(Box::new(paper.clone())));
+        let progress = Progress::on(ProgressDrawTarget::term_like(Box::new(paper.clone())), None, false);
         progress.stage("analyse");
         progress.count(0, 79);
         sleep(Duration::from_millis(100));
         progress.count(12, 79);
-        progress.bar.tick();
+        progress.shown.bar.tick();
         let shown = paper.0.lock().unwrap().clone();
         assert!(shown.contains("12 of 79 files"), "{shown}");
         progress.stage("write");
-        assert_eq!((progress.bar.position(), progress.bar.length()), (0, None));
+        assert_eq!((progress.shown.bar.position(), progress.shown.bar.length()), (0, None));
     }
 
     #[test]
@@ -233,10 +329,10 @@ mod tests {
         progress.stage("step");
         for (fraction, position) in [(0.5, STEPS / 2), (2.0, STEPS), (-1.0, 0), (f64::NAN, 0), (1.0, STEPS)] {
             progress.set(fraction);
-            assert_eq!(progress.bar.position(), position);
+            assert_eq!(progress.shown.bar.position(), position);
         }
         progress.stage("write");
-        assert_eq!((progress.bar.position(), progress.bar.length()), (0, None));
+        assert_eq!((progress.shown.bar.position(), progress.shown.bar.length()), (0, None));
     }
 
     #[test]

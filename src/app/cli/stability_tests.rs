@@ -1,6 +1,7 @@
 //! The map of a small scene under a few conditions, through its files.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -9,7 +10,7 @@ use crate::app::case::Case;
 use crate::app::cli::results::Job;
 use crate::app::cli::{Options, Progress};
 use crate::app::scene::Scene;
-use crate::app::studies::chart::{Condition, stability_report};
+use crate::app::studies::chart::{Budget, Condition, Deadline, Stage, stability_report};
 use crate::numerics::Unwatched;
 
 /// The smooth scene made small: a ring of 12 nodes, and a target for which seven modes are enough, whose limits are the test's.
@@ -35,7 +36,12 @@ fn a_map_has_its_files_and_limits() {
         // more than a tenth of the ball's radius
         Condition::RadialPlay(2e-4),
     ];
-    let map = compute_stability(run, &scene, asked, Effort::Quick, &Unwatched).unwrap();
+    let map = compute_stability(run, &scene, asked, Effort::Quick, Deadline::NEVER, &Unwatched).unwrap();
+    let begun = Instant::now().checked_sub(Duration::from_secs(9)).unwrap();
+    let over = Budget::new(begun, Some(Duration::from_secs(1)), false).until(Stage::Map);
+    let none = compute_stability(run, &scene, vec![Condition::AsGiven], Effort::Quick, over, &Unwatched).unwrap();
+    assert_eq!(none.conditions[0].reason.as_deref(), Some("left out: the budget ended before"));
+    assert!(stability_lines(&none).ends_with("\nwarning: the budget left 1 of 1 conditions out"));
     let (options, progress) = (Options::default(), Progress::new(false));
     let job = Job::new("chart", &case, &options, &progress);
     let record = job.record(&[], None, &map);

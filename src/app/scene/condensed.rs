@@ -8,7 +8,7 @@ use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{Bore, Mechanisms, rigid_motions, ring_motions};
 use crate::fe::model::{HousingModel, NodeInterface};
-use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, ReductionError, RigidMotions, craig_bampton};
+use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, ReductionError, RigidMotions, craig_bampton_watched};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
@@ -78,9 +78,10 @@ impl CondensedHousing {
             return Err(ComputeError::interface_held(nodes, &housing.model));
         }
         check_interior(&housing, &boundary)?;
-        watch.stage("condense");
-        let condensed = craig_bampton(&boundary.matrices(&housing), boundary.partition(), choice, boundary.attached())
+        let (matrices, partition) = (boundary.matrices(&housing), boundary.partition());
+        let condensed = craig_bampton_watched(&matrices, partition, choice, boundary.attached(), watch)
             .map_err(|error| located(error, &housing.model))?;
+        drop(matrices);
         let structural = StructuralStiffness::assemble(&housing.model)?;
         let stage = Self {
             structural: structural.map(|structural| match boundary.ring() {

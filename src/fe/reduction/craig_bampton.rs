@@ -16,6 +16,7 @@ use super::{Attached, InteriorBasis, ReductionError, Substructure};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
+use crate::numerics::{Unwatched, Watch};
 
 /// Columns that are condensed at once.
 const BLOCK: usize = 64;
@@ -42,7 +43,22 @@ pub fn craig_bampton(
     choice: BasisChoice,
     attached: Option<Attached<'_>>,
 ) -> Result<CraigBampton, ReductionError> {
-    let substructure = Substructure::new(matrices, partition)?;
+    craig_bampton_watched(matrices, partition, choice, attached, &Unwatched)
+}
+
+/// The same; `watch` is told of its stages.
+///
+/// # Errors
+/// As [`craig_bampton`].
+pub(crate) fn craig_bampton_watched(
+    matrices: &SystemMatrices,
+    partition: &HousingPartition,
+    choice: BasisChoice,
+    attached: Option<Attached<'_>>,
+    watch: &dyn Watch,
+) -> Result<CraigBampton, ReductionError> {
+    let substructure = Substructure::watched(matrices, partition, watch)?;
+    watch.stage("fixed-interface modes");
     let basis = choose_basis(&substructure, choice, attached)?;
     Ok(CraigBampton::new(substructure, basis, &matrices.weight))
 }

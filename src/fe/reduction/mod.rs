@@ -23,6 +23,7 @@ mod substructure;
 pub use characteristic_modes::{CharacteristicModes, InterfaceSize, LostFlexibility};
 pub use checks::{Bound, Check, RigidMotions};
 pub(crate) use checks::{check_craig_bampton, check_matrices};
+pub(crate) use craig_bampton::craig_bampton_watched;
 pub use craig_bampton::{CraigBampton, Superelement, craig_bampton};
 pub use error::ReductionError;
 pub use estimate::{ErrorEstimate, EstimatedMode};

@@ -18,6 +18,7 @@ use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
     submatrix, symmetric_eigen, transpose_times_dense,
 };
+use crate::numerics::{Unwatched, Watch};
 use faer::{MatMut, MatRef};
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
@@ -52,6 +53,18 @@ impl Substructure {
     /// [`ReductionError::Refused`] for no interior and for no interface, [`ReductionError::FloatingInterior`] if K_ii
     /// is singular, [`ReductionError::SoftInterior`] if it nearly is.
     pub fn new(matrices: &SystemMatrices, partition: &HousingPartition) -> Result<Self, ReductionError> {
+        Self::watched(matrices, partition, &Unwatched)
+    }
+
+    /// The same; `watch` is told of factorisation and constraint modes.
+    ///
+    /// # Errors
+    /// As [`Substructure::new`].
+    pub(super) fn watched(
+        matrices: &SystemMatrices,
+        partition: &HousingPartition,
+        watch: &dyn Watch,
+    ) -> Result<Self, ReductionError> {
         let (k, m) = (&matrices.stiffness, &matrices.mass);
         let (b, i, tie) = (&partition.driven, &partition.interior, &partition.tie);
         if i.is_empty() {
@@ -78,6 +91,7 @@ impl Substructure {
             LinalgError::IllConditioned { row, contraction, .. } => soft(row, contraction),
             other => other.into(),
         };
+        watch.stage("factor");
         let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
         if factor.contraction() > LARGEST_CONTRACTION {
             return Err(soft(factor.weakest_row(), factor.contraction()));
@@ -96,13 +110,15 @@ impl Substructure {
             interior,
             mass_ib,
         };
-        substructure.condense_statically(&stiffness_ib)?;
+        watch.stage("constraint modes");
+        substructure.condense_statically(&stiffness_ib, watch)?;
         Ok(substructure)
     }
 
-    fn condense_statically(&mut self, stiffness_ib: &SparseMatrix) -> Result<(), ReductionError> {
+    fn condense_statically(&mut self, stiffness_ib: &SparseMatrix, watch: &dyn Watch) -> Result<(), ReductionError> {
         let order = self.interface_dof();
         for first in (0..order).step_by(BLOCK) {
+            watch.fraction(first as f64 / order as f64);
             let width = BLOCK.min(order - first);
             let mut modes = columns_of(stiffness_ib, first, width);
             modes *= faer::Scale(-1.0);

@@ -80,6 +80,7 @@ pub(crate) fn compute_kept_run<C: Checkpoints>(
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(&scene.stage.structure, &scene.stage.modes, &scene.setup, &scene.equilibrium)?;
+    watch.stage("choose the model");
     let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
     let span = Span { duration: asked.end - asked.start, output_hz: asked.output_hz };

@@ -40,13 +40,13 @@ pub(super) fn families(
     [chosen, source]: &[RunModel; 2],
 ) -> Vec<Vec<RunModel>> {
     let all = (ModeSelection::All, false);
-    let kept = |bands: f64, residual| (ModeSelection::UpTo(bands * settings.band_hz), residual);
+    let up_to = |bands: f64, residual| (ModeSelection::UpTo(bands * settings.band_hz), residual);
     // the basis on which all methods are compared beside that of all modes
     let usual = (chosen.modes, chosen.residual);
     let mut bases = vec![usual, all];
     if settings.effort == Effort::Full {
         let others = BANDS.into_iter();
-        bases.extend(others.flat_map(|bands| [kept(bands, true), kept(bands, false)]));
+        bases.extend(others.flat_map(|bands| [up_to(bands, true), up_to(bands, false)]));
     }
     let bases = distinct(bases, frequencies_hz);
     let with_inertia = RunModel { balls_inertia: BallsInertia::Dynamic, ..*chosen };
@@ -90,14 +90,9 @@ pub(super) fn families(
 
 /// Without those that keep the same modes as one before.
 fn distinct(bases: Vec<(ModeSelection, bool)>, frequencies_hz: &[f64]) -> Vec<(ModeSelection, bool)> {
-    let kept = |selection: &ModeSelection| match *selection {
-        ModeSelection::All => frequencies_hz.len(),
-        ModeSelection::Count(count) => count,
-        ModeSelection::UpTo(hz) => frequencies_hz.iter().filter(|&&f| f <= hz).count(),
-    };
     let mut seen = Vec::new();
     let new = |(selection, residual): &(ModeSelection, bool)| {
-        let count = kept(selection);
+        let count = kept(*selection, frequencies_hz);
         // nothing is left out of all modes
         let key = (count, *residual && count < frequencies_hz.len());
         let new = !seen.contains(&key);
@@ -105,6 +100,15 @@ fn distinct(bases: Vec<(ModeSelection, bool)>, frequencies_hz: &[f64]) -> Vec<(M
         new
     };
     bases.into_iter().filter(new).collect()
+}
+
+/// How many modes of these frequencies a selection keeps.
+pub(super) fn kept(selection: ModeSelection, frequencies_hz: &[f64]) -> usize {
+    match selection {
+        ModeSelection::All => frequencies_hz.len(),
+        ModeSelection::Count(count) => count.min(frequencies_hz.len()),
+        ModeSelection::UpTo(hz) => frequencies_hz.iter().filter(|&&f| f <= hz).count(),
+    }
 }
 
 /// The modes of a model in words: "modes up to 120 kHz + residual".

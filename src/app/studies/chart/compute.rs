@@ -1,18 +1,21 @@
 //! The chart of a scene, from its case.
 
+use super::budget::{Budget, Stage};
 use super::candidates::families;
-use super::points::{Comparison, Point, PointError};
+use super::plan::{Costs, Plan};
+use super::points::{Comparison, Point, PointError, TIMED};
 use super::reference::models;
+use super::refining::{Found, refine};
 use super::starts::{Ready, Systems};
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
-use super::{Effort, Failure, Reference, Settings, Start, Starts};
+use super::{Effort, Failure, FailureKind, Reference, Settings, Start, Starts};
 use crate::app::case::{self, Case, ModesKept, RunCase, StepLength};
 use crate::app::commands::analyze::AskedBand;
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
-use rayon::prelude::*;
+use crate::report::{duration, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,6 +23,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Speed against accuracy of a scene.
 #[derive(Debug)]
 pub struct Chart {
+    /// The time that it was given, s; `None` for as long as it takes.
+    pub budget_s: Option<f64>,
+    /// What there was no time for, a few words each.
+    pub left_out: Vec<String>,
     /// What was simulated.
     pub scene: Scene,
     /// What was compared.
@@ -55,6 +62,13 @@ pub struct ModelStatistics {
 }
 
 impl Chart {
+    /// What there was no time for, in a sentence; `None` where nothing was left out.
+    pub(crate) fn without(&self) -> Option<String> {
+        let budget = duration(self.budget_s?);
+        let list = self.left_out.join("; ");
+        (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {list}."))
+    }
+
     /// Points without an error, and why.
     pub(crate) fn omissions(&self) -> impl Iterator<Item = (usize, &super::Failure)> {
         let points = self.points.iter().enumerate();
@@ -68,23 +82,31 @@ impl Chart {
     }
 }
 
-/// Computes the chart of a case.
+/// What a chart tells while it is computed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum News<'a> {
+    /// What it is going to take.
+    Plan(Plan),
+    /// A point, whose cost is not measured yet.
+    Point(&'a Point),
+}
+
+/// Computes the chart of a case within a budget; `told` hears of each point as it comes.
 ///
 /// # Errors
-/// [`ComputeError`]; a candidate that fails is no error but an omission.
+/// [`ComputeError`], also where not even the reference fits into the budget; a candidate that fails is no error but an omission.
 pub(crate) fn compute_chart(
     run: RunCase<'_>,
     effort: Effort,
+    budget: Budget,
+    told: &(dyn Fn(News<'_>) + Sync),
     watch: &(impl Watch + Sync),
 ) -> Result<Chart, ComputeError> {
     let RunCase { case, transient: asked, .. } = run;
+    let whole = budget;
     let scene = Scene::with_all_modes(run, watch)?;
-    let settings = Settings::of(run, effort)?;
-    watch.stage("starts");
-    let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
-    watch.stage("reference");
-    let progress = Counter::new(watch, starts.starts.len());
-    let reference = Reference::find(&scene, &starts, &settings, || progress.done())?;
+    let asked_settings = Settings::of(run, effort)?;
+    watch.stage("choice");
     let chosen = |transient: &case::Transient| -> Result<RunModel, ComputeError> {
         let run = RunCase { transient, ..run };
         Ok(ModelChoice::of_case(run, &scene)?.model)
@@ -92,26 +114,152 @@ pub(crate) fn compute_chart(
     // as it is used there: all displacements, its own step
     let source = case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) };
     let wanted = [chosen(&automatic(asked, case::Method::Auto))?, chosen(&source)?];
+    let budget = whole.after_scene()?;
+    watch.stage("pilots");
+    let frequencies_hz: Vec<f64> =
+        (0..scene.stage.modes.count()).map(|mode| scene.stage.modes.frequency_hz(mode)).collect();
+    let families = families(&asked_settings, &frequencies_hz, &wanted);
+    let of_reference = models(&asked_settings, 0);
+    let systems = Systems::of_all(&scene, of_reference.iter().chain(&wanted).chain(families.iter().flatten()));
+    let at_rest = Start { number: 0, time_s: scene.start, equilibrium: scene.equilibrium.clone() };
+    let until = budget.until(Stage::Reference(0));
+    let costs = Costs::measured(&systems, &at_rest, &wanted[0], &asked_settings, until);
+    let costs = costs.map_err(|failure| no_pilot(&failure, whole))?;
+    let threads = rayon::current_num_threads();
+    let mut settings = match budget.seconds() {
+        None => asked_settings,
+        Some(_) => asked_settings.fitted(costs.of_reference(), until.left_s() * threads as f64),
+    };
+    let mut plan = costs.plan(&families, &frequencies_hz, &wanted, &settings, threads);
+    plan.seconds = plan.seconds.min(budget.seconds().unwrap_or(f64::INFINITY));
+    told(News::Plan(plan));
+    watch.stage("starts");
+    let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
+    watch.stage("reference");
+    let system = systems.of(&of_reference[0]).map_err(|failure| no_pilot(&failure, whole))?;
+    let mut attempt = 0;
+    let reference = loop {
+        let progress = Counter::new(watch, starts.starts.len());
+        let until = budget.until(Stage::Reference(attempt));
+        attempt += 1;
+        match Reference::find(system, &starts, &settings, until, || progress.done()) {
+            Err(ComputeError::Interrupted { .. }) => match settings.shorter().and_then(Settings::shorter) {
+                Some(shorter) if attempt < budget.attempts() => settings = shorter,
+                _ => return Err(no_time(whole)),
+            },
+            found => break found?,
+        }
+    };
+    let mut left_out = shortened(&asked_settings, &settings, &reference);
     watch.stage("points");
-    let comparison = Comparison { scene: &scene, reference: &reference, settings: &settings };
-    let (mut points, places) = candidates(comparison, wanted, watch);
-    let [chosen, source] = places;
+    let on = |stage| Comparison {
+        systems: &systems,
+        reference: &reference,
+        settings: &settings,
+        until: budget.until(stage),
+    };
+    let (found, [chosen, source]) = candidates(on(Stage::Points), &families, wanted, told, watch);
+    let Found { mut points, taken, left_out: untried } = found;
+    left_out.extend(untried);
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
-        comparison.measure(&mut points, first, |part| watch.fraction(part));
+        let run_s = on(Stage::Times).measure(&mut points, &taken, first, |part| watch.fraction(part));
+        left_out.extend(untimed(&points, run_s, &settings));
     }
     let front = front(&points, reference.disagreement);
     watch.stage("all starts");
     let over_all_starts = [chosen, source].map(|place| {
         let Point { model, error, .. } = &points[place];
         match error {
-            Ok(_) if settings.point_stride() > 1 => comparison.over_all_starts(model),
+            Ok(_) if settings.point_stride() > 1 => on(Stage::Statistics).over_all_starts(model),
             known => known.clone(),
         }
     });
     watch.stage("statistics");
-    let statistics = statistics(case, comparison, places.map(|place| (place, &points[place])), watch);
-    Ok(Chart { scene, settings, starts, reference, points, front, chosen, source, over_all_starts, statistics })
+    let comparison = on(Stage::Statistics);
+    let second = costs.reference[1] + [chosen, source].iter().filter_map(|&place| points[place].wall_s).sum::<f64>();
+    let fits = comparison.until.left_s() * threads as f64 / (second * reference.starts.len() as f64);
+    // what is a little too long is tried
+    let statistics_s = settings.statistics_s.min((fits - settings.edge_s).max(settings.span_s));
+    let asked_s = asked_settings.statistics_s;
+    let shorter = Settings { statistics_s, ..settings };
+    let comparison = Comparison { settings: &shorter, ..comparison };
+    let statistics = statistics(case, comparison, [chosen, source].map(|place| (place, &points[place])), watch);
+    if statistics.iter().any(|of| of.reason == Some(Failure::out_of_time().reason)) {
+        left_out.push("no statistics".to_owned());
+    } else if statistics_s < asked_s {
+        left_out.push(format!("statistics over {} instead of {}", ms(statistics_s), ms(asked_s)));
+    }
+    let settings = shorter;
+    Ok(Chart {
+        budget_s: whole.seconds(),
+        left_out,
+        scene,
+        settings,
+        starts,
+        reference,
+        points,
+        front,
+        chosen,
+        source,
+        over_all_starts,
+        statistics,
+    })
+}
+
+fn ms(seconds: f64) -> String {
+    format!("{} ms", significant(1e3 * seconds, 3))
+}
+
+/// What a budget took from the starts, the span and the reference.
+fn shortened(asked: &Settings, settings: &Settings, reference: &Reference) -> Vec<String> {
+    let mut left_out = Vec::new();
+    let starts = reference.starts.len();
+    if settings.ensemble.runs < asked.ensemble.runs || starts < settings.ensemble.runs {
+        left_out.push(format!("{starts} starts instead of {}", asked.ensemble.runs));
+    }
+    if settings.span_s < asked.span_s {
+        left_out.push(format!("a span of {} instead of {}", ms(settings.span_s), ms(asked.span_s)));
+    }
+    let cut = reference.starts.iter().filter(|start| start.cut_short).count();
+    if cut > 0 {
+        left_out.push(format!("the reference of {cut} starts not refined as far as is wanted"));
+    }
+    left_out
+}
+
+/// What a budget took from the wall times, by runs of `run_s` (s).
+fn untimed(points: &[Point], run_s: f64, settings: &Settings) -> Vec<String> {
+    let mut left_out = Vec::new();
+    let whole = TIMED.min(settings.span_s);
+    if run_s < whole {
+        left_out.push(format!("wall times by runs of {} instead of {}", ms(run_s), ms(whole)));
+    }
+    let without = points.iter().filter(|point| point.error.is_ok() && point.wall_s.is_none()).count();
+    if without > 0 {
+        left_out.push(format!("{without} points without a wall time"));
+    }
+    left_out
+}
+
+/// The error of a budget in which not even the reference fits.
+fn no_time(budget: Budget) -> ComputeError {
+    let words = duration(budget.seconds().unwrap_or(0.0));
+    ComputeError::failed(
+        format!("the reference did not fit into the budget of {words}, not even of the shortest span from two starts"),
+        "a longer --budget; a lower accuracy.band_hz or a smaller ring makes its steps cheaper",
+    )
+}
+
+/// The error of a reference that cannot be computed at all.
+fn no_pilot(failure: &Failure, budget: Budget) -> ComputeError {
+    match failure.kind {
+        FailureKind::OutOfTime => no_time(budget),
+        _ => ComputeError::failed(
+            format!("the reference failed: {}", failure.reason),
+            "`plummer run` with transient.modes = \"all\" shows what happens there; another transient.start begins elsewhere",
+        ),
+    }
 }
 
 /// What a case asks for with everything left to the program but the method.
@@ -127,30 +275,31 @@ pub(super) fn automatic(asked: &case::Transient, method: case::Method) -> case::
     }
 }
 
-/// All points, and the places of the two that must be there.
-fn candidates(on: Comparison<'_>, wanted: [RunModel; 2], watch: &(impl Watch + Sync)) -> (Vec<Point>, [usize; 2]) {
-    let modes = &on.scene.stage.modes;
-    let frequencies_hz: Vec<f64> = (0..modes.count()).map(|mode| modes.frequency_hz(mode)).collect();
-    let families = families(on.settings, &frequencies_hz, &wanted);
-    let progress = Counter::new(watch, families.len());
-    let found: Vec<Vec<Point>> = families
-        .par_iter()
-        .map(|family| {
-            let points = on.evaluate(family);
-            progress.done();
-            points
-        })
-        .collect();
-    let mut points = found.concat();
-    let mut systems = Systems::new(on.scene);
-    let places = wanted.map(|model| {
-        let known = points.iter().position(|point| point.model == model);
-        known.unwrap_or_else(|| {
-            points.push(on.point(systems.of(&model), &model));
-            points.len() - 1
+/// All points, and the places of the two that must be there, which come first.
+fn candidates(
+    on: Comparison<'_>,
+    families: &[Vec<RunModel>],
+    wanted: [RunModel; 2],
+    told: &(dyn Fn(News<'_>) + Sync),
+    watch: &(impl Watch + Sync),
+) -> (Found, [usize; 2]) {
+    let known = wanted.map(|model| {
+        let known = on.point(&model);
+        told(News::Point(&known.0));
+        known
+    });
+    let told = |point: &Point| told(News::Point(point));
+    let done = |ended: usize| watch.fraction(ended as f64 / families.len().max(1) as f64);
+    let mut found = refine(families, &known, on, told, done);
+    let places = known.map(|(point, taken)| {
+        let there = found.points.iter().position(|other| other.model == point.model);
+        there.unwrap_or_else(|| {
+            found.points.push(point);
+            found.taken.push(taken);
+            found.points.len() - 1
         })
     });
-    (points, places)
+    (found, places)
 }
 
 /// Places of the points that none beats, without what lies below the floor.
@@ -186,7 +335,7 @@ fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
 /// Statistics of points against the reference's second method, which is the cheaper one, with its first step.
 fn statistics(
     case: &Case,
-    Comparison { scene, reference, settings }: Comparison<'_>,
+    Comparison { systems, reference, settings, until }: Comparison<'_>,
     points: [(usize, &Point); 2],
     watch: &(impl Watch + Sync),
 ) -> Vec<ModelStatistics> {
@@ -198,12 +347,11 @@ fn statistics(
     let progress = Counter::new(watch, 3 * starts.len());
     let run = |system: &Ready, model: &RunModel| {
         let done = || progress.done();
-        ensemble(system, &starts, model, settings, &analysis, done)
+        ensemble(system, &starts, model, settings, &analysis, until, done)
     };
     let [_, beside] = models(settings, 0);
-    let measured_by = Ready::of(scene, &beside).map_err(Failure::from).and_then(|system| run(&system, &beside));
-    let mut systems = Systems::new(scene);
-    let mut own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
+    let measured_by = systems.of(&beside).and_then(|system| run(system, &beside));
+    let own = |point: &Point| -> Result<Vec<ComparedFigure>, Failure> {
         let by = measured_by.as_ref().map_err(Clone::clone)?;
         if let Err(failure) = &point.error {
             return Err(failure.clone());

@@ -10,13 +10,16 @@
 //! **Limitations.** Errors are those of the sensors' accelerations up to the band's highest frequency; what lies below its
 //! lowest is not taken out. Statistics are those of the first sensor.
 
+mod budget;
 mod candidates;
 mod compute;
+mod plan;
 mod plots;
 mod points;
 #[cfg(test)]
 mod points_tests;
 mod reference;
+mod refining;
 mod report;
 mod stability;
 mod starts;
@@ -24,16 +27,20 @@ mod statistics;
 mod summary;
 mod trace;
 
+pub(crate) use budget::{Budget, Deadline, Stage};
 pub use candidates::Parameter;
 pub(crate) use candidates::model_name;
-pub(crate) use compute::compute_chart;
 pub use compute::{Chart, ModelStatistics};
+pub(crate) use compute::{News, compute_chart};
+pub(crate) use plan::Plan;
 pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Growth, Reference, StartReference};
 pub(crate) use report::chart_report;
 pub use stability::{Condition, ConditionSummary, MethodStability, Stability, StabilityModel, StepRecord, Window};
-pub(crate) use stability::{compute_stability, resonance_plot, stability_map, stability_report, stability_section};
+pub(crate) use stability::{
+    NO_TIME, compute_stability, resonance_plot, stability_map, stability_report, stability_section,
+};
 pub use starts::{Start, Starts};
 pub use statistics::{ComparedFigure, Estimate, Figure};
 pub use summary::{

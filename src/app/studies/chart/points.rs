@@ -1,10 +1,11 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
+use super::budget::Deadline;
 use super::starts::{Ready, Systems};
 use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::RunModel;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,16 +14,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// An error of the signal's own size or more shows nothing.
 const TOO_INACCURATE: f64 = 1.0;
 
-/// An error from which a refinement is expected to bring something, and what it must then bring to go on.
-const CONVERGING: f64 = 0.3;
-const GAIN: f64 = 0.85;
-
-/// Points in a row that differ by less than this part, where the error is larger: refining does not reach what is wrong.
-const STUCK: (usize, f64) = (3, 0.1);
-
 /// Simulated time by which costs are measured, s, and how often; the median counts.
-const TIMED: f64 = 2e-3;
-const ROUNDS: usize = 3;
+pub(super) const TIMED: f64 = 2e-3;
+pub(super) const ROUNDS: usize = 3;
+
+/// Part of it that a budget leaves at least: what is shorter is the clock's and the cache's.
+const LEAST_TIMED: f64 = 0.05;
 
 /// Mean and scatter of the errors of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,57 +68,34 @@ impl Point {
     }
 }
 
-/// Part of the target below which nothing finer is tried.
-const FINE: f64 = 0.01;
-
 /// What candidates are simulated on, and what they are compared with.
 #[derive(Clone, Copy)]
 pub(super) struct Comparison<'a> {
-    pub(super) scene: &'a Scene,
+    pub(super) systems: &'a Systems<'a>,
     pub(super) reference: &'a Reference,
     pub(super) settings: &'a Settings,
+    /// When runs end, done or not.
+    pub(super) until: Deadline,
 }
 
 impl Comparison<'_> {
-    /// Computes a family's points from the roughest on, until refining brings nothing more, what is left being the model's own error,
-    /// or until the error is far below the target or at the floor. Starts in parallel.
-    pub(super) fn evaluate(self, family: &[RunModel]) -> Vec<Point> {
-        let mut points: Vec<Point> = Vec::with_capacity(family.len());
-        let mut means: Vec<f64> = Vec::new();
-        let mut systems = Systems::new(self.scene);
-        for model in family {
-            let point = self.point(systems.of(model), model);
-            let (mean, refused) = match &point.error {
-                Ok(error) => (Some(error.mean), false),
-                Err(failure) => (failure.error, failure.kind == FailureKind::Refused),
-            };
-            points.push(point);
-            match mean {
-                Some(mean) => means.push(mean),
-                None => means.clear(),
-            }
-            let fine = self.reference.disagreement.max(FINE * self.settings.target);
-            let fine_enough = means.last().is_some_and(|mean| *mean <= fine);
-            if refused || fine_enough || gains_nothing(&means) {
-                break;
-            }
-        }
-        points
-    }
-
-    /// A point without its cost.
-    pub(super) fn point(self, system: Result<&Ready, Failure>, model: &RunModel) -> Point {
-        let error = system.and_then(|system| self.error(system, model, self.settings.point_stride()));
-        Point { model: *model, wall_s: None, error }
+    /// A point, with what it took while other runs were under way.
+    pub(super) fn point(self, model: &RunModel) -> (Point, Option<f64>) {
+        let found = self.systems.of(model).and_then(|system| self.error(system, model, self.settings.point_stride()));
+        let (error, seconds) = match found {
+            Ok((error, seconds)) => (Ok(error), Some(seconds)),
+            Err(failure) => (Err(failure), None),
+        };
+        (Point { model: *model, wall_s: None, error }, seconds)
     }
 
     /// Error of a model over every start, where a point takes some of them.
     pub(super) fn over_all_starts(self, model: &RunModel) -> Result<PointError, Failure> {
-        self.error(Systems::new(self.scene).of(model)?, model, 1)
+        self.error(self.systems.of(model)?, model, 1).map(|(error, _)| error)
     }
 
-    /// Mean error over every so many of the starts.
-    fn error(self, system: &Ready, model: &RunModel, stride: usize) -> Result<PointError, Failure> {
+    /// Mean error over every so many of the starts, and what a simulated second took, s.
+    fn error(self, system: &Ready, model: &RunModel, stride: usize) -> Result<(PointError, f64), Failure> {
         // the first start that fails tells enough; which one does not depend on the number of threads
         let failed = AtomicBool::new(false);
         let starts: Vec<&StartReference> = self.reference.starts.iter().step_by(stride).collect();
@@ -140,7 +114,8 @@ impl Comparison<'_> {
             .collect();
         if !failed.into_inner() {
             let values: Vec<StartErrors> = errors.into_iter().flatten().flatten().collect();
-            return judged(&values);
+            let seconds = values.iter().map(|of| of.wall_s).sum::<f64>() / values.len() as f64;
+            return Ok((judged(&values)?, seconds));
         }
         // that of the first start that fails, computed where it was left out
         let known = starts.iter().zip(errors);
@@ -151,7 +126,7 @@ impl Comparison<'_> {
 
     /// Relative differences from the reference over a start's horizon and parts of it.
     fn error_of(self, system: &Ready, model: &RunModel, start: &StartReference) -> Result<StartErrors, Failure> {
-        let run = system.simulate(&start.start, model, self.settings.simulated(start.horizon_s), None)?;
+        let run = system.simulate(&start.start, model, self.settings.simulated(start.horizon_s), None, self.until)?;
         let trace = Trace::of_run(&run, self.settings)?;
         let over = |span_s: f64| {
             let error = trace.error(&start.trace, 0.0, span_s);
@@ -162,39 +137,54 @@ impl Comparison<'_> {
             let span_s = start.growth.horizon_s(growth).min(start.horizon_s);
             *part = GrowthError { growth, span_s, mean: over(span_s)? };
         }
-        Ok(StartErrors { over_horizon: over(start.horizon_s)?, by_growth })
+        let wall_s = run.stepping_s / run.simulated_s;
+        Ok(StartErrors { over_horizon: over(start.horizon_s)?, by_growth, wall_s })
     }
 
     /// Measures what the points cost, one run at a time and on this thread: the median of some rounds over all points, so that what
-    /// else the machine does for a while falls on a round and not on a point. `done` is told the share that is done.
-    pub(super) fn measure(self, points: &mut [Point], start: &StartReference, done: impl Fn(f64)) {
+    /// else the machine does for a while falls on a round and not on a point. `taken` is what a simulated second took them beside
+    /// others, s: where there is an end, runs are as short as it asks for, and the cheapest points come first. `done` is told the
+    /// share that is done. Gives the simulated time of a run, s.
+    pub(super) fn measure(
+        self,
+        points: &mut [Point],
+        taken: &[Option<f64>],
+        start: &StartReference,
+        done: impl Fn(f64),
+    ) -> f64 {
         let Settings { span_s, output_hz, .. } = *self.settings;
-        let span = Span { duration: TIMED.min(span_s), output_hz };
-        let mut systems = Systems::new(self.scene);
+        let whole = TIMED.min(span_s);
+        let second: f64 = taken.iter().flatten().sum();
+        let fits = self.until.left_s() / (ROUNDS as f64 * second.max(f64::MIN_POSITIVE));
+        let duration = whole.min(fits.max(LEAST_TIMED * whole));
+        let span = Span { duration, output_hz };
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        if !self.until.is_never() {
+            let of = |place: &usize| taken.get(*place).copied().flatten().unwrap_or(f64::INFINITY);
+            order.sort_by(|a, b| of(a).total_cmp(&of(b)));
+        }
         let mut walls: Vec<Vec<f64>> = vec![Vec::with_capacity(ROUNDS); points.len()];
         for round in 0..ROUNDS {
-            for (place, point) in points.iter().enumerate() {
-                walls[place].extend(wall(&mut systems, point, start, span));
+            for (number, &place) in order.iter().enumerate() {
+                walls[place].extend(self.wall(&points[place], start, span));
                 let count = (ROUNDS * points.len()) as f64;
-                done((round * points.len() + place + 1) as f64 / count);
+                done((round * points.len() + number + 1) as f64 / count);
             }
         }
         for (point, mut walls) in points.iter_mut().zip(walls) {
             walls.sort_by(f64::total_cmp);
             point.wall_s = walls.get(walls.len() / 2).copied();
         }
+        duration
     }
-}
 
-/// Whether the last of a family's errors, from the roughest on, say that refining brings nothing more.
-fn gains_nothing(means: &[f64]) -> bool {
-    let [.., before, last] = means else {
-        return false;
-    };
-    let (count, part) = STUCK;
-    let stuck =
-        means.len() >= count && means[means.len() - count..].iter().all(|mean| (mean / last - 1.0).abs() < part);
-    (*last < CONVERGING && *last > GAIN * before) || stuck
+    /// Wall time of one run over its simulated time; `None` for a point without an error, and where there is no time.
+    fn wall(self, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
+        point.error.as_ref().ok()?;
+        let system = self.systems.of(&point.model).ok()?;
+        let simulation = system.simulate(&start.start, &point.model, span, None, self.until).ok()?;
+        Some(simulation.stepping_s / simulation.simulated_s)
+    }
 }
 
 /// Errors from one start.
@@ -202,6 +192,8 @@ fn gains_nothing(means: &[f64]) -> bool {
 struct StartErrors {
     over_horizon: f64,
     by_growth: [GrowthError; GROWTHS.len()],
+    /// Wall time a simulated second, s.
+    wall_s: f64,
 }
 
 /// Mean and scatter, or that they show nothing.
@@ -229,27 +221,9 @@ fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
     }
 }
 
-/// Wall time of one run over its simulated time; `None` for a point without an error.
-fn wall(systems: &mut Systems, point: &Point, start: &StartReference, span: Span) -> Option<f64> {
-    point.error.as_ref().ok()?;
-    let simulation = systems.of(&point.model).ok()?.simulate(&start.start, &point.model, span, None).ok()?;
-    Some(simulation.stepping_s / simulation.simulated_s)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn refining_ends_where_it_brings_nothing() {
-        assert!(!gains_nothing(&[0.01]));
-        assert!(!gains_nothing(&[0.1, 0.05]));
-        assert!(gains_nothing(&[0.1, 0.05, 0.049]));
-        // far from converged: errors that are alike by chance go on, three of them do not
-        assert!(!gains_nothing(&[1.47, 1.46]));
-        assert!(!gains_nothing(&[3.0, 1.47, 1.46]));
-        assert!(gains_nothing(&[1.47, 1.46, 1.47]));
-    }
 
     #[test]
     fn errors_have_a_mean_and_a_scatter_or_show_nothing() {
@@ -261,6 +235,7 @@ mod tests {
                     span_s: 1e-3 * growth * over_horizon,
                     mean: 0.01 * growth * over_horizon,
                 }),
+                wall_s: 1.0,
             })
         };
         let error = judged(&starts([0.1, 0.3])).unwrap();

@@ -1,12 +1,19 @@
 //! Candidates on a small scene: the same whatever the number of threads, and what fails is told.
 
+use super::budget::{Budget, Deadline, Stage};
 use super::points::{Comparison, Point};
+use super::reference::models;
+use super::refining::refine;
+use super::starts::Systems;
 use super::{Effort, FailureKind, Reference, Settings, Starts};
 use crate::app::case::Case;
+use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Unwatched;
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// The smooth scene with a ring of 12 nodes, 0.5 ms from two starts.
 fn small() -> (Scene, Settings) {
@@ -15,6 +22,12 @@ fn small() -> (Scene, Settings) {
     let run = case.for_run().unwrap();
     let settings = Settings::of(run, Effort::Quick).unwrap();
     (Scene::build(run, &Unwatched).unwrap(), settings)
+}
+
+fn reference(scene: &Scene, starts: &Starts, settings: &Settings) -> Reference {
+    let [by, _] = models(settings, 0);
+    let systems = Systems::of_all(scene, [&by]);
+    Reference::find(systems.of(&by).unwrap(), starts, settings, Deadline::NEVER, || ()).unwrap()
 }
 
 fn all_modes(method: Method, steps: &[f64]) -> Vec<RunModel> {
@@ -36,16 +49,18 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
     let computed = |threads: usize| -> (Reference, Vec<Point>) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap().install(|| {
-            let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
+            let reference = reference(&scene, &starts, &settings);
             let families = [
                 all_modes(Method::ExponentialAdams { tolerance: None }, &[1.25e-6, 3e-7, 1.5e-7]),
                 all_modes(Method::NewmarkExplicit, &[2e-6]),
                 all_modes(Method::Exponential, &[-1.0, 1e-7]),
             ];
-            let on = Comparison { scene: &scene, reference: &reference, settings: &settings };
-            let points = families.iter().flat_map(|family| on.evaluate(family));
-            let points = points.collect();
-            (reference, points)
+            let systems = Systems::of_all(&scene, families.iter().flatten());
+            let on =
+                Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };
+            let found = refine(&families, &[], on, |_| (), |_| ());
+            assert_eq!((found.points.len(), found.left_out.len()), (found.taken.len(), 0));
+            (reference, found.points)
         })
     };
     let (reference, points) = computed(2);
@@ -81,10 +96,11 @@ fn marked_points_take_every_start_and_others_some() {
     assert_eq!(settings.point_stride(), 2);
     let scene = Scene::build(run, &Unwatched).unwrap();
     let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
-    let reference = Reference::find(&scene, &starts, &settings, || ()).unwrap();
+    let reference = reference(&scene, &starts, &settings);
     let family = all_modes(Method::Exponential, &[2e-7]);
-    let on = Comparison { scene: &scene, reference: &reference, settings: &settings };
-    let some = on.evaluate(&family)[0].clone();
+    let systems = Systems::of_all(&scene, &family);
+    let on = Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };
+    let (some, _) = on.point(&family[0]);
     let all = on.over_all_starts(&some.model).unwrap();
     // those of every second start, and the others
     let some = some.error.unwrap();
@@ -97,4 +113,39 @@ fn marked_points_take_every_start_and_others_some() {
     assert!((halves[0] / some.mean - 1.0).abs() < 1e-12);
     let together = (5.0 * halves[0] + 4.0 * halves[1]) / 9.0;
     assert!((all.mean / together - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_there_is_no_time_for_is_left_out_and_said() {
+    let (scene, settings) = small();
+    let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
+    let reference = reference(&scene, &starts, &settings);
+    assert!(reference.starts.iter().all(|start| !start.cut_short));
+    let families = [
+        all_modes(Method::ExponentialAdams { tolerance: None }, &[3e-7, 1.5e-7]),
+        all_modes(Method::Dop853 { tolerance: 1e-3, events: true }, &[3e-7]),
+    ];
+    let systems = Systems::of_all(&scene, families.iter().flatten());
+    let on = Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };
+    let known = [on.point(&families[0][0])];
+    let begun = Instant::now().checked_sub(Duration::from_secs(10)).unwrap();
+    let over = Budget::new(begun, Some(Duration::from_secs(1)), true).until(Stage::Map);
+    let told = AtomicUsize::new(0);
+    let count = |_: &Point| {
+        told.fetch_add(1, Ordering::Relaxed);
+    };
+    let found = refine(&families, &known, Comparison { until: over, ..on }, count, |_| ());
+    // what is known stays; nothing is computed in no time
+    assert_eq!((found.points, told.into_inner()), (vec![known[0].0.clone()], 0));
+    assert_eq!(
+        found.left_out,
+        [
+            "dop853, all modes: without tolerances of 0.0010 and smaller",
+            "exponential-adams, all modes: without steps of 0.150 µs and shorter",
+        ]
+    );
+    let [by, _] = models(&settings, 0);
+    let systems = Systems::of_all(&scene, [&by]);
+    let cut = Reference::find(systems.of(&by).unwrap(), &starts, &settings, over, || ()).unwrap_err();
+    assert!(matches!(cut, ComputeError::Interrupted { .. }), "{cut}");
 }

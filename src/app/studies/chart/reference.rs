@@ -2,19 +2,21 @@
 //!
 //! How fast nearby solutions part, and how long they stay together.
 
+use super::budget::Deadline;
 use super::starts::Ready;
-use super::trace::Trace;
+use super::trace::{Failure, FailureKind, LEAST_STARTS, Trace};
 use super::{Settings, Start, Starts};
 use crate::app::error::ComputeError;
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::RunModel;
 use crate::numerics::ode::Method;
 use crate::signal::SignalError;
 use crate::system::{BallsInertia, ModeSelection};
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// First step of the method with fixed steps, in output intervals, and first tolerance of the other: the roughest that
 /// agreed to a ten-thousandth in the dented bearing of `examples/tadina2011`.
-const FIRST: (f64, f64) = (1.0 / 128.0, 1e-6);
+pub(super) const FIRST: (f64, f64) = (1.0 / 128.0, 1e-6);
 
 /// Time between the samples of the method that chooses its steps, in output intervals: what the sensor shows above half
 /// this rate would fold into the band.
@@ -26,6 +28,10 @@ const REFINEMENTS: usize = 3;
 /// Part of the target below which the two methods agree well enough to stop refining, and to measure by.
 const WANTED: f64 = 0.01;
 const AGREED: f64 = 0.1;
+
+/// What a refinement takes, in units of the run before it: twice the steps, and a tenth of the tolerance of a method of eighth
+/// order.
+const DEARER: [f64; 2] = [1.34, 2.0];
 
 /// The reference of one start.
 #[derive(Debug, Clone)]
@@ -44,6 +50,8 @@ pub struct StartReference {
     pub disagreement: f64,
     /// Refinements that it took.
     pub refinements: usize,
+    /// Whether the budget ended before the two methods agreed as far as is wanted.
+    pub cut_short: bool,
 }
 
 /// The reference of a chart.
@@ -60,24 +68,42 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Finds the reference of every start, in parallel; `done` is called after each.
+    /// Finds the reference of every start, in parallel; `done` is called after each. Starts that are not done at `until` are left
+    /// out; as many at once as there are threads, so that some are.
     ///
     /// # Errors
-    /// [`ComputeError::Failed`] if a method fails; that of signals that cannot be compared.
-    pub fn find(
-        scene: &Scene,
+    /// [`ComputeError::Failed`] if a method fails, [`ComputeError::Interrupted`] with fewer than two starts done; that of
+    /// signals that cannot be compared.
+    pub(super) fn find(
+        system: &Ready,
         starts: &Starts,
         settings: &Settings,
+        until: Deadline,
         done: impl Fn() + Sync,
     ) -> Result<Self, ComputeError> {
-        let [by, _] = models(settings, 0);
-        let system = Ready::of(scene, &by)?;
-        let found = starts.starts.par_iter().map(|start| {
-            let found = of_start(&system, start, settings);
-            done();
-            found
-        });
-        let starts = found.collect::<Result<Vec<_>, _>>()?;
+        let at_once = if until.is_never() { starts.starts.len() } else { rayon::current_num_threads() };
+        let mut found = Vec::with_capacity(starts.starts.len());
+        let mut cut = None;
+        let mut groups = starts.starts.chunks(at_once.max(1));
+        while let Some(group) = groups.next() {
+            let share = until.part(groups.len() + 1);
+            let of_group = group.par_iter().map(|start| {
+                let found = of_start(system, start, settings, [share, until]);
+                done();
+                found
+            });
+            let of_group: Vec<_> = of_group.collect();
+            for of_start in of_group {
+                match of_start {
+                    Err(error @ ComputeError::Interrupted { .. }) => cut = Some(error),
+                    other => found.push(other?),
+                }
+            }
+        }
+        if let Some(cut) = cut.filter(|_| found.len() < LEAST_STARTS) {
+            return Err(cut);
+        }
+        let starts = found;
         let count = starts.len() as f64;
         let disagreement = starts.iter().map(|start| start.disagreement).sum::<f64>() / count;
         let most = starts.iter().map(|start| start.refinements).max();
@@ -130,36 +156,70 @@ pub(super) fn models(settings: &Settings, refinements: usize) -> [RunModel; 2] {
     ]
 }
 
-fn of_start(system: &Ready, start: &Start, settings: &Settings) -> Result<StartReference, ComputeError> {
+/// The reference of a start. Refined as long as the next refinement is expected to end within its `share` of the time.
+///
+/// # Errors
+/// [`ComputeError::Interrupted`] if it has not been computed once at the end of all time.
+fn of_start(
+    system: &Ready,
+    start: &Start,
+    settings: &Settings,
+    [share, until]: [Deadline; 2],
+) -> Result<StartReference, ComputeError> {
     let (span, window) = (settings.span_s, settings.window_s);
     let run = |model: &RunModel, perturbed| -> Result<Trace, ComputeError> {
-        let run = system.simulate(start, model, settings.simulated(span), perturbed);
-        run.and_then(|run| Trace::of_run(&run, settings))
-            .map_err(|failure| no_reference(model.method.name(), start.time_s, &failure.reason))
+        let run = system.simulate(start, model, settings.simulated(span), perturbed, until);
+        run.and_then(|run| Trace::of_run(&run, settings)).map_err(|failure| of_run(&failure, model, start, span))
     };
-    let [mut by, mut beside] = models(settings, 0);
-    let mut witness = run(&beside, None)?;
+    let timed = |model: &RunModel| {
+        let begun = Instant::now();
+        run(model, None).map(|trace| (trace, begun.elapsed().as_secs_f64()))
+    };
+    let [by, beside] = models(settings, 0);
+    let (witness, beside_s) = timed(&beside)?;
     let nearby = run(&beside, Some(settings.ensemble))?;
     let growth = Growth::between(&nearby, &witness, span, window)?;
     let horizon_s = growth.horizon_s(1.0 / settings.target);
-    let mut refinements = 0;
-    loop {
-        let trace = run(&by, None)?;
+    let (trace, by_s) = timed(&by)?;
+    let measured = |[trace, witness]: [Trace; 2], growth, refinements| -> Result<StartReference, ComputeError> {
         let disagreement = witness.error(&trace, 0.0, horizon_s)?;
-        if disagreement <= WANTED * settings.target || refinements == REFINEMENTS {
-            return Ok(StartReference {
-                between: Growth::between(&witness, &trace, span, window)?,
-                start: start.clone(),
-                trace,
-                growth,
-                horizon_s,
-                disagreement,
-                refinements,
-            });
+        Ok(StartReference {
+            between: Growth::between(&witness, &trace, span, window)?,
+            start: start.clone(),
+            trace,
+            growth,
+            horizon_s,
+            disagreement,
+            refinements,
+            cut_short: false,
+        })
+    };
+    let mut found = measured([trace, witness], growth, 0)?;
+    let mut seconds = [by_s, beside_s];
+    while found.disagreement > WANTED * settings.target && found.refinements < REFINEMENTS {
+        let expected: f64 = seconds.iter().zip(DEARER).map(|(took, times)| times * took).sum();
+        if expected > share.left_s() {
+            return Ok(StartReference { cut_short: true, ..found });
         }
-        refinements += 1;
-        [by, beside] = models(settings, refinements);
-        witness = run(&beside, None)?;
+        let refinements = found.refinements + 1;
+        let [by, beside] = models(settings, refinements);
+        match timed(&beside).and_then(|witness| Ok((witness, timed(&by)?))) {
+            Ok(((witness, beside_s), (trace, by_s))) => {
+                found = measured([trace, witness], found.growth, refinements)?;
+                seconds = [by_s, beside_s];
+            }
+            Err(ComputeError::Interrupted { .. }) => return Ok(StartReference { cut_short: true, ..found }),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(found)
+}
+
+/// The error of a run that failed.
+fn of_run(failure: &Failure, model: &RunModel, start: &Start, span_s: f64) -> ComputeError {
+    match failure.kind {
+        FailureKind::OutOfTime => ComputeError::Interrupted { at_s: start.time_s, end_s: start.time_s + span_s },
+        _ => no_reference(model.method.name(), start.time_s, &failure.reason),
     }
 }
 

@@ -19,6 +19,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
             significant(chart.settings.target, 2)
         ));
     }
+    report.warnings.extend(chart.without());
     report.warnings.extend(chart.scene.doubts.iter().cloned());
     report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
     report.assumptions = assumptions(case, Some(&chart.scene.setup));

@@ -2,9 +2,10 @@
 //! and small random changes of their states.
 
 use super::Settings;
+use super::budget::Deadline;
 use super::trace::{Failure, FailureKind};
 use crate::app::case;
-use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
+use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::State;
@@ -105,12 +106,8 @@ pub(super) struct Ready<'a> {
     system: CoupledSystem,
 }
 
-/// The systems of a scene's models, each built when it is first asked for.
-pub(super) struct Systems<'a> {
-    scene: &'a Scene,
-    /// A model and its system; models that differ by method or step alone share one.
-    built: Vec<(RunModel, Ready<'a>)>,
-}
+/// The systems of a scene's models; models that differ by method or step alone share one.
+pub(super) struct Systems<'a>(Vec<(RunModel, Result<Ready<'a>, Failure>)>);
 
 impl<'a> Ready<'a> {
     /// The system of a model.
@@ -124,19 +121,20 @@ impl<'a> Ready<'a> {
     /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
     ///
     /// # Errors
-    /// [`Failure`] also for one that ended before its time.
+    /// [`Failure`] also for one that ended before its time, or that is not done at `until`.
     pub(super) fn simulate(
         &self,
         start: &Start,
         model: &RunModel,
         span: Span,
         perturbed: Option<case::Ensemble>,
+        mut until: Deadline,
     ) -> Result<Simulation, Failure> {
         let mut state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
         if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
             perturb(&mut state, perturbation, seed, start.number);
         }
-        let simulation = Simulation::kept(self.system.clone(), state, model, span, false, &mut InMemory, |_| ())?;
+        let simulation = Simulation::kept(self.system.clone(), state, model, span, false, &mut until, |_| ())?;
         match simulation.end {
             RunEnd::Complete => Ok(simulation),
             RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
@@ -145,23 +143,31 @@ impl<'a> Ready<'a> {
 }
 
 impl<'a> Systems<'a> {
-    /// None built yet.
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { scene, built: Vec::new() }
+    /// Those of some models, built in parallel.
+    pub(super) fn of_all<'m>(scene: &'a Scene, models: impl IntoIterator<Item = &'m RunModel>) -> Self {
+        let mut distinct: Vec<RunModel> = Vec::new();
+        for model in models {
+            if !distinct.iter().any(|other| same_system(model, other)) {
+                distinct.push(*model);
+            }
+        }
+        let built = distinct.into_par_iter().map(|model| (model, Ready::of(scene, &model).map_err(Failure::from)));
+        Self(built.collect())
     }
 
     /// The system of a model.
     ///
     /// # Errors
-    /// [`Failure`] for a model that does not fit the scene.
-    pub(super) fn of(&mut self, model: &RunModel) -> Result<&Ready<'a>, Failure> {
-        let same = |other: &RunModel| RunModel { method: model.method, step: model.step, ..*other } == *model;
-        let known = self.built.iter().position(|(other, _)| same(other));
-        if known.is_none() {
-            self.built.push((*model, Ready::of(self.scene, model)?));
-        }
-        Ok(&self.built[known.unwrap_or(self.built.len() - 1)].1)
+    /// [`Failure`] for a model that does not fit the scene, or that was not among them.
+    pub(super) fn of(&self, model: &RunModel) -> Result<&Ready<'a>, Failure> {
+        let known = self.0.iter().find(|(other, _)| same_system(model, other));
+        let (_, ready) = known.ok_or_else(|| Failure::new(FailureKind::Refused, "no system was built".to_owned()))?;
+        ready.as_ref().map_err(Clone::clone)
     }
+}
+
+fn same_system(model: &RunModel, other: &RunModel) -> bool {
+    RunModel { method: model.method, step: model.step, ..*other } == *model
 }
 
 /// Changes every coordinate and velocity by a part of itself: `y (1 + size u)`, u evenly distributed in -1 to 1 and

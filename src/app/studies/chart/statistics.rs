@@ -1,5 +1,6 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
+use super::budget::Deadline;
 use super::starts::Ready;
 use super::trace::Failure;
 use super::{Settings, Start};
@@ -131,13 +132,14 @@ pub(super) fn ensemble(
     model: &RunModel,
     settings: &Settings,
     analysis: &FigureSettings,
+    until: Deadline,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<Figure>>, Failure> {
     let runs: Vec<_> = starts
         .par_iter()
         .map(|start| {
             let span = settings.simulated(settings.statistics_s);
-            let simulation = system.simulate(start, model, span, Some(settings.ensemble))?;
+            let simulation = system.simulate(start, model, span, Some(settings.ensemble), until)?;
             let signal = simulation.signal(0)?;
             let signal = crate::signal::band_limit(&signal, settings.band_hz).map_err(ComputeError::from)?;
             let end = signal.start_s() + settings.statistics_s;

@@ -30,6 +30,10 @@ pub struct ChartSummary<'a> {
     pub band_hz: Option<[f64; 2]>,
     /// Relative error that is good enough.
     pub target: f64,
+    /// The time that the chart was given, s; `None` for as long as it takes.
+    pub budget_s: Option<f64>,
+    /// What there was no time for, a few words each.
+    pub left_out: &'a [String],
     /// Longest span compared point by point, s.
     pub span_s: f64,
     /// Where the runs began.
@@ -111,6 +115,8 @@ pub struct StartSummary<'a> {
     pub disagreement: f64,
     /// Refinements that it took.
     pub refinements: usize,
+    /// Whether the budget ended before the methods agreed as far as is wanted.
+    pub cut_short: bool,
     /// Growth rate of the distance of a perturbed solution, 1/s; `None` where none was found.
     pub growth_rate_per_s: Option<f64>,
     /// Times of the following distances, s.
@@ -167,7 +173,7 @@ pub struct OmissionSummary<'a> {
     pub model: String,
     /// Its step or tolerance.
     pub parameter: Parameter,
-    /// "refused", "unstable", "blew up" or "too inaccurate".
+    /// "refused", "unstable", "blew up", "too inaccurate" or "out of time".
     pub kind: &'static str,
     /// What happened.
     pub reason: &'a str,
@@ -210,6 +216,8 @@ impl Chart {
             warnings: &self.scene.doubts,
             band_hz: case.band_hz(),
             target: settings.target,
+            budget_s: self.budget_s,
+            left_out: &self.left_out,
             span_s: settings.span_s,
             ensemble: EnsembleSummary {
                 starts_s: starts.clone().map(|of| of.start.time_s).collect(),
@@ -259,6 +267,7 @@ impl<'a> StartSummary<'a> {
             horizon_s: start.horizon_s,
             disagreement: start.disagreement,
             refinements: start.refinements,
+            cut_short: start.cut_short,
             growth_rate_per_s: start.growth.rate_per_s(),
             time_s: start.growth.times_s(),
             perturbed: &start.growth.distances,

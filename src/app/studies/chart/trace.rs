@@ -27,6 +27,8 @@ pub enum FailureKind {
     BlewUp,
     /// The signal is as far from the reference as zero is, or farther.
     TooInaccurate,
+    /// The budget ended before.
+    OutOfTime,
 }
 
 /// Why a run has no signals that could be compared.
@@ -48,6 +50,7 @@ impl FailureKind {
             Self::Unstable => "unstable",
             Self::BlewUp => "blew up",
             Self::TooInaccurate => "too inaccurate",
+            Self::OutOfTime => "out of time",
         }
     }
 }
@@ -57,11 +60,17 @@ impl Failure {
     pub(super) fn new(kind: FailureKind, reason: String) -> Self {
         Self { kind, reason, error: None }
     }
+
+    /// A run that the budget cut short.
+    pub(super) fn out_of_time() -> Self {
+        Self::new(FailureKind::OutOfTime, "the budget ended before".to_owned())
+    }
 }
 
 impl From<ComputeError> for Failure {
     fn from(error: ComputeError) -> Self {
         let kind = match error {
+            ComputeError::Interrupted { .. } => return Self::out_of_time(),
             ComputeError::Transient(TransientError::Unstable { .. }) => FailureKind::Unstable,
             _ => FailureKind::Refused,
         };
@@ -153,6 +162,13 @@ const POINT_STARTS: usize = 8;
 /// Length of the runs whose statistics are compared, in spans.
 const STATISTICS_SPANS: f64 = 3.0;
 
+/// Starts that a budget keeps as long as the span can be shortened instead, and the fewest: a scatter needs two.
+const FEW_STARTS: usize = 3;
+pub(super) const LEAST_STARTS: usize = 2;
+
+/// Windows of the shortest span that a budget leaves: two tell a growth, and an impact may fall into the first.
+const LEAST_WINDOWS: f64 = 4.0;
+
 /// How much a chart computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
@@ -228,6 +244,32 @@ impl Settings {
         })
     }
 
+    /// With fewer starts and, where these are few, a shorter span, so that `cost` (s a simulated second of a start) comes to at
+    /// most `time` (s); the least of both where that is too much.
+    pub(super) fn fitted(self, cost: f64, time: f64) -> Self {
+        let fits = |settings: &Self| (time / (cost * (settings.span_s + settings.edge_s))) as usize;
+        let mut fitted = self;
+        while fits(&fitted) < FEW_STARTS.min(self.ensemble.runs)
+            && let Some(shorter) = fitted.shorter()
+        {
+            fitted = shorter;
+        }
+        fitted.ensemble.runs = fits(&fitted).max(LEAST_STARTS).min(self.ensemble.runs);
+        fitted
+    }
+
+    /// With half the span; `None` where it is the shortest already.
+    pub(super) fn shorter(self) -> Option<Self> {
+        let least = LEAST_WINDOWS * self.window_s;
+        let span_s = (0.5 * self.span_s).max(least);
+        // the last half may be a part of it alone
+        (span_s < 0.99 * self.span_s).then(|| Self {
+            span_s,
+            statistics_s: self.statistics_s.min(STATISTICS_SPANS * span_s),
+            ..self
+        })
+    }
+
     /// Every how many starts a candidate is computed.
     pub(crate) fn point_stride(&self) -> usize {
         self.ensemble.runs.div_ceil(POINT_STARTS)
@@ -280,7 +322,26 @@ mod tests {
 
 #[cfg(test)]
 mod effort_tests {
-    use super::too_short;
+    use super::{Effort, Settings, too_short};
+    use crate::app::case::Case;
+
+    #[test]
+    fn a_budget_takes_starts_first_and_then_from_the_span() {
+        let case = Case::example("scenes/smooth", &[]);
+        let asked = Settings::of(case.for_chart().unwrap(), Effort::Quick).unwrap();
+        let fitted = |time: f64| {
+            // a second of computing for a start over the whole span
+            let settings = asked.fitted(1.0 / (asked.span_s + asked.edge_s), time);
+            assert!(settings.statistics_s <= 3.0 * settings.span_s + 1e-12);
+            (settings.ensemble.runs, (1e3 * settings.span_s * 1e3).round() / 1e3)
+        };
+        assert_eq!([6.5, 4.5, 3.5].map(fitted), [(6, 3.0), (4, 3.0), (3, 3.0)]);
+        // half the span and its edge take a little more than half the time
+        assert_eq!(fitted(2.0), (3, 1.5));
+        // four windows of ten periods of 40 kHz are 1 ms, of two starts
+        assert_eq!([0.9, 0.0].map(fitted), [(2, 1.0), (2, 1.0)]);
+        assert!(asked.fitted(1.0, 0.0).shorter().is_none());
+    }
 
     #[test]
     fn a_time_that_is_too_short_is_wrong_input() {

@@ -1,7 +1,7 @@
 //! The map of a case.
 
-use super::super::Effort;
 use super::super::compute::{Counter, automatic};
+use super::super::{Deadline, Effort};
 use super::cell::{MethodStability, by_tolerance, on_grid};
 use super::condition::{Condition, Measurement, Reference, Variant};
 use crate::app::case;
@@ -14,6 +14,7 @@ use crate::numerics::ode::{Linearised, Method, fastest};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::time::Instant;
 
 /// Shortest and longest step of the grid, s.
 const STEPS: [f64; 2] = [5e-8, 1e-5];
@@ -48,6 +49,8 @@ const EQUAL: [Method; 6] = [
 /// Methods that choose their steps, with the program's own tolerances for an error of a percent.
 const BY_TOLERANCE: [Method; 2] =
     [Method::ExponentialAdams { tolerance: Some(1e-2) }, Method::Dop853 { tolerance: 1e-6, events: true }];
+
+const METHODS: usize = EQUAL.len() + BY_TOLERANCE.len();
 
 /// Time between samples of these, s, and how many: 2 ms.
 const SAMPLES: [f64; 2] = [4e-7, 5000.0];
@@ -101,7 +104,11 @@ struct Prepared {
     reference: Reference,
 }
 
-/// Computes the map of a case, whose scene is `scene`, over conditions, such as [all](Condition::all).
+/// Why a condition has no methods that the budget took.
+pub(crate) const NO_TIME: &str = "left out: the budget ended before";
+
+/// Computes the map of a case, whose scene is `scene`, over conditions, such as [all](Condition::all). Where there is an end they
+/// are computed one after the other, and those that are not done by then are left out.
 ///
 /// # Errors
 /// [`ComputeError`]; a condition that the bearing cannot be in is no error.
@@ -110,53 +117,93 @@ pub(crate) fn compute_stability(
     scene: &Scene,
     conditions: Vec<Condition>,
     effort: Effort,
+    until: Deadline,
     watch: &(impl Watch + Sync),
 ) -> Result<Stability, ComputeError> {
     let transient = &automatic(run.transient, case::Method::Auto);
     let choice = ModelChoice::of_case(RunCase { transient, ..run }, scene)?;
     let (model, grid) = (choice.model, grid(effort));
-    watch.stage("conditions");
-    let progress = Counter::new(watch, conditions.len());
-    let prepared: Vec<Result<Prepared, String>> = conditions
-        .par_iter()
-        .map(|condition| {
-            let prepared = prepare(*condition, run.case, scene, &model, effort);
-            progress.done();
-            prepared.map_err(|error| error.to_string())
-        })
-        .collect();
     watch.stage("stability");
-    let methods = EQUAL.len() + BY_TOLERANCE.len();
-    let progress = Counter::new(watch, conditions.len() * methods);
-    let cells: Vec<Option<MethodStability>> = (0..conditions.len() * methods)
+    let progress = Counter::new(watch, conditions.len() * (1 + METHODS));
+    let at_once = if until.is_never() { conditions.len() } else { 1 };
+    let mut kept = None;
+    let mut summaries: Vec<ConditionSummary> = Vec::with_capacity(conditions.len());
+    let mut longest_s = 0.0_f64;
+    for group in conditions.chunks(at_once.max(1)) {
+        let begun = Instant::now();
+        let mut of_group = if until.is_over() || longest_s > until.left_s() {
+            Vec::new()
+        } else {
+            let prepared = prepared(group, (run.case, scene, &model), effort, until, &progress);
+            kept = kept.or_else(|| Some(prepared.first()?.as_ref().ok()?.variant.system.modes()));
+            summarised(group, prepared, &grid, effort, &progress)
+        };
+        longest_s = longest_s.max(begun.elapsed().as_secs_f64());
+        if of_group.is_empty() || until.is_over() {
+            of_group =
+                group.iter().map(|condition| ConditionSummary::of(*condition, Err(NO_TIME.to_owned()))).collect();
+        }
+        summaries.extend(of_group);
+    }
+    Ok(Stability {
+        model: StabilityModel {
+            modes: kept.unwrap_or(0),
+            of_modes: scene.stage.modes.count(),
+            residual: model.residual,
+        },
+        conditions: summaries,
+        steps_s: grid,
+    })
+}
+
+/// Conditions made ready, in parallel, or why they cannot be.
+fn prepared(
+    conditions: &[Condition],
+    (case, scene, model): (&Case, &Scene, &RunModel),
+    effort: Effort,
+    until: Deadline,
+    progress: &Counter<'_, impl Watch + Sync>,
+) -> Vec<Result<Prepared, String>> {
+    let prepared = conditions.par_iter().map(|condition| {
+        let prepared = prepare(*condition, case, scene, model, effort, until);
+        progress.done();
+        prepared.map_err(|error| error.to_string())
+    });
+    prepared.collect()
+}
+
+/// All methods under conditions, in parallel.
+fn summarised(
+    conditions: &[Condition],
+    prepared: Vec<Result<Prepared, String>>,
+    grid: &[f64],
+    effort: Effort,
+    progress: &Counter<'_, impl Watch + Sync>,
+) -> Vec<ConditionSummary> {
+    let cells: Vec<Option<MethodStability>> = (0..conditions.len() * METHODS)
         .into_par_iter()
         .map(|place| {
-            let of = prepared[place / methods].as_ref().ok();
-            let cell = of.and_then(|of| cell(of, place % methods, &grid, effort));
+            let of = prepared[place / METHODS].as_ref().ok();
+            let cell = of.and_then(|of| cell(of, place % METHODS, grid, effort));
             progress.done();
             cell
         })
         .collect();
-    let modes = prepared.first().and_then(|first| first.as_ref().ok());
-    let kept = modes.map_or(0, |first| first.variant.system.modes());
-    let conditions = conditions.into_iter().zip(prepared).zip(cells.chunks(methods));
-    let conditions = conditions.map(|((condition, prepared), cells)| {
+    let all = conditions.iter().zip(prepared).zip(cells.chunks(METHODS));
+    all.map(|((condition, prepared), cells)| {
+        ConditionSummary::of(*condition, prepared.map(|_| cells.iter().flatten().cloned().collect()))
+    })
+    .collect()
+}
+
+impl ConditionSummary {
+    /// Its methods, or why it has none.
+    fn of(condition: Condition, methods: Result<Vec<MethodStability>, String>) -> Self {
         let (name, value) = condition.axis_and_value();
         let (value, unit) = value.unzip();
-        ConditionSummary {
-            condition: name,
-            value,
-            unit,
-            label: condition.label(),
-            methods: prepared.is_ok().then(|| cells.iter().flatten().cloned().collect()),
-            reason: prepared.err(),
-        }
-    });
-    Ok(Stability {
-        model: StabilityModel { modes: kept, of_modes: scene.stage.modes.count(), residual: model.residual },
-        conditions: conditions.collect(),
-        steps_s: grid,
-    })
+        let (methods, reason) = methods.map_or_else(|reason| (None, Some(reason)), |methods| (Some(methods), None));
+        Self { condition: name, value, unit, label: condition.label(), methods, reason }
+    }
 }
 
 fn prepare(
@@ -165,8 +212,9 @@ fn prepare(
     scene: &Scene,
     model: &RunModel,
     effort: Effort,
+    until: Deadline,
 ) -> Result<Prepared, ComputeError> {
-    let variant = condition.variant(case, scene, model)?;
+    let variant = condition.variant(case, scene, model, until)?;
     let all_modes = matches!(condition, Condition::AllModes | Condition::AllModesUndamped);
     let slow_steps = effort.pick(SLOW_RUN);
     let steps = if all_modes { slow_steps } else { effort.pick(RUN) };

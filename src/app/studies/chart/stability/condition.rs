@@ -2,8 +2,8 @@
 //!
 //! What short runs do: two that begin a little apart, side by side, against finer ones from the same starts.
 
-use super::super::Effort;
 use super::super::starts::perturb;
+use super::super::{Deadline, Effort};
 use crate::app::case;
 use crate::app::case::{Case, Defect, Load};
 use crate::app::error::ComputeError;
@@ -58,6 +58,8 @@ pub enum Condition {
 pub(super) struct Variant {
     pub(super) system: CoupledSystem,
     pub(super) state: crate::numerics::ode::State,
+    /// When its runs end, done or not.
+    pub(super) until: Deadline,
 }
 
 impl Condition {
@@ -120,7 +122,13 @@ impl Condition {
     ///
     /// # Errors
     /// [`ComputeError`] for a condition that the bearing cannot be in.
-    pub(super) fn variant(self, case: &Case, scene: &Scene, model: &RunModel) -> Result<Variant, ComputeError> {
+    pub(super) fn variant(
+        self,
+        case: &Case,
+        scene: &Scene,
+        model: &RunModel,
+        until: Deadline,
+    ) -> Result<Variant, ComputeError> {
         let mut case = case.clone();
         self.apply(&mut case, scene);
         let run = case.for_chart()?;
@@ -140,7 +148,7 @@ impl Condition {
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         let system = CoupledSystem::new(&stage.structure, &stage.modes, setup, modes, &damping, residual)?;
         let state = system.state_at(scene.start, &equilibrium, &stage.modes);
-        Ok(Variant { system, state })
+        Ok(Variant { system, state, until })
     }
 
     /// Changes the case; what concerns modes is left to the model.
@@ -319,7 +327,7 @@ pub(super) fn observe(
         let speed = own.iter().map(|v| v * v).sum::<f64>().sqrt();
         let pairs = own.iter().zip(other);
         let apart = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-        if !see(f64::from(interval) * schedule.interval, [speed, apart]) {
+        if !see(f64::from(interval) * schedule.interval, [speed, apart]) || variant.until.is_over() {
             break;
         }
     }

@@ -14,7 +14,7 @@ mod condition;
 mod section;
 
 pub use cell::{MethodStability, StepRecord, Window};
-pub(crate) use compute::compute_stability;
 pub use compute::{ConditionSummary, Stability, StabilityModel};
+pub(crate) use compute::{NO_TIME, compute_stability};
 pub use condition::Condition;
 pub(crate) use section::{resonance_plot, stability_map, stability_report, stability_section};
