@@ -89,7 +89,7 @@ fn imperfections(bearing: &Bearing) -> Vec<Fact> {
         Slip::Constant(slip) if *slip == 0.0 => None,
         Slip::Constant(slip) => Some(format!("{} %", percent(*slip))),
         Slip::OverTime(points) => between(points, "the time"),
-        Slip::OverSpeed(points) => between(points, "the speed"),
+        Slip::OverSpeed(points) | Slip::OverRpm(points) => between(points, "the speed"),
     };
     let waves = bearing
         .waviness

@@ -203,6 +203,7 @@ fn material_words(case: &Case, name: &str) -> String {
 
 fn hold_words(hold: &Hold) -> String {
     match hold {
+        Hold::All => "held in every direction".to_owned(),
         Hold::Fixed(axes) => {
             let axes: Vec<String> = axes.iter().map(|axis| axis_name(*axis).to_owned()).collect();
             format!("held along {}", and(&axes))
