@@ -228,3 +228,57 @@ fn meshes_and_materials_in_other_units_are_said() {
     let small = said("um", 206e9, 7850.0);
     assert!(small[0].contains("44 x 23 x 10 um") && small[0].contains("looks like one in mm"), "{small:?}");
 }
+
+/// A turned body of 32 sides: a bore of radius 23.5 mm from z = 0 to 14 mm, then a shoulder down to 20 mm; the group "bore" has both.
+fn bore_with_shoulder() -> String {
+    const SIDES: usize = 32;
+    const RADII: [f64; 4] = [20.0, 23.5, 30.0, 36.0];
+    let node = |i: usize, j: usize, k: usize| 1 + (4 * j + i) * SIDES + k % SIDES;
+    let mut text = String::from(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"bore\"\n2 2 \"feet\"\n3 3 \"housing\"\n$EndPhysicalNames\n",
+    );
+    text += &format!("$Nodes\n{}\n", 16 * SIDES);
+    for (j, z) in [0.0, 7.0, 14.0, 20.0].into_iter().enumerate() {
+        for (i, radius) in RADII.into_iter().enumerate() {
+            for k in 0..SIDES {
+                let angle = std::f64::consts::TAU * k as f64 / SIDES as f64;
+                text += &format!("{} {} {} {z}\n", node(i, j, k), radius * angle.cos(), radius * angle.sin());
+            }
+        }
+    }
+    let mut elements = Vec::new();
+    let mut add = |kind: usize, tag: usize, nodes: &[usize]| {
+        let nodes: Vec<String> = nodes.iter().map(usize::to_string).collect();
+        elements.push(format!("{} {kind} 2 {tag} {tag} {}", elements.len() + 1, nodes.join(" ")));
+    };
+    for k in 0..SIDES {
+        let face = |i: usize, j: usize| [node(i, j, k), node(i, j, k + 1), node(i, j + 1, k + 1), node(i, j + 1, k)];
+        (0..2).for_each(|j| add(3, 1, &face(1, j)));
+        add(3, 1, &[node(0, 2, k), node(1, 2, k), node(1, 2, k + 1), node(0, 2, k + 1)]);
+        (0..3).for_each(|j| add(3, 2, &face(3, j)));
+        for (i, j) in [(1, 0), (2, 0), (1, 1), (2, 1), (0, 2), (1, 2), (2, 2)] {
+            let layer = |j: usize| [node(i, j, k), node(i + 1, j, k), node(i + 1, j, k + 1), node(i, j, k + 1)];
+            add(5, 3, &[layer(j), layer(j + 1)].concat());
+        }
+    }
+    text + &format!("$EndNodes\n$Elements\n{}\n{}\n$EndElements\n", elements.len(), elements.join("\n"))
+}
+
+#[test]
+fn a_bore_named_with_its_shoulder_is_told_by_its_shares() {
+    let folder = scratch("bore-with-shoulder");
+    std::fs::write(folder.join("a.msh"), bore_with_shoulder()).unwrap();
+    let found = plummer(&folder, &["init", "a.msh", "--out", "b.toml"]);
+    let text = String::from_utf8(found.stdout.clone()).unwrap();
+    assert_eq!(found.status.code(), Some(0), "{}", errors(&found));
+    // chords of 32 sides: 2 n R sin(pi / n) L beside n / 2 sin(2 pi / n) (R^2 - r^2)
+    assert!(text.contains("81 % of the area of group \"bore\" is a cylinder of radius 23.5 mm about z"), "{text}");
+    assert!(text.contains("the rest is flat and lies across its axis, as a shoulder does"), "{text}");
+    let case = "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\nparts = [{ group = \"housing\", material = \"steel\" }]\n\
+        supports = [{ group = \"feet\", fixed = \"all\" }]\n[ring]\nouter_radius = 23.5e-3\n\
+        sections = [{ material = \"steel\", area = 5e-5, inertia = 1e-10, radius = 22e-3 }]\n\
+        tie = { group = \"bore\", centre = [0, 0, 7e-3] }\n";
+    std::fs::write(folder.join("a.toml"), case).unwrap();
+    let said = errors(&plummer(&folder, &["modes", "a.toml", "--out", "out"]));
+    assert!(said.contains("75 % of the nodes of group \"bore\" (a.msh) lie at the ring's outer radius"), "{said}");
+}

@@ -361,6 +361,30 @@ fn a_run_says_what_its_superelement_leaves_out() {
     }
 }
 
+/// Vectors up to the band and no further err by as much as the signals; of a file that does not tell, nothing is estimated.
+#[test]
+fn a_run_with_too_few_vectors_is_not_trusted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.npz");
+    let basis = format!("{ON_RING}[condense]\nfixed_interface_modes = 0\n");
+    let record = record_of(&original(PLANE, 24, &basis));
+    for (complete_hz, lacks, words) in [
+        (Some(20e3), true, "most of it of the superelement"),
+        (Some(500e3), false, ""),
+        (None, false, "its file does not tell which vectors were left out"),
+    ] {
+        write_superelement_npz(&path, &SuperelementRecord { complete_hz, band_hz: None, ..record.clone() }).unwrap();
+        let case = imported(&path, 24, REST, ON_RING);
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let choice = ModelChoice::of_case(run, &scene).unwrap();
+        let warnings = choice.warnings().join(" ");
+        assert_eq!(choice.lacks_vectors(), lacks, "{complete_hz:?}: {warnings}");
+        assert!(warnings.contains(words), "{complete_hz:?}: {warnings}");
+        assert_eq!(choice.estimated_error.is_some(), complete_hz.is_some());
+    }
+}
+
 #[test]
 fn results_above_the_band_of_a_superelement_are_doubted() {
     let (_kept, path, record) = small();

@@ -80,11 +80,11 @@ fn bore_sentence(found: &Found<'_>) -> String {
     };
     for (hole, share, shoulder) in &found.partly {
         sentence.push_str(&format!(
-            " Group {} is {} in {} % of its {}; the rest {}: name the round part alone in gmsh, Physical {}(\"bore\").",
-            quoted(&hole.group),
-            describe(hole, found.plane),
+            " {} % of the {} of group {} is {}; the rest {}: name the round part alone in gmsh, Physical {}(\"bore\").",
             number(100.0 * share, 2),
             if found.plane { "length" } else { "area" },
+            quoted(&hole.group),
+            describe(hole, found.plane),
             if *shoulder { "is flat and lies across its axis, as a shoulder does" } else { "lies beside it" },
             if found.plane { "Curve" } else { "Surface" }
         ));
