@@ -17,7 +17,7 @@ use crate::app::studies::chart::{
 use crate::report::{duration, significant};
 use std::fs::{self, File};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -64,7 +64,7 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
         return alone(job, effort, budget, &command);
     }
     let run = case.for_chart().map_err(ComputeError::from)?;
-    let so_far = SoFar::begin(folder, progress)?;
+    let so_far = SoFar::new(folder, progress);
     let result = compute_chart(run, effort, budget, &|news| so_far.hear(news), progress)?;
     let stability = match only {
         None => {
@@ -103,25 +103,17 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     })
 }
 
-/// The points so far, on the terminal and in a file that is there as long as `chart.json` is not: whatever ends the program,
-/// they are kept.
+/// The points so far, on the terminal and in a file that is there from the first of them until `chart.json` is: whatever ends
+/// the program, they are kept.
 struct SoFar<'a> {
     progress: &'a Progress,
     path: PathBuf,
-    rows: Mutex<File>,
-    /// Why a row could not be written.
-    failed: Mutex<Option<io::Error>>,
+    file: Mutex<io::Result<Option<File>>>,
 }
 
 impl<'a> SoFar<'a> {
-    /// # Errors
-    /// [`CliError`] if the file cannot be written.
-    fn begin(folder: &OutputFolder, progress: &'a Progress) -> Result<Self, CliError> {
-        let path = folder.path.join("chart.csv.partial");
-        let mut file = File::create(&path).map_err(|error| not_kept(&path, &error))?;
-        let columns = writeln!(file, "method,model,step_s,tolerance,error,deviation,largest_error,reason");
-        columns.map_err(|error| not_kept(&path, &error))?;
-        Ok(Self { progress, path, rows: Mutex::new(file), failed: Mutex::new(None) })
+    fn new(folder: &OutputFolder, progress: &'a Progress) -> Self {
+        Self { progress, path: folder.path.join("chart.csv.partial"), file: Mutex::new(Ok(None)) }
     }
 
     fn hear(&self, news: News<'_>) {
@@ -131,12 +123,23 @@ impl<'a> SoFar<'a> {
             }
             News::Point(point) => {
                 self.progress.note(&line(point));
-                let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Err(error) = rows.write_all(row(point).as_bytes()) {
-                    self.failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Ok(so_far) = &mut *file
+                    && let Err(error) = self.keep(so_far, point)
+                {
+                    *file = Err(error);
                 }
             }
         }
+    }
+
+    fn keep(&self, file: &mut Option<File>, point: &Point) -> io::Result<()> {
+        if file.is_none() {
+            let mut begun = File::create(&self.path)?;
+            begun.write_all(COLUMNS.as_bytes())?;
+            *file = Some(begun);
+        }
+        file.as_mut().map_or(Ok(()), |file| file.write_all(row(point).as_bytes()))
     }
 
     /// Takes the file away.
@@ -144,17 +147,14 @@ impl<'a> SoFar<'a> {
     /// # Errors
     /// [`CliError`] if it could not be written or cannot be removed.
     fn end(self) -> Result<(), CliError> {
-        let failed = self.failed.into_inner().unwrap_or_else(PoisonError::into_inner);
-        failed
-            .map_or(Ok(()), Err)
-            .and_then(|()| fs::remove_file(&self.path))
-            .map_err(|error| not_kept(&self.path, &error))
+        let file = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let removed = file.and_then(|file| file.map_or(Ok(()), |_| fs::remove_file(&self.path)));
+        removed.map_err(|error| CliError::failed(format!("cannot write {}: {error}", self.path.display())))
     }
 }
 
-fn not_kept(path: &Path, error: &io::Error) -> CliError {
-    CliError::failed(format!("cannot write {}: {error}", path.display()))
-}
+/// First line of the file of points so far.
+const COLUMNS: &str = "method,model,step_s,tolerance,error,deviation,largest_error,reason\n";
 
 /// A point as a row of the file of points so far.
 fn row(point: &Point) -> String {
@@ -175,13 +175,14 @@ fn verdict(result: &Chart) -> Result<(), CliError> {
         return Ok(());
     }
     let [by, beside] = result.reference.models.map(|model| model.method.name());
+    let longer = if result.reference.starts.iter().any(|start| start.cut_short) { "a longer --budget; " } else { "" };
     Err(CliError::failed(format!(
         "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
         result.reference.disagreement, result.settings.target
     ))
-    .with_help(
-        "points below that are not marked; a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated",
-    ))
+    .with_help(format!(
+        "points below that are not marked; {longer}a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
+    )))
 }
 
 fn summary(result: &Chart) -> String {
@@ -326,9 +327,13 @@ mod tests {
 
     use serde_json::Value;
 
-    use super::{Asked, ChartPart, Effort, Job, chart};
+    use super::{Asked, COLUMNS, ChartPart, Duration, Effort, Job, News, OutputFolder, Point, QUICK, SoFar, chart};
     use crate::app::case::Case;
     use crate::app::cli::{Options, Progress};
+    use crate::app::scene::RunModel;
+    use crate::app::studies::chart::{Failure, FailureKind, GROWTHS, GrowthError, PointError};
+    use crate::numerics::ode::Method;
+    use crate::system::{BallsInertia, ModeSelection};
 
     /// The smooth scene made small: a ring of 12 nodes, and a wide band, whose periods are short.
     fn small() -> Case {
@@ -392,6 +397,9 @@ mod tests {
         assert_eq!(figures[0]["name"], "root mean square");
         assert!(figures[0]["reference"]["mean"].as_f64().unwrap() > 0.0);
         let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        // the points so far go with the last file
+        assert!(!out.join("chart.csv.partial").exists());
+        assert_eq!((&json["budget_s"], &json["left_out"]), (&Value::Null, &serde_json::json!([])));
         assert!(read("chart.svg").starts_with("<svg "));
         assert!(read("report.html").contains("Points that none beats"));
         let written: Value = serde_json::from_str(&read("chart.json")).unwrap();
@@ -399,5 +407,48 @@ mod tests {
             assert_eq!(written[key], json[key], "{key}");
         }
         fs::remove_dir_all(out).unwrap();
+    }
+
+    #[test]
+    fn points_are_on_disk_as_they_come() {
+        let folder = tempfile::tempdir().unwrap();
+        let progress = Progress::new(false);
+        let so_far = SoFar::new(&OutputFolder::at(folder.path()), &progress);
+        let model = RunModel {
+            modes: ModeSelection::All,
+            residual: false,
+            balls_inertia: BallsInertia::Dynamic,
+            method: Method::Exponential,
+            step: 2.5e-7,
+        };
+        let by_growth = GROWTHS.map(|growth| GrowthError { growth, ..GrowthError::default() });
+        let error = PointError { mean: 0.01, deviation: 0.002, largest: 0.03, by_growth };
+        let path = folder.path().join("chart.csv.partial");
+        let kind = FailureKind::BlewUp;
+        let failure = Failure { kind, reason: "the solution blew up, \"far\"".to_owned(), error: None };
+        let rows = [
+            (Ok(error), "exponential,all modes,0.00000025,,0.01,0.002,0.03,\"\"\n"),
+            (Err(failure), "exponential,all modes,0.00000025,,,,,\"the solution blew up, 'far'\"\n"),
+        ];
+        let mut expected = COLUMNS.to_owned();
+        for (error, row) in rows {
+            assert_eq!(path.exists(), expected.len() > COLUMNS.len());
+            so_far.hear(News::Point(&Point { model, wall_s: None, error }));
+            expected.push_str(row);
+            assert_eq!(fs::read_to_string(&path).unwrap(), expected);
+        }
+        so_far.end().unwrap();
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn a_command_says_its_budget_where_one_was_given() {
+        let asked = |quick, seconds: Option<u64>, only| Asked::new(quick, seconds.map(Duration::from_secs), only);
+        assert_eq!(asked(true, None, None).budget, Some(QUICK));
+        assert_eq!(asked(true, None, None).command("plummer chart a"), "plummer chart a --quick");
+        let accuracy = Some(ChartPart::Accuracy);
+        let line = asked(false, Some(120), accuracy).command("plummer chart a");
+        assert_eq!(line, "plummer chart a --only accuracy --budget 120s");
+        assert_eq!(asked(false, None, None).budget, None);
     }
 }

@@ -1,11 +1,7 @@
 //! The time that a chart may take: shares of it for the stages, and runs that end with it.
 
-use super::starts::Ready;
-use super::trace::Failure;
-use super::{Settings, Start};
-use crate::app::commands::run::{Checkpoints, RunRequest, Span};
+use crate::app::commands::run::{Checkpoints, RunRequest};
 use crate::app::error::ComputeError;
-use crate::app::scene::RunModel;
 use crate::numerics::ode::Snapshot;
 use crate::report::duration;
 use crate::system::RunRecord;
@@ -22,13 +18,6 @@ const MAP: f64 = 0.93;
 
 /// Least part of a budget that must be left then.
 const LEAST: f64 = 0.1;
-
-/// Longest pilot, s: a hundred times what a clock and a warm cache need.
-const PILOT: f64 = 0.1;
-
-/// Output intervals of the shortest pilot, and how many times longer the next one is.
-const FIRST: usize = 4;
-const LONGER: usize = 4;
 
 /// The time that a chart may take.
 #[derive(Debug, Clone, Copy)]
@@ -144,28 +133,6 @@ impl Checkpoints for Deadline {
 
     fn save(&mut self, _: &RunRecord, _: f64, _: &Snapshot) -> Result<(), ComputeError> {
         Ok(())
-    }
-}
-
-/// Wall time of a model a simulated second, on this thread, s, by a short run from a start.
-///
-/// # Errors
-/// The [`Failure`] of that run.
-pub(super) fn pilot(
-    system: &Ready,
-    start: &Start,
-    model: &RunModel,
-    settings: &Settings,
-    until: Deadline,
-) -> Result<f64, Failure> {
-    let mut intervals = FIRST;
-    loop {
-        let span = Span { duration: intervals as f64 * settings.interval(), output_hz: settings.output_hz };
-        let run = system.simulate(start, model, span, None, until)?;
-        if run.stepping_s > PILOT || span.duration >= settings.window_s {
-            return Ok(run.stepping_s / run.simulated_s);
-        }
-        intervals *= LONGER;
     }
 }
 

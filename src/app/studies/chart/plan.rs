@@ -1,12 +1,13 @@
 //! What a chart is going to take, by short runs before it begins.
 
-use super::budget::{Deadline, pilot};
+use super::budget::Deadline;
 use super::candidates::kept;
 use super::points::{ROUNDS, TIMED};
 use super::reference::{FIRST, models};
-use super::starts::Systems;
+use super::starts::{Ready, Systems};
 use super::trace::Failure;
 use super::{Settings, Start};
+use crate::app::commands::run::Span;
 use crate::app::scene::RunModel;
 use crate::numerics::ode::Method;
 
@@ -25,6 +26,13 @@ const RUNS: [f64; 2] = [2.34, 4.0];
 
 /// Steps a candidate's output interval of the pilot on the program's own basis: stable in every shipped scene.
 const FINE_STEPS: f64 = 16.0;
+
+/// Longest pilot, s: a hundred times what a clock and a warm cache need.
+const PILOT: f64 = 0.1;
+
+/// Output intervals of the shortest pilot, and how many times longer the next one is.
+const INTERVALS: usize = 4;
+const LONGER: usize = 4;
 
 /// What a chart is going to compute and what it takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,5 +119,27 @@ impl Costs {
             + (self.reference[1] + of(chosen) + of(source)) * runs * (settings.statistics_s + settings.edge_s);
         let alone = second * ROUNDS as f64 * TIMED.min(settings.span_s);
         Plan { points: families.iter().map(Vec::len).sum(), seconds: parallel / threads as f64 + alone }
+    }
+}
+
+/// Wall time of a model a simulated second, on this thread, s, by a short run from a start.
+///
+/// # Errors
+/// The [`Failure`] of that run.
+fn pilot(
+    system: &Ready,
+    start: &Start,
+    model: &RunModel,
+    settings: &Settings,
+    until: Deadline,
+) -> Result<f64, Failure> {
+    let mut intervals = INTERVALS;
+    loop {
+        let span = Span { duration: intervals as f64 * settings.interval(), output_hz: settings.output_hz };
+        let run = system.simulate(start, model, span, None, until)?;
+        if run.stepping_s > PILOT || span.duration >= settings.window_s {
+            return Ok(run.stepping_s / run.simulated_s);
+        }
+        intervals *= LONGER;
     }
 }
