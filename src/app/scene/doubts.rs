@@ -68,6 +68,7 @@ pub(crate) fn doubts(
         found.extend(ring_doubts(case, ring, housing)?);
     }
     if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
+        found.extend(case.bearing.as_ref().and_then(case::Bearing::taken_from));
         found.extend(race_in_ring(case)?);
         found.extend(ball_density(setup));
         found.extend(contact_doubts(setup, &contacts, equilibrium));
