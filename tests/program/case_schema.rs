@@ -80,6 +80,9 @@ fn other_forms_are_valid() {
         "damping={alpha=1,beta=1e-8}",
         "bearing.slip={profile=[{time=0,slip=0.1},{time=1,slip=0}]}",
         "bearing.slip={profile=[{hz=0,slip=0.1}]}",
+        "bearing=\"6204\"",
+        "bearing=6204",
+        "bearing={name='6204',radial_play=1e-6}",
         "bearing.slip=0",
         "bearing.stiffness=hertz",
         "bearing.race_material=steel",
@@ -223,6 +226,8 @@ fn wrong_cases_are_refused_by_both() {
         "condense.interface={}",
         "condense.interface={group='a',nodes=[1]}",
         "bearing.density=7850",
+        "bearing={}",
+        "bearing={balls=8}",
         "analysis.band_hz=[1,2]",
     ] {
         assert!(read(FULL, &[set]).is_err(), "the reader takes {set}");

@@ -258,6 +258,26 @@ fn what_was_found_is_said_on_standard_output() {
 }
 
 #[test]
+fn materials_are_listed_with_ranges_and_sources() {
+    let folder = scratch("init-materials");
+    let output = plummer(&folder, &["init", "--list-materials"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "steel               206      0.3    7850  E 200 to 212 GPa",
+        "EN-GJL-250          110     0.26    7200  grey iron; a range, E 103 to 118 GPa: it falls with load, and in thick sections",
+        "EN 1561:2011, annex A",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let json = init(&folder, &["--list-materials"]);
+    let materials = json["materials"].as_array().unwrap();
+    let iron = materials.iter().find(|material| material["name"] == "EN-GJS-400-15").unwrap();
+    assert_eq!((iron["young_pa"].as_f64(), iron["density_kg_m3"].as_f64()), (Some(169e9), Some(7100.0)));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
 fn the_catalogue_is_listed_with_its_sources() {
     let folder = scratch("init-list");
     let output = plummer(&folder, &["init", "--list-bearings"]);
@@ -268,6 +288,7 @@ fn the_catalogue_is_listed_with_its_sources() {
         "6305     25     62     17      7         11.906          43.50*  0.222 2.5420 4.4580 1.6899 0.3631  Timken",
         "BSF is the spin of a ball: a flaw on it strikes both races, twice a spin",
         "GMN: GMN, High precision ball bearings, catalogue 4000 0813 EN (2013)",
+        "Usual, no maker's: groove radii of 0.52 (inner) and 0.53 (outer) of the ball's diameter.",
     ] {
         assert!(text.contains(part), "{part}\n{text}");
     }

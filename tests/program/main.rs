@@ -11,6 +11,7 @@ mod export;
 mod init;
 mod long_run;
 mod modes;
+mod named_bearing;
 mod report;
 mod report_browser;
 mod report_shapes;

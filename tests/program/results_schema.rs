@@ -88,6 +88,7 @@ fn what_commands_print_is_valid() {
         ("inspect", vec!["inspect", &mesh, "--length-unit", "mm"]),
         ("init", vec!["init", &mesh, "--length-unit", "mm"]),
         ("init", vec!["init", "--list-bearings"]),
+        ("init", vec!["init", "--list-materials"]),
         ("export", vec!["export", &ring, "--to", "mtx"]),
         ("report", vec!["report", "out/impact"]),
     ] {

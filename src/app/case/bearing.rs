@@ -3,19 +3,24 @@
 //! Slip of the cage: a number, or a table over time or speed.
 
 use super::defect::Defect;
-use super::schema::{number, or_table, text, together, words};
+use super::named_bearing::named_or_numbers;
+use super::schema::{any_of, number, or_table, text, together, whole, words};
 use super::union::{Loose, mismatch, read_as, written_as};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// A deep-groove ball bearing, its outer ring fixed to the housing. Lengths in m.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = together(&["ball_mass", "density"])))]
+#[schemars(extend("not" = together(&["ball_mass", "density"]), "required" = [], "anyOf" = named_or_numbers()))]
 pub struct Bearing {
+    /// Designation in the catalogue, which gives number and radii of balls, races and grooves and the play, as far as they are absent:
+    /// `"6204"` (`plummer init --list-bearings`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Number of balls, 3 to 40.
     pub balls: usize,
     /// Ball radius, > 0.
@@ -85,6 +90,11 @@ pub struct Wave {
     /// In degrees; on the inner race when the shaft's angle is zero.
     #[serde(default)]
     pub phase_deg: f64,
+}
+
+/// The table of a bearing, or a name in its place; designations such as 6204 are whole numbers for TOML.
+pub(super) fn named_or_table(generator: &mut SchemaGenerator) -> Schema {
+    any_of(&[text(), whole(), generator.subschema_for::<Bearing>()])
 }
 
 fn bearing_steel() -> String {

@@ -4,8 +4,8 @@
 
 use super::decode::Fault;
 use super::error::CaseError;
-use super::set;
 use super::tree::{Mark, Node, Value, parse_path};
+use super::{named_bearing, set};
 use crate::files;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -24,7 +24,7 @@ pub struct Source {
     pub set: Vec<String>,
 }
 
-/// A source read into a tree, arguments applied.
+/// A source read into a tree, arguments applied and a named bearing filled in.
 pub(super) struct Document<'a> {
     source: &'a Source,
     pub(super) root: Node,
@@ -37,11 +37,15 @@ impl<'a> Document<'a> {
             let place = format!("{}:{}", source.path.display(), fault.line);
             CaseError::at(place, format!("not valid TOML: {}", fault.message))
         })?;
+        named_bearing::as_table(&mut root);
         for (index, argument) in source.set.iter().enumerate() {
             set::apply(&mut root, argument, Mark::Set(index))
                 .map_err(|rule| CaseError::at(format!("--set {argument}"), &rule).with_help(rule.help()))?;
         }
-        Ok(Self { source, root })
+        let mut document = Self { source, root };
+        let filled = named_bearing::fill(&mut document.root);
+        filled.map_err(|fault| document.error(fault))?;
+        Ok(document)
     }
 
     /// Returns where the value at a key path was written, or where the nearest table around it was.

@@ -47,8 +47,8 @@ impl Case {
     fn without_variants(source: Source) -> Result<Self, CaseError> {
         let document = Document::read(&source)?;
         let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
-        for (name, material) in BUILT_IN_MATERIALS {
-            case.materials.entry(name.to_owned()).or_insert(material);
+        for built_in in BUILT_IN_MATERIALS {
+            case.materials.entry(built_in.name.to_owned()).or_insert(built_in.as_given());
         }
         if let Some(folder) = source.path.parent() {
             for path in case.paths_mut() {

@@ -57,10 +57,6 @@ fn is_zero(loss_factor: &f64) -> bool {
 }
 
 impl Material {
-    const fn new(young: f64, poisson: f64, density: f64) -> Self {
-        Self::Isotropic(IsotropicMaterial { young, poisson, density, loss_factor: 0.0 })
-    }
-
     /// Structural loss factor, >= 0 and < 2.
     #[must_use]
     pub(crate) fn loss_factor(&self) -> f64 {
@@ -142,15 +138,3 @@ read_as!(Material, MaterialForm, |form| {
         _ => Err(mismatch("one number and three", FORMS)),
     }
 });
-
-/// The materials that a case may name without giving them: common values for a low-alloy steel, a through-hardened
-/// bearing steel (both with the modulus at which the source paper's contact stiffness is computed) and a wrought
-/// aluminium alloy. A table of the same name in the case file takes their place.
-///
-/// Steel: GMN (catalogue 4000 0813 EN, 2013, pp. 12-13) has 210 GPa, 0.3 and 7800 kg/m^3 for 100Cr6, 1.9 % stiffer and 0.6 % lighter.
-/// Aluminium: modulus and density of EN 1999-1-1:2007, 3.2.5, which takes 0.3 for Poisson's ratio.
-pub const BUILT_IN_MATERIALS: [(&str, Material); 3] = [
-    ("steel", Material::new(206e9, 0.3, 7850.0)),
-    ("bearing steel", Material::new(206e9, 0.3, 7850.0)),
-    ("aluminium", Material::new(70e9, 0.33, 2700.0)),
-];

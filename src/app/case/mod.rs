@@ -20,6 +20,7 @@
 mod bearing;
 #[cfg(test)]
 mod bearing_tests;
+mod built_in_materials;
 mod check;
 mod condense;
 mod decode;
@@ -33,12 +34,14 @@ mod load;
 mod material;
 mod modes;
 mod motion;
+mod named_bearing;
 mod purpose;
 mod report;
 mod ring;
 mod schema;
 mod set;
 mod spring;
+mod taken_from;
 #[cfg(test)]
 mod tests;
 mod transient;
@@ -51,6 +54,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Slip, Wave};
+pub use built_in_materials::{BUILT_IN_MATERIALS, BuiltInMaterial};
 pub(crate) use check::short;
 pub use check::{BrokenRule, Rule};
 pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
@@ -61,7 +65,7 @@ pub use error::CaseError;
 pub use frf::{Frf, Push, Sensor, SensorSpot};
 pub use housing::{Axis, Hold, Housing, HousingSource, Part, Support};
 pub use load::VariantCase;
-pub use material::{BUILT_IN_MATERIALS, IsotropicMaterial, Material, OrthotropicMaterial};
+pub use material::{IsotropicMaterial, Material, OrthotropicMaterial};
 pub use modes::{ComparedModes, ConvergenceMeshes, Expected, Linearise, Modes, Variant};
 pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
 pub use purpose::{Purpose, RunCase};
@@ -84,7 +88,8 @@ pub struct Case {
     /// For whom and by whom reports are made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<ReportDetails>,
-    /// Materials by name, the built-in ones included.
+    /// Materials by name, the built-in ones included: steel, bearing steel, 1.4301, EN-GJL-200, EN-GJL-250, EN-GJS-400-15, aluminium,
+    /// cast aluminium, cast magnesium, brass, POM, PA66-GF30, silicon nitride (`plummer init --list-materials`).
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,
     /// The housing; `None`: the ring on its springs alone.
@@ -93,8 +98,9 @@ pub struct Case {
     /// The ring; `None`: the housing alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ring: Option<Ring>,
-    /// Balls, races and contacts.
+    /// Balls, races and contacts; or the name of a bearing of the catalogue, which gives them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "bearing::named_or_table")]
     pub bearing: Option<Bearing>,
     /// The shaft with the inner ring.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -34,10 +34,11 @@ keeps a checkpoint and ends with exit code 1; a second Ctrl-C ends at once. With
 case, --set and meshes its signals are those of a run without a stop, bit by bit.";
 
 const INIT_EXAMPLE: &str = "\
-Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings that the program knows
+Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings and the materials that the program knows
   plummer init housing.msh --length-unit mm
   plummer init housing.msh --length-unit mm --bearing 6205 --out motor.toml
   plummer init --list-bearings
+  plummer init --list-materials
 
 --out FILE names the case file (default: the mesh's name, ending in .toml). It says of every value whether it is from the mesh,
 the catalogue, usual or a guess. Tables that the mesh says nothing of are templates, commented out. plummer modes FILE runs at
@@ -318,7 +319,7 @@ pub enum Command {
 #[derive(Debug, Clone, Args)]
 pub struct InitArguments {
     /// Mesh file (gmsh MSH 4.1 or 2.2)
-    #[arg(value_name = "HOUSING.msh", required_unless_present = "list_bearings")]
+    #[arg(value_name = "HOUSING.msh", required_unless_present_any = ["list_bearings", "list_materials"])]
     pub mesh: Option<PathBuf>,
     /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, else a guess by the size)
     #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
@@ -329,6 +330,9 @@ pub struct InitArguments {
     /// List the bearings of the catalogue with their dimensions and sources
     #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing"])]
     pub list_bearings: bool,
+    /// List the materials that a case may name, with their ranges and sources
+    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing", "list_bearings"])]
+    pub list_materials: bool,
 }
 
 /// A part of `plummer chart`.
@@ -633,6 +637,7 @@ mod tests {
             "plummer init",
             "plummer init a.msh --length-unit feet",
             "plummer init a.msh --list-bearings",
+            "plummer init --list-bearings --list-materials",
         ] {
             assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
         }

@@ -4,21 +4,25 @@ use super::analyze::{bearing_names, catalogue_orders};
 use super::inspect::verdict;
 use super::output::json;
 use super::{CliError, InitArguments, Options, Outcome, write_atomic};
-use crate::app::commands::init::{BearingSummary, CatalogueResult, Draft, DraftRequest, DraftResult};
+use crate::app::case::BUILT_IN_MATERIALS;
+use crate::app::commands::init::{
+    BearingSummary, CatalogueResult, Draft, DraftRequest, DraftResult, MaterialSummary, MaterialsResult,
+};
 use crate::app::commands::result::VERSION;
 use crate::app::shell_word::shell_word;
 use crate::bearing::catalogue::{CatalogueBearing, Source};
+use crate::report::significant;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Writes a case file for a mesh, or lists the bearings.
+/// Writes a case file for a mesh, or lists the bearings or the materials.
 ///
 /// # Errors
 /// [`CliError`] when the mesh cannot be read, makes no case or has elements that no command takes, the bearing is not known, or the file exists or cannot be written.
 pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, CliError> {
     let Some(mesh) = &asked.mesh else {
-        return list();
+        return if asked.list_materials { list_materials() } else { list() };
     };
     let bearing = asked.bearing.as_deref().map(named).transpose()?;
     let case = case_file(mesh, options)?;
@@ -83,6 +87,35 @@ fn list() -> Result<Outcome, CliError> {
     })
 }
 
+/// Lists the materials that a case may name.
+fn list_materials() -> Result<Outcome, CliError> {
+    let materials: Vec<MaterialSummary> = BUILT_IN_MATERIALS.iter().map(MaterialSummary::from).collect();
+    let mut text = String::from(
+        "materials that a case may name, at 20 \u{b0}C; a table [materials.NAME] of the case takes the place of one\n\
+         name             E, GPa  Poisson  kg/m^3  range and source",
+    );
+    for material in &materials {
+        // writing to a String cannot fail
+        let _ = write!(
+            text,
+            "\n{:<15} {:>7} {:>8} {:>7}  {}\n{:41}{}",
+            material.name,
+            significant(1e-9 * material.young_pa, 3),
+            material.poisson,
+            material.density_kg_m3,
+            material.range,
+            "",
+            material.source
+        );
+    }
+    Ok(Outcome {
+        summary: text,
+        result: json(&MaterialsResult { plummer: VERSION, command: "init", materials })?,
+        written: Vec::new(),
+        verdict: Ok(()),
+    })
+}
+
 fn table() -> String {
     let mut text = String::from(
         "deep groove ball bearings, lengths in mm, mass in kg; orders per revolution of the shaft, without contact angle\n\
@@ -107,6 +140,7 @@ fn table() -> String {
         );
     }
     text.push_str("\n* not published: the mean of bore and outer diameter");
+    text.push_str("\nUsual, no maker's: groove radii of 0.52 (inner) and 0.53 (outer) of the ball's diameter. Races' radii are half of pitch less or plus ball diameter.");
     text.push_str("\nBSF is the spin of a ball: a flaw on it strikes both races, twice a spin, so that --orders takes BSF=s or ball=2s.");
     for source in Source::ALL {
         let _ = write!(text, "\n{}: {}", source.name(), source.citation());

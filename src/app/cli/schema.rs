@@ -15,7 +15,7 @@ use crate::app::commands::InspectResult;
 use crate::app::commands::analyze::{AnalysisResult, SurveyResult};
 use crate::app::commands::condense::{CondenseSummary, ImportedSummary};
 use crate::app::commands::frf::FrfSummary;
-use crate::app::commands::init::{CatalogueResult, DraftResult};
+use crate::app::commands::init::{CatalogueResult, DraftResult, MaterialsResult};
 use crate::app::commands::modes::ModesSummary;
 use crate::app::commands::result::CaseResult;
 use crate::app::commands::run::{ExplainSummary, RunSummary};
@@ -62,7 +62,7 @@ impl ResultOf {
             }
             Self::Verify => of::<VerifyResult<'_>>(self),
             Self::Inspect => of::<InspectResult<'_>>(self),
-            Self::Init => of::<Either<DraftResult<'_>, CatalogueResult>>(self),
+            Self::Init => of::<Either<DraftResult<'_>, Either<CatalogueResult, MaterialsResult>>>(self),
             Self::Export => of::<CaseResult<'_, ExportSummary<'_>>>(self),
             Self::Report => of::<ReportResult>(self),
         }

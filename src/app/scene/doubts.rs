@@ -63,6 +63,7 @@ pub(crate) fn doubts(
     found.extend(fit::bearing_doubts(case)?);
     found.extend(plausible::shaft(case));
     if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
+        found.extend(case.bearing.as_ref().and_then(case::Bearing::taken_from));
         found.extend(ball_density(setup));
         found.extend(plausible::contacts(case, setup, &contacts));
         found.extend(contact_doubts(setup, &contacts, equilibrium));

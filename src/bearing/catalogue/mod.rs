@@ -9,7 +9,7 @@
 
 mod table;
 
-pub use table::{CatalogueBearing, GROOVES, OuterRingSection, Source, normal_clearance};
+pub use table::{CatalogueBearing, GROOVES, OuterRingSection, Source, UsualNumbers, normal_clearance};
 
 #[cfg(test)]
 mod tests;

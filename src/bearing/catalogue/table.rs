@@ -195,6 +195,27 @@ impl CatalogueBearing {
     }
 }
 
+/// Numbers of a bearing that no maker publishes, as usual ones. SI.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct UsualNumbers {
+    /// Radial play, m: half the middle of the [clearance](normal_clearance) of group N; 0 for a bore outside its table.
+    pub play: f64,
+    /// Radius of the inner groove, m, by [`GROOVES`].
+    pub inner_groove: f64,
+    /// Radius of the outer groove, m.
+    pub outer_groove: f64,
+}
+
+impl UsualNumbers {
+    /// Those of a bearing.
+    pub fn of(bearing: &CatalogueBearing) -> Self {
+        let [least, most] = normal_clearance(bearing.bore).unwrap_or_default();
+        let [inner_groove, outer_groove] = GROOVES.map(|ratio| ratio * bearing.ball_diameter);
+        // the clearance is of the diameter, and half way between its limits
+        Self { play: 0.25 * (least + most), inner_groove, outer_groove }
+    }
+}
+
 /// Bore above which, bore up to which (mm), smallest and largest clearance (µm): group N (C0). GMN, catalogue 4000 0813 EN (2013),
 /// pp. 48-49, up to 40 mm; Timken, Deep groove ball bearing catalog, order no. 10857 (2017), table 5, which agrees with it, above.
 const GROUP_N: [(f64, f64, f64, f64); 7] = [

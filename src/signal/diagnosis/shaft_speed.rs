@@ -21,7 +21,7 @@ const UNSEEN_ERROR: f64 = 3e-3;
 /// Revolutions of a stretch whose spectra are averaged.
 const REVOLUTIONS: f64 = 256.0;
 /// Fewest revolutions: the lines of fewer are no sharper than the speed is known.
-const FEWEST_REVOLUTIONS: f64 = 48.0;
+pub(super) const FEWEST_REVOLUTIONS: f64 = 48.0;
 /// Multiples of the shaft's order that are looked at.
 const MULTIPLES: u32 = 12;
 /// Places of the search in the resolution of the highest multiple.

@@ -14,7 +14,7 @@ use super::explain::Found;
 use super::findings::envelope_name;
 use super::order_spectrum::AngleGrid;
 use super::search::Search;
-use super::shaft_speed::{ShaftSpeed, SpeedSource, speed_of_races};
+use super::shaft_speed::{FEWEST_REVOLUTIONS, ShaftSpeed, SpeedSource, speed_of_races};
 use super::strictly_periodic::say_strictly_periodic;
 use super::verdict::UnexplainedImpacts;
 use super::{Conclusion, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict};
@@ -170,6 +170,9 @@ impl Diagnosis {
         let speed = both(self.speed_hz);
         match self.speed_source {
             SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
+            SpeedSource::Given if self.spectrum.turns < FEWEST_REVOLUTIONS => Some(format!(
+                "no line confirms the shaft speed of {speed} Hz in fewer than {FEWEST_REVOLUTIONS:.0} revolutions: {consequence}"
+            )),
             SpeedSource::Given => {
                 Some(format!("no line of the signal confirms the shaft speed of {speed}: {consequence}"))
             }

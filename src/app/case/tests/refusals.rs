@@ -7,7 +7,7 @@ use crate::app::case::Case;
 fn misspelt_keys_and_names_come_with_the_nearest() {
     let (message, help) = refusal(&["bearing.ball_raduis=1e-3"]);
     assert_eq!(message, "--set bearing.ball_raduis=1e-3: unknown key `bearing.ball_raduis`");
-    assert!(help.unwrap().starts_with("did you mean `ball_radius`? keys here: balls, ball_radius, ball_mass,"));
+    assert!(help.unwrap().starts_with("did you mean `ball_radius`? keys here: name, balls, ball_radius, ball_mass,"));
     let (message, help) = refusal(&["ring.bond=slipp"]);
     assert_eq!(message, "--set ring.bond=slipp: `ring.bond` is \"slipp\", expected one of `slip`, `composite`");
     assert_eq!(help.unwrap(), "did you mean `slip`? names here: slip, composite");

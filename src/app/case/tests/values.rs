@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::{FULL, near, read};
 use crate::app::case::{
-    Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold, InterfaceModes, Linearise,
-    Material, Method, ModesKept, SensorSpot, Source, StepLength,
+    BUILT_IN_MATERIALS, Case, ContactStiffness, Damping, Defect, DentProfile, FixedInterfaceModes, Hold,
+    InterfaceModes, Linearise, Material, Method, ModesKept, SensorSpot, Source, StepLength,
 };
 use crate::fe::element::continuum::{Integration, LinearFormulation};
 use crate::fe::modal::ModeRange;
@@ -144,6 +144,11 @@ fn a_given_material_takes_the_place_of_a_built_in_one() {
     let case = read(FULL, &["materials.steel={young=1e9,poisson=0.1,density=1000}"]).unwrap();
     assert!(near(young(&case, "steel"), 1e9));
     assert!(near(young(&case, "bearing steel"), 206e9));
+    let case =
+        read(FULL, &["bearing.ball_material='silicon nitride'", "housing.parts[0].material=EN-GJL-250"]).unwrap();
+    assert!(near(young(&case, "EN-GJL-250"), 110e9) && near(young(&case, "silicon nitride"), 310e9));
+    let described = Case::schema()["properties"]["materials"]["description"].to_string();
+    assert!(BUILT_IN_MATERIALS.iter().all(|built_in| described.contains(built_in.name)), "{described}");
 }
 
 #[test]

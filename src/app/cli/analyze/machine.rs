@@ -217,11 +217,12 @@ pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Resul
 /// What is taken for granted of a bearing of the catalogue.
 pub(super) fn described(bearing: &CatalogueBearing) -> String {
     format!(
-        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm ({}).",
+        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm{} ({}).",
         bearing.name,
         bearing.balls,
         1e3 * bearing.ball_diameter,
         1e3 * bearing.pitch_diameter,
+        if bearing.pitch_published { "" } else { ", the mean of bore and outer diameter, for none is published" },
         bearing.source.citation()
     )
 }

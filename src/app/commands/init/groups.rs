@@ -12,8 +12,15 @@ const SUPPORTS: [&str; 11] =
 const SENSORS: [&str; 5] = ["sensor", "accel", "probe", "pickup", "top"];
 
 /// Parts of names and what they are made of.
-const MATERIALS: [(&str, &str); 6] = [
+const MATERIALS: [(&str, &str); 13] = [
+    ("cast_alu", "cast aluminium"),
     ("alu", "aluminium"),
+    ("gjl", "EN-GJL-250"),
+    ("gjs", "EN-GJS-400-15"),
+    ("grey_iron", "EN-GJL-250"),
+    ("cast_iron", "EN-GJL-250"),
+    ("stainless", "1.4301"),
+    ("brass", "brass"),
     ("steel", "steel"),
     ("stahl", "steel"),
     ("shaft", "steel"),

@@ -16,4 +16,4 @@ pub(crate) mod text;
 
 pub use draft::Draft;
 pub use found::{DraftRequest, FoundCylinder};
-pub use summary::{BearingSummary, CatalogueResult, DraftResult};
+pub use summary::{BearingSummary, CatalogueResult, DraftResult, MaterialSummary, MaterialsResult};

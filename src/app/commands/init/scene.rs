@@ -2,7 +2,7 @@
 //! where the bearing's angle 0 and its "up" point.
 
 use super::bore::TOLERANCE;
-use crate::bearing::catalogue::{CatalogueBearing, GROOVES, OuterRingSection, normal_clearance};
+use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection, UsualNumbers};
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -24,23 +24,14 @@ pub(crate) const STEEL: f64 = 7850.0;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct BearingNumbers {
     pub bearing: &'static CatalogueBearing,
-    /// Half the middle of the normal clearance.
-    pub play: f64,
-    pub inner_groove: f64,
-    pub outer_groove: f64,
+    /// What the catalogue does not say.
+    #[serde(flatten)]
+    pub usual: UsualNumbers,
 }
 
 impl BearingNumbers {
     pub(crate) fn of(bearing: &'static CatalogueBearing) -> Self {
-        let [least, most] = normal_clearance(bearing.bore).unwrap_or_default();
-        let [inner, outer] = GROOVES;
-        Self {
-            bearing,
-            // the clearance is of the diameter, and half way between its limits
-            play: 0.25 * (least + most),
-            inner_groove: inner * bearing.ball_diameter,
-            outer_groove: outer * bearing.ball_diameter,
-        }
+        Self { bearing, usual: UsualNumbers::of(bearing) }
     }
 }
 

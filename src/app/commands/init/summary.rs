@@ -1,6 +1,7 @@
 //! What `plummer init --json` says.
 
 use super::Draft;
+use crate::app::case::{BuiltInMaterial, IsotropicMaterial};
 use crate::bearing::catalogue::{CatalogueBearing, normal_clearance};
 use crate::bearing::kinematics::DefectOrders;
 use schemars::JsonSchema;
@@ -32,6 +33,42 @@ pub struct CatalogueResult {
     pub command: &'static str,
     /// The bearings, by series and bore.
     pub bearings: Vec<BearingSummary>,
+}
+
+/// The materials that a case may name: what `--list-materials` prints.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MaterialsResult {
+    /// Version of the program.
+    pub plummer: &'static str,
+    /// "init".
+    pub command: &'static str,
+    /// The materials.
+    pub materials: Vec<MaterialSummary>,
+}
+
+/// A material that a case may name.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MaterialSummary {
+    /// Its name.
+    pub name: &'static str,
+    /// Young's modulus, Pa.
+    pub young_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density, kg/m^3.
+    pub density_kg_m3: f64,
+    /// How far real ones lie from these values, and by what.
+    pub range: &'static str,
+    /// Where this is published.
+    pub source: &'static str,
+}
+
+impl From<&BuiltInMaterial> for MaterialSummary {
+    fn from(built_in: &BuiltInMaterial) -> Self {
+        let BuiltInMaterial { name, material, range, source } = *built_in;
+        let IsotropicMaterial { young, poisson, density, .. } = material;
+        Self { name, young_pa: young, poisson, density_kg_m3: density, range, source }
+    }
 }
 
 /// A bearing of the catalogue.

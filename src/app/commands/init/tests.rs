@@ -63,9 +63,9 @@ fn a_scaled_ring_is_like_that_of_a_bearing_of_this_size() {
 fn numbers_of_6205() {
     let numbers = BearingNumbers::of(named("6205"));
     // clearance of 5 to 20 um: 12.5 um in the middle, half of it to either side
-    assert!((numbers.play - 6.25e-6).abs() < 1e-12);
-    assert!((numbers.inner_groove - 0.52 * 7.938e-3).abs() < 1e-12);
-    assert!((numbers.outer_groove - 0.53 * 7.938e-3).abs() < 1e-12);
+    assert!((numbers.usual.play - 6.25e-6).abs() < 1e-12);
+    assert!((numbers.usual.inner_groove - 0.52 * 7.938e-3).abs() < 1e-12);
+    assert!((numbers.usual.outer_groove - 0.53 * 7.938e-3).abs() < 1e-12);
     let [mass, unbalance] = shaft(25e-3);
     // a bar of 25 mm and 250 mm: 0.963 kg; 6.3 mm/s at 25 Hz: 40.1 um
     assert!((mass - 0.9633).abs() < 1e-3, "{mass}");

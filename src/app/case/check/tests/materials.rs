@@ -35,7 +35,7 @@ fn materials_exist() {
         full(&format!("{key}=\"steal\""), "no material is called \"steal\"");
     }
     for (argument, name) in [
-        ("bearing.race_material=brass", "brass"),
+        ("bearing.race_material=lead", "lead"),
         ("bearing.race_material={inner=\"tin\",outer=\"steel\"}", "tin"),
         ("bearing.race_material={inner=\"steel\",outer=\"tin\"}", "tin"),
     ] {
@@ -45,8 +45,10 @@ fn materials_exist() {
         let argument = format!("bearing.ball_material=\"{name}\"");
         read(FULL, &[&argument]).unwrap_err().help().unwrap()
     };
-    let known = "materials here: aluminium, bearing steel, my alloy, printed, steel";
+    let known = "materials here: 1.4301, EN-GJL-200, EN-GJL-250, EN-GJS-400-15, PA66-GF30, POM, aluminium, bearing steel, \
+        brass, cast aluminium, cast magnesium, my alloy, printed, silicon nitride, steel";
     assert_eq!(help("steal"), format!("did you mean `steel`? {known}"));
+    assert_eq!(help("EN-GJL-25"), format!("did you mean `EN-GJL-250`? {known}"));
     assert_eq!(help("unobtainium"), known);
 }
 

@@ -1,0 +1,144 @@
+//! Materials that a case may name without giving them, each with its source and how far real ones lie from it.
+
+use super::material::{IsotropicMaterial, Material};
+
+/// A material that is known by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BuiltInMaterial {
+    /// Its name in a case.
+    pub name: &'static str,
+    /// Its values at 20 °C, without a loss factor.
+    pub material: IsotropicMaterial,
+    /// How far real ones lie from these values, and by what.
+    pub range: &'static str,
+    /// Where they are published.
+    pub source: &'static str,
+}
+
+impl BuiltInMaterial {
+    /// The material as a case has it.
+    pub(super) fn as_given(&self) -> Material {
+        Material::Isotropic(self.material)
+    }
+}
+
+/// Name, modulus (GPa), Poisson's ratio, density (kg/m^3), range, source.
+const fn known(
+    name: &'static str,
+    [gigapascals, poisson, density]: [f64; 3],
+    range: &'static str,
+    source: &'static str,
+) -> BuiltInMaterial {
+    let material = IsotropicMaterial { young: 1e9 * gigapascals, poisson, density, loss_factor: 0.0 };
+    BuiltInMaterial { name, material, range, source }
+}
+
+/// A table of the same name in the case file takes their place. Both steels have the modulus at which the source paper's contact stiffness
+/// is computed.
+pub const BUILT_IN_MATERIALS: [BuiltInMaterial; 13] = [
+    known(
+        "steel",
+        [206.0, 0.3, 7850.0],
+        "E 200 to 212 GPa",
+        "usual for low-alloy steels; EN 1993-1-1:2005, 3.2.6 has 210 GPa and 0.3",
+    ),
+    known(
+        "bearing steel",
+        [206.0, 0.3, 7850.0],
+        "E 206 to 212 GPa",
+        "usual for 100Cr6; GMN, catalogue 4000 0813 EN (2013), pp. 12-13 has 210 GPa, 0.3 and 7800 kg/m^3",
+    ),
+    known(
+        "1.4301",
+        [200.0, 0.3, 7900.0],
+        "stainless steel X5CrNi18-10; E 193 to 200 GPa, less after cold work",
+        "EN 10088-1:2014, annex E; Poisson's ratio: EN 1993-1-4:2006, 2.1.3",
+    ),
+    known(
+        "EN-GJL-200",
+        [100.0, 0.26, 7150.0],
+        "grey iron; a range, E 88 to 113 GPa: it falls with load, and in thick sections",
+        "EN 1561:2011, annex A; E is the middle of its range",
+    ),
+    known(
+        "EN-GJL-250",
+        [110.0, 0.26, 7200.0],
+        "grey iron; a range, E 103 to 118 GPa: it falls with load, and in thick sections",
+        "EN 1561:2011, annex A; E is the middle of its range",
+    ),
+    known(
+        "EN-GJS-400-15",
+        [169.0, 0.275, 7100.0],
+        "ductile iron; E 160 to 175 GPa by shape and share of the graphite",
+        "EN 1563:2011, annex on physical properties",
+    ),
+    known(
+        "aluminium",
+        [70.0, 0.33, 2700.0],
+        "wrought alloys; E 69 to 72 GPa",
+        "EN 1999-1-1:2007, 3.2.5, which takes 0.3 for Poisson's ratio",
+    ),
+    known(
+        "cast aluminium",
+        [71.0, 0.33, 2710.0],
+        "A380, near EN AC-46000 (AlSi9Cu3); E 71 to 76 GPa, more with more silicon, less with pores",
+        "NADCA, Product specification standards for die castings, alloy A380",
+    ),
+    known(
+        "cast magnesium",
+        [45.0, 0.35, 1810.0],
+        "AZ91D; E 44 to 46 GPa",
+        "NADCA, Product specification standards for die castings, alloy AZ91D",
+    ),
+    known(
+        "brass",
+        [97.0, 0.34, 8470.0],
+        "CuZn39Pb3 (CW614N); other brasses 96 to 115 GPa; Poisson's ratio 0.32 to 0.37",
+        "data sheets of CW614N (EN 12164); Poisson's ratio is a usual one",
+    ),
+    known(
+        "POM",
+        [2.85, 0.35, 1410.0],
+        "copolymer at 23 °C, for short times; E 2.6 to 3.1 GPa, about half at 80 °C",
+        "data sheet of Hostaform C 9021 (ISO 527, ISO 1183); Poisson's ratio is a usual one",
+    ),
+    known(
+        "PA66-GF30",
+        [7.2, 0.35, 1360.0],
+        "a range: 7.2 GPa is that along the fibres in air of 50 %, 10 GPa when dry, about half across the fibres",
+        "data sheet of Ultramid A3EG6 (ISO 527, ISO 1183); Poisson's ratio is a usual one",
+    ),
+    known(
+        "silicon nitride",
+        [310.0, 0.26, 3200.0],
+        "balls of hybrid bearings; E 270 to 330 GPa, Poisson's ratio 0.23 to 0.29 (ASTM F2094)",
+        "SKF, Super-precision bearings (2013), bearing grade silicon nitride; Poisson's ratio within ASTM F2094",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::BUILT_IN_MATERIALS;
+
+    /// The modulus of steel within its range, and so on: the first two numbers before "GPa".
+    #[test]
+    fn values_lie_within_their_ranges() {
+        for built_in in BUILT_IN_MATERIALS {
+            let material = built_in.material;
+            if let Some((before, _)) = built_in.range.split_once(" GPa")
+                && let Some((_, range)) = before.rsplit_once("E ")
+                && let Some((least, most)) = range.split_once(" to ")
+            {
+                let [least, most] = [least, most].map(|text| text.parse::<f64>().unwrap());
+                assert!((least..=most).contains(&(1e-9 * material.young)), "{}", built_in.name);
+            }
+            // a wave in a bar: plastics 1.4 km/s and more, silicon nitride 9.8
+            let speed = (material.young / material.density).sqrt();
+            assert!((1e3..1e4).contains(&speed), "{}: {speed}", built_in.name);
+            assert!((0.2..0.4).contains(&material.poisson), "{}", built_in.name);
+            let twice = BUILT_IN_MATERIALS.iter().filter(|other| other.name.eq_ignore_ascii_case(built_in.name));
+            assert_eq!(twice.count(), 1);
+            assert!(!built_in.range.is_empty() && !built_in.source.is_empty());
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! A bearing by its name: every command that reads a case takes it, and says which of its numbers no maker publishes.
+
+use super::common::{errors, plummer, scratch};
+use serde_json::Value;
+use std::fs;
+
+const CASE: &str = r#"
+bearing = "6204"
+[ring]
+nodes = 24
+sections = [{ material = "bearing steel", area = 4.2e-5, inertia = 8e-11, radius = 21.9e-3 }]
+outer_radius = 23.5e-3
+supports = [{ from_deg = 0, to_deg = 360, spring = { x = 1e8, y = 1e8 }, per = "total" }]
+[shaft]
+mass = 2.0
+[damping]
+modal = 0.03
+[speed]
+profile = [{ time = 0.0, hz = 25.0 }]
+[[sensors]]
+name = "P1"
+ring_deg = 90
+direction = [0, 1, 0]
+[modes]
+count = 4
+linearise = "static"
+[transient]
+end = 0.005
+output_hz = 10000
+"#;
+
+#[test]
+fn commands_take_a_bearing_by_its_name() {
+    let folder = scratch("named-bearing");
+    fs::write(folder.join("named.toml"), CASE).unwrap();
+    let told = "warning: bearing 6204: balls and diameters are those of GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), \
+                pp. 52-55; groove radii of 0.52 (inner) and 0.53 (outer) of the ball's diameter are usual ones, no maker's; \
+                a radial play of 6.25 um is half the middle of the clearance of group N";
+    for command in ["modes", "run"] {
+        let output = plummer(&folder, &[command, "named.toml"]);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        assert!(errors(&output).contains(told), "{command}: {}", errors(&output));
+        let result = fs::read_to_string(folder.join(format!("out/named/{command}.json"))).unwrap();
+        let result: Value = serde_json::from_str(&result).unwrap();
+        assert!(result.to_string().contains("those of GMN"), "{command}");
+    }
+    // a key beside the name goes before it, and a name that is none has near ones
+    let output = plummer(&folder, &["modes", "named.toml", "--set", "bearing.radial_play=1e-6", "--force"]);
+    assert!(errors(&output).contains("no maker's; give your own in [bearing]"), "{}", errors(&output));
+    let output = plummer(&folder, &["modes", "named.toml", "--set", "bearing=6240"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = errors(&output);
+    assert!(
+        text.contains("--set bearing=6240: `bearing.name`: found \"6240\", expected a bearing of the catalogue"),
+        "{text}"
+    );
+    assert!(text.contains("did you mean `6200`?") || text.contains("did you mean `6204`?"), "{text}");
+}
