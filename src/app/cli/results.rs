@@ -67,7 +67,7 @@ impl<'a> Job<'a> {
             head: result_head(self.command, self.progress, self.started.elapsed().as_secs_f64(), tables),
             case: &self.case.source.path,
             set: &self.case.source.set,
-            case_digest: self.case.source.digest().ok(),
+            case_digest: self.case.digest(self.command),
             meshes,
             arrays: BTreeMap::new(),
             result,
