@@ -7,7 +7,7 @@ use crate::app::shell_word::shell_word;
 use crate::numerics::units::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -417,6 +417,12 @@ pub struct Options {
     /// Replace an earlier result of the same command
     #[arg(long, global = true)]
     pub force: bool,
+    /// Folder that keeps condensed housings for the next command (default: cache/ in the folder for the results)
+    #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
+    pub cache: Option<PathBuf>,
+    /// Condense anew, and keep nothing
+    #[arg(long, global = true)]
+    pub no_cache: bool,
     /// Set a key of the case file, e.g. bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -454,6 +460,12 @@ impl Options {
     #[must_use]
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && !self.json
+    }
+
+    /// The folder that keeps condensed housings beside results in `folder`; `None`: nothing is kept.
+    pub(crate) fn cache_in(&self, folder: &Path) -> Option<PathBuf> {
+        let beside = || folder.join("cache");
+        (!self.no_cache).then(|| self.cache.clone().unwrap_or_else(beside))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Progress on a terminal, with the time left; and how long each stage took.
 
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -19,6 +20,8 @@ pub struct Progress {
     bar: ProgressBar,
     stages: Mutex<Vec<(String, Instant)>>,
     files: Mutex<Vec<FileDigest>>,
+    cache: Option<PathBuf>,
+    reused: Mutex<Vec<String>>,
 }
 
 impl Progress {
@@ -33,7 +36,19 @@ impl Progress {
             bar: ProgressBar::with_draw_target(None, target),
             stages: Mutex::new(Vec::new()),
             files: Mutex::new(Vec::new()),
+            cache: None,
+            reused: Mutex::new(Vec::new()),
         }
+    }
+
+    /// With a folder that keeps what took long.
+    pub(super) fn with_cache(self, cache: Option<PathBuf>) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// What came from that folder, or did not, a sentence each.
+    pub(super) fn reused(&self) -> Vec<String> {
+        self.reused.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Ends the stage before and begins one of this name, of unknown length until [`Progress::set`].
@@ -109,6 +124,14 @@ impl crate::numerics::Watch for Progress {
         if !files.contains(file) {
             files.push(file.clone());
         }
+    }
+
+    fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    fn reuse(&self, sentence: String) {
+        self.reused.lock().unwrap_or_else(PoisonError::into_inner).push(sentence);
     }
 
     fn stage(&self, name: &str) {

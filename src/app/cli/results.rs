@@ -30,6 +30,7 @@ pub(super) fn result_head(
         wall_s,
         stages_s: progress.times().into_iter().collect(),
         threads: rayon::current_num_threads(),
+        reused: progress.reused(),
         tables: tables.map(<[String]>::to_vec),
     }
 }

@@ -15,6 +15,8 @@ pub(crate) mod housing;
 pub(crate) mod imported;
 #[cfg(test)]
 mod imported_tests;
+pub(crate) mod in_full;
+mod kept;
 pub(crate) mod places;
 pub(crate) mod ring;
 pub(crate) mod structure;
@@ -28,5 +30,6 @@ pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
+pub use in_full::RingInHousing;
 pub use ring::Boundary;
 pub use structure::{CoupledStructure, FreeSystem};

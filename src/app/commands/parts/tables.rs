@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::app::case::{Bond, Case, Damping, Expected};
-use crate::app::scene::CoupledStructure;
+use crate::app::scene::RingInHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::RadiusRule;
@@ -14,9 +14,10 @@ use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
 
-/// The linear model in facts; `condensed`: how, where something of the report was computed with it.
-pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool) -> Vec<Fact> {
-    let ring = stage.structure.ring();
+/// The linear model in facts; `fixed_interface_modes`: number of vectors of the condensed housing's interior, where something of the
+/// report was computed with it.
+pub(crate) fn model_facts(case: &Case, bodies: &RingInHousing, fixed_interface_modes: Option<usize>) -> Vec<Fact> {
+    let ring = &bodies.ring;
     let section = ring.section();
     let mut facts = vec![
         Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
@@ -33,23 +34,24 @@ pub(crate) fn model_facts(case: &Case, stage: &CoupledStructure, condensed: bool
         let (shear, inertia) = (on(asked.shear), on(asked.rotary_inertia));
         facts.push(Fact::new("Element", format!("{element}, shear {shear}, rotary inertia {inertia}")));
     }
-    let modes = stage.fixed_interface_modes;
-    if let Some(imported) = &stage.imported {
-        let interface_dof = imported.element.interface_dof;
+    if let Some(imported) = &bodies.imported {
+        let (interface_dof, modes) = (imported.element.interface_dof, imported.element.modal_dof());
         facts.extend([
             Fact::new("Superelement", imported.path.display().to_string()),
             Fact::new("Its coordinates", format!("{interface_dof} ring displacements and {modes} modes")),
         ]);
     }
-    if let (Some(housing), Some(asked)) = (&stage.housing, case.meshed_housing()) {
+    if let (Some(housing), Some(asked)) = (&bodies.housing, case.meshed_housing()) {
         let (model, mass) = (&housing.model, significant(housing.matrices.total_mass(), 5));
         let (nodes, elements) = (model.dof() / model.dimension(), model.elements().len());
         facts.extend([
             Fact::new("Housing mesh", asked.mesh.display().to_string()),
             Fact::new("Housing", format!("{nodes} nodes, {elements} elements, {mass} kg")),
         ]);
-        let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
-        facts.extend(condensed.then(|| Fact::new("Condensed to", coordinates).note("Craig-Bampton")));
+        facts.extend(fixed_interface_modes.map(|modes| {
+            let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
+            Fact::new("Condensed to", coordinates).note("Craig-Bampton")
+        }));
     }
     facts
 }

@@ -50,9 +50,11 @@ pub(crate) fn run_report<R: Recording>(
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     let (stage, setup) = (&result.scene.stage, &result.scene.setup);
-    let model = Section::new("Model")
-        .drawing(parts::draw(case, stage, Some(setup)))
-        .facts(parts::model_facts(case, stage, true));
+    let model = Section::new("Model").drawing(parts::draw(case, &stage.bodies, Some(setup))).facts(parts::model_facts(
+        case,
+        &stage.bodies,
+        Some(stage.fixed_interface_modes),
+    ));
     let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
@@ -63,7 +65,7 @@ pub(crate) fn run_report<R: Recording>(
         .section(Section::new("Bearing").table(bearing))
         .section(parts::statics_section(setup, &result.statics))
         .section(Section::new("Computation").facts(computation(result)));
-    let imported = result.scene.stage.imported.iter();
+    let imported = result.scene.stage.bodies.imported.iter();
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     report.assumptions.extend(parts::assumptions(case, Some(&result.scene.setup)));
     Ok(report.assumption(

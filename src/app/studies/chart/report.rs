@@ -22,6 +22,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
     report.warnings.extend(chart.scene.doubts.iter().cloned());
     report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
     report.assumptions = assumptions(case, Some(&chart.scene.setup));
+    let stage = &chart.scene.stage;
     report
         .section(
             Section::new("Speed against accuracy")
@@ -36,7 +37,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         .section(Section::new("All points").table(points_table(chart)))
         .section(
             Section::new("Model")
-                .facts(model_facts(case, &chart.scene.stage, true))
+                .facts(model_facts(case, &stage.bodies, Some(stage.fixed_interface_modes)))
                 .table(bearing_table(&chart.scene.setup, &chart.scene.contacts, Some(&chart.scene.equilibrium))),
         )
         .assumption("Every run begins at rest in the equilibrium of its own instant; what follows of switching on unbalance and speed is part of the comparison.")
