@@ -1,6 +1,7 @@
 //! Where a computation tells how far it is.
 
 use crate::files::FileDigest;
+use std::path::Path;
 
 /// Where a computation tells how far it is.
 pub trait Watch {
@@ -10,6 +11,12 @@ pub trait Watch {
     fn fraction(&self, done: f64);
     /// A mesh was read, and this was its content.
     fn read(&self, _file: &FileDigest) {}
+    /// The folder that keeps what took long for the next computation, if there is one.
+    fn cache(&self) -> Option<&Path> {
+        None
+    }
+    /// What came from there, or did not, in a sentence.
+    fn reuse(&self, _sentence: String) {}
 }
 
 /// Watches nothing.

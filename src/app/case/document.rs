@@ -70,21 +70,20 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Tables that say how results are looked at and by whom, not what they are.
-const VIEWS: [&str; 2] = ["analysis", "report"];
+/// Tables that say how results are looked at, not what they are.
+const VIEWS: [&str; 3] = ["analysis", "title", "report"];
 
 impl Source {
-    /// SHA-256 of the case's values with the arguments applied, 64 hexadecimal digits. The order of keys, comments and the form of
-    /// numbers play no part, nor do `[analysis]` and `[report]`, which say how
-    /// results are looked at.
+    /// SHA-256 of the case's values with the arguments applied, 64 hexadecimal digits, without the tables `unread` and those that say how
+    /// results are looked at. The order of keys, comments and the form of numbers play no part.
     ///
     /// # Errors
     /// [`CaseError`] for a text that is no TOML, or arguments that cannot be applied.
-    pub(crate) fn digest(&self) -> Result<String, CaseError> {
+    pub(super) fn digest(&self, unread: &[&str]) -> Result<String, CaseError> {
         let document = Document::read(self)?;
         let mut text = String::new();
         if let Value::Table(keys) = &document.root.value {
-            let keys = keys.iter().filter(|(key, _)| !VIEWS.contains(&key.as_str()));
+            let keys = keys.iter().filter(|(key, _)| !VIEWS.contains(&key.as_str()) && !unread.contains(&key.as_str()));
             keys.for_each(|(key, node)| {
                 let _ = write!(text, "{key:?}=");
                 write_values(node, &mut text);
@@ -124,7 +123,7 @@ mod tests {
     fn digest(text: &str, set: &[&str]) -> String {
         let source =
             Source { text: text.to_owned(), set: set.iter().map(|&set| set.to_owned()).collect(), ..Source::default() };
-        source.digest().unwrap()
+        source.digest(&[]).unwrap()
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a command needs of a case, and a case that has what a simulation needs.
+//! What a command needs of a case, a case that has what a simulation needs, and what a result depends on.
 
 use super::error::CaseError;
 use super::{Bearing, Case, Interface, Linearise, Ring, Shaft, Speed, Transient};
@@ -125,5 +125,67 @@ impl Case {
             let loss_factor = self.material(&part.material)?.loss_factor();
             (loss_factor > 0.0).then_some((part.material.as_str(), loss_factor))
         })
+    }
+}
+
+/// What modes without contact do not depend on, as they are those of ring and housing in full.
+const OF_CONTACT: [&str; 9] =
+    ["frf", "speed", "transient", "damping", "bearing", "shaft", "accuracy", "condense", "sensors"];
+
+impl Case {
+    /// SHA-256 of the values that the result of a command depends on, 64 hexadecimal digits; `None` if the source is no case any more.
+    pub(crate) fn digest(&self, command: &str) -> Option<String> {
+        self.source.digest(self.unread(command)).ok()
+    }
+
+    /// Tables that the result of a command does not depend on, beside those that say how results are looked at.
+    fn unread(&self, command: &str) -> &'static [&'static str] {
+        let loaded = self.modes.linearise != Linearise::None;
+        match command {
+            "run" | "chart" => &["frf", "modes"],
+            "condense" => &["frf", "modes", "speed"],
+            "frf" => &["modes", "speed"],
+            // a variant may ask for loaded modes, and a superelement tells which of these keys do not act
+            "modes" if loaded || !self.modes.variants.is_empty() || self.superelement().is_some() => &["frf"],
+            "modes" => &OF_CONTACT,
+            _ => &[],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Case;
+
+    /// Every table of a case changes the digests of those results that depend on it, and of no others.
+    #[test]
+    fn a_digest_is_of_what_its_result_depends_on() {
+        let all = ["modes", "condense", "frf", "run", "chart"];
+        let unloaded = "modes.linearise=none";
+        for (set, base, changes) in [
+            ("frf={from=[{name=\"a\",ring_deg=90,direction=[0,1,0]}]}", unloaded, &["frf"][..]),
+            ("speed.profile=[{time=0,hz=23}]", unloaded, &["run", "chart"]),
+            ("shaft.mass=0.2", unloaded, &["condense", "frf", "run", "chart"]),
+            ("bearing.radial_play=1e-6", unloaded, &["condense", "frf", "run", "chart"]),
+            ("bearing.radial_play=1e-6", "modes.linearise=static", &all),
+            ("condense.enhanced=false", "modes.linearise=static", &all),
+            ("condense.enhanced=false", unloaded, &["condense", "frf", "run", "chart"]),
+            ("modes.count=7", unloaded, &["modes"]),
+            ("ring.shear=false", unloaded, &all),
+            ("materials.aluminium.density=2701", unloaded, &all),
+            ("housing.length_unit=m", unloaded, &all),
+            ("title=other", unloaded, &[]),
+            ("analysis.high_pass_hz=2000", unloaded, &[]),
+        ] {
+            let [before, after] = [&[base][..], &[base, set]].map(|set| Case::example("scenes/pedestal", set));
+            let found =
+                all.into_iter().filter(|command| before.digest(command).unwrap() != after.digest(command).unwrap());
+            assert_eq!(found.collect::<Vec<_>>(), changes, "{set}");
+        }
+        // a variant may be of loaded modes
+        let variant = "modes.variants=[{what=\"a\",set=[\"modes.linearise=static\"]}]";
+        let cases = [&[unloaded, variant][..], &[unloaded, variant, "shaft.mass=0.2"]];
+        let [before, after] = cases.map(|set| Case::example("scenes/pedestal", set).digest("modes"));
+        assert_ne!(before, after);
     }
 }

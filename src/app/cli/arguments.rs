@@ -8,7 +8,7 @@ use crate::numerics::units::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde_json::Value;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -442,6 +442,12 @@ pub struct Options {
     /// Replace results of another case, and give up an unfinished run
     #[arg(long, global = true)]
     pub force: bool,
+    /// Folder that keeps condensed housings for the next command (default: cache/ in the folder for the results)
+    #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
+    pub cache: Option<PathBuf>,
+    /// Condense anew, and keep nothing
+    #[arg(long, global = true)]
+    pub no_cache: bool,
     /// Set a key of the case, as bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -491,6 +497,12 @@ impl Options {
     #[must_use]
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && !self.json
+    }
+
+    /// The folder that keeps condensed housings beside results in `folder`; `None`: nothing is kept.
+    pub(crate) fn cache_in(&self, folder: &Path) -> Option<PathBuf> {
+        let beside = || folder.join("cache");
+        (!self.no_cache).then(|| self.cache.clone().unwrap_or_else(beside))
     }
 }
 

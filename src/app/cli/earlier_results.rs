@@ -14,7 +14,7 @@ use crate::files::{self, FileDigest, FileError};
 
 /// Where a result has the digests of the files beside it.
 pub(super) const ARRAYS: &str = "arrays";
-/// Where a result has the digest of its case, [`Source::digest`](crate::app::case::Source::digest).
+/// Where a result has the digest of its case, [`Case::digest`].
 pub(super) const CASE_DIGEST: &str = "case_digest";
 
 /// What to do about damaged results.
@@ -84,14 +84,14 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     }
     let case = Case::load(&file, &own)?;
     let digest = result[CASE_DIGEST].as_str();
-    if digest.is_some_and(|digest| case.source.digest().is_ok_and(|now| now != digest)) {
+    if digest.is_some_and(|digest| case.digest(command).is_some_and(|now| now != digest)) {
         return Err(CliError::input(format!(
             "{} was computed with values that differ from those in {} now",
             path.display(),
             file.display()
         ))
         .with_help(
-            "compute the results again with --force, or restore the values in the case file; only [analysis] may change",
+            "compute the results again with --force, or restore the values in the case file; [analysis], and tables that they do not depend on, may change",
         ));
     }
     if let Some(expected) = result[ARRAYS][arrays].as_str() {
@@ -106,7 +106,7 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
     }
     let all: Vec<String> = own.into_iter().chain(set.iter().cloned()).collect();
     let looked_at = Case::load(&file, &all)?;
-    if looked_at.source.digest().ok() != case.source.digest().ok() {
+    if looked_at.digest(command) != case.digest(command) {
         return Err(CliError::input(format!(
             "{} was computed with values that differ from those of --set",
             path.display()
@@ -128,7 +128,8 @@ pub(super) fn lost_with(result: &Value, case: &Case) -> Option<&'static str> {
     if result.is_null() {
         return Some("");
     }
-    if result[CASE_DIGEST].as_str() != case.source.digest().ok().as_deref() {
+    let digest = result["command"].as_str().and_then(|command| case.digest(command));
+    if result[CASE_DIGEST].as_str() != digest.as_deref() {
         return Some(" of other values");
     }
     let then: Vec<FileDigest> = serde_json::from_value(result["meshes"].clone()).unwrap_or_default();

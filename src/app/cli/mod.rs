@@ -147,7 +147,12 @@ fn compute(
     let options = &arguments.options;
     let case = Case::load(path, &options.set)?;
     case.ready_for(purpose)?;
-    let progress = Progress::new(options.shows_progress());
+    let cache = match arguments.command {
+        // writes nothing of its own accord
+        Command::Run { explain: true, .. } => options.cache.clone(),
+        _ => options.cache_in(&OutputFolder::of(&case, options).path),
+    };
+    let progress = Progress::new(options.shows_progress()).with_cache(cache);
     let job = Job::new(arguments.command.name(), &case, options, &progress);
     match arguments.command {
         Command::Run { explain: true, .. } => {}
@@ -159,5 +164,8 @@ fn compute(
     }
     let outcome = work(&job);
     progress.finish();
-    outcome
+    outcome.map(|outcome| {
+        let summary = progress.reused().into_iter().chain([outcome.summary]).collect::<Vec<_>>().join("\n");
+        Outcome { summary, ..outcome }
+    })
 }

@@ -46,7 +46,7 @@ fn summary(result: &ModesResult) -> String {
         first.push_str(&format!(", {:.6e} kg", mass.mass));
     }
     let mut lines = vec![first];
-    let imported = result.structure.iter().flat_map(|stage| &stage.imported);
+    let imported = result.bodies.iter().flat_map(|bodies| &bodies.imported);
     lines.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     lines.extend(warnings(&result.doubts));
     let (_, complete, _) = completeness(check);
@@ -69,11 +69,6 @@ fn reading(reading: &Reading) -> Vec<String> {
         let own: Vec<f64> =
             loaded.modes.iter().filter(|mode| !mode.is_ball_mode()).map(|mode| mode.frequency_hz).take(8).collect();
         lines.push(format!("loaded (Hz), without the balls' own: {}", listed(&own)));
-        if let Some(difference) = reading.condensation_difference {
-            lines.push(format!(
-                "  housing condensed for the load, which alone moves frequencies by up to {difference:.1e}"
-            ));
-        }
     }
     for expected in &reading.expected {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{hz:.1}"));

@@ -1,6 +1,7 @@
 //! Progress on a terminal, with the time left; and how long each stage took.
 
 use std::io::{IsTerminal, Write, stderr};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -28,6 +29,8 @@ pub struct Progress {
     stages: Mutex<Vec<(String, Instant)>>,
     files: Mutex<Vec<FileDigest>>,
     ticker: Option<JoinHandle<()>>,
+    cache: Option<PathBuf>,
+    reused: Mutex<Vec<String>>,
 }
 
 /// What a reader sees, moved by a thread of its own.
@@ -85,13 +88,31 @@ impl Progress {
         };
         // without the thread a stage that tells nothing stands still, and that is all
         let ticker = moving.then(|| thread::Builder::new().name("progress".to_owned()).spawn(tick).ok()).flatten();
-        Self { shown, stages: Mutex::new(Vec::new()), files: Mutex::new(Vec::new()), ticker }
+        Self {
+            shown,
+            stages: Mutex::new(Vec::new()),
+            files: Mutex::new(Vec::new()),
+            ticker,
+            cache: None,
+            reused: Mutex::new(Vec::new()),
+        }
     }
 
     /// Shows a line that stays.
     pub(crate) fn note(&self, line: &str) {
         self.shown.bar.println(printable(line));
         self.shown.say(|_, _| Some(line.to_owned()));
+    }
+
+    /// With a folder that keeps what took long.
+    pub(super) fn with_cache(mut self, cache: Option<PathBuf>) -> Self {
+        self.cache = cache;
+        self
+    }
+
+    /// What came from that folder, or did not, a sentence each.
+    pub(super) fn reused(&self) -> Vec<String> {
+        self.reused.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Ends the stage before and begins one of this name, of unknown length until [`Progress::set`].
@@ -182,6 +203,14 @@ impl crate::numerics::Watch for Progress {
         if !files.contains(file) {
             files.push(file.clone());
         }
+    }
+
+    fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    fn reuse(&self, sentence: String) {
+        self.reused.lock().unwrap_or_else(PoisonError::into_inner).push(sentence);
     }
 
     fn stage(&self, name: &str) {

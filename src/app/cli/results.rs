@@ -31,6 +31,7 @@ pub(super) fn result_head(
         wall_s,
         stages_s: progress.times().into_iter().collect(),
         threads: rayon::current_num_threads(),
+        reused: progress.reused(),
         tables: tables.map(<[String]>::to_vec),
     }
 }
@@ -68,7 +69,7 @@ impl<'a> Job<'a> {
             head: result_head(self.command, self.progress, self.started.elapsed().as_secs_f64(), tables),
             case: &self.case.source.path,
             set: &self.case.source.set,
-            case_digest: self.case.source.digest().ok(),
+            case_digest: self.case.digest(self.command),
             meshes,
             arrays: BTreeMap::new(),
             result,

@@ -210,7 +210,7 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
         lines.push(format!("{} windows more: run.json and the report have them", more + 1));
     }
-    if let Some(imported) = &result.scene.stage.imported {
+    if let Some(imported) = &result.scene.stage.bodies.imported {
         lines.extend(imported.notes.iter().cloned());
     }
     lines.extend(warnings(&result.warnings));

@@ -22,6 +22,9 @@ pub struct ResultHead {
     pub stages_s: BTreeMap<String, f64>,
     /// Number of threads.
     pub threads: usize,
+    /// What was taken from the cache instead of computed, or could not be, a sentence each; absent where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reused: Vec<String>,
     /// Files of the report's tables in the folder of the results; absent where the result has no report of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tables: Option<Vec<String>>,

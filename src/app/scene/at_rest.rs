@@ -82,13 +82,13 @@ impl Scene {
         let setup = setup_of(case, bearing, run.shaft)?;
         let contacts = contacts_of(case, bearing)?;
         let start = run.transient.start;
-        if let Some(imported) = &stage.imported {
+        if let Some(imported) = &stage.bodies.imported {
             imported.refuse_structural_damping()?;
         }
         let condition = StaticCondition::at(&setup, start);
         let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
         accept_contacts(&setup, &contacts, &equilibrium)?;
-        let mut doubts = doubts(case, stage.mesh_and_model(), Some((&setup, &equilibrium)))?;
+        let mut doubts = doubts(case, stage.bodies.mesh_and_model(), Some((&setup, &equilibrium)))?;
         doubts.extend(starts_in_damage(&setup, start));
         Ok(Self { doubts, stage, setup, contacts, damping: damping(case)?, start, equilibrium })
     }

@@ -77,6 +77,19 @@ impl CondensedHousing {
         {
             return Err(ComputeError::interface_held(nodes, &housing.model));
         }
+        Ok(Some(Self::on(housing, boundary, choice, watch)?))
+    }
+
+    /// A housing, condensed on a boundary that is its own.
+    ///
+    /// # Errors
+    /// [`ComputeError`] of the reduction, and for a housing that can move with the boundary held.
+    pub(super) fn on(
+        housing: AssembledHousing,
+        boundary: Boundary,
+        choice: BasisChoice,
+        watch: &impl Watch,
+    ) -> Result<Self, ComputeError> {
         check_interior(&housing, &boundary)?;
         let (matrices, partition) = (boundary.matrices(&housing), boundary.partition());
         let condensed = craig_bampton_watched(&matrices, partition, choice, boundary.attached(), watch)
@@ -93,7 +106,7 @@ impl CondensedHousing {
             choice,
             condensed,
         };
-        Ok(Some(stage.with_structural()))
+        Ok(stage.with_structural())
     }
 
     /// The stage with the loss factors of the parts in its superelement.

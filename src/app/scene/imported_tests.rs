@@ -131,7 +131,7 @@ fn a_superelement_takes_the_place_of_the_housing_that_it_came_from() {
             None => modes.base.unloaded_hz.clone(),
         });
         assert!(apart(&listed[0], &listed[1]) < 1e-10);
-        assert!(of_new.survey.mass.is_none() && of_new.base.condensation_difference.is_none());
+        assert!(of_new.survey.mass.is_none());
         assert_eq!(of_new.mode_shapes().points.unwrap().len(), nodes, "the ring alone");
         let (of_old, of_new) =
             (compute_run(&before, &Unwatched).unwrap().simulation, compute_run(&after, &Unwatched).unwrap().simulation);
@@ -158,7 +158,7 @@ fn op4_brings_the_matrices_and_says_what_it_lacks() {
             let stage = structure(&imported(&path, nodes, REST, ""));
             let old = structure(&before);
             assert_eq!(stage.modes.squared_frequencies, old.modes.squared_frequencies);
-            let found = stage.imported.unwrap();
+            let found = stage.bodies.imported.unwrap();
             assert_eq!(found.record.interface.len(), record.interface.len());
             let file = path.display();
             assert_eq!(
@@ -241,7 +241,7 @@ fn an_interface_that_is_not_the_ring_s_is_named() {
     bare.interface = (0..24).map(DofLabel::interface).collect();
     write_superelement_npz(&path, &bare).unwrap();
     let stage = structure(&imported(&path, 8, "", ""));
-    assert!(stage.imported.unwrap().notes[1].contains("Only their number was checked."));
+    assert!(stage.bodies.imported.unwrap().notes[1].contains("Only their number was checked."));
 }
 
 #[test]
@@ -347,7 +347,7 @@ fn a_run_says_what_its_superelement_leaves_out() {
         let scene = Scene::build(run, &Unwatched).unwrap();
         let choice = ModelChoice::of_case(run, &scene).unwrap();
         let part = choice.parts.last().unwrap();
-        let imported = scene.stage.imported.as_ref().unwrap();
+        let imported = scene.stage.bodies.imported.as_ref().unwrap();
         let complete = imported.record.complete_hz.unwrap();
         let growth = choice.growth;
         let expected = growth * super::structure::left_out(20e3, complete);

@@ -16,6 +16,8 @@ pub(crate) mod housing;
 pub(crate) mod imported;
 #[cfg(test)]
 mod imported_tests;
+pub(crate) mod in_full;
+mod kept;
 pub(crate) mod places;
 mod plausible;
 pub(crate) mod ring;
@@ -31,6 +33,7 @@ pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;
+pub use in_full::RingInHousing;
 pub(crate) use plausible::size_doubt;
 pub use ring::Boundary;
 pub use structure::{CoupledStructure, FreeSystem};

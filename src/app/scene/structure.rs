@@ -1,25 +1,27 @@
-//! Ring and condensed housing of a case in one structure, with its sensors, its modes, and its modes in full.
+//! Ring and condensed housing of a case in one structure, with its sensors and its modes.
 //!
 //! Housing and ring of a case in full (nothing condensed): the bodies, and stiffness and mass over their free degrees of freedom.
 
 use super::condensed::{CondensedHousing, basis_choice};
 use super::housing::AssembledHousing;
-use super::imported::ImportedHousing;
-use super::places::{Place, PlaceBodies, Spot, of_housing, of_ring};
-use super::ring::{Boundary, ring, ring_and_tie};
+use super::in_full::RingInHousing;
+use super::kept::{Kept, OnRing};
+use super::places::{Place, of_housing, of_ring};
+use super::ring::{Boundary, ring_and_tie};
 use crate::app::case;
 use crate::app::case::{Case, Interface, ModesKept};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{FullModes, ModalSurvey, ModeRange, ModeSet, RingShapes, mode_set};
+use crate::fe::modal::{FullModes, ModeSet, RingShapes, mode_set};
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
-use crate::fe::reduction::{BasisChoice, BasisSize};
+use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, Superelement};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
 use crate::numerics::linalg::{SparseMatrix, submatrix};
 use crate::system::{Formulation, Sensor, Structure, StructureModes};
 use std::f64::consts::TAU;
+use std::time::Instant;
 
 /// Modes of a ring of many nodes where a part of them is enough: as many as a ring of 72 nodes in a solid housing has of its own.
 const LOWEST: usize = 432;
@@ -59,12 +61,8 @@ pub(crate) fn wanted_hz(case: &Case) -> Option<f64> {
 /// The linear model of a case.
 #[derive(Debug, Clone)]
 pub struct CoupledStructure {
-    /// The housing, if the case has one.
-    pub housing: Option<AssembledHousing>,
-    /// The superelement that stands for the housing, if the case has one.
-    pub imported: Option<Box<ImportedHousing>>,
-    /// How the ring sits in the housing, if there is one.
-    pub tie: Option<RingTie>,
+    /// Ring and housing, in full.
+    pub bodies: RingInHousing,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
     /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement by
@@ -96,129 +94,101 @@ impl CoupledStructure {
         count: usize,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
-        let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
         if case.condense.interface != Interface::Ring {
             return Err(ComputeError::InterfaceOfRing);
         }
-        if let Some(path) = case.superelement() {
-            watch.stage("read");
-            let (imported, ring) = ImportedHousing::read(case, asked, path)?;
-            imported.accept()?;
-            let structure = Structure::with_housing(ring, &imported.element, gravity)?;
-            let row = |spot| imported.row(spot, structure.ring());
-            let rows = sensor_rows(case, row)?;
-            return Ok(Self {
-                fixed_interface_modes: imported.element.modal_dof(),
-                complete_hz: imported.complete_hz(),
-                imported: Some(Box::new(imported)),
-                ..Self::solved(structure, case, rows, count, watch)?
-            });
-        }
-        let asked_basis = basis_choice(case);
-        let choice = BasisChoice {
-            band_hz: MODELLED * asked_basis.band_hz,
-            size: match (wanted_hz(case), &case.transient) {
-                (Some(wanted_hz), Some(_)) => BasisSize::AtMost(wanted_hz, MOST_NUMBERS),
-                _ => asked_basis.size,
-            },
-            ..asked_basis
+        let bodies = RingInHousing::build(case, asked, watch)?;
+        let (bodies, housing) = OnRing::of(case, bodies, watch)?;
+        let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
+        let ring = bodies.ring.clone();
+        let mut structure = match &housing.element {
+            Some(element) => Structure::with_housing(ring, element, gravity)?,
+            None => Structure::ring_alone(ring, gravity),
         };
-        let Some(stage) = CondensedHousing::with_basis(case, choice, watch)? else {
-            let structure = Structure::ring_alone(ring(case, asked, false)?, gravity);
-            let bodies = PlaceBodies::of_ring(structure.ring(), RingFrame::default());
-            let rows = sensor_rows(case, |spot| Ok(Place::new(bodies, spot)?.on_ring(structure.dof())))?;
-            return Self::solved(structure, case, rows, count, watch);
-        };
-        let rows = sensor_rows(case, |spot| Ok(Place::new(stage.bodies(), spot)?.reduced(&stage.condensed)))?;
-        let CondensedHousing { housing, boundary, condensed, .. } = stage;
-        let Boundary::Ring(bodies) = boundary else {
-            return Err(ComputeError::InterfaceOfRing);
-        };
-        let (ring, tie) = *bodies;
-        let structure = Structure::with_housing(ring, &condensed.superelement, gravity)?;
-        Ok(Self {
-            housing: Some(housing),
-            tie: Some(tie),
-            fixed_interface_modes: condensed.basis.count(),
-            complete_hz: condensed.basis.complete_below.sqrt() / TAU,
-            ..Self::solved(structure, case, rows, count, watch)?
-        })
-    }
-
-    /// A structure with its sensors' rows and so many modes, nothing said of its housing.
-    fn solved(
-        mut structure: Structure,
-        case: &Case,
-        rows: Vec<Vec<f64>>,
-        modes: usize,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
-        for (sensor, row) in case.sensors.iter().zip(rows) {
+        for (sensor, row) in case.sensors.iter().zip(housing.sensors) {
             structure.add_sensor(Sensor { name: sensor.name.clone(), row })?;
         }
         watch.stage("eigen");
         Ok(Self {
-            modes: structure.lowest_modes(modes)?,
-            housing: None,
-            imported: None,
-            tie: None,
-            fixed_interface_modes: 0,
-            complete_hz: f64::INFINITY,
+            modes: structure.lowest_modes(count)?,
+            fixed_interface_modes: housing.element.as_ref().map_or(0, Superelement::modal_dof),
+            complete_hz: housing.complete_hz,
+            bodies,
             structure,
         })
     }
+}
 
-    /// Mesh and model of the housing, if it is of a mesh.
-    pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
-        self.housing.as_ref().map(|housing| (&housing.mesh, &housing.model))
+impl OnRing {
+    fn of_mesh(condensed: CraigBampton, places: &[Place]) -> Self {
+        Self {
+            sensors: places.iter().map(|place| place.reduced(&condensed)).collect(),
+            complete_hz: condensed.basis.complete_below.sqrt() / TAU,
+            element: Some(Superelement { structural: None, ..condensed.superelement }),
+        }
     }
 
-    /// Modes of a ring, in a housing if the case has one.
+    /// Condenses the housing, if it is of a mesh and not kept from an earlier computation, and hands the bodies back.
     ///
     /// # Errors
-    /// [`ComputeError`] of eigenvalue computation and analysis.
-    pub(crate) fn survey(&self, extent: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
-        let ring = self.structure.ring();
-        Ok(match (&self.housing, &self.tie) {
-            (Some(AssembledHousing { mesh, model, matrices }), Some(tie)) => {
-                ModalSurvey::of_coupled((mesh, model, matrices), tie, ring, extent, watch)?
+    /// [`ComputeError`] of sensors and reduction.
+    fn of(case: &Case, bodies: RingInHousing, watch: &impl Watch) -> Result<(RingInHousing, Self), ComputeError> {
+        let alone = |dof: usize, places: Vec<Place>| Self {
+            element: None,
+            sensors: places.iter().map(|place| place.on_ring(dof)).collect(),
+            complete_hz: f64::INFINITY,
+        };
+        if let Some(imported) = &bodies.imported {
+            let row = |sensor: &case::Sensor| imported.row(sensor.into(), &bodies.ring);
+            let of_file = Self {
+                sensors: case.sensors.iter().map(row).collect::<Result<_, _>>()?,
+                complete_hz: imported.complete_hz(),
+                element: Some(imported.element.clone()),
+            };
+            return Ok((bodies, of_file));
+        }
+        let places = bodies.sensors(case)?;
+        let (housing, ring, tie) = match bodies {
+            RingInHousing { housing: Some(housing), tie: Some(tie), ring, .. } => (housing, ring, tie),
+            bodies => {
+                let of_ring = alone(bodies.ring.dof(), places);
+                return Ok((bodies, of_ring));
             }
-            _ if self.imported.is_some() => self.survey_of_imported(extent, watch)?,
-            _ => ModalSurvey::of_ring(ring, extent, watch)?,
-        })
-    }
-
-    /// Of a superelement from a file there are frequencies, their proof and the ring's motion.
-    fn survey_of_imported(&self, range: ModeRange, watch: &impl Watch) -> Result<ModalSurvey, ComputeError> {
-        let ring = self.structure.ring();
-        let modes = FullModes::of(self.full_matrices(), range, None, watch)?;
-        let of_ring = modes.motions.ring(&modes.over_all_rows());
-        Ok(ModalSurvey {
-            ring: Some(RingShapes::new(ring, &self.frame(), &of_ring)),
-            ..ModalSurvey::without_mass(self.structure.dof(), modes.free_dof(), modes.basis)
-        })
-    }
-
-    /// Matrices of a ring, in a housing if the case has one: in full, or as a superelement has them.
-    pub(crate) fn full_matrices(&self) -> CoupledMatrices {
-        let structure = &self.structure;
-        let ring = structure.ring();
-        match (&self.housing, &self.tie) {
-            (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, ring),
-            _ if self.imported.is_some() => {
-                CoupledMatrices::of_condensed(structure.stiffness(), structure.mass(), ring.dof())
+        };
+        let boundary = Boundary::Ring(Box::new((ring, tie)));
+        let choice = run_basis(case);
+        let kept = Kept::of(&boundary.matrices(&housing), &boundary, choice, &places, watch);
+        let (housing, boundary, of_mesh) = match kept.as_ref().and_then(|kept| kept.read(watch)) {
+            Some(found) => (housing, boundary, found),
+            None => {
+                let begun = Instant::now();
+                let stage = CondensedHousing::on(housing, boundary, choice, watch)?;
+                let of_mesh = Self::of_mesh(stage.condensed, &places);
+                kept.iter().for_each(|kept| kept.write(&of_mesh, begun.elapsed(), watch));
+                (stage.housing, stage.boundary, of_mesh)
             }
-            _ => CoupledMatrices::of_ring(ring),
+        };
+        match boundary {
+            Boundary::Ring(on_ring) => {
+                let (ring, tie) = *on_ring;
+                let bodies = RingInHousing { housing: Some(housing), tie: Some(tie), ..RingInHousing::alone(ring) };
+                Ok((bodies, of_mesh))
+            }
+            Boundary::Nodes(_) => Err(ComputeError::InterfaceOfRing),
         }
     }
+}
 
-    /// Where the bearing sits in the mesh's axes; a ring alone has none but its own.
-    pub(crate) fn frame(&self) -> RingFrame {
-        match (&self.housing, &self.imported) {
-            (Some(housing), _) => *housing.model.frame(),
-            (None, Some(imported)) => imported.frame,
-            (None, None) => RingFrame::default(),
-        }
+/// The basis of a run: of frequencies above the band too, and of as many as the contacts need where the case leaves it to the program.
+fn run_basis(case: &Case) -> BasisChoice {
+    let asked = basis_choice(case);
+    BasisChoice {
+        band_hz: MODELLED * asked.band_hz,
+        size: match (wanted_hz(case), &case.transient) {
+            (Some(wanted_hz), Some(_)) => BasisSize::AtMost(wanted_hz, MOST_NUMBERS),
+            _ => asked.size,
+        },
+        ..asked
     }
 }
 
@@ -235,14 +205,6 @@ pub(crate) fn needed_modes(case: &Case) -> usize {
         Some(ModesKept::Count(count)) => count.max(LOWEST),
         Some(ModesKept::Auto) | None => LOWEST,
     }
-}
-
-/// Rows of the case's sensors over the coordinates of a structure, each by `row`.
-fn sensor_rows<'c>(
-    case: &'c Case,
-    row: impl Fn(Spot<'c>) -> Result<Vec<f64>, ComputeError>,
-) -> Result<Vec<Vec<f64>>, ComputeError> {
-    case.sensors.iter().map(|sensor| row(sensor.into())).collect()
 }
 
 /// Housing and ring of a case, of which one may be missing.
@@ -315,14 +277,10 @@ impl FreeSystem {
         if let Some(path) = case.superelement()
             && let Some(asked) = &case.ring
         {
-            watch.stage("read");
-            let (imported, ring) = ImportedHousing::read(case, asked, path)?;
-            imported.accept()?;
-            let structure = Structure::with_housing(ring, &imported.element, [0.0; 2])?;
-            let (k, m) = (structure.stiffness(), structure.mass());
-            let matrices = CoupledMatrices::of_condensed(k, m, structure.ring().dof());
-            let modes = (0..imported.element.modal_dof() as u64).map(DofLabel::modal);
-            let mut rows = of_ring(structure.ring(), &imported.frame);
+            let bodies = RingInHousing::around_file(case, asked, path, watch)?;
+            let matrices = bodies.matrices()?;
+            let mut rows = of_ring(&bodies.ring, &bodies.frame());
+            let modes = (0..(matrices.mass.rows() - rows.len()) as u64).map(DofLabel::modal);
             rows.extend(modes);
             return Ok(Self { stiffness: matrices.stiffness, mass: matrices.mass, rows });
         }

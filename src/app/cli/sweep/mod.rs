@@ -80,7 +80,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     }
     progress.stage("points");
     let stop = failure::stop_request()?;
-    let workers = Workers::new(options, plan.count(), stop)?;
+    let workers = Workers::new(options, &folder.path, plan.count(), stop)?;
     let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
     if let Some(done) = stopped {
         let what = format!("interrupted at {done} of {} points", plan.count());
@@ -103,7 +103,7 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     progress.stage("points");
     let stop = failure::stop_request()?;
     let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
-    let workers = Workers::new(options, numbers.len(), stop)?;
+    let workers = Workers::new(options, &folder.path, numbers.len(), stop)?;
     let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;
     if let Some(done) = stopped {
         let what = format!("interrupted at {done} of {} points", numbers.len());

@@ -1,5 +1,6 @@
 //! Computing the points of a sweep: each a process of this program, as many at once as there are cores.
 
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -35,6 +36,8 @@ pub(super) struct Workers {
     program: PathBuf,
     count: usize,
     threads: usize,
+    /// Where the points look for condensed housings, and leave them for one another.
+    cache: Option<PathBuf>,
     stop: StopRequest,
 }
 
@@ -44,13 +47,19 @@ impl Workers {
     ///
     /// # Errors
     /// [`ComputeError::Failed`] if the system does not say where this program is.
-    pub(super) fn new(options: &Options, points: usize, stop: StopRequest) -> Result<Self, ComputeError> {
+    pub(super) fn new(
+        options: &Options,
+        folder: &Path,
+        points: usize,
+        stop: StopRequest,
+    ) -> Result<Self, ComputeError> {
         let cores = match options.threads {
             Some(threads) => threads.get(),
             None => thread::available_parallelism().map_or(1, usize::from),
         };
         let count = cores.min(points).max(1);
-        Ok(Self { program: program()?, count, threads: (cores / count).max(1), stop })
+        let threads = (cores / count).max(1);
+        Ok(Self { program: program()?, count, threads, cache: options.cache_in(folder), stop })
     }
 
     /// Computes the points of a share that have no result yet; how many of them are there if it was asked to stop before the
@@ -141,6 +150,8 @@ impl Workers {
             .args(["--quiet", "--threads", &self.threads.to_string()])
             .args(point.set.iter().flat_map(|set| ["--set", set]))
             .arg(self.beginning(plan.command, &folder))
+            .args(self.cache.iter().flat_map(|cache| [OsStr::new("--cache"), cache.as_os_str()]))
+            .args(self.cache.is_none().then_some("--no-cache"))
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::from(file));

@@ -148,8 +148,8 @@ pub(crate) fn find<'a>(
     let of_part = |part: &PartGuess| {
         let mut sizes = inspection.group_sizes.iter();
         let size = sizes.find(|size| size.name == part.group && size.dimension == dimension)?.size;
-        let material = BUILT_IN_MATERIALS.iter().find(|(name, _)| *name == part.material)?;
-        Some(size * metres.powi(dimension as i32) * thickness * material.1.density())
+        let known = BUILT_IN_MATERIALS.iter().find(|known| known.name == part.material)?;
+        Some(size * metres.powi(dimension as i32) * thickness * known.material.density)
     };
     let mass = groups.parts.iter().filter_map(of_part).sum();
     Ok(Found {

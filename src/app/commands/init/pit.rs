@@ -58,8 +58,8 @@ fn drops(numbers: &BearingNumbers, scale: f64, [length, width, depth]: [f64; 3])
         ball_mass: 4.0 / 3.0 * PI * ball_radius.powi(3) * STEEL,
         inner_race_radius: 0.5 * scale * bearing.inner_race_diameter(),
         outer_race_radius: 0.5 * scale * bearing.outer_race_diameter(),
-        inner_groove_radius: scale * numbers.inner_groove,
-        outer_groove_radius: scale * numbers.outer_groove,
+        inner_groove_radius: scale * numbers.usual.inner_groove,
+        outer_groove_radius: scale * numbers.usual.outer_groove,
     })?;
     // where a ball without load comes to lie does not depend on how stiff the contacts are
     let any = ContactStiffness::given(1.0, 1.0)?;

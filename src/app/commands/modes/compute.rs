@@ -7,9 +7,10 @@ use crate::app::case::{Case, Linearise};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::doubts::accept_contacts;
-use crate::app::scene::{AssembledHousing, CoupledStructure, bearing_setup, doubts, race_contacts};
+use crate::app::scene::structure::needed_modes;
+use crate::app::scene::{AssembledHousing, CoupledStructure, RingInHousing, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{FullModes, ModalBasis, ModalSurvey, ModeRange};
+use crate::fe::modal::{FullModes, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::numerics::{Unwatched, Watch};
@@ -27,10 +28,6 @@ pub struct Reading {
     /// Modes without contact in full, Hz, ascending, as many as asked for.
     #[serde(rename = "frequencies_hz")]
     pub unloaded_hz: Vec<f64>,
-    /// How far condensing the housing moves them: the largest relative difference of the frequencies of the condensed
-    /// model from these, over the elastic modes listed. Loaded modes are those of the condensed model. `None` where
-    /// nothing is condensed.
-    pub condensation_difference: Option<f64>,
     /// Modes linearised at the static equilibrium, if asked for, with the housing condensed.
     pub loaded: Option<LoadedModes>,
     /// Expected frequencies against these.
@@ -46,8 +43,10 @@ pub struct ModesResult {
     pub variants: Vec<Reading>,
     /// Modes without contact in full, with their proof.
     pub survey: ModalSurvey,
-    /// The linear model of a case with a ring, its housing condensed.
-    pub structure: Option<CoupledStructure>,
+    /// A ring, and the housing around it.
+    pub bodies: Option<RingInHousing>,
+    /// Number of vectors of the condensed housing's interior; `None` without loaded modes: nothing is condensed for others.
+    pub fixed_interface_modes: Option<usize>,
     /// Mesh and model of a housing alone.
     pub housing: Option<(Mesh, HousingModel)>,
     /// These modes against those of other programs or measurements, in the order of the case file.
@@ -69,7 +68,8 @@ impl ModesResult {
             base,
             variants: Vec::new(),
             survey,
-            structure: None,
+            bodies: None,
+            fixed_interface_modes: None,
             housing: None,
             comparisons: Vec::new(),
             convergence: None,
@@ -82,7 +82,7 @@ impl ModesResult {
     /// Mesh and model of the housing, if there is one.
     pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
         let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
-        alone.or(self.structure.as_ref().and_then(CoupledStructure::mesh_and_model))
+        alone.or(self.bodies.as_ref().and_then(RingInHousing::mesh_and_model))
     }
 
     /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
@@ -138,27 +138,37 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Com
 }
 
 fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
-    let Some(stage) = CoupledStructure::build(case, watch)? else {
+    let Some(asked) = &case.ring else {
         return housing_alone(case, watch);
     };
-    let survey = stage.survey(case.modes.extent, watch)?;
-    watch.stage("linearise");
-    let base = reading(case, &stage, &survey.basis, String::new(), Vec::new())?;
+    let (mut loaded, mut statics, mut loaded_pass, mut fixed_interface_modes) = (None, None, None, None);
     let setup = linearised_setup(case)?;
-    let (setup, start) = (setup.as_ref(), start_time(case));
-    let statics = setup.map(|setup| Statics::compute(&stage.structure, setup, start)).transpose()?;
-    let over_pass = |setup| LoadedPass::compute((&stage.structure, &stage.modes), setup, start, watch);
-    let loaded_pass = setup.filter(|_| case.modes.ball_pass).map(over_pass).transpose()?;
+    let bodies = match &setup {
+        None => RingInHousing::build(case, asked, watch)?,
+        Some(setup) => {
+            let stage = CoupledStructure::around_ring(case, asked, needed_modes(case), watch)?;
+            let start = start_time(case);
+            watch.stage("linearise");
+            loaded = Some(loaded_modes(case, &stage, setup)?);
+            statics = Some(Statics::compute(&stage.structure, setup, start)?);
+            if case.modes.ball_pass {
+                loaded_pass = Some(LoadedPass::compute((&stage.structure, &stage.modes), setup, start, watch)?);
+            }
+            fixed_interface_modes = Some(stage.fixed_interface_modes);
+            stage.bodies
+        }
+    };
+    let survey = bodies.survey(case.modes.extent, watch)?;
+    let unloaded_hz = survey.basis.frequencies_hz.clone();
+    let base = Reading { unloaded_hz, loaded, ..Reading::default() }.judged(case);
     watch.stage("variants");
     let cases = case.variants()?;
     let mut variants = Vec::with_capacity(cases.len());
     for (index, variant) in cases.iter().enumerate() {
         watch.fraction(index as f64 / cases.len() as f64);
         let set = case.modes.variants[index].set.clone();
-        if let Some(built) = CoupledStructure::build(&variant.case, &Unwatched)? {
-            let full = FullModes::of(built.full_matrices(), variant.case.modes.extent, None, &Unwatched)?;
-            variants.push(reading(&variant.case, &built, &full.basis, variant.what.clone(), set)?);
-        }
+        let what = variant.what.clone();
+        variants.extend(variant_reading(&variant.case)?.map(|reading| Reading { what, set, ..reading }));
     }
     let at_rest = statics.iter().flat_map(|statics| &statics.equilibria).next();
     let top_hz = survey.basis.frequencies_hz.iter().copied().fold(0.0, f64::max);
@@ -166,11 +176,12 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         ModeRange::UpToHz(top_hz) | ModeRange::BandHz([_, top_hz]) => top_hz,
         ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
     };
-    let beyond = stage.imported.iter().filter_map(|imported| imported.doubt(top_hz.max(asked_hz)));
-    let mut doubts = doubts(case, stage.mesh_and_model(), setup.zip(at_rest))?;
+    let beyond = bodies.imported.iter().filter_map(|imported| imported.doubt(top_hz.max(asked_hz)));
+    let mut doubts = doubts(case, bodies.mesh_and_model(), setup.as_ref().zip(at_rest))?;
     doubts.extend(beyond);
-    let structure = Some(stage);
-    Ok(ModesResult { variants, structure, statics, loaded_pass, ..ModesResult::new(base, survey, doubts) })
+    let bodies = Some(bodies);
+    let result = ModesResult::new(base, survey, doubts);
+    Ok(ModesResult { variants, bodies, fixed_interface_modes, statics, loaded_pass, ..result })
 }
 
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
@@ -196,52 +207,32 @@ fn start_time(case: &Case) -> f64 {
     transient.map_or(0.0, |transient| transient.start)
 }
 
-fn reading(
-    case: &Case,
-    stage: &CoupledStructure,
-    unloaded: &ModalBasis,
-    what: String,
-    set: Vec<String>,
-) -> Result<Reading, ComputeError> {
-    let loaded = match linearised_setup(case)? {
+/// Frequencies of a variant; `None` without a ring.
+fn variant_reading(case: &Case) -> Result<Option<Reading>, ComputeError> {
+    let Some(asked) = &case.ring else {
+        return Ok(None);
+    };
+    let (bodies, loaded) = match linearised_setup(case)? {
+        None => (RingInHousing::build(case, asked, &Unwatched)?, None),
         Some(setup) => {
-            let condition = StaticCondition::at(&setup, start_time(case));
-            let equilibrium = Equilibrium::find(&stage.structure, &setup, condition)?;
-            if let Some(contacts) = race_contacts(case)? {
-                accept_contacts(&setup, &contacts, &equilibrium)?;
-            }
-            Some(LoadedModes::at(&stage.structure, &stage.modes, &setup, &equilibrium)?)
+            let stage = CoupledStructure::around_ring(case, asked, needed_modes(case), &Unwatched)?;
+            let loaded = loaded_modes(case, &stage, &setup)?;
+            (stage.bodies, Some(loaded))
         }
-        None => None,
     };
-    let reading = Reading {
-        what,
-        set,
-        condensation_difference: condensation_difference(stage, unloaded, case.modes.extent),
-        unloaded_hz: unloaded.frequencies_hz.clone(),
-        loaded,
-        expected: Vec::new(),
-    };
-    Ok(reading.judged(case))
+    let full = FullModes::of(bodies.matrices()?, case.modes.extent, None, &Unwatched)?;
+    let reading = Reading { unloaded_hz: full.basis.frequencies_hz, loaded, ..Reading::default() };
+    Ok(Some(reading.judged(case)))
 }
 
-/// Largest relative difference of the condensed frequencies from those in full; `None` if nothing is condensed, or
-/// there are no elastic modes to compare.
-fn condensation_difference(stage: &CoupledStructure, full: &ModalBasis, extent: ModeRange) -> Option<f64> {
-    stage.housing.as_ref()?;
-    let condensed: Vec<f64> = (0..stage.modes.count()).map(|mode| stage.modes.frequency_hz(mode)).collect();
-    let largest = |first: usize| {
-        let pairs = condensed.get(first..)?.iter().zip(&full.frequencies_hz);
-        let differences = pairs.skip(full.rigid_modes).map(|(own, full)| (own / full - 1.0).abs());
-        differences.reduce(f64::max)
-    };
-    match extent {
-        ModeRange::Count(_) | ModeRange::AtMost(_) | ModeRange::UpToHz(_) => largest(0),
-        // how many modes lie below the band is not known: where they fit best
-        ModeRange::BandHz(_) => {
-            (0..=condensed.len().saturating_sub(full.frequencies_hz.len())).filter_map(largest).min_by(f64::total_cmp)
-        }
+/// Modes at the static equilibrium.
+fn loaded_modes(case: &Case, stage: &CoupledStructure, setup: &BearingSetup) -> Result<LoadedModes, ComputeError> {
+    let condition = StaticCondition::at(setup, start_time(case));
+    let equilibrium = Equilibrium::find(&stage.structure, setup, condition)?;
+    if let Some(contacts) = race_contacts(case)? {
+        accept_contacts(setup, &contacts, &equilibrium)?;
     }
+    Ok(LoadedModes::at(&stage.structure, &stage.modes, setup, &equilibrium)?)
 }
 
 /// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.
@@ -283,10 +274,11 @@ fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) ->
 /// [`ComputeError`] of the stages that it goes through.
 pub(crate) fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
-    if let Some(stage) = CoupledStructure::build(case, watch)? {
-        let survey = stage.survey(extent, watch)?;
-        let shapes = mode_shapes(&survey, stage.mesh_and_model());
-        return Ok((stage.housing.map(|stage| stage.mesh), shapes));
+    if let Some(asked) = &case.ring {
+        let bodies = RingInHousing::build(case, asked, watch)?;
+        let survey = bodies.survey(extent, watch)?;
+        let shapes = mode_shapes(&survey, bodies.mesh_and_model());
+        return Ok((bodies.housing.map(|housing| housing.mesh), shapes));
     }
     let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
     let survey = ModalSurvey::of_housing(&mesh, &model, matrices, extent, watch)?;

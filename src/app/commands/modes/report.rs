@@ -18,6 +18,9 @@ use crate::system::{LoadedPass, LoadedPoint};
 /// Frequencies drawn over a ball pass.
 const DRAWN: usize = 8;
 
+/// What is to be known of loaded modes in a housing, so that nobody takes the reduction for an effect of the load.
+const CONDENSED: &str = "Loaded modes are those of a model with its housing condensed, which alone raises frequencies a little: plummer condense --compare-full says how much. A smaller difference between the columns says nothing of the load.";
+
 /// Composes the report; `command` is the line that made it.
 ///
 /// # Errors
@@ -66,7 +69,7 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
         report.sections.extend(result.loaded_pass.as_ref().map(loaded_pass_section));
     }
     report.assumptions.extend(parts::assumptions(case, setup.as_ref()));
-    let imported = result.structure.iter().flat_map(|stage| &stage.imported);
+    let imported = result.bodies.iter().flat_map(|bodies| &bodies.imported);
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     report.warnings.extend(result.doubts.iter().cloned().chain(tables::free_motions(result)));
     report.warnings.extend(result.convergence.iter().flat_map(|convergence| convergence.notes.iter().cloned()));
@@ -111,9 +114,9 @@ pub(crate) fn completeness(check: FrequencyCount) -> (&'static str, String, Verd
 
 fn purpose(result: &ModesResult) -> Section {
     let survey = &result.survey;
-    let what = match (&result.structure, result.mesh_and_model()) {
+    let what = match (&result.bodies, result.mesh_and_model()) {
         (Some(_), Some(_)) => "a housing and the ring in its bore, coupled in full (nothing condensed)",
-        (Some(stage), None) if stage.imported.is_some() => "a ring in a housing that is a superelement from a file",
+        (Some(bodies), None) if bodies.imported.is_some() => "a ring in a housing that is a superelement from a file",
         (Some(_), None) => "a ring on its springs",
         _ => "a housing",
     };
@@ -141,9 +144,9 @@ fn model(case: &Case, result: &ModesResult, view: &ModeShapeView) -> Result<Sect
         Fact::new("Degrees of freedom", result.survey.dof.to_string()),
         Fact::new("Free ones", result.survey.free_dof.to_string()),
     ]);
-    if let Some(stage) = &result.structure {
-        let facts = parts::model_facts(stage, result.base.loaded.is_some());
-        section = section.drawing(parts::draw(case, stage, bearing_setup(case)?.as_ref())).facts(facts);
+    if let Some(bodies) = &result.bodies {
+        let facts = parts::model_facts(bodies, result.fixed_interface_modes);
+        section = section.drawing(parts::draw(case, bodies, bearing_setup(case)?.as_ref())).facts(facts);
     }
     if result.mesh_and_model().is_some() {
         let (title, figures) = ("The model".to_owned(), ShapeFigures::Mesh);
@@ -158,16 +161,10 @@ fn frequencies(result: &ModesResult) -> Section {
         return section;
     };
     let table = parts::mode_table(&result.base.unloaded_hz, loaded);
-    section.table(condensation(&result.base).into_iter().fold(table, Table::footnote))
-}
-
-/// What condensing the housing does to the frequencies, so that nobody takes it for an effect of the load.
-fn condensation(reading: &Reading) -> Option<String> {
-    let difference = reading.condensation_difference?;
-    Some(format!(
-        "Loaded modes are those of a model with its housing condensed. That alone moves the elastic frequencies without contact listed by {} % at most: a smaller difference between the columns says nothing of the load.",
-        significant(100.0 * difference, 2)
-    ))
+    section.table(match result.mesh_and_model() {
+        Some(_) => table.footnote(CONDENSED),
+        None => table,
+    })
 }
 
 fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
@@ -176,7 +173,6 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
     let near = |expected: &ExpectedMode| format!("near {} kHz", significant(expected.hz / 1e3, 3));
     columns.extend(expected.iter().map(|expected| Column::number(near(expected), "Hz")));
     columns.push(Column::number("Modes below 40 kHz without the balls' own", "kHz"));
-    columns.push(Column::number("Condensation moves by", "%"));
     Table::new("Readings side by side", columns).rows(std::iter::once(base).chain(variants).map(|reading| {
         let name = if reading.what.is_empty() { "this case" } else { &reading.what };
         let mut cells = vec![Cell::text(name)];
@@ -191,7 +187,6 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
             cells.push(cell.judged(Verdict::of(expected.ok)));
         }
         cells.push(Cell::text(own_modes(reading)));
-        cells.push(Cell::number_or(reading.condensation_difference.map(|difference| 100.0 * difference), 2, "-"));
         cells
     }))
 }

@@ -38,8 +38,6 @@ pub struct ModesSummary<'a> {
     pub energy_shares: Option<&'a EnergyShares>,
     /// Why modes without strain exist; `None` for too many bodies.
     pub free_motions: Option<&'a Mechanisms>,
-    /// Largest relative difference of the frequencies of the condensed model; `None` where nothing is condensed.
-    pub condensation_difference: Option<f64>,
     /// The superelement in the housing's place, if there is one.
     pub superelement: Option<SuperelementSummary<'a>>,
     /// Modes linearised at the static equilibrium, if asked for.
@@ -75,8 +73,7 @@ impl ModesResult {
             effective_mass_total: found.map(|found| found.totals.as_slice()),
             energy_shares: survey.shares.as_ref(),
             free_motions: survey.mechanisms.as_ref(),
-            condensation_difference: self.base.condensation_difference,
-            superelement: self.structure.as_ref().and_then(SuperelementSummary::of),
+            superelement: self.bodies.as_ref().and_then(SuperelementSummary::of),
             loaded: self.base.loaded.as_ref(),
             expected: &self.base.expected,
             comparisons: &self.comparisons,

@@ -1,7 +1,7 @@
 //! The picture of the model: mesh, ring, supports, balls, dents, sensors.
 
 use crate::app::case::{Case, SensorSpot};
-use crate::app::scene::CoupledStructure;
+use crate::app::scene::RingInHousing;
 use crate::bearing::Race;
 use crate::bearing::defect::{DentShape, RaceDefect};
 use crate::fe::mesh::Mesh;
@@ -16,9 +16,9 @@ use std::f64::consts::PI;
 /// degrees.
 const SHARP: f64 = 0.45;
 
-/// Draws a structure, and the bearing in it if there is one.
-pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&BearingSetup>) -> Drawing {
-    let ring = stage.structure.ring();
+/// Draws ring and housing, and the bearing in it if there is one.
+pub(crate) fn draw(case: &Case, bodies: &RingInHousing, setup: Option<&BearingSetup>) -> Drawing {
+    let ring = &bodies.ring;
     let centre = Point { x: 0.0, y: 0.0 };
     let radius = ring.section().radius;
     let mut drawing = Drawing {
@@ -33,14 +33,14 @@ pub(crate) fn draw(case: &Case, stage: &CoupledStructure, setup: Option<&Bearing
         }),
         ..Drawing::default()
     };
-    if let Some(housing) = &stage.housing {
+    if let Some(housing) = &bodies.housing {
         add_housing(&mut drawing, &housing.mesh, &housing.model);
     }
-    add_ring_springs(&mut drawing, case, stage);
+    add_ring_springs(&mut drawing, case, bodies);
     if let Some(setup) = setup {
         add_bearing(&mut drawing, case, setup);
     }
-    add_sensors(&mut drawing, case, stage);
+    add_sensors(&mut drawing, case, bodies);
     drawing
 }
 
@@ -110,8 +110,8 @@ fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     edges.map(|(edge, _)| edge).collect()
 }
 
-fn add_ring_springs(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
-    let ring = stage.structure.ring();
+fn add_ring_springs(drawing: &mut Drawing, case: &Case, bodies: &RingInHousing) {
+    let ring = &bodies.ring;
     for support in case.ring.iter().flat_map(|ring| &ring.supports) {
         let (from, to) = (support.from_deg, support.to_deg);
         for node in 0..ring.nodes() {
@@ -163,13 +163,11 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
     }
 }
 
-fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
+fn add_sensors(drawing: &mut Drawing, case: &Case, bodies: &RingInHousing) {
     let origin = Point { x: 0.0, y: 0.0 };
     for sensor in &case.sensors {
-        let at = match (&sensor.spot, &stage.housing) {
-            (SensorSpot::RingDeg(degrees), _) => {
-                Some(origin.polar(stage.structure.ring().section().radius, degrees.to_radians()))
-            }
+        let at = match (&sensor.spot, &bodies.housing) {
+            (SensorSpot::RingDeg(degrees), _) => Some(origin.polar(bodies.ring.section().radius, degrees.to_radians())),
             (SensorSpot::Point(point), Some(housing)) => {
                 let [x, y, _] = housing.model.frame().point(*point);
                 Some(Point { x, y })
@@ -187,7 +185,7 @@ fn add_sensors(drawing: &mut Drawing, case: &Case, stage: &CoupledStructure) {
             // a row does not say where it is
             _ => None,
         };
-        let [x, y, _] = stage.frame().vector(sensor.direction);
+        let [x, y, _] = bodies.frame().vector(sensor.direction);
         let size = sensor.direction.iter().fold(0.0_f64, |size, part| size.max(part.abs()));
         let direction_rad = (x.hypot(y) > 1e-9 * size).then(|| y.atan2(x).rem_euclid(2.0 * PI));
         if let Some(at) = at {

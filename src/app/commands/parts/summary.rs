@@ -1,6 +1,6 @@
 //! What several results say.
 
-use crate::app::scene::CoupledStructure;
+use crate::app::scene::RingInHousing;
 use crate::fe::reduction::Check;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,10 +20,10 @@ pub struct SuperelementSummary<'a> {
 }
 
 impl<'a> SuperelementSummary<'a> {
-    /// That of a structure; `None` where its housing is of a mesh, or it has none.
+    /// That around a ring; `None` where its housing is of a mesh, or it has none.
     #[must_use]
-    pub(crate) fn of(structure: &'a CoupledStructure) -> Option<Self> {
-        let imported = structure.imported.as_ref()?;
+    pub(crate) fn of(bodies: &'a RingInHousing) -> Option<Self> {
+        let imported = bodies.imported.as_ref()?;
         Some(Self {
             path: &imported.path,
             interface_dof: imported.element.interface_dof,

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::case_words::damping_words;
 use crate::app::case::{Bond, Case, Expected};
-use crate::app::scene::CoupledStructure;
+use crate::app::scene::RingInHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::RadiusRule;
 use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, significant};
@@ -14,9 +14,10 @@ use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
 
-/// The linear model in facts; `condensed`: how, where something of the report was computed with it.
-pub(crate) fn model_facts(stage: &CoupledStructure, condensed: bool) -> Vec<Fact> {
-    let ring = stage.structure.ring();
+/// The linear model in facts; `fixed_interface_modes`: number of vectors of the condensed housing's interior, where something of the
+/// report was computed with it.
+pub(crate) fn model_facts(bodies: &RingInHousing, fixed_interface_modes: Option<usize>) -> Vec<Fact> {
+    let ring = &bodies.ring;
     let section = ring.section();
     let mut facts = vec![
         Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
@@ -24,15 +25,14 @@ pub(crate) fn model_facts(stage: &CoupledStructure, condensed: bool) -> Vec<Fact
         Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
         Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
     ];
-    let modes = stage.fixed_interface_modes;
-    if let Some(imported) = &stage.imported {
-        let interface_dof = imported.element.interface_dof;
+    if let Some(imported) = &bodies.imported {
+        let (interface_dof, modes) = (imported.element.interface_dof, imported.element.modal_dof());
         facts.extend([
             Fact::new("Superelement", imported.path.display().to_string()),
             Fact::new("Its coordinates", format!("{interface_dof} ring displacements and {modes} modes")),
         ]);
     }
-    if stage.housing.is_some() && condensed {
+    if let (Some(_), Some(modes)) = (&bodies.housing, fixed_interface_modes) {
         let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
         facts.push(Fact::new("Condensed to", coordinates).note("Craig-Bampton"));
     }

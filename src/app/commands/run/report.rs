@@ -55,8 +55,8 @@ pub(crate) fn run_report<R: Recording>(
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
     let (stage, setup) = (&result.scene.stage, &result.scene.setup);
-    let model =
-        Section::new("Model").drawing(parts::draw(case, stage, Some(setup))).facts(parts::model_facts(stage, true));
+    let facts = parts::model_facts(&stage.bodies, Some(stage.fixed_interface_modes));
+    let model = Section::new("Model").drawing(parts::draw(case, &stage.bodies, Some(setup))).facts(facts);
     let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
@@ -67,7 +67,7 @@ pub(crate) fn run_report<R: Recording>(
         .section(Section::new("Bearing").table(bearing))
         .section(parts::statics_section(setup, &result.statics))
         .section(Section::new("Computation").facts(computation(result)));
-    let imported = result.scene.stage.imported.iter();
+    let imported = result.scene.stage.bodies.imported.iter();
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
     report.assumptions.extend(parts::assumptions(case, Some(&result.scene.setup)));
     Ok(report.assumption(
@@ -77,7 +77,7 @@ pub(crate) fn run_report<R: Recording>(
 
 /// The case in words, and the model that was chosen for it.
 fn inputs<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
-    let size = result.scene.stage.housing.as_ref().map(parts::HousingSize::of_housing);
+    let size = result.scene.stage.bodies.housing.as_ref().map(parts::HousingSize::of_housing);
     let part = |part: &ChosenPart| Fact::new(format!("Model: {}", part.what), &part.chosen).note(capital(&part.why));
     let chosen = result.choice.parts.iter().map(part);
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Run, size.as_ref()).into_iter().chain(chosen))

@@ -180,7 +180,7 @@ impl<R: Recording> RunResult<R> {
             other_equilibria: self.statics.equilibria.iter().skip(1).map(other).collect(),
             defect_orders: scene.setup.geometry.orders(),
             windows: &self.windows,
-            superelement: SuperelementSummary::of(&scene.stage),
+            superelement: SuperelementSummary::of(&scene.stage.bodies),
             not_analysed: &self.not_analysed,
             warnings: &self.warnings,
         }

@@ -23,7 +23,8 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
     report.warnings.extend(chart.scene.doubts.iter().cloned());
     report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
     report.assumptions = assumptions(case, Some(&chart.scene.setup));
-    let size = chart.scene.stage.housing.as_ref().map(HousingSize::of_housing);
+    let stage = &chart.scene.stage;
+    let size = stage.bodies.housing.as_ref().map(HousingSize::of_housing);
     report
         .section(Section::new("Inputs").facts(inputs(case, Purpose::Chart, size.as_ref())))
         .section(
@@ -39,7 +40,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         .section(Section::new("All points").table(points_table(chart)))
         .section(
             Section::new("Model")
-                .facts(model_facts(&chart.scene.stage, true))
+                .facts(model_facts(&stage.bodies, Some(stage.fixed_interface_modes)))
                 .table(bearing_table(&chart.scene.setup, &chart.scene.contacts, Some(&chart.scene.equilibrium))),
         )
         .assumption("Every run begins at rest in the equilibrium of its own instant; what follows of switching on unbalance and speed is part of the comparison.")

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Axis;
 use super::axis::EXAMPLES;
-use crate::app::case::{Case, Purpose, Source};
+use crate::app::case::{Case, Purpose};
 use crate::app::commands::run::unfinished::RunIdentity;
 use crate::app::error::ComputeError;
 use crate::files;
@@ -161,8 +161,8 @@ impl Plan {
         let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
         let text = files::read(&self.case).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let text = text.filter(|text| self.identity.is_of_text(text));
-        let source = text.map(|text| Source { path: self.case.clone(), text, set: point.set.clone() });
-        let expected = source.and_then(|source| source.digest().ok());
+        let case = text.and_then(|text| self.case_at(point, &text).ok());
+        let expected = case.and_then(|case| case.digest(self.command.name()));
         let same_values = match (expected, result["case_digest"].as_str()) {
             (Some(expected), Some(found)) => expected == found,
             _ => true,

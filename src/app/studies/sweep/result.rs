@@ -412,18 +412,17 @@ pub(super) mod tests {
         let axes = vec![Axis::parse("ring.nodes=36,72").unwrap()];
         let plan = Plan::new(&case, SweptCommand::Modes, axes).unwrap();
         let point = plan.point(1);
-        let source = crate::app::case::Source { set: point.set.clone(), ..case.source.clone() };
         let belongs = |set: &[String], digest: &str| {
             let result = serde_json::json!({ "set": set, "case_digest": digest });
             plan.belongs(&point, Path::new("1/modes.json"), &result).map_err(|error| error.to_string())
         };
-        let digest = source.digest().unwrap();
+        let digest = plan.case_at(&point, &case.source.text).unwrap().digest("modes").unwrap();
         belongs(&point.set, &digest).unwrap();
         // of a point with other values, and of another case with the same arguments
         let other = belongs(&plan.point(2).set, &digest).unwrap_err();
         assert!(other.contains("expected --set ring.nodes=36"), "{other}");
         assert!(other.contains("found --set ring.nodes=72"), "{other}");
-        belongs(&point.set, &case.source.digest().unwrap()).unwrap_err();
+        belongs(&point.set, &case.digest("modes").unwrap()).unwrap_err();
     }
 
     #[test]

@@ -138,7 +138,7 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
 fn vectors(case: &case::Case, scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
     let stage = &scene.stage;
     let khz = |digits| significant(stage.complete_hz / 1e3, digits);
-    let (what, count, why) = match (&stage.imported, &stage.housing) {
+    let (what, count, why) = match (&stage.bodies.imported, &stage.bodies.housing) {
         (Some(imported), _) => (
             SUPERELEMENT,
             imported.record.modal_hz.len(),
