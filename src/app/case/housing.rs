@@ -111,7 +111,7 @@ struct SupportForm {
     per: Option<SupportShare>,
 }
 
-/// The displacements that `fixed` makes zero.
+// The displacements that `fixed` makes zero; what a key says of it is in the schema, not this.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 #[schemars(inline)]

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub(crate) const TOLERANCE: f64 = 0.01;
 
 /// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
-pub(super) const LEAST_TURN: f64 = 1.0 / 12.0;
+const LEAST_TURN: f64 = 1.0 / 12.0;
 
 /// Parts of names that a bore has.
 const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
@@ -37,7 +37,7 @@ pub(crate) struct Cylinders {
     /// Round surfaces with the housing inside of them.
     pub outside: Vec<Candidate>,
     /// Groups named like a bore, or any where no bore was found, of which a part alone is a hole; largest share first.
-    pub partly: Vec<PartlyHole>,
+    pub partly: Vec<(String, PartlyHole)>,
 }
 
 /// The boundary of the housing's elements by their corners.
@@ -106,13 +106,14 @@ pub(crate) fn cylinders(
     usable: impl Fn(&PhysicalGroup) -> bool,
 ) -> Cylinders {
     let groups = mesh.groups.iter().filter(|group| group.dimension + 1 == dimension && usable(group));
+    let round = |own: &Cylinder| own.farthest <= TOLERANCE * own.radius && own.turn >= LEAST_TURN;
     let mut rough = Vec::new();
     let mut found = Vec::new();
     for group in groups {
         let nodes: Vec<[f64; 3]> = group.nodes.iter().map(|&node| mesh.nodes[node]).collect();
         let facets = facets(mesh, rim, group);
         let cylinder = fit(&facets, &nodes);
-        match cylinder.filter(|own| own.farthest <= TOLERANCE * own.radius && own.turn >= LEAST_TURN) {
+        match cylinder.filter(round) {
             Some(cylinder) => found.push(Candidate { group: group.name.clone(), cylinder }),
             None => rough.push((group, facets)),
         }
@@ -132,10 +133,11 @@ pub(crate) fn cylinders(
             let nodes = block.element(id.index).unwrap_or_default();
             nodes.iter().take(block.kind.corners()).copied().collect()
         });
-        partly_hole(&group.name, facets, &corners.collect::<Vec<_>>())
+        let part = partly_hole(facets, &corners.collect::<Vec<_>>(), round, TOLERANCE)?;
+        Some((group.name.clone(), part))
     });
-    let mut partly: Vec<PartlyHole> = partly.collect();
-    partly.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut partly: Vec<(String, PartlyHole)> = partly.collect();
+    partly.sort_by(|(_, a), (_, b)| b.share.total_cmp(&a.share));
     Cylinders { bore, holes, outside, partly }
 }
 

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
 use super::groups::{Groups, PartGuess, usable};
+use super::partly::PartlyHole;
 use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
 use crate::app::case::BUILT_IN_MATERIALS;
 use crate::app::commands::Inspection;
@@ -163,7 +164,12 @@ pub(crate) fn find<'a>(
         bore,
         holes: in_metres(holes),
         outside: in_metres(outside),
-        partly: partly.into_iter().map(|part| (scaled(part.hole, metres), part.share, part.shoulder)).collect(),
+        partly: partly
+            .into_iter()
+            .map(|(group, PartlyHole { cylinder, share, shoulder })| {
+                (scaled(Candidate { group, cylinder }, metres), share, shoulder)
+            })
+            .collect(),
         directions,
         spot: spot.map(|point| point.map(|part| part * metres)),
         bearing: bearing.map(BearingNumbers::of),

@@ -3,7 +3,6 @@
 //! Faces that meet at a small angle are one patch; the largest patch that is a hole says the cylinder, and every face of the group that
 //! lies on it counts.
 
-use super::bore::{Candidate, LEAST_TURN, TOLERANCE};
 use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
 use nalgebra::Vector3;
 use std::collections::HashMap;
@@ -19,16 +18,22 @@ const MOST: f64 = 0.95;
 /// A group of which a part is a hole.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PartlyHole {
-    /// The group with the cylinder of that part.
-    pub hole: Candidate,
+    /// The cylinder of that part.
+    pub cylinder: Cylinder,
     /// Share of the group's area (of its length in a plane mesh) that lies on it, 0 to 1.
     pub share: f64,
     /// Whether the rest is flat and lies across the axis.
     pub shoulder: bool,
 }
 
-/// The hole of a group that is none as a whole; `corners` are the nodes at each facet's corners.
-pub(crate) fn partly_hole(group: &str, facets: &[Facet], corners: &[Vec<usize>]) -> Option<PartlyHole> {
+/// The hole of a group that is none as a whole; `corners` are the nodes at each facet's corners, `round` accepts a fitted cylinder, and
+/// `tolerance` is how far a corner may be from it, over its radius.
+pub(crate) fn partly_hole(
+    facets: &[Facet],
+    corners: &[Vec<usize>],
+    round: impl Fn(&Cylinder) -> bool,
+    tolerance: f64,
+) -> Option<PartlyHole> {
     let sizes: Vec<f64> = facets.iter().map(size).collect();
     let total: f64 = sizes.iter().sum();
     let mut best: Option<(f64, Cylinder)> = None;
@@ -39,32 +44,26 @@ pub(crate) fn partly_hole(group: &str, facets: &[Facet], corners: &[Vec<usize>])
         }
         let own: Vec<Facet> = patch.iter().map(|&at| facets[at].clone()).collect();
         let nodes: Vec<[f64; 3]> = own.iter().flat_map(|facet| facet.corners.clone()).collect();
-        let found = fit(&own, &nodes).filter(|found| {
-            found.hole == Some(true) && found.farthest <= TOLERANCE * found.radius && found.turn >= LEAST_TURN
-        });
+        let found = fit(&own, &nodes).filter(|found| found.hole == Some(true) && round(found));
         best = found.map(|found| (area, found)).or(best);
     }
     let (_, cylinder) = best?;
     let (axis, centre) = (Vector3::from(cylinder.axis), Vector3::from(cylinder.centre));
     let on = |corner: &[f64; 3]| {
         let arm = Vector3::from(*corner) - centre;
-        ((arm - axis * axis.dot(&arm)).norm() - cylinder.radius).abs() <= TOLERANCE * cylinder.radius
+        ((arm - axis * axis.dot(&arm)).norm() - cylinder.radius).abs() <= tolerance * cylinder.radius
     };
     let along = |facet: &Facet| normal(facet).is_some_and(|normal| normal.dot(&axis).abs() > ACROSS);
-    let (mut round, mut flat) = (0.0, 0.0);
+    let (mut curved, mut flat) = (0.0, 0.0);
     for (facet, size) in facets.iter().zip(&sizes) {
         let across = along(facet);
         if facet.corners.iter().all(on) && !across {
-            round += size;
+            curved += size;
         } else if across {
             flat += size;
         }
     }
-    Some(PartlyHole {
-        hole: Candidate { group: group.to_owned(), cylinder },
-        share: round / total,
-        shoulder: flat > MOST * (total - round),
-    })
+    Some(PartlyHole { cylinder, share: curved / total, shoulder: flat > MOST * (total - curved) })
 }
 
 /// Area of a face, length of a curve's element.
@@ -159,13 +158,13 @@ mod tests {
                 corners.push(own);
             }
         }
-        let found = partly_hole("bore", &facets, &corners).unwrap();
-        assert!((found.hole.cylinder.radius - 23.5).abs() < 1e-9);
+        let found = partly_hole(&facets, &corners, |_| true, 0.01).unwrap();
+        assert!((found.cylinder.radius - 23.5).abs() < 1e-9);
         assert!(found.shoulder);
         // chords of 24 sides: 2 n R sin(pi / n) L beside n sin(2 pi / n) / 2 (R^2 - r^2)
         let (bore, shoulder) =
             (2.0 * 24.0 * 23.5 * (PI / 24.0).sin() * 14.0, 12.0 * (TAU / 24.0).sin() * (23.5 * 23.5 - 400.0));
         assert!((found.share - bore / (bore + shoulder)).abs() < 1e-9, "{}", found.share);
-        assert!(partly_hole("flat", &facets[n..], &corners[n..]).is_none());
+        assert!(partly_hole(&facets[n..], &corners[n..], |_| true, 0.01).is_none());
     }
 }
