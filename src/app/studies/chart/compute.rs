@@ -140,12 +140,14 @@ pub(crate) fn compute_chart(
     let mut attempt = 0;
     let reference = loop {
         let progress = Counter::new(watch, starts.starts.len());
-        let until = budget.until(Stage::Reference(attempt));
+        // where the span is the shortest, this attempt is the last and has the time of all
+        let shorter = settings.shorter().filter(|_| attempt + 1 < budget.attempts());
+        let until = budget.until(Stage::Reference(if shorter.is_some() { attempt } else { usize::MAX }));
         attempt += 1;
         match Reference::find(system, &starts, &settings, until, || progress.done()) {
-            Err(ComputeError::Interrupted { .. }) => match settings.shorter().and_then(Settings::shorter) {
-                Some(shorter) if attempt < budget.attempts() => settings = shorter,
-                _ => return Err(no_time(whole)),
+            Err(ComputeError::Interrupted { .. }) => match shorter {
+                Some(shorter) => settings = shorter.shorter().unwrap_or(shorter),
+                None => return Err(no_time(whole)),
             },
             found => break found?,
         }
