@@ -13,7 +13,8 @@ use crate::fe::modal::{ModalBasis, ModeRange};
 use crate::fe::reduction::frf::{FrequencyResponse, ModalDamping};
 use crate::numerics::Watch;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, MotionDamping, SymmetricSpectrum, complex_columns,
+    DenseMatrix, EigenProblem, HarmonicDamping, HarmonicProblem, LinalgError, MotionDamping, SymmetricSpectrum,
+    complex_columns,
 };
 use faer::c64;
 use schemars::JsonSchema;
@@ -74,7 +75,7 @@ pub(crate) struct Comparison {
 /// Responses of the full model, and why there is none.
 ///
 /// # Errors
-/// [`ComputeError`] of eigenvalues and solutions of the full model.
+/// [`ComputeError`] of places and of solutions of the full model.
 pub(super) fn compare(
     case: &Case,
     asked: &case::Frf,
@@ -110,9 +111,11 @@ pub(super) fn compare(
         // no case has them
         ModalDamping::Each(_) | ModalDamping::Points(_) => return nothing("its damping is given mode by mode"),
     };
-    let every_mode = match ratio > 0.0 {
-        true => Some(EveryMode::new(&coupled, ratio, top, [&from, &to], watch)?),
-        false => None,
+    let every_mode = (ratio > 0.0).then(|| EveryMode::new(&coupled, ratio, top, [&from, &to], watch)).transpose();
+    let every_mode = match every_mode {
+        Ok(every_mode) => every_mode,
+        // more modes than memory holds, for one
+        Err(error) => return nothing(&format!("its modes, which have the ratio of the case, were not found: {error}")),
     };
     watch.stage("full model");
     let damping = HarmonicDamping {
@@ -179,14 +182,14 @@ struct Above {
 
 impl EveryMode {
     /// # Errors
-    /// [`ComputeError`] of factorisation, eigenvalues and memory.
+    /// [`LinalgError`] of factorisation, eigenvalues and memory.
     fn new(
         coupled: &CoupledMatrices,
         ratio: f64,
         top_hz: f64,
         [from, to]: [&DenseMatrix; 2],
         watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    ) -> Result<Self, LinalgError> {
         watch.stage("modes of the full model");
         let problem = EigenProblem::restricted(&coupled.stiffness, &coupled.mass, &coupled.free_dofs)?;
         // at rest nothing is damped: any modes serve
