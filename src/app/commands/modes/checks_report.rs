@@ -3,8 +3,8 @@
 use super::comparison::{ComparedPair, FileComparison, LoneMode, Miss};
 use super::compute::ModesResult;
 use super::convergence::{MeshConvergence, ModeOnMeshes};
+use super::kinds::REPEATED;
 use super::shape_view::shown_places;
-use super::tables::REPEATED;
 use crate::fe::modal::{MatchedBy, ModalSurvey};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, given, significant,

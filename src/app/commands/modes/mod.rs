@@ -8,6 +8,7 @@ pub(crate) mod checks_report;
 pub(crate) mod comparison;
 pub(crate) mod compute;
 pub(crate) mod convergence;
+pub(crate) mod kinds;
 pub(crate) mod report;
 pub(crate) mod shape_view;
 pub(crate) mod summary;

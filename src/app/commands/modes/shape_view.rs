@@ -1,7 +1,7 @@
 //! The surface of a housing and the line of its ring, with mode shapes, as the report shows them.
 
 use super::compute::ModesResult;
-use super::tables::{ELASTIC, kinds};
+use super::kinds::{ELASTIC, kinds};
 use crate::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh};
 use crate::fe::modal::{ModalSurvey, RingShapes};
 use crate::fe::model::HousingModel;

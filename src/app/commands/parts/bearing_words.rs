@@ -1,6 +1,6 @@
 //! A bearing, its faults and what moves and loads it, in words and units.
 
-use super::case_words::{and, direction_words, length, listed};
+use super::phrases::{and, direction_words, length, listed};
 use crate::app::case::{Bearing, Case, ContactStiffness, Defect, DentProfile, Load, Shaft, Slip, Speed};
 use crate::app::scene::race_contacts;
 use crate::bearing::Race;

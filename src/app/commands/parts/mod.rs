@@ -4,6 +4,7 @@ pub(crate) mod bearing_table;
 pub(crate) mod bearing_words;
 pub(crate) mod case_words;
 pub(crate) mod drawing;
+pub(crate) mod phrases;
 pub(crate) mod statics_report;
 pub(crate) mod summary;
 pub(crate) mod tables;

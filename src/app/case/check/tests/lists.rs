@@ -21,6 +21,15 @@ fn lists_and_names_that_must_hold_something_do() {
 }
 
 #[test]
+fn entries_of_a_report_say_something_in_one_line() {
+    full("report.author=\"\"", "found an empty text, expected some text");
+    full("report.title=\"a\\nb\"", "found the control character \\n, expected one line of text");
+    let long = format!("report.customer=\"{}\"", "a".repeat(501));
+    full(&long, "found 501 characters, expected 500 at most");
+    holds(FULL, &["report.remark=\"a\\nb\""]);
+}
+
+#[test]
 fn a_link_connects_two_groups() {
     full("housing.links[0].between=['lid','lid']", "\"lid\" stands here a second time, expected each once");
 }
