@@ -303,6 +303,24 @@ fn files_in_the_way_are_refused() {
     assert!(left.is_empty(), "{left:?}");
 }
 
+/// Modes do not depend on what a response or a title says; on the ring they do.
+#[test]
+fn results_stay_those_of_a_case_that_gained_a_table() {
+    let folder = scratch("gained");
+    good(&folder, "modes coupled.toml --quiet");
+    let text = fs::read_to_string(folder.join("coupled.toml")).unwrap();
+    let response = "[damping]\nmodal = 0.02\n[frf]\nband_hz = [0, 20000]\n\
+        from = [{ name = \"load\", ring_deg = 270, direction = [0, -1, 0] }]\n\
+        [[sensors]]\nname = \"P1\"\nring_deg = 90\ndirection = [0, 1, 0]\n";
+    fs::write(folder.join("coupled.toml"), format!("title = \"Other\"\n{text}{response}")).unwrap();
+    good(&folder, "export out/coupled --to uff");
+    fs::write(folder.join("coupled.toml"), text.replace("5.37e-6", "5.38e-6")).unwrap();
+    let error = refused(&folder, "export out/coupled --to vtu");
+    assert!(
+        error.contains("out/coupled/modes.json was computed with values that differ from those in coupled.toml now\n")
+    );
+}
+
 /// Every table of the report is a file with whole numbers, and the report's head names the mesh by its digest.
 #[test]
 fn tables_lie_beside_the_report() {

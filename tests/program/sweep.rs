@@ -224,3 +224,31 @@ fn interrupted_runs_go_on() {
         "{header}"
     );
 }
+
+/// Two dents in one housing of 10 000 degrees of freedom: it is condensed once, the other point takes it, and says so.
+#[test]
+fn points_of_one_housing_condense_it_once() {
+    let folder = scratch("sweep of one housing");
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/pedestal.toml");
+    let case = case.to_str().unwrap();
+    let vary = "bearing.defects.0.length=0.5e-3,0.75e-3";
+    let keys = ["--set", "condense.fixed_interface_modes=8", "--set", "modes.count=2", "--out", "out"];
+    let words = [&["sweep", case, "--command", "modes", "--vary", vary], &keys[..]].concat();
+    let (code, out, err) = told(plummer(&folder, &words));
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    let points = ["1", "2"].map(|point| json(&folder.join("out/sweep").join(point).join("modes.json")));
+    let condensed = points.iter().filter(|point| point["stages_s"]["condense"].is_number());
+    assert_eq!(condensed.count(), 1);
+    let said: Vec<&str> = points.iter().filter_map(|point| point["reused"][0].as_str()).collect();
+    assert_eq!(said.len(), 1);
+    assert!(said[0].starts_with("condensed housing: from out/cache/"), "{said:?}");
+    let kept = fs::read_dir(folder.join("out/cache")).unwrap().map(|entry| entry.unwrap().path());
+    assert_eq!(kept.filter(|path| path.extension().is_some_and(|end| end == "condensed")).count(), 1);
+    // without it, the same to the last bit
+    let alone =
+        [&["modes", case, "--set", "bearing.defects.0.length=0.5e-3", "--no-cache", "--quiet"], &keys[..4]].concat();
+    let (code, _, err) = told(plummer(&folder, &[&alone[..], &["--out", "alone"]].concat()));
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(json(&folder.join("alone/modes.json"))["loaded"], points[0]["loaded"]);
+    assert!(!folder.join("alone/cache").exists());
+}
