@@ -125,6 +125,10 @@ pub(super) fn on_grid(
     let mut failure = None;
     let mut steps = Vec::with_capacity(grid.len());
     for &step_s in grid {
+        // what is cut short is left out as a whole
+        if measurement.variant.until.is_over() {
+            break;
+        }
         let predicted = predict(linearised, step_s);
         let (unstable, why) = measurement.unstable(method, step_s);
         // a run tells that something grows, the prediction whether it is a mode in resonance
@@ -162,13 +166,14 @@ pub(super) fn on_grid(
     // beyond it the contacts alone are unstable, whatever the modes do
     let reach = (2.0 / scale).min(longest);
     let phases = if method.is_implicit() { Vec::new() } else { phases(linearised.linear(), reach) };
+    let in_time = |_: &&f64| !measurement.variant.until.is_over();
     MethodStability {
         method,
         by_tolerance: method.chooses_its_steps(),
         predicted_limit_s,
         measured_limit_s,
         chosen_step_s: None,
-        resonances: windows(linearised, method, scale, phases.iter().take(most)),
+        resonances: windows(linearised, method, scale, phases.iter().take(most).take_while(in_time)),
         phases_looked_at: phases.len().min(most),
         phases_at_multiples_of_pi: phases.len(),
         steps,

@@ -232,6 +232,9 @@ fn prepare(
 /// A method under a condition; none of an implicit one in all modes, where a step solves for all of them, and of one that chooses
 /// steps by the highest.
 fn cell(of: &Prepared, method: usize, grid: &[f64], effort: Effort) -> Option<MethodStability> {
+    if of.variant.until.is_over() {
+        return None;
+    }
     let measurement = |steps| Measurement { variant: &of.variant, steps, reference: &of.reference };
     let mut linearised = Linearised::new(&mut of.variant.system.clone(), &of.variant.state);
     let Some(&equal) = EQUAL.get(method) else {
