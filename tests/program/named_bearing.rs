@@ -3,6 +3,7 @@
 use super::common::{errors, plummer, scratch};
 use serde_json::Value;
 use std::fs;
+use std::process::Output;
 
 const CASE: &str = r#"
 bearing = "6204"
@@ -29,6 +30,11 @@ end = 0.005
 output_hz = 10000
 "#;
 
+/// The summary, in which warnings stand, and the errors.
+fn said(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), errors(output))
+}
+
 #[test]
 fn commands_take_a_bearing_by_its_name() {
     let folder = scratch("named-bearing");
@@ -39,14 +45,14 @@ fn commands_take_a_bearing_by_its_name() {
     for command in ["modes", "run"] {
         let output = plummer(&folder, &[command, "named.toml"]);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
-        assert!(errors(&output).contains(told), "{command}: {}", errors(&output));
+        assert!(said(&output).contains(told), "{command}: {}", said(&output));
         let result = fs::read_to_string(folder.join(format!("out/named/{command}.json"))).unwrap();
         let result: Value = serde_json::from_str(&result).unwrap();
         assert!(result.to_string().contains("those of GMN"), "{command}");
     }
     // a key beside the name goes before it, and a name that is none has near ones
     let output = plummer(&folder, &["modes", "named.toml", "--set", "bearing.radial_play=1e-6", "--force"]);
-    assert!(errors(&output).contains("no maker's; give your own in [bearing]"), "{}", errors(&output));
+    assert!(said(&output).contains("no maker's; give your own in [bearing]"), "{}", said(&output));
     let output = plummer(&folder, &["modes", "named.toml", "--set", "bearing=6240"]);
     assert_eq!(output.status.code(), Some(2));
     let text = errors(&output);

@@ -41,6 +41,7 @@ impl<'a> Document<'a> {
         for (index, argument) in source.set.iter().enumerate() {
             set::apply(&mut root, argument, Mark::Set(index))
                 .map_err(|rule| CaseError::at(format!("--set {argument}"), &rule).with_help(rule.help()))?;
+            named_bearing::as_table(&mut root);
         }
         let mut document = Self { source, root };
         let filled = named_bearing::fill(&mut document.root);
