@@ -275,7 +275,7 @@ mod tests {
         }
         assert_eq!(unpacked(&text(&data["triangles"]), 3).len(), 3 * view.triangles.len());
         assert_eq!(data["starts"], serde_json::json!([0, 250, 300]));
-        assert_eq!(data["modes"][1]["frequency"], "220.0 Hz");
+        assert_eq!(data["modes"][1]["frequency"], "220.0000 Hz");
     }
 
     #[test]

@@ -157,8 +157,8 @@ mod tests {
         let view = cube(4, 12);
         let pictures = stills(&view, &Surface::of(&view));
         assert_eq!(pictures.len(), MOST_STILLS);
-        assert_eq!(pictures[2].title, "Mode 3 · 330.0 Hz");
-        assert!(pictures[2].svg.contains("<title>Mode 3 · 330.0 Hz</title>"));
+        assert_eq!(pictures[2].title, "Mode 3 · 330.0000 Hz");
+        assert!(pictures[2].svg.contains("<title>Mode 3 · 330.0000 Hz</title>"));
         assert!(pictures.iter().all(|p| p.svg.contains("class=\"ghost\"")));
         // Blue to yellow: where nothing moves and where most does.
         assert!(pictures[0].svg.matches("<path color=").count() > BANDS);
