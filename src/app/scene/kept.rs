@@ -157,13 +157,12 @@ fn key(matrices: &SystemMatrices, boundary: &Boundary, choice: BasisChoice, plac
 
 fn whole(sum: &mut Sha256, values: &[usize]) {
     sum.update((values.len() as u64).to_le_bytes());
-    let bytes: Vec<u8> = values.iter().flat_map(|&value| (value as u64).to_le_bytes()).collect();
-    sum.update(bytes);
+    values.iter().for_each(|&value| sum.update((value as u64).to_le_bytes()));
 }
 
 fn real(sum: &mut Sha256, values: &[f64]) {
     sum.update((values.len() as u64).to_le_bytes());
-    sum.update(bytes_of(values));
+    values.iter().for_each(|value| sum.update(value.to_le_bytes()));
 }
 
 fn dense(sum: &mut Sha256, matrix: &DenseMatrix) {
