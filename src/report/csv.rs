@@ -1,11 +1,9 @@
-//! Tables as CSV files (RFC 4180): commas, CR LF, units in the header row, numbers with seven significant digits.
+//! Tables as CSV files (RFC 4180): commas, CR LF, units in the header row, numbers whole.
 
 use std::iter::once;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-
-use crate::numerics::Brief;
 
 use super::{Align, Block, Cell, CellLook, Column, Report, Table, TableFiles, Verdict, pretty_unit, with_unit};
 
@@ -14,7 +12,7 @@ const LONGEST_NAME: usize = 60;
 
 impl Table {
     /// The table as CSV: a header row of titles with units ("Found \[Hz\]"), then the rows. Cells that know their number
-    /// give it with up to seven significant digits and a decimal point. A column in which a cell is judged is followed by one that says "pass" or
+    /// give it in full, with a decimal point. A column in which a cell is judged is followed by one that says "pass" or
     /// "fail". Text that a spreadsheet would take for a formula gets an apostrophe in front.
     ///
     /// ```
@@ -113,12 +111,17 @@ fn title(column: &Column) -> String {
 
 fn field(cell: &Cell, column: &Column) -> String {
     match cell.value {
-        Some(value) if value.is_finite() => Brief(value).to_string(),
+        Some(value) if value.is_finite() => number(value),
         Some(_) => String::new(),
         // "–" stands for no number.
         None if column.align == Align::Right && cell.text == "–" => String::new(),
         None => guarded(&cell.text),
     }
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    if value.abs() > 0.0 && !(1e-5..1e15).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
 }
 
 /// Text with an apostrophe in front if a spreadsheet would compute it (OWASP, "CSV Injection"); plain numbers are left.
@@ -141,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_seven_digits_and_units_stand_in_the_header() {
+    fn numbers_are_whole_and_units_stand_in_the_header() {
         let columns = [Column::text("What"), Column::number("Stiffness", "N/m^1.5"), Column::number("Area", "m^2")];
         let table = Table::new("t", columns)
             .row([
@@ -154,8 +157,8 @@ mod tests {
         assert_eq!(
             table.to_csv(),
             "What,Stiffness [N/m^1.5],Area [m²],Area: verdict\r\n\
-             a,3.828123e9,5.37e-16,fail\r\n\
-             b,,0.3,\r\n\
+             a,3828123456.789,5.37e-16,fail\r\n\
+             b,,0.30000000000000004,\r\n\
              c,,-0.25,pass\r\n"
         );
     }

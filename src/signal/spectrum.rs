@@ -275,7 +275,7 @@ mod tests {
         let series = TimeSeries::new(0.0, 0.25, "m", vec![1.0; 4]).expect("a valid series");
         assert_eq!(
             message(&series, 0.0),
-            "bin width must be positive and at least 0.000000014901161193847656 Hz for this \
+            "bin width must be positive and at least 1.490116e-8 Hz for this \
              sampling rate, found 0 Hz"
         );
         assert!(message(&series, 1e-9).starts_with("bin width"));

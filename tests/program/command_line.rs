@@ -163,7 +163,7 @@ fn a_mesh_with_folded_elements_is_a_bad_answer() {
     let output = plummer(&folder, &["inspect", "inverted.msh", "--length-unit", "mm"]);
     assert_eq!(output.status.code(), Some(1));
     let shown = String::from_utf8(output.stdout.clone()).unwrap();
-    assert!(shown.contains("INVALID           1 elements: 7"), "{shown}");
+    assert!(shown.contains("INVALID           1 element: 7"), "{shown}");
     assert!(errors(&output).contains("(the first is element 7)"));
     let missing = plummer(&folder, &["inspect", "no.msh"]);
     assert_eq!(missing.status.code(), Some(2));

@@ -225,7 +225,7 @@ fn modes_without_load_condense_nothing() {
         ],
     }];
     let (result, named) = stages(&case);
-    assert!(!named.iter().any(|name| name == "condense"), "{named:?}");
+    assert!(!named.iter().any(|name| name == "constraint modes"), "{named:?}");
     assert!(result.fixed_interface_modes.is_none() && result.base.loaded.is_none());
     let (base, coarse) = (&result.base, &result.variants[0]);
     assert_eq!(base.unloaded_hz.len(), coarse.unloaded_hz.len());
@@ -235,7 +235,7 @@ fn modes_without_load_condense_nothing() {
     }
     (case.modes.linearise, case.modes.variants) = (Linearise::Static, Vec::new());
     let (result, named) = stages(&case);
-    assert_eq!(named.iter().filter(|name| *name == "condense").count(), 1, "{named:?}");
+    assert_eq!(named.iter().filter(|name| *name == "constraint modes").count(), 1, "{named:?}");
     assert!(result.fixed_interface_modes.is_some() && result.base.loaded.is_some());
     assert_eq!(result.base.unloaded_hz, base.unloaded_hz);
 }

@@ -237,7 +237,7 @@ fn points_of_one_housing_condense_it_once() {
     let (code, out, err) = told(plummer(&folder, &words));
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     let points = ["1", "2"].map(|point| json(&folder.join("out/sweep").join(point).join("modes.json")));
-    let condensed = points.iter().filter(|point| point["stages_s"]["condense"].is_number());
+    let condensed = points.iter().filter(|point| point["stages_s"]["constraint modes"].is_number());
     assert_eq!(condensed.count(), 1);
     let said: Vec<&str> = points.iter().filter_map(|point| point["reused"][0].as_str()).collect();
     assert_eq!(said.len(), 1);

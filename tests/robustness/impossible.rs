@@ -54,7 +54,7 @@ fn impossible_bearings_are_refused() {
         (&["bearing.outer_groove_radius=1.0000001e-3"], ["bearing.outer_groove_radius", "half-axis"]),
         (
             &[outside, "bearing.inner_race_radius=50e-3"],
-            ["outer face of the ring that it is cut into", "`ring.sections[0]`"],
+            ["outer face of the outermost of `ring.sections`", "bearing.outer_race_radius"],
         ),
         (&["ring.sections[1].inertia=9e-9"], ["ring.sections[1].inertia", "reaches the ring's axis"]),
         (&["bearing.waviness=[{on='outer',order=9,amplitude=1e-3}]"], ["amplitude", "a tenth of the ball's radius"]),
@@ -123,7 +123,7 @@ fn a_ring_beyond_its_bore_is_said() {
     let beside = ["ring.tie.centre=[0,0,6e-3]", FEW];
     refused("seat-beside", "modes", SEAT, &beside, &["does not cut the group \"bore\""]);
     let smaller = ["ring.sections[0].radius=4e-3", FEW];
-    warned("seat-smaller", "modes", SEAT, &smaller, &["the tie bridges 1.296e-3 m"]);
+    warned("seat-smaller", "modes", SEAT, &smaller, &["the tie bridges 1.296e-3 m", "innermost of ring.sections"]);
 }
 
 const RING: &str = "housings/ring.toml";

@@ -101,9 +101,9 @@ fn it_closes_over_a_dent_of_the_inner_race_and_a_flat() {
     }
 }
 
-// What the modes damp here in so short a time is 5e-6 of what is exchanged.
+// A ball is in the dent from 8 to 11.5 ms. What the modes damp here in so short a time is 5e-6 of what is exchanged.
 #[test]
 fn it_closes_in_a_solid_housing() {
-    Stretch { path: "scenes/pedestal.toml", start: 0.0, seconds: 3e-4, precise: 1e-8, chosen: 1e-4 }
+    Stretch { path: "scenes/pedestal.toml", start: 9.7e-3, seconds: 3e-4, precise: 1e-8, chosen: 1e-4 }
         .check([true, true, false, true, false]);
 }

@@ -74,7 +74,9 @@ fn summary(result: &FrfResult) -> String {
             continue;
         }
         let shares = path.shares.modes.iter().take(3);
-        let modes = shares.map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, 100.0 * share.share));
+        // a negative share below half a percent is zero, not "-0"
+        let modes =
+            shares.map(|share| format!("{:.0} Hz ({:.0} %)", share.frequency_hz, (100.0 * share.share).round() + 0.0));
         let modes: Vec<String> = modes.collect();
         lines.push(format!("{} to {}: largest modal contributions: {}", path.from, path.to, modes.join(", ")));
     }

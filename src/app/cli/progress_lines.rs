@@ -1,4 +1,4 @@
-//! Progress where there is no terminal: a line when a stage begins, and one every ten seconds of it.
+//! Progress where there is no terminal: a line every ten seconds, so that a short command says nothing.
 
 use std::time::Duration;
 
@@ -15,13 +15,12 @@ pub(super) struct ProgressLines {
 }
 
 impl ProgressLines {
-    /// A stage begins: its line, unless it is the same as before.
+    /// A stage begins; a line if it is time for one.
     pub(super) fn begin(&mut self, name: &str, now: Duration) -> Option<String> {
-        if self.name == name {
-            return None;
+        if self.name != name {
+            *self = Self { name: name.to_owned(), begun: now, said: self.said, done: None };
         }
-        *self = Self { name: name.to_owned(), begun: now, said: now, done: None };
-        Some(name.to_owned())
+        self.tick(now)
     }
 
     /// How much of the stage is done, in words; a line if it is time for one.
@@ -47,26 +46,26 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn stages_are_said_when_they_begin_and_every_ten_seconds() {
+    fn a_line_is_said_every_ten_seconds() {
         let mut lines = ProgressLines::default();
         let at = |tenths: u64| Duration::from_millis(100 * tenths);
         assert_eq!(lines.tick(at(200)), None);
-        assert_eq!(lines.begin("read", at(200)).as_deref(), Some("read"));
-        assert_eq!(lines.begin("condense", at(210)).as_deref(), Some("condense"));
-        // the same stage again is no news
-        assert_eq!(lines.begin("condense", at(215)), None);
+        let mut lines = ProgressLines::default();
+        assert_eq!(lines.begin("read", at(1)), None);
+        assert_eq!(lines.begin("condense", at(10)), None);
+        assert_eq!(lines.begin("condense", at(15)), None);
         // four ticks a second for half a minute, a share from the middle on
         let mut said = Vec::new();
         for tick in 1..=120 {
-            let now = at(210) + Duration::from_millis(250 * tick);
+            let now = at(10) + Duration::from_millis(250 * tick);
             if tick == 60 {
                 assert_eq!(lines.done("40 %".to_owned(), now), None);
             }
             said.extend(lines.tick(now));
         }
-        assert_eq!(said, ["condense: 10 s", "condense: 20 s, 40 %", "condense: 30 s, 40 %"]);
-        assert_eq!(lines.begin("write", at(520)).as_deref(), Some("write"));
-        assert_eq!(lines.tick(at(600)), None);
-        assert_eq!(lines.tick(at(630)).as_deref(), Some("write: 11 s"));
+        assert_eq!(said, ["condense: 9 s", "condense: 19 s, 40 %", "condense: 29 s, 40 %"]);
+        assert_eq!(lines.begin("write", at(320)), None);
+        assert_eq!(lines.tick(at(399)), None);
+        assert_eq!(lines.tick(at(401)).as_deref(), Some("write: 8 s"));
     }
 }

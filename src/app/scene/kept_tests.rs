@@ -36,7 +36,7 @@ fn built(folder: Option<&Path>, set: &[&str]) -> (CoupledStructure, bool, Vec<St
     let case = Case::example("housings/ring", &set);
     let noted = Noted::of(folder);
     let stage = CoupledStructure::build(&case, &noted).unwrap().unwrap();
-    let condensed = noted.stages.into_inner().iter().any(|name| name == "condense");
+    let condensed = noted.stages.into_inner().iter().any(|name| name == "constraint modes");
     (stage, condensed, noted.said.into_inner())
 }
 

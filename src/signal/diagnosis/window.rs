@@ -171,7 +171,7 @@ impl Diagnosis {
         match self.speed_source {
             SpeedSource::Exact | SpeedSource::Sharpened | SpeedSource::Races => None,
             SpeedSource::Given if self.spectrum.turns < FEWEST_REVOLUTIONS => Some(format!(
-                "no line confirms the shaft speed of {speed} Hz in fewer than {FEWEST_REVOLUTIONS:.0} revolutions: {consequence}"
+                "no line confirms the shaft speed of {speed} in fewer than {FEWEST_REVOLUTIONS:.0} revolutions: {consequence}"
             )),
             SpeedSource::Given => {
                 Some(format!("no line of the signal confirms the shaft speed of {speed}: {consequence}"))

@@ -105,13 +105,13 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-/// The outer race lies in the bore, and in the innermost of the ring's sections, which it is cut into. The face of a section is that
-/// of a rectangle in its place, of radial side `sqrt(12 I / A)`.
+/// The outer race lies in the bore and in the ring. The face of a section is that of a rectangle in its place, of radial side
+/// `sqrt(12 I / A)`.
 fn race_in_ring(bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
-    let innermost = ring.sections.iter().enumerate().min_by(|a, b| a.1.radius.total_cmp(&b.1.radius));
-    let face = innermost.map(|(index, section)| {
-        let face = section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt();
-        (format!("the outer face of the ring that it is cut into, `ring.sections[{index}]` by its radius, area and inertia"), face)
+    let faces =
+        ring.sections.iter().map(|section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt());
+    let face = faces.reduce(f64::max).map(|face| {
+        ("the outer face of the outermost of `ring.sections` by its radius, area and inertia".to_owned(), face)
     });
     let bore = ring.outer_radius.map(|outer| ("`ring.outer_radius`, the bore that the ring sits in".to_owned(), outer));
     let race = bearing.outer_race_radius;

@@ -80,6 +80,7 @@ mod tests {
             "slip",
             "spectral_radius",
             "target",
+            "with_impacts",
             "tolerance",
             "within",
             "x",
