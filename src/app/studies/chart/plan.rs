@@ -11,8 +11,8 @@ use crate::app::commands::run::Span;
 use crate::app::scene::RunModel;
 use crate::numerics::ode::Method;
 
-/// A step of a method that solves its equations, in those of one that does not: by `plummer chart` on the shipped scenes, whose
-/// models have 7 to 280 modes.
+/// A step of a method that solves its equations, in those of one that does not. It is a guess: it decides what is left out, not what is
+/// computed.
 const IMPLICIT: f64 = 10.0;
 
 /// Tolerance of the pilot by it, which is that of the reference.
