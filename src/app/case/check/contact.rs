@@ -105,21 +105,24 @@ fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-/// The outer race lies in the bore and in the ring. The face of a section is that of a rectangle in its place, of radial side
-/// `sqrt(12 I / A)`.
+/// The outer race lies in the bore; where the case does not say how large that is, within the outer face of the ring, which is
+/// that of a rectangle in the place of the outermost section, of radial side `sqrt(12 I / A)`.
 fn race_in_ring(bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
-    let faces =
-        ring.sections.iter().map(|section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt());
-    let face = faces.reduce(f64::max).map(|face| {
-        ("the outer face of the outermost of `ring.sections` by its radius, area and inertia".to_owned(), face)
-    });
-    let bore = ring.outer_radius.map(|outer| ("`ring.outer_radius`, the bore that the ring sits in".to_owned(), outer));
+    let face = || {
+        let sections = ring.sections.iter();
+        sections.map(|section| section.radius + 0.5 * (12.0 * section.inertia / section.area).sqrt()).reduce(f64::max)
+    };
+    let (what, limit) = match (ring.outer_radius, face()) {
+        (Some(bore), _) => ("`ring.outer_radius`, the bore that the ring sits in", bore),
+        (None, Some(face)) => {
+            ("the outer face of the outermost of `ring.sections`, by its radius, area and inertia", face)
+        }
+        (None, None) => return Ok(()),
+    };
     let race = bearing.outer_race_radius;
-    bore.into_iter().chain(face).try_for_each(|(what, limit)| {
-        kept(race < limit, "bearing.outer_race_radius", || {
-            Rule::beyond(race, &format!("below {what}"), limit)
-                .with_help("the raceway lies inside the ring, and the ring inside the bore: check that these are radii in m, not diameters, and of the same bearing")
-        })
+    kept(race < limit, "bearing.outer_race_radius", || {
+        Rule::beyond(race, &format!("below {what}"), limit)
+            .with_help("the raceway lies inside the ring, and the ring inside the bore: check that these are radii in m, not diameters, and of the same bearing")
     })
 }
 

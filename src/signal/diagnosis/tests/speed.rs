@@ -35,7 +35,7 @@ fn a_speed_that_no_line_confirms_is_said() {
     let doubt = |found: &Diagnosis| {
         let short = found.spectrum.turns < 48.0;
         let said = found.sentence().contains(if short {
-            " Hz in fewer than 48 revolutions: "
+            " in fewer than 48 revolutions: "
         } else {
             "no line of the signal confirms the shaft speed"
         });
