@@ -28,6 +28,9 @@ pub fn plummer(folder: &Path, words: &[&str]) -> Output {
     output
 }
 
+/// Names of programs and of their commands that a page may show.
+const NAMES: [&str; 3] = ["CalculiX", "BooleanDifference", "BooleanFragments"];
+
 /// Digits that a page may show: frequencies have seven, which tell the halves of a pair apart.
 const MOST_DIGITS: usize = 7;
 
@@ -41,7 +44,7 @@ pub fn unreadable(page: &str, typed: &str) -> Vec<String> {
         }
         let text = text.replace('\u{202f}', "");
         let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| is_identifier(word));
-        found.extend(words.filter(|word| *word != "CalculiX" && !typed.contains(word)).map(str::to_owned));
+        found.extend(words.filter(|word| !NAMES.contains(word) && !typed.contains(word)).map(str::to_owned));
         let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.')).filter(|word| digits(word) > MOST_DIGITS);
         found.extend(numbers.filter(|number| !typed.contains(number)).map(str::to_owned));
     }

@@ -37,6 +37,13 @@ impl Bearing {
                 1e6 * play
             ));
         }
+        let suffix = self.name.as_ref()?.trim().trim_start_matches(bearing.name);
+        if !suffix.is_empty() {
+            guessed.push(format!(
+                "nothing is taken from \"{}\" behind its name",
+                suffix.trim_start_matches([' ', '-', '/'])
+            ));
+        }
         let beside = match given.as_slice() {
             [] => String::new(),
             given => format!(", but for {} of the case", given.join(", ")),

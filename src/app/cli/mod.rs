@@ -45,6 +45,8 @@ use results::Job;
 pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
+use crate::app::scene::doubts_of_case;
+use crate::app::shell_word::printable;
 
 /// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
 const STACK: usize = 8 << 20;
@@ -164,6 +166,12 @@ fn compute(
     }
     let outcome = work(&job);
     progress.finish();
+    if outcome.as_ref().is_err_and(|error| !error.is_input) {
+        // what of the input is in doubt may be why nothing could be computed
+        for doubt in doubts_of_case(&case).unwrap_or_default() {
+            let _ = writeln!(io::stderr(), "warning: {}", printable(&doubt));
+        }
+    }
     outcome.map(|outcome| {
         let summary = progress.reused().into_iter().chain([outcome.summary]).collect::<Vec<_>>().join("\n");
         Outcome { summary, ..outcome }

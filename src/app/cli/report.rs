@@ -170,6 +170,7 @@ impl ReportFiles {
         let date = report.date.clone().unwrap_or_else(today);
         let report = report.date(date).tables_in(TABLES, command);
         let record = report.to_record().map_err(ComputeError::from)?;
+        remove_earlier(folder, &record_of(&page), command)?;
         folder.write(&record_of(&page), &record)?;
         Self::draw(folder, &page, command, &report)
     }
@@ -185,11 +186,10 @@ impl ReportFiles {
         let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
         let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
-        for (of, ending, files) in [(TABLES, ".csv", tables), (FIGURES, ".svg", figures.collect())] {
+        for (of, files) in [(TABLES, tables), (FIGURES, figures.collect())] {
             let path = folder.path.join(of);
-            if !files.is_empty() || path.exists() {
+            if !files.is_empty() {
                 folder.make_below(Path::new(of))?;
-                remove_earlier(&path, command, ending)?;
             }
             for (name, text) in &files {
                 folder.write(name, text.as_bytes())?;
@@ -257,23 +257,22 @@ fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError
     }
 }
 
-/// Removes what an earlier report of the command left in a folder, and nothing else.
-fn remove_earlier(path: &Path, command: &str, ending: &str) -> Result<(), CliError> {
-    let failed = |error| CliError::folder(path, &error);
-    for entry in fs::read_dir(path).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if is_of_report(command, &entry.file_name().to_string_lossy(), ending) {
-            fs::remove_file(entry.path()).map_err(failed)?;
+/// Removes the tables and figures of the report whose content is in the file `record` of a folder, and nothing else.
+fn remove_earlier(folder: &OutputFolder, record: &str, command: &str) -> Result<(), CliError> {
+    let earlier = fs::read(folder.path.join(record)).ok().and_then(|bytes| Report::from_record(&bytes).ok());
+    let Some(earlier) = earlier else {
+        return Ok(());
+    };
+    let tables = earlier.csv_files().into_iter().map(|(name, _)| name);
+    let figures = earlier.svg_files(command).unwrap_or_default().into_iter();
+    for name in tables.chain(figures.map(|(name, _)| format!("{FIGURES}/{name}"))) {
+        let path = folder.path.join(name);
+        if path.is_file() {
+            fs::remove_file(&path)
+                .map_err(|error| CliError::failed(format!("cannot remove {}: {error}", path.display())))?;
         }
     }
     Ok(())
-}
-
-/// Whether a file's name is `COMMAND-NUMBER-CAPTION` and that ending.
-fn is_of_report(command: &str, name: &str, ending: &str) -> bool {
-    let rest = name.strip_prefix(command).and_then(|rest| rest.strip_prefix('-'));
-    let number = rest.and_then(|rest| rest.strip_suffix(ending)).and_then(|rest| rest.split_once('-'));
-    number.is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
 #[cfg(test)]
@@ -298,8 +297,9 @@ mod tests {
 
 #[cfg(test)]
 mod report_files_tests {
-    use super::{date_of, is_of_report, page_of, record_of, unchanged};
+    use super::{OutputFolder, ReportFiles, date_of, page_of, record_of, unchanged};
     use crate::files::FileDigest;
+    use crate::report::{Cell, Column, Report, Section, Table};
 
     #[test]
     fn a_page_and_its_content_know_each_other() {
@@ -337,20 +337,24 @@ mod report_files_tests {
         assert!(!error.is_input());
     }
 
+    /// A report takes the tables and figures of the one before away, and leaves what others put beside them.
     #[test]
-    fn only_files_of_the_command_are_told() {
-        for (name, expected) in [
-            ("modes-1-eigenfrequencies.csv", true),
-            ("modes-12-a-b.csv", true),
-            ("run-1-eigenfrequencies.csv", false),
-            ("modes-eigenfrequencies.csv", false),
-            ("modes-1.csv", false),
-            ("modes--a.csv", false),
-            ("modes-1-notes.txt", false),
-            ("my-modes-1-a.csv", false),
-            ("modes-1-a.svg", false),
-        ] {
-            assert_eq!(is_of_report("modes", name, ".csv"), expected, "{name}");
-        }
+    fn files_of_others_stay_beside_a_report() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = OutputFolder { path: at.path().to_owned() };
+        let report = |captions: &[&str]| {
+            let tables =
+                captions.iter().map(|caption| Table::new(*caption, [Column::text("a")]).row([Cell::text("b")]));
+            let section = tables.fold(Section::new("s"), Section::table);
+            Report::new("t", "plummer modes", "1").section(section)
+        };
+        let first = ReportFiles::without_case(&folder, "modes", report(&["one", "two"])).unwrap();
+        assert_eq!(first.tables, ["tables/modes-1-one.csv", "tables/modes-2-two.csv"]);
+        let own = at.path().join("tables/modes-3-mine.csv");
+        std::fs::write(&own, "mine").unwrap();
+        let second = ReportFiles::without_case(&folder, "modes", report(&["one"])).unwrap();
+        assert_eq!(second.tables, ["tables/modes-1-one.csv"]);
+        assert!(own.exists() && at.path().join("tables/modes-1-one.csv").exists());
+        assert!(!at.path().join("tables/modes-2-two.csv").exists());
     }
 }

@@ -16,6 +16,9 @@ use std::path::Path;
 /// Kind of analysis of a block with a mode.
 const FREQUENCIES: &str = "2";
 
+/// The last line of a file.
+const END: &str = "9999";
+
 /// Reads the mode shapes of a result file of CalculiX. `metres` is the length of its unit, m: the file does not say it.
 /// Results of other kinds are passed over.
 ///
@@ -98,6 +101,7 @@ impl<'a> Reader<'a> {
     fn modes(mut self, metres: f64) -> Result<ModeShapes, Fault> {
         let mut places: HashMap<u64, [f64; 3]> = HashMap::new();
         let mut modes: Vec<Mode> = Vec::new();
+        let mut ended = false;
         while let Some(line) = self.next() {
             match line.key() {
                 "2C" => {
@@ -107,8 +111,12 @@ impl<'a> Reader<'a> {
                     })?;
                 }
                 "100C" if line.columns(56, 58) == FREQUENCIES => modes.extend(self.mode(line)?),
+                END => ended = true,
                 _ => {}
             }
+        }
+        if !ended {
+            return Err(Fault::new("the line 9999 at the end of the file", "none: the file is cut off"));
         }
         let Some(first) = modes.first() else {
             let expected = "displacements of modes (*FREQUENCY with *NODE FILE and U)";

@@ -293,11 +293,12 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
         "A verdict needs at least {} harmonics that stand out, one of them the first or the second.",
         least.seen
     );
+    let by_chance = format!(
+        "Of a thousand windows without damage, about {:.0} look like this by chance. A longer window may decide.",
+        (1e3 * chance).ceil()
+    );
     let objections = [
-        (
-            chance >= NAMED_BELOW,
-            "Of a thousand windows without damage, at least one looks like this by chance. A longer window may decide.",
-        ),
+        (chance >= NAMED_BELOW, by_chance.as_str()),
         (seen < least.seen || !evidence.first, too_few.as_str()),
         (
             verdict.impulsiveness.is_some_and(|x| x < least.impulsiveness),

@@ -24,6 +24,7 @@ impl Case {
         if self.housing.is_none() && self.ring.is_none() {
             return Err(Rule::nothing_to_model().at("housing"));
         }
+        report::title(&self.title)?;
         self.report.iter().try_for_each(report::report)?;
         structure::materials(self)?;
         structure::housing(self)?;

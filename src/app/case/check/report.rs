@@ -7,6 +7,14 @@ use super::rule::{BrokenRule, Rule};
 /// Longest entry in characters: what fits on the first page with the inputs beside it.
 const LONGEST: usize = 500;
 
+/// The title stands in the head of every page.
+pub(super) fn title(title: &str) -> Result<(), BrokenRule> {
+    let wrong = title.chars().find(|c| c.is_control());
+    kept(wrong.is_none(), "title", || {
+        Rule::found(format!("the control character {}", wrong.unwrap_or_default().escape_debug()), "one line of text")
+    })
+}
+
 pub(super) fn report(details: &ReportDetails) -> Result<(), BrokenRule> {
     for (key, text) in details.entries() {
         let Some(text) = text else { continue };

@@ -22,8 +22,11 @@ pub(crate) fn analysis_report(
         .subtitle("Diagnosis of a ball bearing by its vibration signal");
     let mut report = change_headlines(verdict_headlines(report, windows, truth), windows).section(inputs);
     report.warnings.extend(windows.iter().filter_map(|window| {
-        let reason = window.diagnosis.as_ref().err()?;
-        Some(format!("{}: no verdict: {reason}", window.sensor))
+        let words = match &window.diagnosis {
+            Err(reason) => format!("no verdict: {reason}"),
+            Ok(diagnosis) => diagnosis.speed_doubt()?,
+        };
+        Some(format!("{}: {words}", window.sensor))
     }));
     report.sections.extend(windows.iter().map(window_section));
     report
@@ -40,10 +43,11 @@ pub(crate) fn verdict_headlines(
         // chance does not make their lines, and they are not indicated
         let uncertain = window.parts(Conclusion::NotEnough);
         let uncertain = uncertain.filter(|verdict| verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW));
-        let [named, uncertain, not_judged, alone] = [
+        let [named, uncertain, not_judged, not_enough, alone] = [
             names(diagnosis.named().map(|verdict| verdict.fault)),
             names(uncertain.map(|verdict| verdict.fault)),
             names(diagnosis.not_judged().map(|verdict| verdict.fault)),
+            names(window.parts(Conclusion::NotEnough).map(|verdict| verdict.fault)),
             names(diagnosis.by_signal_alone.iter().copied()),
         ];
         let mut text = match (named.as_str(), diagnosis.unexplained.first(), uncertain.as_str()) {
@@ -59,8 +63,9 @@ pub(crate) fn verdict_headlines(
             ("", _, parts) => format!("not enough evidence: {parts}"),
             (named, ..) => format!("fault indicated: {named}"),
         };
-        if diagnosis.is_judged() && !not_judged.is_empty() {
-            text += &format!("; not judged: {not_judged}");
+        let open = if named.is_empty() { not_judged } else { not_enough };
+        if diagnosis.is_judged() && !open.is_empty() {
+            text += &format!("; not enough evidence: {open}");
         }
         if !alone.is_empty() {
             text += &format!("; {alone}: {TAKEN_BACK}");

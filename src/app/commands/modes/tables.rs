@@ -69,7 +69,16 @@ pub(crate) fn proof_facts(survey: &ModalSurvey) -> Vec<Fact> {
 /// Mass, centroid, inertia.
 pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
     let vector = |values: &[f64], scale: f64| {
-        let texts: Vec<String> = values.iter().map(|value| fixed(scale * value, 4)).collect();
+        // four decimals, less where that would be more than seven digits
+        let largest = values.iter().fold(0.0_f64, |most, value| most.max((scale * value).abs()));
+        let decimals = if largest < 1e3 {
+            4
+        } else if largest < 1e6 {
+            1
+        } else {
+            0
+        };
+        let texts: Vec<String> = values.iter().map(|value| fixed(scale * value, decimals)).collect();
         format!("({})", texts.join(", "))
     };
     let (centroid, more) = match &mass.distribution {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case_words::damping_words;
-use crate::app::case::{Bond, Case, Expected};
+use crate::app::case::{Bond, Case, Defect, DentProfile, Expected};
 use crate::app::scene::RingInHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::RadiusRule;
@@ -109,7 +109,10 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
         });
         let damping = (setup.contact_damping > 0.0)
             .then(|| format!("Contact damping (Hunt-Crossley) {} s/m.", significant(setup.contact_damping, 4)));
-        let damaged = !setup.race_defects.is_empty() || !setup.flats.is_empty();
+        let is_surface = |defect: &Defect| matches!(defect, Defect::Dent(dent) if dent.profile == DentProfile::Surface);
+        let mut defects = case.bearing.iter().flat_map(|bearing| &bearing.defects);
+        let surface = defects.clone().any(is_surface);
+        let in_plane = defects.any(|defect| !is_surface(defect));
         for (holds, text) in [
             (
                 true,
@@ -121,8 +124,12 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
             ),
             (damping.is_some(), damping.as_deref().unwrap_or_default()),
             (
-                damaged,
+                in_plane,
                 "Defects in the plane of the bearing: length and depth enter, the groove radius across the rolling direction stays the race's, and a ball's radius its own.",
+            ),
+            (
+                surface,
+                "Dents in the surface of a race: length, width and depth enter; a ball drops as far as it does on the rigid surface, and bears on the dent with one contact.",
             ),
             (
                 !setup.waves.is_empty(),

@@ -20,16 +20,21 @@ pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str
 /// Picture, resonance and tables.
 pub(crate) fn stability_section(stability: &Stability) -> Section {
     let StabilityModel { modes: kept, of_modes: all, .. } = stability.model;
-    Section::new("Stability map")
+    let map = stability_map(stability);
+    let section = Section::new("Stability map")
         .paragraph(format!(
             "Which steps a method can take, on the program's own model ({kept} of {all} modes) and, in the last rows, on all of them. The predicted limit is that of small motions about the equilibrium: the method itself steps the linearised system, and the limit is the step from which a motion grows by more than 0.05 % a step. The measured one is that of two short runs of the whole model side by side: beyond it they end with an error, run ten times as fast as finer ones, or are a hundred times as far apart as these. Where balls strike, the contacts are stiffer than in equilibrium and the measured limit is the lower one; impacts also part nearby runs by chance, and a single dark cell below the limit may be that. A growth too slow for short runs is not seen, and a limit says nothing of accuracy, which is lost much earlier."
-        ))
-        .block(Block::StepMap(stability_map(stability)))
-        .table(limits(stability))
-        .table(chosen(stability))
-        .plot(resonance_plot())
-        .table(resonances(stability))
+        ));
+    // where time ran out before the first condition there is nothing to draw
+    let section = match map.panels.is_empty() {
+        true => section.paragraph(format!("{NO_MAP}.")),
+        false => section.block(Block::StepMap(map)),
+    };
+    section.table(limits(stability)).table(chosen(stability)).plot(resonance_plot()).table(resonances(stability))
 }
+
+/// What stands in the place of the picture.
+const NO_MAP: &str = "The budget ended before the first condition was computed";
 
 /// All methods that were computed under all conditions.
 fn cells(stability: &Stability) -> impl Iterator<Item = (&ConditionSummary, &MethodStability)> {
@@ -154,8 +159,11 @@ pub(crate) fn stability_map(stability: &Stability) -> StepMap {
             name: method.name().to_owned(),
             cells: of()
                 .map(|of| {
-                    let states = of.map(|of| of.steps.iter().map(|step| Some(step.measured)));
-                    states.map_or_else(none, Iterator::collect)
+                    // where time ran out, the other steps have no state
+                    let mut states = none();
+                    let measured = of.into_iter().flat_map(|of| &of.steps);
+                    states.iter_mut().zip(measured).for_each(|(state, step)| *state = Some(step.measured));
+                    states
                 })
                 .collect(),
             limits: of()
