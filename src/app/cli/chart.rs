@@ -275,12 +275,12 @@ pub(super) fn write_stability(
     stability: &Stability,
     record: &CaseResult<'_, &Stability>,
 ) -> Result<Vec<PathBuf>, CliError> {
-    let map = stability_map(stability).to_svg().map_err(ComputeError::from)?;
-    let map = folder.write("stability.svg", map.as_bytes())?;
+    let map = stability_map(stability).map(|map| map.to_svg().map_err(ComputeError::from)).transpose()?;
+    let map = map.map(|map| folder.write("stability.svg", map.as_bytes())).transpose()?;
     let resonance = resonance_plot().to_svg().map_err(ComputeError::from)?;
     let resonance = folder.write("resonance.svg", resonance.as_bytes())?;
     let (path, _) = folder.write_json("stability.json", record)?;
-    Ok(vec![path, map, resonance])
+    Ok([Some(path), map, Some(resonance)].into_iter().flatten().collect())
 }
 
 /// The limits of the case as it is, and the range of the measured ones over all conditions.

@@ -260,6 +260,12 @@ fn unchanged(now: &[FileDigest], read: &[FileDigest]) -> Result<(), ComputeError
 /// Removes the tables and figures of the report whose content is in the file `record` of a folder, and nothing else.
 fn remove_earlier(folder: &OutputFolder, record: &str, command: &str) -> Result<(), CliError> {
     let earlier = fs::read(folder.path.join(record)).ok().and_then(|bytes| Report::from_record(&bytes).ok());
+    // a link there is refused before anything is removed through it
+    for of in [TABLES, FIGURES] {
+        if folder.path.join(of).exists() {
+            folder.make_below(Path::new(of))?;
+        }
+    }
     let Some(earlier) = earlier else {
         return Ok(());
     };

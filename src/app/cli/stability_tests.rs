@@ -44,6 +44,9 @@ fn a_map_has_its_files_and_limits() {
     assert!(stability_lines(&none).ends_with("\nwarning: the budget left 1 of 1 conditions out"));
     let (options, progress) = (Options::default(), Progress::new(false));
     let job = Job::new("chart", &case, &options, &progress);
+    // a map without a condition has no picture
+    let nothing = write_stability(&OutputFolder::at(&out), &none, &job.record(&[], None, &none)).unwrap();
+    assert!(nothing.len() == 2 && !out.join("stability.svg").exists());
     let record = job.record(&[], None, &map);
     write_stability(&OutputFolder::at(&out), &map, &record).unwrap();
     let json = serde_json::to_value(&record).unwrap();

@@ -115,13 +115,13 @@ impl<'a> Reader<'a> {
                 _ => {}
             }
         }
-        if !ended {
-            return Err(Fault::new("the line 9999 at the end of the file", "none: the file is cut off"));
-        }
         let Some(first) = modes.first() else {
             let expected = "displacements of modes (*FREQUENCY with *NODE FILE and U)";
             return Err(Fault::new(expected, "none"));
         };
+        if !ended {
+            return Err(Fault::new("the line 9999 at the end of the file", "none: the file is cut off"));
+        }
         let tags = first.nodes.clone();
         if let Some(place) = modes.iter().position(|mode| mode.nodes != tags) {
             return Err(Fault::new("the same nodes in every mode", format!("others in mode {}", place + 1)));

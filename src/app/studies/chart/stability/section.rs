@@ -20,21 +20,16 @@ pub(crate) fn stability_report(case: &Case, stability: &Stability, command: &str
 /// Picture, resonance and tables.
 pub(crate) fn stability_section(stability: &Stability) -> Section {
     let StabilityModel { modes: kept, of_modes: all, .. } = stability.model;
-    let map = stability_map(stability);
     let section = Section::new("Stability map")
         .paragraph(format!(
             "Which steps a method can take, on the program's own model ({kept} of {all} modes) and, in the last rows, on all of them. The predicted limit is that of small motions about the equilibrium: the method itself steps the linearised system, and the limit is the step from which a motion grows by more than 0.05 % a step. The measured one is that of two short runs of the whole model side by side: beyond it they end with an error, run ten times as fast as finer ones, or are a hundred times as far apart as these. Where balls strike, the contacts are stiffer than in equilibrium and the measured limit is the lower one; impacts also part nearby runs by chance, and a single dark cell below the limit may be that. A growth too slow for short runs is not seen, and a limit says nothing of accuracy, which is lost much earlier."
         ));
-    // where time ran out before the first condition there is nothing to draw
-    let section = match map.panels.is_empty() {
-        true => section.paragraph(format!("{NO_MAP}.")),
-        false => section.block(Block::StepMap(map)),
+    let section = match stability_map(stability) {
+        None => section.paragraph("The budget ended before the first condition was computed."),
+        Some(map) => section.block(Block::StepMap(map)),
     };
     section.table(limits(stability)).table(chosen(stability)).plot(resonance_plot()).table(resonances(stability))
 }
-
-/// What stands in the place of the picture.
-const NO_MAP: &str = "The budget ended before the first condition was computed";
 
 /// All methods that were computed under all conditions.
 fn cells(stability: &Stability) -> impl Iterator<Item = (&ConditionSummary, &MethodStability)> {
@@ -140,8 +135,8 @@ const POINTS: usize = 250;
 /// Steps from which each growth is taken.
 const STEPS: u32 = 400;
 
-/// States of all steps, conditions and methods, as they were measured.
-pub(crate) fn stability_map(stability: &Stability) -> StepMap {
+/// States of all steps, conditions and methods, as they were measured; `None` where time ran out before the first condition.
+pub(crate) fn stability_map(stability: &Stability) -> Option<StepMap> {
     let conditions = || {
         let good = stability.conditions.iter();
         good.filter_map(|of| Some((&of.label, of.methods.as_ref()?)))
@@ -172,15 +167,16 @@ pub(crate) fn stability_map(stability: &Stability) -> StepMap {
                 .collect(),
         }
     });
-    StepMap {
+    let panels: Vec<StepPanel> = panels.collect();
+    (!panels.is_empty()).then(|| StepMap {
         title: "Stability of the methods".to_owned(),
         caption: Some("State of short runs in each step; one thing is varied at a time. Black line: the limit that the amplification of small motions about the equilibrium predicts; circle: the one that runs have.".to_owned()),
         axis: "Step".to_owned(),
         unit: "µs".to_owned(),
         steps: stability.steps_s.iter().map(|step| 1e6 * step).collect(),
         rows: conditions().map(|(label, _)| label.clone()).collect(),
-        panels: panels.collect(),
-    }
+        panels,
+    })
 }
 
 /// Growth of an oscillator with a contact on it, over the phase that it makes in a step.
