@@ -41,7 +41,7 @@ pub(super) fn single(
     let name = input.display().to_string();
     let truth = |diagnosis: &_| source.simulated().and_then(|case| not_shown(case, diagnosis));
     let report = analysis_report(&name, source.inputs(), &windows, truth, &command(asked));
-    let mut report = source.case.iter().fold(report, |report, case| with_details(report, case));
+    let mut report = source.case.iter().fold(report, with_details);
     report.assumptions.extend_from_slice(&source.assumptions);
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);

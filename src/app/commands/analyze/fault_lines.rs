@@ -52,7 +52,7 @@ pub(super) fn fault_lines(
         // below the first bin that is no mean, the window itself is seen; above the highest nothing is
         let seen = expected_order >= resolved && expected_order <= spectrum.highest;
         let line = fault.line();
-        seen.then(|| FaultLine {
+        seen.then_some(FaultLine {
             fault,
             line,
             harmonic,

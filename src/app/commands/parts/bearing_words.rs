@@ -212,7 +212,7 @@ pub(crate) fn speed_words(speed: &Speed) -> String {
     let both = |hz: f64| format!("{} Hz ({} rpm)", given(hz), given(60.0 * hz));
     match speed.profile.as_slice() {
         [] => "not given".to_owned(),
-        [first, rest @ ..] if rest.iter().all(|point| point.frequency_hz == first.frequency_hz) => {
+        [first, rest @ ..] if rest.iter().all(|point| point.frequency_hz.total_cmp(&first.frequency_hz).is_eq()) => {
             format!("constant, {}", both(first.frequency_hz))
         }
         [first, last] => {

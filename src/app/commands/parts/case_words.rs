@@ -204,7 +204,7 @@ fn springs_words(stiffness: &SpringStiffness, per_node: bool) -> String {
                 stiffness.iter().copied().zip(["x", "y", "z"]).filter(|(k, _)| *k > 0.0).collect();
             let axes: Vec<String> = along.iter().map(|(_, axis)| (*axis).to_owned()).collect();
             match along.as_slice() {
-                [(first, _), rest @ ..] if rest.iter().all(|(k, _)| k == first) => {
+                [(first, _), rest @ ..] if rest.iter().all(|(k, _)| k.total_cmp(first).is_eq()) => {
                     format!("{} along {}", quantity(*first, "N/m"), and(&axes))
                 }
                 all => {

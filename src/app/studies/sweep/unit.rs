@@ -96,7 +96,7 @@ mod tests {
         for (key, description) in keys {
             let unit = unit_of(&key);
             let expected = !WITHOUT.contains(&key.as_str());
-            assert!(!unit.is_empty() == expected, "{key}: \"{unit}\" ({description})");
+            assert_eq!(!unit.is_empty(), expected, "{key}: \"{unit}\" ({description})");
         }
     }
 
