@@ -115,7 +115,7 @@ impl Cell {
         Self { text: text.into(), verdict: Verdict::None, footnote: None, value: None, look: CellLook::Plain }
     }
 
-    /// A cell with a number, written with so many significant digits (1 to 17), not judged. Files get up to seven.
+    /// A cell with a number, written with so many significant digits (1 to 17), not judged. Files get all of them.
     pub fn number(value: f64, digits: usize) -> Self {
         Self::text(significant(value, digits)).value(value)
     }

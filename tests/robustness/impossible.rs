@@ -232,7 +232,8 @@ fn meshes_and_materials_in_other_units_are_said() {
     assert!(small[0].contains("44 x 23 x 10 um") && small[0].contains("looks like one in mm"), "{small:?}");
 }
 
-/// A turned body of 32 sides: a bore of radius 23.5 mm from z = 0 to 14 mm, then a shoulder down to 20 mm; the group "bore" has both.
+/// A turned body of 32 sides. Its bore has a radius of 23.5 mm from z = 0 to 14 mm, then a shoulder down to 20 mm.
+/// The group "bore" has both.
 fn bore_with_shoulder() -> String {
     const SIDES: usize = 32;
     const RADII: [f64; 4] = [20.0, 23.5, 30.0, 36.0];

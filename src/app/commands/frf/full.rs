@@ -225,7 +225,8 @@ impl EveryMode {
 }
 
 impl Above {
-    /// What damping changes of a receptance: `sum (d v)(v^T f) [1 / (a + i b) - 1 / a]`, `a = w_r^2 - w^2`, `b = 2 zeta w_r w`, m/N.
+    /// What damping changes of a receptance, m/N: `sum (d v)(v^T f) [1 / (a + i b) - 1 / a]`.
+    /// There `a = w_r^2 - w^2` and `b = 2 zeta w_r w`.
     fn damped(&self, ratio: f64, hz: f64, (sensor, load): (usize, usize)) -> c64 {
         let omega = TAU * hz;
         let vectors = self.squared.iter().enumerate();
