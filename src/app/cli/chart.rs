@@ -191,9 +191,10 @@ fn summary(result: &Chart) -> String {
     let ms = |seconds: f64| significant(1e3 * seconds, 3);
     let mut lines = vec![
         format!(
-            "{} starts over {} ms; {by} and {beside} on all {} modes differ by {} (the floor)",
+            "{} starts over {} ms from {} s on; {by} and {beside} on all {} modes differ by {} (the floor)",
             result.starts.starts.len(),
             ms(result.starts.spread_s),
+            significant(result.starts.first_s(), 4),
             result.scene.stage.modes.count(),
             significant(reference.disagreement, 2),
         ),

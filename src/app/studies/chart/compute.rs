@@ -134,7 +134,7 @@ pub(crate) fn compute_chart(
     plan.seconds = plan.seconds.min(budget.seconds().unwrap_or(f64::INFINITY));
     told(News::Plan(plan));
     watch.stage("starts");
-    let starts = Starts::over_ball_pass(&scene, &settings, asked.end - asked.start)?;
+    let starts = Starts::over_ball_pass(&scene, &settings, asked.end)?;
     watch.stage("reference");
     let system = systems.of(&of_reference[0]).map_err(|failure| no_pilot(&failure, whole))?;
     let mut attempt = 0;

@@ -149,3 +149,28 @@ fn what_there_is_no_time_for_is_left_out_and_said() {
     let cut = Reference::find(systems.of(&by).unwrap(), &starts, &settings, over, || ()).unwrap_err();
     assert!(matches!(cut, ComputeError::Interrupted { .. }), "{cut}");
 }
+
+#[test]
+fn starts_of_a_run_up_lie_where_it_is_fastest() {
+    let set = ["ring.nodes=12", "transient.ensemble.runs=2"];
+    for (name, runs_up) in [("tadina2011/healthy", true), ("scenes/smooth", false)] {
+        let case = Case::example(name, &set);
+        let run = case.for_run().unwrap();
+        let settings = Settings::of(run, Effort::Quick).unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let end = run.transient.end;
+        let Starts { starts, spread_s, .. } = Starts::over_ball_pass(&scene, &settings, end).unwrap();
+        let cage = &scene.setup.cage;
+        let begin = starts[0].time_s;
+        let turned = cage.motion(begin + spread_s).angle - cage.motion(begin).angle;
+        if runs_up {
+            // a bisection to the last digits
+            assert!((turned.abs() / cage.spacing - 1.0).abs() < 1e-9, "{name}: {turned}");
+            let reach = end - (begin + spread_s);
+            let longest = settings.span_s.max(settings.statistics_s) + settings.edge_s;
+            assert!((reach - longest).abs() < 1e-12, "{reach}, {longest}");
+        } else {
+            assert_eq!(begin, scene.start);
+        }
+    }
+}

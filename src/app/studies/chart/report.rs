@@ -218,8 +218,10 @@ fn reference_section(chart: &Chart) -> Section {
             Fact::new("Beside it", of(beside)),
             Fact::new("Their difference", significant(reference.disagreement, 2))
                 .note("mean over the starts, each over its horizon: the floor"),
-            Fact::new("Starts", format!("{} over {}", reference.starts.len(), ms(chart.starts.spread_s)))
-                .note("over one ball pass, or what the case simulates"),
+            Fact::new("Starts", format!("{} over {}", reference.starts.len(), ms(chart.starts.spread_s))).note(format!(
+                "over a ball pass, or what the case simulates, from {} s on; a run-up has them at its end",
+                significant(chart.starts.first_s(), 4)
+            )),
             Fact::new("Horizon", ms(reference.mean_horizon_s())).note(format!(
                 "mean; least {}; the span is {}",
                 ms(reference.least_horizon_s()),

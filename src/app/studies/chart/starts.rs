@@ -8,12 +8,16 @@ use crate::app::case;
 use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
+use crate::bearing::Cage;
 use crate::numerics::ode::State;
 use crate::system::{CoupledSystem, Equilibrium, StaticCondition};
 use rayon::prelude::*;
 
 /// Halvings that find the end of a ball pass.
 const HALVINGS: usize = 60;
+
+/// How many times faster the end of the simulated time must be, so that the starts lie there: more than roundings.
+const FASTER: f64 = 1.01;
 
 /// A start of a run.
 #[derive(Debug, Clone)]
@@ -38,18 +42,28 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// As many as the ensemble has runs, evenly over the time in which the cage turns by a ball's distance, at most `length`
-    /// (s), each from the equilibrium with cage and loads held as they are then.
+    /// As many as the ensemble has runs, evenly over a ball pass: the first until `end` (s), or, in a run-up, the last whose
+    /// runs end there. At rest a run-up has no signal to compare. Each starts from the equilibrium with cage and loads held as
+    /// they are then.
     ///
     /// # Errors
     /// [`ComputeError::Failed`] if fewer than two have an equilibrium.
-    pub(crate) fn over_ball_pass(scene: &Scene, settings: &Settings, length: f64) -> Result<Self, ComputeError> {
+    pub(crate) fn over_ball_pass(scene: &Scene, settings: &Settings, end: f64) -> Result<Self, ComputeError> {
         let wanted = settings.ensemble.runs;
-        let spread_s = ball_pass(scene, length);
+        let cage = &scene.setup.cage;
+        let begin = scene.start;
+        let speed = |time: f64| cage.motion(time).speed.abs();
+        let last = end - settings.span_s.max(settings.statistics_s) - settings.edge_s;
+        let (first, spread_s) = if last > begin && speed(last) > FASTER * speed(begin) {
+            let spread = ball_pass(cage, last, begin);
+            (last - spread, spread)
+        } else {
+            (begin, ball_pass(cage, begin, end))
+        };
         let found: Vec<_> = (0..wanted)
             .into_par_iter()
             .map(|number| {
-                let time_s = scene.start + spread_s * number as f64 / wanted as f64;
+                let time_s = first + spread_s * number as f64 / wanted as f64;
                 let condition = StaticCondition::at(&scene.setup, time_s);
                 let found = Equilibrium::find(&scene.stage.structure, &scene.setup, condition);
                 (time_s, number, found)
@@ -57,17 +71,17 @@ impl Starts {
             .collect();
         let mut starts = Vec::with_capacity(wanted);
         let mut left_out = Vec::new();
-        let mut first = None;
+        let mut failed = None;
         for (time_s, number, found) in found {
             match found {
                 Ok(equilibrium) => starts.push(Start { number, time_s, equilibrium }),
                 Err(error) => {
                     left_out.push(format!("start at {time_s} s: {error}"));
-                    first.get_or_insert(error);
+                    failed.get_or_insert(error);
                 }
             }
         }
-        match first {
+        match failed {
             Some(source) if starts.len() < 2 => Err(ComputeError::failed(
                 format!(
                     "{} of {wanted} starts over a ball pass have an equilibrium, at least 2 are needed: {source}",
@@ -78,26 +92,30 @@ impl Starts {
             _ => Ok(Self { starts, spread_s, left_out }),
         }
     }
+
+    /// When the first begins, s.
+    pub(crate) fn first_s(&self) -> f64 {
+        self.starts[0].time_s
+    }
 }
 
-/// Time from the start in which the cage turns by the distance of two balls, s, at most `length`.
-fn ball_pass(scene: &Scene, length: f64) -> f64 {
-    let cage = &scene.setup.cage;
-    let from = cage.motion(scene.start).angle;
-    let turned = |time: f64| (cage.motion(scene.start + time).angle - from).abs();
-    if turned(length) <= cage.spacing {
-        return length;
-    }
-    let (mut low, mut high) = (0.0, length);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if turned(middle) < cage.spacing {
-            low = middle;
-        } else {
-            high = middle;
+/// Time in which the cage turns by the distance of two balls between `from` and `to`, next to `from`, s; all of it where the
+/// cage turns less. `to` may be the earlier one.
+fn ball_pass(cage: &Cage, from: f64, to: f64) -> f64 {
+    let begin = cage.motion(from).angle;
+    let turned = |share: f64| (cage.motion(from + share * (to - from)).angle - begin).abs();
+    let (mut low, mut high) = (0.0, 1.0);
+    if turned(high) > cage.spacing {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if turned(middle) < cage.spacing {
+                low = middle;
+            } else {
+                high = middle;
+            }
         }
     }
-    high
+    high * (to - from).abs()
 }
 
 /// A system, ready to begin anywhere. It is built once: tables over the raceway take longer than many a short run.
