@@ -17,10 +17,6 @@ pub struct Accuracy {
     /// Relative error that is good enough, > 0 and < 1.
     #[serde(default = "one_percent")]
     pub target: f64,
-    /// The same where balls strike in a run, at least the target: impacts multiply what the program's choices err by, which aim at the
-    /// target without them; `None`: the target.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub with_impacts: Option<f64>,
 }
 
 fn one_percent() -> f64 {

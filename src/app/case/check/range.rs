@@ -69,10 +69,6 @@ pub(super) fn above(key: impl Into<String>, found: f64, what: &'static str, othe
     kept(found > other, key, || Rule::beyond(found, &format!("more than {what}"), other))
 }
 
-pub(super) fn at_least(key: impl Into<String>, found: f64, what: &'static str, other: f64) -> Result<(), BrokenRule> {
-    kept(found >= other, key, || Rule::beyond(found, &format!("at least {what}"), other))
-}
-
 pub(super) fn below(key: impl Into<String>, found: f64, what: &'static str, other: f64) -> Result<(), BrokenRule> {
     kept(found < other, key, || Rule::beyond(found, &format!("below {what}"), other))
 }

@@ -5,8 +5,8 @@ use super::super::{
     Method, ModesKept, SensorSpot, Shaft, Speed, StepLength, Transient,
 };
 use super::range::{
-    self, ABOVE_ZERO, CYCLES, DEGREES, FRACTION, RATIO, SHARE, ZERO_OR_MORE, ZERO_TO_ONE, above, at_least, below,
-    direction, each_once, kept, known_sensor, needs, not_beside, not_empty,
+    self, ABOVE_ZERO, CYCLES, DEGREES, FRACTION, RATIO, SHARE, ZERO_OR_MORE, ZERO_TO_ONE, above, below, direction,
+    each_once, kept, known_sensor, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::fe::modal::ModeRange;
@@ -196,12 +196,7 @@ pub(super) fn frf(case: &Case, frf: &Frf) -> Result<(), BrokenRule> {
 
 pub(super) fn accuracy(accuracy: &Accuracy) -> Result<(), BrokenRule> {
     band_of("accuracy.band_hz", accuracy.band_hz)?;
-    FRACTION.check("accuracy.target", accuracy.target)?;
-    let Some(with_impacts) = accuracy.with_impacts else {
-        return Ok(());
-    };
-    FRACTION.check("accuracy.with_impacts", with_impacts)?;
-    at_least("accuracy.with_impacts", with_impacts, "`accuracy.target`", accuracy.target)
+    FRACTION.check("accuracy.target", accuracy.target)
 }
 
 pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), BrokenRule> {

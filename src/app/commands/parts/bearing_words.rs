@@ -30,12 +30,7 @@ pub(super) fn facts(case: &Case, moves: bool) -> Vec<Fact> {
     }
     if let (true, Some(accuracy)) = (moves, &case.accuracy) {
         let [low, high] = accuracy.band_hz.map(|hz| quantity(hz, "Hz"));
-        let impacts = accuracy.with_impacts.map(|target| format!("; {} % where balls strike", given(100.0 * target)));
-        let text = format!(
-            "{} % of the signals' RMS between {low} and {high}{}",
-            given(100.0 * accuracy.target),
-            impacts.unwrap_or_default()
-        );
+        let text = format!("{} % of the signals' RMS between {low} and {high}", given(100.0 * accuracy.target));
         facts.push(Fact::new("Accuracy asked for", text));
     }
     facts

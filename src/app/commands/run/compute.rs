@@ -155,11 +155,10 @@ impl<R: Recording> RunResult<R> {
             return "the error of the signals is not estimated".to_owned();
         };
         format!(
-            "estimated error of the signals in the band: {} of their RMS (target {}{}{}), {}",
+            "estimated error of the signals in the band: {} of their RMS (target {}{}), {}",
             significant(error, 2),
-            significant(choice.admissible, 2),
-            if choice.admissible > choice.target { " with impacts" } else { "" },
-            if error > choice.admissible { ", missed" } else { "" },
+            significant(choice.target, 2),
+            if error > choice.target { ", missed" } else { "" },
             horizon.as_deref().unwrap_or("while nearby solutions stay together"),
         )
     }

@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn every_number_of_a_case_has_its_unit_or_none() {
-        const WITHOUT: [&str; 26] = [
+        const WITHOUT: [&str; 25] = [
             "axis",
             "cycles",
             "direction",
@@ -80,7 +80,6 @@ mod tests {
             "slip",
             "spectral_radius",
             "target",
-            "with_impacts",
             "tolerance",
             "within",
             "x",

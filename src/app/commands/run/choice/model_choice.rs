@@ -29,8 +29,6 @@ pub struct ModelChoice {
     pub stable_s: Option<f64>,
     /// `accuracy.target`.
     pub target: f64,
-    /// What the estimated error may be: the target, or `accuracy.with_impacts` where balls strike.
-    pub admissible: f64,
 }
 
 /// One part of a model.
@@ -91,7 +89,7 @@ impl ModelChoice {
             ));
         };
         let (part, error) = largest?;
-        if together <= self.admissible {
+        if together <= target {
             return None;
         }
         let given = |what: &str| self.parts.iter().any(|part| part.what == what && part.why.starts_with("given"));
@@ -114,17 +112,16 @@ impl ModelChoice {
                 significant(self.growth, 2),
                 significant(target / self.growth, 2)
             ),
-            "modes" => "raise transient.modes",
+            "modes" => "raise transient.modes; the error need not fall with each of them where balls strike",
             "balls" => "set bearing.balls_inertia = \"dynamic\"",
             _ => {
                 "a smaller accuracy.target shortens the steps; an error near 1 says that such a motion cannot be predicted for so long"
             }
         };
         Some(format!(
-            "the estimated error is {} where accuracy.{} is {}, most of it of the {} ({}; {}): {help}",
+            "the estimated error is {} where accuracy.target is {}, most of it of the {} ({}; {}): {help}",
             significant(together, 2),
-            if self.admissible > target { "with_impacts" } else { "target" },
-            significant(self.admissible, 2),
+            significant(target, 2),
             part.what,
             part.chosen,
             significant(error, 2),

@@ -95,6 +95,14 @@ pub(crate) fn measured(
     Ok(Measured { error: safety * most / (1.0 - left), from_s, length_s, rms, finer })
 }
 
+/// What of a measured error the steps make, by a stretch beside the run's own modes; `None` where the finer model differed in other things too.
+pub(crate) fn of_steps(task: RunTask<'_>, model: &RunModel, found: &Measured, strikes: bool) -> Option<f64> {
+    let finer = RunModel { modes: model.modes, residual: model.residual, ..found.finer };
+    let alike = model.balls_inertia == finer.balls_inertia && model.modes != found.finer.modes;
+    let measured = alike.then(|| measured(task, model, finer, strikes))?;
+    measured.ok().map(|own| own.error)
+}
+
 /// The largest difference of two series in a part of `first_s / PARTS` relative to the size of the whole second one, or since the start up to the
 /// end of such a part relative to the size until there, from `first_s` (s) on.
 fn worst_part(run: &TimeSeries, finer: &TimeSeries, first_s: f64) -> f64 {

@@ -40,7 +40,7 @@ impl ModelChoice {
         let loaded = LoadedErrors::of(scene, rest, band_hz, asked.end - asked.start)?;
         let errors = ModeErrors::of(scene, band_hz, &loaded)?;
         let task = RunTask { scene, asked, band_hz, target, heaviest: heaviest.as_ref() };
-        let (modes, modes_part) = modes(task, &errors, whole);
+        let (modes, mut modes_part) = modes(task, &errors, whole);
         let (mut balls_inertia, mut balls_part) = loaded_errors::chosen(task, bearing.balls_inertia, &loaded);
         let growth = growth(scene, rest);
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
@@ -88,7 +88,16 @@ impl ModelChoice {
         }
         match &measured {
             Ok(Some(found)) => {
-                method_part.estimated_error = Some(found.error);
+                let of_steps = match growth * found.error > target {
+                    true => pilot::of_steps(task, &model, found, growth > 1.0),
+                    false => None,
+                };
+                if let Some(of_steps) = of_steps.filter(|of_steps| *of_steps < found.error) {
+                    let of_modes = (found.error * found.error - of_steps * of_steps).sqrt();
+                    modes_part.estimated_error = modes_part.estimated_error.map(|own| own.hypot(of_modes));
+                    modes_part.why += "; beside four times the modes a stretch showed more than the linear estimate";
+                }
+                method_part.estimated_error = Some(of_steps.map_or(found.error, |of_steps| of_steps.min(found.error)));
                 // beside balls with inertia: the stretch has their part
                 balls_part.estimated_error.get_or_insert(0.0);
             }
@@ -116,10 +125,6 @@ impl ModelChoice {
             measured: measured.ok().flatten(),
             stable_s: stepping::stable_below(task, &model)?,
             target,
-            admissible: match growth > 1.0 {
-                true => case.accuracy.and_then(|accuracy| accuracy.with_impacts).unwrap_or(target),
-                false => target,
-            },
             parts,
         })
     }

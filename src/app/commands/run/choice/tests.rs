@@ -58,17 +58,15 @@ fn a_condensed_housing_is_part_of_the_estimate() {
     assert!(few > 0.1, "{few}");
 }
 
-/// What impacts make of the estimate is admissible if the case says so; the choice itself is the same.
+/// Beside a smaller tolerance the dented bearing in a pillow block errs by little, beside more modes by more.
 #[test]
-fn impacts_may_have_a_larger_error_than_the_target() {
-    let asked = |set: &[&str]| {
-        let choice = choice("scenes/impact", set);
-        (choice.warnings(), choice.model)
-    };
-    let (usual, model) = asked(&[]);
-    assert!(usual[0].contains("where accuracy.target is 0.010"), "{usual:?}");
-    let (told, same) = asked(&["accuracy.with_impacts=0.011"]);
-    assert!(told[0].contains("where accuracy.with_impacts is 0.011"), "{told:?}");
-    assert_eq!(same, model);
-    assert_eq!(asked(&["accuracy.with_impacts=0.9"]), (Vec::new(), model));
+fn what_makes_the_measured_error_is_named() {
+    let choice = choice("housings/pillow_block", &[]);
+    let [modes, method] = ["modes", "method"].map(|what| part(&choice, what));
+    println!("{modes} {method}");
+    assert!(modes > method, "{modes} {method}");
+    assert!(choice.warnings()[0].contains("most of it of the modes"), "{:?}", choice.warnings());
+    // the parts that share the measured error make it up
+    let found = choice.growth * choice.measured.unwrap().error;
+    assert!(modes.hypot(method) >= found, "{modes} {method} {found}");
 }
