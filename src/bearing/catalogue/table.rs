@@ -1,4 +1,4 @@
-//! The numbers, as printed: millimetres, kilograms; Timken's balls in inches. GMN's 609 is left out: the mass printed for it is more
+//! The numbers, as printed: millimetres, kilograms; balls in inches where they are no GMN's. GMN's 609 is left out: the mass printed for it is more
 //! than that of full steel.
 //!
 //! A bearing of a catalogue, and where its numbers are published.
@@ -29,9 +29,9 @@ macro_rules! gmn {
     };
 }
 
-/// Timken: designation, bore, outer diameter, width, balls, ball diameter in inches, mass.
-macro_rules! timken {
-    ($name:literal, $bore:literal, $outer:literal, $width:literal, $balls:literal, $numerator:literal / $denominator:literal, $mass:literal) => {
+/// Without a published pitch diameter: designation, bore, outer diameter, width, balls, ball diameter in inches, mass, source.
+macro_rules! inches {
+    ($source:ident, $name:literal, $bore:literal, $outer:literal, $width:literal, $balls:literal, $numerator:literal / $denominator:literal, $mass:literal) => {
         CatalogueBearing {
             name: $name,
             bore: 1e-3 * $bore,
@@ -43,12 +43,12 @@ macro_rules! timken {
             pitch_published: false,
             shoulder_diameter: None,
             mass: $mass,
-            source: Source::Timken,
+            source: Source::$source,
         }
     };
 }
 
-const BEARINGS: [CatalogueBearing; 34] = [
+const BEARINGS: [CatalogueBearing; 69] = [
     gmn!("625", 5.0, 16.0, 5.0, 10.0, 3.175, 6, 12.50, 0.005),
     gmn!("626", 6.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
     gmn!("607", 7.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
@@ -62,10 +62,20 @@ const BEARINGS: [CatalogueBearing; 34] = [
     gmn!("6004", 20.0, 42.0, 12.0, 31.0, 6.350, 9, 35.45, 0.069),
     gmn!("6005", 25.0, 47.0, 12.0, 36.0, 6.350, 10, 40.05, 0.080),
     gmn!("6006", 30.0, 55.0, 13.0, 42.5, 7.144, 11, 46.95, 0.128),
-    timken!("6007", 35.0, 62.0, 14.0, 11, 5.0 / 16.0, 0.144),
-    timken!("6008", 40.0, 68.0, 15.0, 12, 5.0 / 16.0, 0.180),
-    timken!("6009", 45.0, 75.0, 16.0, 13, 11.0 / 32.0, 0.230),
-    timken!("6010", 50.0, 80.0, 16.0, 14, 11.0 / 32.0, 0.248),
+    inches!(Timken, "6007", 35.0, 62.0, 14.0, 11, 5.0 / 16.0, 0.144),
+    inches!(Timken, "6008", 40.0, 68.0, 15.0, 12, 5.0 / 16.0, 0.180),
+    inches!(Timken, "6009", 45.0, 75.0, 16.0, 13, 11.0 / 32.0, 0.230),
+    inches!(Timken, "6010", 50.0, 80.0, 16.0, 14, 11.0 / 32.0, 0.248),
+    inches!(Timken, "6011", 55.0, 90.0, 18.0, 13, 13.0 / 32.0, 0.362),
+    inches!(Timken, "6012", 60.0, 95.0, 18.0, 14, 13.0 / 32.0, 0.430),
+    inches!(Timken, "6013", 65.0, 100.0, 18.0, 15, 13.0 / 32.0, 0.450),
+    inches!(Timken, "6014", 70.0, 110.0, 20.0, 14, 15.0 / 32.0, 0.620),
+    inches!(Timken, "6015", 75.0, 115.0, 20.0, 15, 15.0 / 32.0, 0.606),
+    inches!(Timken, "6016", 80.0, 125.0, 22.0, 14, 17.0 / 32.0, 0.804),
+    inches!(Timken, "6017", 85.0, 130.0, 22.0, 15, 17.0 / 32.0, 0.845),
+    inches!(Timken, "6018", 90.0, 140.0, 24.0, 14, 19.0 / 32.0, 1.092),
+    inches!(Nsk, "6019", 95.0, 145.0, 24.0, 15, 19.0 / 32.0, 1.180),
+    inches!(Timken, "6020", 100.0, 150.0, 24.0, 15, 19.0 / 32.0, 1.208),
     gmn!("6200", 10.0, 30.0, 9.0, 20.0, 5.556, 7, 24.45, 0.032),
     gmn!("6201", 12.0, 32.0, 10.0, 22.0, 5.953, 7, 26.00, 0.037),
     gmn!("6202", 15.0, 35.0, 11.0, 25.3, 5.953, 8, 29.00, 0.045),
@@ -75,14 +85,39 @@ const BEARINGS: [CatalogueBearing; 34] = [
     gmn!("6206", 30.0, 62.0, 16.0, 46.0, 9.525, 9, 52.05, 0.199),
     gmn!("6207", 35.0, 72.0, 17.0, 53.5, 11.112, 9, 60.50, 0.315),
     gmn!("6208", 40.0, 80.0, 18.0, 60.0, 11.906, 9, 67.60, 0.402),
-    timken!("6209", 45.0, 85.0, 19.0, 9, 1.0 / 2.0, 0.377),
-    timken!("6210", 50.0, 90.0, 20.0, 10, 1.0 / 2.0, 0.425),
-    timken!("6305", 25.0, 62.0, 17.0, 7, 15.0 / 32.0, 0.222),
-    timken!("6306", 30.0, 72.0, 19.0, 7, 17.0 / 32.0, 0.327),
-    timken!("6307", 35.0, 80.0, 21.0, 7, 9.0 / 16.0, 0.431),
-    timken!("6308", 40.0, 90.0, 23.0, 8, 5.0 / 8.0, 0.594),
-    timken!("6309", 45.0, 100.0, 25.0, 8, 11.0 / 16.0, 0.807),
-    timken!("6310", 50.0, 110.0, 27.0, 8, 3.0 / 4.0, 1.052),
+    inches!(Timken, "6209", 45.0, 85.0, 19.0, 9, 1.0 / 2.0, 0.377),
+    inches!(Timken, "6210", 50.0, 90.0, 20.0, 10, 1.0 / 2.0, 0.425),
+    inches!(Timken, "6211", 55.0, 100.0, 21.0, 10, 9.0 / 16.0, 0.564),
+    inches!(Timken, "6212", 60.0, 110.0, 22.0, 10, 5.0 / 8.0, 0.727),
+    inches!(Timken, "6213", 65.0, 120.0, 23.0, 10, 21.0 / 32.0, 0.928),
+    inches!(Timken, "6214", 70.0, 125.0, 24.0, 10, 11.0 / 16.0, 0.994),
+    inches!(Timken, "6215", 75.0, 130.0, 25.0, 10, 11.0 / 16.0, 1.074),
+    inches!(Timken, "6216", 80.0, 140.0, 26.0, 10, 3.0 / 4.0, 1.317),
+    inches!(Nsk, "6217", 85.0, 150.0, 28.0, 10, 13.0 / 16.0, 1.800),
+    inches!(Nsk, "6218", 90.0, 160.0, 30.0, 10, 7.0 / 8.0, 2.150),
+    inches!(Nsk, "6219", 95.0, 170.0, 32.0, 10, 15.0 / 16.0, 2.600),
+    inches!(Nsk, "6220", 100.0, 180.0, 34.0, 10, 1.0 / 1.0, 3.200),
+    inches!(Nsk, "6300", 10.0, 35.0, 11.0, 6, 9.0 / 32.0, 0.050),
+    inches!(Nsk, "6301", 12.0, 37.0, 12.0, 6, 5.0 / 16.0, 0.060),
+    inches!(Nsk, "6302", 15.0, 42.0, 13.0, 7, 5.0 / 16.0, 0.080),
+    inches!(Nsk, "6303", 17.0, 47.0, 14.0, 7, 11.0 / 32.0, 0.120),
+    inches!(Nsk, "6304", 20.0, 52.0, 15.0, 7, 3.0 / 8.0, 0.140),
+    inches!(Timken, "6305", 25.0, 62.0, 17.0, 7, 15.0 / 32.0, 0.222),
+    inches!(Timken, "6306", 30.0, 72.0, 19.0, 7, 17.0 / 32.0, 0.327),
+    inches!(Timken, "6307", 35.0, 80.0, 21.0, 7, 9.0 / 16.0, 0.431),
+    inches!(Timken, "6308", 40.0, 90.0, 23.0, 8, 5.0 / 8.0, 0.594),
+    inches!(Timken, "6309", 45.0, 100.0, 25.0, 8, 11.0 / 16.0, 0.807),
+    inches!(Timken, "6310", 50.0, 110.0, 27.0, 8, 3.0 / 4.0, 1.052),
+    inches!(Timken, "6311", 55.0, 120.0, 29.0, 8, 13.0 / 16.0, 1.329),
+    inches!(Timken, "6312", 60.0, 130.0, 31.0, 8, 7.0 / 8.0, 1.665),
+    inches!(Timken, "6313", 65.0, 140.0, 33.0, 8, 15.0 / 16.0, 2.046),
+    inches!(Timken, "6314", 70.0, 150.0, 35.0, 8, 1.0 / 1.0, 2.486),
+    inches!(Nsk, "6315", 75.0, 160.0, 37.0, 8, 17.0 / 16.0, 3.000),
+    inches!(Nsk, "6316", 80.0, 170.0, 39.0, 8, 9.0 / 8.0, 3.600),
+    inches!(Nsk, "6317", 85.0, 180.0, 41.0, 8, 19.0 / 16.0, 4.250),
+    inches!(Nsk, "6318", 90.0, 190.0, 43.0, 8, 5.0 / 4.0, 4.900),
+    inches!(Nsk, "6319", 95.0, 200.0, 45.0, 8, 21.0 / 16.0, 5.750),
+    inches!(Nsk, "6320", 100.0, 215.0, 47.0, 8, 23.0 / 16.0, 6.980),
 ];
 
 impl CatalogueBearing {
@@ -120,17 +155,20 @@ pub enum Source {
     Gmn,
     /// Timken (Fafnir), super precision bearings of Conrad type.
     Timken,
+    /// NSK, whose load ratings tell number and size of the balls; masses by Timken.
+    Nsk,
 }
 
 impl Source {
     /// Every source.
-    pub const ALL: [Self; 2] = [Self::Gmn, Self::Timken];
+    pub const ALL: [Self; 3] = [Self::Gmn, Self::Timken, Self::Nsk];
 
     /// A word for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Gmn => "GMN",
             Self::Timken => "Timken",
+            Self::Nsk => "NSK",
         }
     }
 
@@ -139,6 +177,9 @@ impl Source {
         match self {
             Self::Gmn => "GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), pp. 52-55",
             Self::Timken => "Timken, Products catalog (2014), section D: MM9100K p. D84, MM200K p. D96, MM300K p. D106",
+            Self::Nsk => {
+                "NSK, Rolling bearings, CAT. No. E1102e (2007), pp. B8-B15: sizes and load ratings, by which ISO 76 and ISO 281 have these balls alone; mass: Timken, order no. 10857 (2017)"
+            }
         }
     }
 }
@@ -147,7 +188,7 @@ impl Source {
 /// ISO 281 rest, and within the usual 0.515 to 0.53 of T. A. Harris, *Rolling Bearing Analysis*.
 pub const GROOVES: [f64; 2] = [0.52, 0.53];
 
-/// A deep groove ball bearing as its maker publishes it. Lengths in m.
+/// A deep groove ball bearing as its maker publishes it; NSK's balls follow from what is published. Lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct CatalogueBearing {
     /// Designation by ISO 15 dimensions, without suffixes.
@@ -218,7 +259,7 @@ impl UsualNumbers {
 
 /// Bore above which, bore up to which (mm), smallest and largest clearance (µm): group N (C0). GMN, catalogue 4000 0813 EN (2013),
 /// pp. 48-49, up to 40 mm; Timken, Deep groove ball bearing catalog, order no. 10857 (2017), table 5, which agrees with it, above.
-const GROUP_N: [(f64, f64, f64, f64); 7] = [
+const GROUP_N: [(f64, f64, f64, f64); 10] = [
     (1.5, 6.0, 2.0, 13.0),
     (6.0, 10.0, 2.0, 13.0),
     (10.0, 18.0, 3.0, 18.0),
@@ -226,10 +267,13 @@ const GROUP_N: [(f64, f64, f64, f64); 7] = [
     (24.0, 30.0, 5.0, 20.0),
     (30.0, 40.0, 6.0, 20.0),
     (40.0, 50.0, 6.0, 23.0),
+    (50.0, 65.0, 8.0, 28.0),
+    (65.0, 80.0, 10.0, 30.0),
+    (80.0, 100.0, 12.0, 36.0),
 ];
 
 /// Smallest and largest diametral clearance (m) of a new bearing of group N that is not mounted, for a bore in m; `None` outside
-/// the table, 1.5 to 50 mm. Interference fits take part of it away, and so does a warm inner ring.
+/// the table, 1.5 to 100 mm. Interference fits take part of it away, and so does a warm inner ring.
 pub fn normal_clearance(bore: f64) -> Option<[f64; 2]> {
     // bores of the table are whole millimetres: rounding must not put one into the next row
     let bore = 1e3 * bore - 1e-6;
