@@ -19,4 +19,5 @@ pub mod units;
 mod watch;
 
 pub(crate) use brief::Brief;
+pub(crate) use watch::Told;
 pub use watch::{Unwatched, Watch};

@@ -3,8 +3,8 @@
 use crate::files::FileDigest;
 use std::path::Path;
 
-/// Where a computation tells how far it is.
-pub trait Watch {
+/// Where a computation tells how far it is, also from another thread.
+pub trait Watch: Sync {
     /// A stage begins.
     fn stage(&self, name: &str);
     /// Part of the stage that is done, 0 to 1; the first is where it begins.
@@ -18,6 +18,9 @@ pub trait Watch {
     /// What came from there, or did not, in a sentence.
     fn reuse(&self, _sentence: String) {}
 }
+
+/// Where a search tells which part of it is done, 0 to 1.
+pub(crate) type Told<'a> = &'a (dyn Fn(f64) + Sync);
 
 /// Watches nothing.
 #[derive(Debug, Clone, Copy, Default)]

@@ -203,7 +203,7 @@ fn copies_are_those_of_the_files() {
     }
     assert!(renews() || wrong.is_empty(), "not as in the file:\n{}", wrong.join("\n"));
     // that the search finds them
-    assert!(count > 3, "{count}");
+    assert!(count >= 3, "{count}");
 }
 
 /// With CARGO_TARGET_DIR the program is elsewhere.

@@ -1,7 +1,7 @@
 //! The case files under `examples/` are read as they stand and hold what they say.
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use plummer::app::commands::modes::compute_modes;
 use plummer::app::scene::CoupledStructure;
@@ -195,15 +195,21 @@ fn the_pedestal_vibrates() {
     assert!(loaded.iter().any(tilting));
 }
 
-/// Keeps the names of the stages.
+/// Keeps the names of the stages; a stage that tells its share is named again, with a dot.
 #[derive(Default)]
-struct Stages(RefCell<Vec<String>>);
+struct Stages(Mutex<Vec<String>>);
 
 impl Watch for Stages {
     fn stage(&self, name: &str) {
-        self.0.borrow_mut().push(name.to_owned());
+        self.0.lock().unwrap().push(name.to_owned());
     }
-    fn fraction(&self, _done: f64) {}
+    fn fraction(&self, done: f64) {
+        assert!((0.0..=1.0).contains(&done), "{done}");
+        let mut named = self.0.lock().unwrap();
+        if let Some(stage) = named.last().filter(|stage| !stage.ends_with('.')).cloned() {
+            named.push(format!("{stage}."));
+        }
+    }
 }
 
 /// Modes without load are those of housing and ring in full, of the case and of its variants: nothing is condensed for them.
@@ -213,7 +219,7 @@ fn modes_without_load_condense_nothing() {
     let stages = |case: &Case| {
         let stages = Stages::default();
         let result = compute_modes(case, &stages).unwrap();
-        (result, stages.0.into_inner())
+        (result, stages.0.into_inner().unwrap())
     };
     case.modes.linearise = Linearise::None;
     case.modes.variants = vec![Variant {
@@ -226,6 +232,7 @@ fn modes_without_load_condense_nothing() {
     }];
     let (result, named) = stages(&case);
     assert!(!named.iter().any(|name| name == "constraint modes"), "{named:?}");
+    assert!(named.iter().any(|name| name == "eigen."), "{named:?}");
     assert!(result.fixed_interface_modes.is_none() && result.base.loaded.is_none());
     let (base, coarse) = (&result.base, &result.variants[0]);
     assert_eq!(base.unloaded_hz.len(), coarse.unloaded_hz.len());
@@ -236,6 +243,7 @@ fn modes_without_load_condense_nothing() {
     (case.modes.linearise, case.modes.variants) = (Linearise::Static, Vec::new());
     let (result, named) = stages(&case);
     assert_eq!(named.iter().filter(|name| *name == "constraint modes").count(), 1, "{named:?}");
+    assert!(named.iter().any(|name| name == "fixed-interface modes."), "{named:?}");
     assert!(result.fixed_interface_modes.is_some() && result.base.loaded.is_some());
     assert_eq!(result.base.unloaded_hz, base.unloaded_hz);
 }

@@ -136,7 +136,7 @@ fn effectivity(
         for &size in sizes {
             let plain = InteriorBasis::of_modes(substructure, pairs, size);
             let choice = BasisChoice { size: BasisSize::Count(size), enhanced: true, band_hz };
-            let enhanced = choose_basis(substructure, choice, attached).unwrap();
+            let enhanced = choose_basis(substructure, choice, attached, &Unwatched).unwrap();
             for basis in [plain, enhanced] {
                 let estimate = ErrorEstimate::of(substructure, &basis, attached, band_hz).unwrap();
                 for (mode, hz) in estimate.modes.iter().zip(full) {
@@ -168,7 +168,7 @@ fn residual_vectors_on_the_tied_pedestal() {
     let full: Vec<f64> = pairs.values.iter().map(|value| value.sqrt() / TAU).collect();
     let largest = |enhanced: bool, modes: usize| {
         let choice = BasisChoice { size: BasisSize::Count(40), enhanced, band_hz: 80e3 };
-        let basis = choose_basis(substructure, choice, attached).unwrap();
+        let basis = choose_basis(substructure, choice, attached, &Unwatched).unwrap();
         assert_eq!(basis.count(), 40);
         let estimate = ErrorEstimate::of(substructure, &basis, attached, 120e3).unwrap();
         let both = estimate.modes.iter().zip(&full).take(modes);

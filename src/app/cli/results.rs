@@ -25,11 +25,15 @@ pub(super) fn result_head(
     wall_s: f64,
     tables: Option<&[String]>,
 ) -> ResultHead {
+    let mut stages_s = BTreeMap::new();
+    for (stage, took) in progress.times() {
+        *stages_s.entry(stage).or_insert(0.0) += took;
+    }
     ResultHead {
         plummer: VERSION,
         command,
         wall_s,
-        stages_s: progress.times().into_iter().collect(),
+        stages_s,
         threads: rayon::current_num_threads(),
         reused: progress.reused(),
         tables: tables.map(<[String]>::to_vec),

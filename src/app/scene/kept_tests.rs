@@ -2,31 +2,31 @@ use super::*;
 use crate::app::case::Case;
 use crate::app::commands::run::compute_run;
 use crate::app::scene::CoupledStructure;
-use std::cell::RefCell;
+use std::sync::Mutex;
 
 /// A folder, the stages, and what was said of the folder.
 struct Noted {
     folder: Option<PathBuf>,
-    stages: RefCell<Vec<String>>,
-    said: RefCell<Vec<String>>,
+    stages: Mutex<Vec<String>>,
+    said: Mutex<Vec<String>>,
 }
 
 impl Watch for Noted {
     fn stage(&self, name: &str) {
-        self.stages.borrow_mut().push(name.to_owned());
+        self.stages.lock().unwrap().push(name.to_owned());
     }
     fn fraction(&self, _done: f64) {}
     fn cache(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
     fn reuse(&self, sentence: String) {
-        self.said.borrow_mut().push(sentence);
+        self.said.lock().unwrap().push(sentence);
     }
 }
 
 impl Noted {
     fn of(folder: Option<&Path>) -> Self {
-        Self { folder: folder.map(Path::to_owned), stages: RefCell::default(), said: RefCell::default() }
+        Self { folder: folder.map(Path::to_owned), stages: Mutex::default(), said: Mutex::default() }
     }
 }
 
@@ -36,8 +36,8 @@ fn built(folder: Option<&Path>, set: &[&str]) -> (CoupledStructure, bool, Vec<St
     let case = Case::example("housings/ring", &set);
     let noted = Noted::of(folder);
     let stage = CoupledStructure::build(&case, &noted).unwrap().unwrap();
-    let condensed = noted.stages.into_inner().iter().any(|name| name == "constraint modes");
-    (stage, condensed, noted.said.into_inner())
+    let condensed = noted.stages.into_inner().unwrap().iter().any(|name| name == "constraint modes");
+    (stage, condensed, noted.said.into_inner().unwrap())
 }
 
 fn bits(matrix: &DenseMatrix) -> Vec<u64> {
@@ -111,7 +111,7 @@ fn signals_with_a_kept_housing_are_those_without() {
         let case = Case::example("housings/ring", &keys);
         let noted = Noted::of(Some(folder.path()));
         let with = compute_run(&case, &noted).unwrap().simulation.record;
-        assert_eq!(noted.said.into_inner().len(), times);
+        assert_eq!(noted.said.into_inner().unwrap().len(), times);
         let without = compute_run(&case, &Noted::of(None)).unwrap().simulation.record;
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&with.sensors[0].1), bits(&without.sensors[0].1));

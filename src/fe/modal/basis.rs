@@ -1,5 +1,6 @@
 //! Modes of a structure with everything that proves them.
 
+use crate::numerics::Told;
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -94,11 +95,19 @@ impl ModalBasis {
     /// # Errors
     /// [`LinalgError`] of factorisation, iteration or proof.
     pub fn of(problem: &EigenProblem, range: ModeRange) -> Result<Self, LinalgError> {
+        Self::told(problem, range, &|_| {})
+    }
+
+    /// The same; `told` hears which part is found.
+    ///
+    /// # Errors
+    /// As [`ModalBasis::of`].
+    pub(crate) fn told(problem: &EigenProblem, range: ModeRange, told: Told<'_>) -> Result<Self, LinalgError> {
         let pairs = match range {
-            ModeRange::Count(count) => problem.lowest(count),
-            ModeRange::AtMost(count) => problem.lowest(count.min(problem.order()).max(1)),
-            ModeRange::UpToHz(high) => problem.below(squared(high)),
-            ModeRange::BandHz([low, high]) => problem.between(squared(low), squared(high)),
+            ModeRange::Count(count) => problem.lowest_told(count, told),
+            ModeRange::AtMost(count) => problem.lowest_told(count.min(problem.order()).max(1), told),
+            ModeRange::UpToHz(high) => problem.below(squared(high), told),
+            ModeRange::BandHz([low, high]) => problem.between(squared(low), squared(high), told),
         }?;
         let check = pairs.count_check;
         let mut basis = Self {
@@ -134,6 +143,7 @@ impl ModalBasis {
         problem: &EigenProblem,
         range: ModeRange,
         products: impl FnOnce(&DenseMatrix) -> Result<DenseMatrix, E>,
+        told: Told<'_>,
     ) -> Result<Self, E> {
         let near = hz(NEAR_ZERO * problem.rounding_of_zero());
         let computed = match range {
@@ -141,12 +151,12 @@ impl ModalBasis {
             ModeRange::BandHz([low, high]) if low < near => ModeRange::UpToHz(high),
             _ => range,
         };
-        let mut basis = Self::of(problem, computed)?;
+        let mut basis = Self::told(problem, computed, told)?;
         let counted = basis.count_check.counted;
         if basis.near_zero() == basis.count()
             && matches!(range, ModeRange::Count(count) | ModeRange::AtMost(count) if count < counted)
         {
-            basis = Self::of(problem, ModeRange::Count(counted))?;
+            basis = Self::told(problem, ModeRange::Count(counted), told)?;
         }
         basis.sharpen(products)?;
         basis.keep(range);

@@ -40,11 +40,12 @@ impl FullModes {
         let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
         drop((stiffness, mass));
         watch.stage("eigen");
+        let told = |part| watch.fraction(part);
         let basis = match products {
-            None => ModalBasis::of(&problem, range)?,
+            None => ModalBasis::told(&problem, range, &told)?,
             Some(products) => {
                 let products = |shapes: &DenseMatrix| products(&motions, &scattered_rows(shapes, &free, rows));
-                ModalBasis::sharpened(&problem, range, products)?
+                ModalBasis::sharpened(&problem, range, products, &told)?
             }
         };
         match basis.count() {

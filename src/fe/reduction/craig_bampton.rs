@@ -58,8 +58,7 @@ pub(crate) fn craig_bampton_watched(
     watch: &dyn Watch,
 ) -> Result<CraigBampton, ReductionError> {
     let substructure = Substructure::watched(matrices, partition, watch)?;
-    watch.stage("fixed-interface modes");
-    let basis = choose_basis(&substructure, choice, attached)?;
+    let basis = choose_basis(&substructure, choice, attached, watch)?;
     Ok(CraigBampton::new(substructure, basis, &matrices.weight))
 }
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::fe::reduction::samples::{both_ends, rod};
 use crate::fe::reduction::substructure::dense;
 use crate::fe::reduction::{BasisChoice, BasisSize, choose_basis};
+use crate::numerics::Unwatched;
 use crate::numerics::linalg::symmetric_generalised_eigen;
 
 const NODES: usize = 80;
@@ -16,7 +17,7 @@ fn full_hz() -> Vec<f64> {
 
 fn basis(substructure: &Substructure, size: BasisSize, enhanced: bool, band_hz: f64) -> InteriorBasis {
     let choice = BasisChoice { size, enhanced, band_hz };
-    choose_basis(substructure, choice, None).expect("a basis")
+    choose_basis(substructure, choice, None, &Unwatched).expect("a basis")
 }
 
 #[test]
@@ -103,6 +104,6 @@ fn auto_is_the_smallest_of_its_family() {
 fn a_target_out_of_reach_is_an_error() {
     let substructure = Substructure::new(&rod(12), &both_ends(12)).expect("connected");
     let choice = BasisChoice { size: BasisSize::Auto(-1.0), enhanced: false, band_hz: 0.05 };
-    let error = choose_basis(&substructure, choice, None).expect_err("out of reach").to_string();
+    let error = choose_basis(&substructure, choice, None, &Unwatched).expect_err("out of reach").to_string();
     assert!(error.starts_with("no basis of up to 10 vectors brings the estimated error"), "{error}");
 }

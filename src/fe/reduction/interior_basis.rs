@@ -22,6 +22,7 @@
 
 use super::substructure::{diagonal, normalised, symmetric};
 use super::{ReductionError, Substructure};
+use crate::numerics::Watch;
 use crate::numerics::linalg::{
     DenseMatrix, EigenPairs, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen,
 };
@@ -287,8 +288,12 @@ pub(super) fn filled(
 }
 
 /// The lowest modes, and one more to say up to where they are complete.
-pub(super) fn modes(substructure: &Substructure, count: usize) -> Result<EigenPairs, ReductionError> {
-    substructure.lowest_modes((count + 1).min(substructure.interior_dof()))
+pub(super) fn modes(
+    substructure: &Substructure,
+    count: usize,
+    watch: &dyn Watch,
+) -> Result<EigenPairs, ReductionError> {
+    substructure.lowest_modes_watched((count + 1).min(substructure.interior_dof()), watch)
 }
 
 /// Modes of which at least one and `beyond` more are above an eigenvalue, and how many are not; `most` of these at most.
@@ -297,10 +302,11 @@ pub(super) fn modes_to(
     value: f64,
     beyond: usize,
     most: usize,
+    watch: &dyn Watch,
 ) -> Result<(EigenPairs, usize), ReductionError> {
     let mut asked = FIRST_MODES + beyond;
     loop {
-        let pairs = modes(substructure, asked)?;
+        let pairs = modes(substructure, asked, watch)?;
         let below = pairs.values.partition_point(|&found| found <= value);
         if below > most {
             return Ok((pairs, most));

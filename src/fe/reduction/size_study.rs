@@ -4,6 +4,7 @@
 use super::coupled_lowest::CoupledProblem;
 use super::interior_basis::{filled, modes, with_amplitudes};
 use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
+use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -51,9 +52,10 @@ pub(crate) fn size_study(
     interface: &CharacteristicModes,
     full_hz: &[f64],
     rigid: usize,
+    watch: &dyn Watch,
 ) -> Result<Vec<SizeErrors>, ReductionError> {
     let largest = SIZES[SIZES.len() - 1];
-    let pairs = modes(substructure, largest)?;
+    let pairs = modes(substructure, largest, watch)?;
     let available = pairs.values.len();
     let error = |values: &[f64]| largest_error(values, full_hz, rigid);
     let whole = CoupledProblem::new(interface);
@@ -72,7 +74,9 @@ pub(crate) fn size_study(
     };
     let mut bases = vec![InteriorBasis::of_modes(substructure, &pairs, 0)];
     let mut rows = Vec::new();
+    watch.stage("sizes");
     for size in SIZES.into_iter().filter(|&size| size <= available) {
+        watch.fraction(rows.len() as f64 / SIZES.len() as f64);
         let plain = InteriorBasis::of_modes(substructure, &pairs, size);
         let half = InteriorBasis::of_modes(substructure, &pairs, size - size / 2);
         let enhanced = filled(substructure, half, size, |basis, missing| whole.lowest(basis, rigid + missing))?;

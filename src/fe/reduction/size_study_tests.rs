@@ -4,6 +4,7 @@ use crate::fe::reduction::substructure::dense;
 use crate::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, InterfaceReduction, InterfaceSize, choose_basis,
 };
+use crate::numerics::Unwatched;
 use crate::numerics::linalg::symmetric_generalised_eigen;
 use std::f64::consts::TAU;
 
@@ -28,14 +29,14 @@ fn errors_are_those_of_the_reductions_themselves() {
     }
     let full = symmetric_generalised_eigen(&k, &m).expect("definite").values;
     let full: Vec<f64> = full[..10].iter().map(|v| v.max(0.0).sqrt() / TAU).collect();
-    let rows = size_study(&substructure, &interface, &full, 1).expect("definite");
+    let rows = size_study(&substructure, &interface, &full, 1, &Unwatched).expect("definite");
     assert_eq!(rows.iter().map(|row| row.size).collect::<Vec<_>>(), SIZES);
     // ten frequencies need ten coordinates, of which the interface has enough
     assert!(rows[0].reduced.is_none() && rows[0].plain.is_some());
     for row in &rows {
         let basis = |count: usize, enhanced: bool| {
             let choice = BasisChoice { size: BasisSize::Count(count), enhanced, band_hz: 0.1 };
-            choose_basis(&substructure, choice, attached).expect("definite")
+            choose_basis(&substructure, choice, attached, &Unwatched).expect("definite")
         };
         let error = |values: Vec<f64>| largest_error(&values, &full, 1).expect("enough");
         let condensed = |basis| CraigBampton::new(substructure.clone(), basis, &matrices.weight);

@@ -2,6 +2,7 @@
 
 use super::interior_basis::{Attached, BasisChoice, coupled_modes, modes, modes_to};
 use super::{ErrorEstimate, InteriorBasis, ReductionError, Substructure, interior_basis};
+use crate::numerics::Watch;
 use crate::numerics::linalg::SymmetricSpectrum;
 use std::f64::consts::TAU;
 
@@ -20,12 +21,14 @@ pub(super) fn smallest_basis(
     choice: BasisChoice,
     target: f64,
     attached: Option<Attached<'_>>,
+    watch: &dyn Watch,
 ) -> Result<InteriorBasis, ReductionError> {
     let all = substructure.interior_dof();
-    let (mut pairs, in_band) = modes_to(substructure, (TAU * choice.band_hz).powi(2), BEYOND, usize::MAX)?;
+    let (mut pairs, in_band) = modes_to(substructure, (TAU * choice.band_hz).powi(2), BEYOND, usize::MAX, watch)?;
     let mut reached = f64::INFINITY;
     let mut least = in_band;
     for _ in 0..ENLARGEMENTS {
+        watch.stage("estimate");
         let count = if pairs.values.len() == all { all } else { pairs.values.len() - 1 };
         let largest = InteriorBasis::of_modes(substructure, &pairs, count);
         let estimate = ErrorEstimate::of(substructure, &largest, attached, choice.band_hz)?;
@@ -48,7 +51,7 @@ pub(super) fn smallest_basis(
             break;
         }
         if least >= count {
-            pairs = modes(substructure, 2 * count)?;
+            pairs = modes(substructure, 2 * count, watch)?;
         }
     }
     Err(ReductionError::Refused(format!(

@@ -180,7 +180,13 @@ impl Substructure {
     /// # Errors
     /// What the eigenvalue iteration reports.
     pub fn lowest_modes(&self, count: usize) -> Result<EigenPairs, ReductionError> {
-        Ok(self.interior.lowest(count)?)
+        self.lowest_modes_watched(count, &Unwatched)
+    }
+
+    /// The same; `watch` is told which part is found.
+    pub(super) fn lowest_modes_watched(&self, count: usize, watch: &dyn Watch) -> Result<EigenPairs, ReductionError> {
+        watch.stage("fixed-interface modes");
+        Ok(self.interior.lowest_told(count, &|part| watch.fraction(part))?)
     }
 }
 

@@ -7,7 +7,6 @@ use vtkio::IOBuffer;
 use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk};
 
 use super::super::FormatError;
-use super::write::{cell_type, node_order};
 use super::*;
 use crate::fe::mesh::{ElementId, Mesh};
 use crate::files::FileError;

@@ -8,6 +8,7 @@
 use super::basis::{Basis, norms, times};
 use super::dense::pseudo_random;
 use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum, symmetric_eigen};
+use crate::numerics::Told;
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, MatMut, Par};
@@ -58,7 +59,6 @@ pub(super) fn round_off(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix) -> 
 }
 
 /// A search for the lowest eigenpairs of `K x = lambda M x`.
-#[derive(Debug)]
 pub(super) struct Search<'p> {
     stiffness: &'p SymmetricMatrix,
     mass: &'p SymmetricMatrix,
@@ -78,6 +78,7 @@ pub(super) struct Search<'p> {
     started: u64,
     /// Values at which the pursued pairs have converged.
     done: Vec<Option<f64>>,
+    told: Told<'p>,
     /// Three blocks of vectors [n x CORRECTED] that every step overwrites: new memory would cost more than some of the
     /// products (a page fault for each 4 KiB).
     blocks: [DenseMatrix; 3],
@@ -96,13 +97,14 @@ fn krylov_size(pursued: usize) -> usize {
 }
 
 impl<'p> Search<'p> {
-    /// Prepares a search for `wanted` pairs and a rough idea of `beyond` more; `shift` is that of the factor.
+    /// Prepares a search for `wanted` pairs and a rough idea of `beyond` more; `shift` is that of the factor. `told` hears its half
+    /// while the space grows, as many solutions as the corrections take, and then the share of the wanted pairs that have converged.
     pub(super) fn new(
         stiffness: &'p SymmetricMatrix,
         mass: &'p SymmetricMatrix,
         shift: f64,
-        wanted: usize,
-        beyond: usize,
+        [wanted, beyond]: [usize; 2],
+        told: Told<'p>,
     ) -> Self {
         let pursued = wanted + beyond;
         let room = largest_basis(pursued);
@@ -118,6 +120,7 @@ impl<'p> Search<'p> {
             shift,
             started: 0,
             done: vec![None; pursued],
+            told,
             blocks: [(); 3].map(|()| DenseMatrix::zeros(mass.order(), CORRECTED)),
         }
     }
@@ -139,6 +142,7 @@ impl<'p> Search<'p> {
         while self.basis.size < self.krylov {
             let [block, product, _] = &mut self.blocks;
             let mut block = first(block, width);
+            (self.told)(0.5 * self.basis.size as f64 / self.krylov as f64);
             factor.solve(block.rb_mut());
             self.mass.times_into(block.rb(), first(product, width));
             width = self.extend(width)?;
@@ -273,6 +277,8 @@ impl<'p> Search<'p> {
                 open.push(column);
             }
         }
+        let converged = self.done[..self.wanted].iter().flatten().count();
+        (self.told)(0.5 + 0.5 * converged as f64 / self.wanted as f64);
         self.keep(&open);
         if open.len() > self.basis.room() {
             self.restart((3 * self.pursued / 2).min(self.basis.size))?;

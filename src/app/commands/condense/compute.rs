@@ -149,16 +149,16 @@ pub fn compute_condense(
     if comparison == Comparison::Full {
         watch.stage("full model");
         let mut found = compare(&stage, &estimate, watch)?;
-        checks.push(fixed_interface(&stage)?);
+        checks.push(fixed_interface(&stage, watch)?);
         let errors = found.relative_errors.iter().flatten();
         let largest = errors.fold(0.0, |largest: f64, error| largest.max(error.abs()));
         let what = "largest relative difference of the coupled frequencies in the band from the full model";
         checks.push(Check::at_most("frequencies", what, largest, case.target()));
         let elastic = found.relative_errors.iter().any(Option::is_some);
         if let Some(modes) = modes.as_ref().filter(|_| elastic) {
-            watch.stage("sizes");
             let rigid = found.relative_errors.iter().take_while(|e| e.is_none());
-            found.sizes = size_study(&stage.condensed.substructure, modes, &found.frequencies_hz, rigid.count())?;
+            found.sizes =
+                size_study(&stage.condensed.substructure, modes, &found.frequencies_hz, rigid.count(), watch)?;
         }
         full = Some(found);
         if stage.boundary.ring().is_some() {
@@ -210,7 +210,7 @@ fn compare(
 }
 
 /// Fixed-interface frequencies of a factorisation of its own.
-fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
+fn fixed_interface(stage: &CondensedHousing, watch: &impl Watch) -> Result<Check, ComputeError> {
     let basis = &stage.condensed.basis;
     let kept = basis.values().partition_point(|&value| value < basis.complete_below);
     let matrices = stage.matrices();
@@ -218,8 +218,10 @@ fn fixed_interface(stage: &CondensedHousing) -> Result<Check, ComputeError> {
     let difference = match kept {
         0 => 0.0,
         _ => {
+            watch.stage("order");
             let problem = EigenProblem::restricted(&matrices.stiffness, &matrices.mass, interior)?;
-            let pairs = problem.lowest(kept)?;
+            watch.stage("fixed-interface modes");
+            let pairs = problem.lowest_told(kept, &|part| watch.fraction(part))?;
             let both = pairs.values.iter().zip(basis.values());
             both.map(|(full, reduced)| ((reduced / full).sqrt() - 1.0).abs()).fold(0.0, f64::max)
         }

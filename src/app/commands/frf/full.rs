@@ -194,7 +194,7 @@ impl EveryMode {
         let problem = EigenProblem::restricted(&coupled.stiffness, &coupled.mass, &coupled.free_dofs)?;
         // at rest nothing is damped: any modes serve
         let up_to_hz = (EXACT * top_hz).max(1.0);
-        let modes = ModalBasis::of(&problem, ModeRange::UpToHz(up_to_hz))?;
+        let modes = ModalBasis::told(&problem, ModeRange::UpToHz(up_to_hz), &|part| watch.fraction(part))?;
         let ends = faer::concat![[from, to]];
         let beyond = |blocks: usize| problem.beyond(&modes.shapes, (TAU * up_to_hz).powi(2), &ends, blocks);
         let at_ends = |ritz: &SymmetricSpectrum| Above {

@@ -100,7 +100,7 @@ pub(crate) fn compute_chart(
     effort: Effort,
     budget: Budget,
     told: &(dyn Fn(News<'_>) + Sync),
-    watch: &(impl Watch + Sync),
+    watch: &impl Watch,
 ) -> Result<Chart, ComputeError> {
     let RunCase { case, transient: asked, .. } = run;
     let whole = budget;
@@ -283,7 +283,7 @@ fn candidates(
     families: &[Vec<RunModel>],
     wanted: [RunModel; 2],
     told: &(dyn Fn(News<'_>) + Sync),
-    watch: &(impl Watch + Sync),
+    watch: &impl Watch,
 ) -> (Found, [usize; 2]) {
     let known = wanted.map(|model| {
         let known = on.point(&model);
@@ -339,7 +339,7 @@ fn statistics(
     case: &Case,
     Comparison { systems, reference, settings, until }: Comparison<'_>,
     points: [(usize, &Point); 2],
-    watch: &(impl Watch + Sync),
+    watch: &impl Watch,
 ) -> Vec<ModelStatistics> {
     let starts: Vec<Start> = reference.starts.iter().map(|s| s.start.clone()).collect();
     let analysis = FigureSettings {

@@ -3,6 +3,7 @@
 use super::super::lowest::Search;
 use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, symbolic};
 use super::cuts::FIRM;
+use crate::numerics::Told;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -35,13 +36,13 @@ struct Iterated {
 
 impl EigenProblem {
     /// The `count` lowest pairs by one search, counted in a gap behind them.
-    pub(super) fn lowest_at_once(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+    pub(super) fn lowest_at_once(&self, count: usize, told: Told<'_>) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
         let mut times = EigenTimes { order: self.order_s, ..EigenTimes::default() };
         let mut beyond = BEYOND.min(order - count);
         let mut check = None;
         for round in 1..=ROUNDS {
-            let Iterated { values, pairs, counted } = self.iterate(count, beyond, round, &mut times)?;
+            let Iterated { values, pairs, counted } = self.iterate([count, beyond], round, &mut times, told)?;
             let before = || self.count_before(&values, count, pairs.shift);
             let Some((value, counted)) = counted else {
                 if round >= CROWDED
@@ -71,16 +72,16 @@ impl EigenProblem {
     /// The pairs, and how many eigenvalues lie below a value in a gap behind those wanted.
     fn iterate(
         &self,
-        count: usize,
-        beyond: usize,
+        [count, beyond]: [usize; 2],
         rounds: usize,
         times: &mut EigenTimes,
+        told: Told<'_>,
     ) -> Result<Iterated, LinalgError> {
         let started = Instant::now();
         let (mut shift, mut factor) = self.definite_factor()?;
         times.factor += started.elapsed().as_secs_f64();
         let started = Instant::now();
-        let mut search = Search::new(&self.stiffness, &self.mass, shift, count, beyond);
+        let mut search = Search::new(&self.stiffness, &self.mass, shift, [count, beyond], told);
         for _ in 0..rounds {
             search.explore(&factor)?;
         }

@@ -49,27 +49,47 @@ fn any_number_of_pairs() {
     }
 }
 
+/// One search, slices, slices of a band: each tells a share of the pairs that rises from near 0; a slice when it begins.
+#[test]
+fn the_share_that_is_found_is_told() {
+    let (problem, exact) = lattice(11);
+    let shares = std::sync::Mutex::new(Vec::new());
+    let told = |part| shares.lock().unwrap().push(part);
+    let looked: [&dyn Fn() -> Result<EigenPairs, LinalgError>; 3] =
+        [&|| problem.lowest_told(40, &told), &|| problem.lowest_told(120, &told), &|| {
+            problem.between(1.01, exact[220], &told)
+        }];
+    for (which, look) in looked.iter().enumerate() {
+        look().expect("found");
+        let told = std::mem::take(&mut *shares.lock().unwrap());
+        assert!(told.len() > 1 && told[0] < 0.1 && told.last().is_some_and(|last| *last > 0.2), "{which}: {told:?}");
+        assert!(told.iter().all(|part| (0.0..=1.0).contains(part)), "{which}: {told:?}");
+        // sixfold eigenvalues: what is missing is looked for again
+        assert!(told.windows(2).filter(|pair| pair[1] < pair[0]).count() <= 3, "{which}: {told:?}");
+    }
+}
+
 #[test]
 fn slices_of_a_band_and_ends_on_eigenvalues() {
     let (problem, exact) = lattice(11);
     let below = |value: f64| exact.iter().filter(|&&one| one < value).count();
     for [low, high] in [[1.01, 1.11], [0.51, 4.03], [3.02, 12.5], [11.01, 1e300]] {
-        let pairs = problem.between(low, high).expect("found");
+        let pairs = problem.between(low, high, &|_| {}).expect("found");
         assert_exact(&pairs, &exact[below(low)..below(high)], &format!("{low} {high}"));
     }
     for low in [0.0, 1e-20, -1.0] {
-        let pairs = problem.between(low, 0.51).expect("found");
+        let pairs = problem.between(low, 0.51, &|_| {}).expect("found");
         assert_exact(&pairs, &exact[..below(0.51)], &low.to_string());
         assert!(pairs.count_check.above.is_none());
     }
     // the first three are equal, and all within the band that they begin
-    let pairs = problem.between(exact[1], exact[4]).expect("found");
+    let pairs = problem.between(exact[1], exact[4], &|_| {}).expect("found");
     assert_exact(&pairs, &exact[1..below(exact[4] * (1.0 + 1e-9))], "on eigenvalues");
     for high in [0.0, 1e-20] {
-        assert_exact(&problem.below(high).expect("found"), &exact[..1], "zero");
+        assert_exact(&problem.below(high, &|_| {}).expect("found"), &exact[..1], "zero");
     }
-    assert!(problem.between(20.0, 30.0).expect("none").values.is_empty());
-    assert!(problem.between(1e200, 1e300).expect("none").values.is_empty());
+    assert!(problem.between(20.0, 30.0, &|_| {}).expect("none").values.is_empty());
+    assert!(problem.between(1e200, 1e300, &|_| {}).expect("none").values.is_empty());
 }
 
 #[test]

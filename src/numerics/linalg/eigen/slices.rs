@@ -7,6 +7,7 @@
 use super::super::basis::times;
 use super::super::{CountCheck, DenseMatrix, EigenPairs, EigenProblem, EigenTimes, LinalgError, band};
 use super::cuts::{ABOVE, Cut, check_of};
+use crate::numerics::Told;
 use std::time::Instant;
 
 /// Pairs that a slice should have.
@@ -36,13 +37,13 @@ const LARGEST_COUPLING: f64 = 1e-4;
 
 impl EigenProblem {
     /// The `count` lowest pairs: the first by one search, which knows rigid motions, those beyond slice by slice.
-    pub(super) fn lowest_in_slices(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+    pub(super) fn lowest_in_slices(&self, count: usize, told: Told<'_>) -> Result<EigenPairs, LinalgError> {
         // the gap behind the first pairs may lie some pairs further: these are asked for too. A search that ends in a crowd takes more,
         // until it ends behind it
         let mut asked = FIRST;
         let mut cut: Option<Cut> = None;
         let (first, start) = loop {
-            let first = self.lowest_at_once(asked)?;
+            let first = self.lowest_at_once(asked, &|part| told(part * asked as f64 / count as f64))?;
             let check = first.count_check;
             let own = (check.below, check.counted);
             let closed = |cut: &Cut| {
@@ -62,7 +63,7 @@ impl EigenProblem {
                 return Err(LinalgError::no_gap(count));
             }
         };
-        let (slices, end) = self.slices(start, count, None)?;
+        let (slices, end) = self.slices(start, count, None, told)?;
         let parts = std::iter::once(first).chain(slices).collect();
         let mut pairs = self.joined(parts)?;
         pairs.count_check = CountCheck::from_lowest(end.0, end.1, pairs.values.len());
@@ -85,10 +86,12 @@ impl EigenProblem {
         start: Cut,
         wanted: usize,
         end: Option<f64>,
+        told: Told<'_>,
     ) -> Result<(Vec<EigenPairs>, Cut), LinalgError> {
         let mut slices = Vec::new();
         let mut low = start;
         while low.1 < wanted {
+            told(low.1 as f64 / wanted as f64);
             let started = Instant::now();
             let high = self.next_cut(low, wanted, end)?;
             let elapsed = started.elapsed().as_secs_f64();

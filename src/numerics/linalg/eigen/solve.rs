@@ -8,6 +8,7 @@ use super::super::{
 use super::cuts::{ABOVE, BELOW, check_of};
 use super::iteration::BEYOND;
 use super::slices::FIRST;
+use crate::numerics::Told;
 use std::time::Instant;
 
 /// Largest order that is solved densely whatever is asked: below it the dense solver is faster and needs no shift.
@@ -39,6 +40,14 @@ impl EigenProblem {
     /// them; [`LinalgError::Iteration`] if pairs that exist were not found, or for a pair that
     /// does not satisfy its equation; what factorisation and iteration report.
     pub fn lowest(&self, count: usize) -> Result<EigenPairs, LinalgError> {
+        self.lowest_told(count, &|_| {})
+    }
+
+    /// The same; `told` hears which part is found.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::lowest`].
+    pub(crate) fn lowest_told(&self, count: usize, told: Told<'_>) -> Result<EigenPairs, LinalgError> {
         let order = self.order();
         if count == 0 || count > order {
             return Err(LinalgError::TooManyModes { asked: count, available: order });
@@ -55,10 +64,10 @@ impl EigenProblem {
         let small_share = SHARE * largest_basis(count + BEYOND) <= order;
         let mut found = Err(LinalgError::no_gap(count));
         if count <= any || count <= large && small_share {
-            found = self.lowest_at_once(count);
+            found = self.lowest_at_once(count, told);
         }
         if count > FIRST && failed(&found) {
-            found = self.lowest_in_slices(count);
+            found = self.lowest_in_slices(count, told);
         }
         if order <= DENSE_RESCUE_LIMIT && failed(&found) {
             found = self.by_dense_solver(count);
@@ -70,7 +79,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::lowest`].
-    pub(crate) fn below(&self, limit: f64) -> Result<EigenPairs, LinalgError> {
+    pub(crate) fn below(&self, limit: f64, told: Told<'_>) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
         let (below, count) = self.count_near(limit, ABOVE)?;
         let elapsed = started.elapsed().as_secs_f64();
@@ -80,7 +89,7 @@ impl EigenProblem {
             none.times.count = elapsed;
             return Ok(none);
         }
-        let mut pairs = self.lowest(count)?;
+        let mut pairs = self.lowest_told(count, told)?;
         pairs.times.count += elapsed;
         Ok(pairs)
     }
@@ -90,7 +99,7 @@ impl EigenProblem {
     ///
     /// # Errors
     /// As [`EigenProblem::lowest`].
-    pub(crate) fn between(&self, low: f64, high: f64) -> Result<EigenPairs, LinalgError> {
+    pub(crate) fn between(&self, low: f64, high: f64, told: Told<'_>) -> Result<EigenPairs, LinalgError> {
         let started = Instant::now();
         let low = self.count_near(low, BELOW)?;
         let high = self.count_near(high, ABOVE)?;
@@ -99,13 +108,14 @@ impl EigenProblem {
         let mut pairs = if check.counted == 0 {
             EigenPairs::none(self.order(), high.0)
         } else if low.1 == 0 {
-            self.lowest(high.1)?
+            self.lowest_told(high.1, told)?
         } else {
             self.find_room(check.counted)?;
             let mut found = Err(LinalgError::no_gap(high.1));
             if !self.is_too_small_for_slices() {
                 let nearer = self.nearer_end(high)?;
-                found = self.slices(low, high.1, Some(nearer)).and_then(|(slices, _)| self.joined(slices));
+                let of_band = |part: f64| told((part * high.1 as f64 - low.1 as f64) / check.counted as f64);
+                found = self.slices(low, high.1, Some(nearer), &of_band).and_then(|(slices, _)| self.joined(slices));
             }
             if self.order() <= DENSE_RESCUE_LIMIT && failed(&found) {
                 found = self.by_dense_solver(high.1);

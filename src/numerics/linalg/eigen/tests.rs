@@ -103,16 +103,16 @@ fn a_limit_finds_what_is_below_it_and_a_band_what_is_inside() {
     let (k, m) = chain(order, 1.0);
     let problem = problem(&k, &m);
     let middle = |j: usize| 0.5 * (exact(j, order) + exact(j + 1, order));
-    let below = problem.below(middle(13)).expect("converges");
+    let below = problem.below(middle(13), &|_| {}).expect("converges");
     assert_eq!(below.values.len(), 13);
     assert_within_bounds(&below, |index| exact(index + 1, order));
-    assert!(problem.below(0.5 * exact(1, order)).expect("none").values.is_empty());
-    let band = problem.between(middle(100), middle(112)).expect("converges");
+    assert!(problem.below(0.5 * exact(1, order), &|_| {}).expect("none").values.is_empty());
+    let band = problem.between(middle(100), middle(112), &|_| {}).expect("converges");
     assert_eq!(band.values.len(), 12);
     assert_eq!(band.count_check.counted, 12);
     assert_within_bounds(&band, |index| exact(index + 101, order));
     let empty = 0.6 * exact(9, order) + 0.4 * exact(10, order);
-    assert!(problem.between(empty, middle(9)).expect("none").values.is_empty());
+    assert!(problem.between(empty, middle(9), &|_| {}).expect("none").values.is_empty());
 }
 
 /// Ends of a band on eigenvalues: counted a little beside them, and the answer says where.
@@ -120,7 +120,7 @@ fn a_limit_finds_what_is_below_it_and_a_band_what_is_inside() {
 fn a_limit_on_an_eigenvalue_is_moved() {
     let order = 400;
     let (k, m) = chain(order, 1.0);
-    let pairs = problem(&k, &m).below(exact(7, order)).expect("moved");
+    let pairs = problem(&k, &m).below(exact(7, order), &|_| {}).expect("moved");
     assert_eq!(pairs.values.len(), 7);
     assert_eq!(pairs.count_check.counted, 7);
 }
@@ -130,7 +130,7 @@ fn a_band_of_repeated_eigenvalues() {
     let (k, m) = chain(80, 1.0);
     let (k, m) = (beside(&k, 5), beside(&m, 5));
     let band = problem(&k, &m)
-        .between(0.5 * (exact(9, 80) + exact(10, 80)), 0.5 * (exact(12, 80) + exact(13, 80)))
+        .between(0.5 * (exact(9, 80) + exact(10, 80)), 0.5 * (exact(12, 80) + exact(13, 80)), &|_| {})
         .expect("converges");
     assert_eq!(band.values.len(), 15);
     assert_within_bounds(&band, |index| exact(10 + index / 5, 80));

@@ -118,7 +118,7 @@ pub(crate) fn compute_stability(
     conditions: Vec<Condition>,
     effort: Effort,
     until: Deadline,
-    watch: &(impl Watch + Sync),
+    watch: &impl Watch,
 ) -> Result<Stability, ComputeError> {
     let transient = &automatic(run.transient, case::Method::Auto);
     let choice = ModelChoice::of_case(RunCase { transient, ..run }, scene)?;
@@ -162,7 +162,7 @@ fn prepared(
     (case, scene, model): (&Case, &Scene, &RunModel),
     effort: Effort,
     until: Deadline,
-    progress: &Counter<'_, impl Watch + Sync>,
+    progress: &Counter<'_, impl Watch>,
 ) -> Vec<Result<Prepared, String>> {
     let prepared = conditions.par_iter().map(|condition| {
         let prepared = prepare(*condition, case, scene, model, effort, until);
@@ -178,7 +178,7 @@ fn summarised(
     prepared: Vec<Result<Prepared, String>>,
     grid: &[f64],
     effort: Effort,
-    progress: &Counter<'_, impl Watch + Sync>,
+    progress: &Counter<'_, impl Watch>,
 ) -> Vec<ConditionSummary> {
     let cells: Vec<Option<MethodStability>> = (0..conditions.len() * METHODS)
         .into_par_iter()

@@ -1,8 +1,10 @@
+//! The section of a ring: one or more rings fitted into each other, reduced to one curved beam.
+//!
 //! The beam that the rings of a section make together.
 //!
 //! One ring of a section: its area, its second moments and its torsion constant.
 
-use super::super::Material;
+use super::Material;
 use crate::fe::material::MaterialError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -273,7 +275,7 @@ pub(super) fn check(index: usize, layer: &RingLayer) -> Result<(), MaterialError
 }
 
 #[cfg(test)]
-mod tests {
+mod layer_tests {
     use super::*;
 
     #[test]
@@ -317,3 +319,6 @@ mod tests {
         assert!((given.torsion_constant() - 2e-12).abs() < 1e-27);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,3 +1,12 @@
+//! Common deep groove ball bearings with their inner dimensions, each number with its source.
+//!
+//! Number and size of the balls are the maker's own choice, which the standard of outer dimensions (ISO 15) leaves open: of the
+//! bearings that GMN and Timken publish, 6004 and 6208 differ (8 balls of 6.35 mm and 9 of 12.70 mm at Timken, against 9 of
+//! 6.350 mm and 9 of 11.906 mm at GMN). Orders of a bearing at hand are best taken from its own maker.
+//!
+//! **Limitations**: no raceway radii and no groove radii: makers do not publish them. They follow from ball and pitch diameter, a
+//! [clearance](normal_clearance) and [typical grooves](GROOVES).
+//!
 //! The numbers, as printed: millimetres, kilograms; balls in inches where they are no GMN's. GMN's 609 is left out: the mass printed for it is more
 //! than that of full steel.
 //!
@@ -338,3 +347,6 @@ impl OuterRingSection {
         Self { area, radius, inertia: second - area * radius.powi(2), axial_inertia: self.axial_inertia - across }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,3 +1,9 @@
+//! VTK XML unstructured grids (`.vtu`), as ParaView and PyVista open them.
+//!
+//! The grid has the nodes that the given elements use, in the order of the mesh, and the elements in the given order.
+//! Numbers are appended after the XML in base64 (little-endian, each array preceded by its length in bytes as UInt64):
+//! every bit arrives, and the file stays well-formed XML. Source: VTK file formats, section "XML file formats", unstructured grid and appended data.
+//!
 //! Writes a grid: nodes, elements and fields.
 //!
 //! Numbers go straight from the mesh to the file. The crate `vtkio` 0.7.0-rc2 copies and encodes all of them in memory first:
@@ -12,7 +18,7 @@
 //! - hexahedron: (0,1) (1,2) (2,3) (3,0), (4,5) (5,6) (6,7) (7,4), (0,4) (1,5) (2,6) (3,7),
 //! - wedge: (0,1) (1,2) (2,0), (3,4) (4,5) (5,3), (0,3) (1,4) (2,5).
 
-use super::super::FormatError;
+use super::FormatError;
 use crate::fe::mesh::{ElementId, ElementKind, Mesh};
 use crate::files::{Fault, write_atomic};
 use base64::engine::GeneralPurpose;
@@ -273,7 +279,7 @@ pub(super) fn node_order(kind: ElementKind) -> &'static [usize] {
 }
 
 #[cfg(test)]
-mod tests {
+mod cell_tests {
     use super::*;
 
     const TRIANGLE: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
@@ -310,3 +316,6 @@ mod tests {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,3 +1,8 @@
+//! Mode shapes along the raceway, ready for the hot loop: pieces of fifth degree, modes side by side.
+//!
+//! Values, slopes and curvatures are continuous from piece to piece, a ball stays on one for many steps, and a value costs
+//! five products.
+//!
 //! The table of the pieces, and where places in turns lie in it.
 //!
 //! Polynomials that reproduce the interpolation inside an element, and the quintics into which they are cut.
@@ -5,7 +10,7 @@
 //! Inside an element the interpolation is smooth. A polynomial through Chebyshev points reproduces it to [`ACCURACY`]; each
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
-use super::super::structure::StructureModes;
+use super::structure::StructureModes;
 use crate::fe::model::{Ring, RingRows};
 use crate::numerics::lanes::{LANES, Lanes, each, together, total};
 use std::f64::consts::PI;

@@ -1,8 +1,10 @@
+//! Contact of a ball with a race, healthy or not: forces, and what they store and take.
+//!
 //! Contact of a ball with a race, healthy or not: force and tangent for one ball position.
 //!
 //! What the contacts of one ball with a race store, and what their damping takes.
 
-use super::super::bearing_setup::BearingSetup;
+use super::bearing_setup::BearingSetup;
 use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use crate::numerics::lanes::{Lanes, each};

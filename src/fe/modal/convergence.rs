@@ -1,6 +1,8 @@
+//! How far frequencies of a mesh are from those of an infinitely fine one, from two meshes or more.
+//!
 //! Richardson's extrapolation with the grid convergence index as uncertainty.
 
-use super::super::error::{ModalError, check_count, check_finite, check_value};
+use super::error::{ModalError, check_count, check_finite, check_value};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -319,3 +321,6 @@ fn with_order(h: &[f64], f: &[f64], order: f64) -> (Law, f64) {
     };
     (law, squares)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,3 +1,5 @@
+//! Integration rules on the natural elements.
+//!
 //! The rules, and products of them.
 //!
 //! Points of rules, and Gauss-Jacobi rules on [-1, 1], by Newton's method.
@@ -318,3 +320,6 @@ pub(in crate::fe::element::continuum) fn conical_tetrahedron(n: usize) -> Vec<Qu
     }
     points
 }
+
+#[cfg(test)]
+mod tests;
