@@ -28,7 +28,7 @@ fn stepping_four_times_as_long_takes_the_same_memory() {
     let folder = tempfile::tempdir().unwrap();
     let taken = [0.02, 0.08].map(|duration| {
         let span = Span { duration, output_hz: run.transient.output_hz };
-        let identity = RunIdentity::of(&case).unwrap();
+        let identity = RunIdentity::of(&case, "run").unwrap();
         let mut unfinished = UnfinishedRun::begin(&folder.path().join("partial"), identity);
         peak(|| {
             let run = Simulation::kept_from_rest(&scene, &model, span, false, &mut unfinished, |_| {});

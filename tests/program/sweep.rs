@@ -164,7 +164,7 @@ fn shares_of_a_job_array_merge_to_the_same_table() {
     fs::write(&case, text.replace("72e9", "70e9")).unwrap();
     let (code, _, err) = share("1/2");
     assert_eq!(code, 2);
-    assert!(err.contains("another text of the case file"), "{err}");
+    assert!(err.contains("other values in the case file"), "{err}");
 }
 
 /// Runs that take seconds are interrupted, and the sweep goes on to the signals that it would have had.

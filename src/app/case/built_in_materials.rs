@@ -116,9 +116,52 @@ pub const BUILT_IN_MATERIALS: [BuiltInMaterial; 13] = [
     ),
 ];
 
+/// Parts of names, in small letters without what separates words, and the built-in material that is the nearest.
+const SAID: [(&[&str], &str); 13] = [
+    (&["castalu", "alsi", "alusi", "a380", "adc12"], "cast aluminium"),
+    (&["alu", "almg", "6061", "6082", "7075"], "aluminium"),
+    (&["gjl200", "gg20"], "EN-GJL-200"),
+    (&["gjs", "ggg", "ductileiron", "nodular", "spheroidal"], "EN-GJS-400-15"),
+    (&["gjl", "gg25", "gg30", "greyiron", "grayiron", "castiron", "grauguss"], "EN-GJL-250"),
+    (&["stainless", "14301", "aisi304", "x5crni"], "1.4301"),
+    (&["100cr6", "52100", "bearingsteel"], "bearing steel"),
+    (&["steel", "stahl", "42crmo", "16mncr", "c45", "s235", "s355"], "steel"),
+    (&["magnesium", "az91"], "cast magnesium"),
+    (&["brass", "messing", "cuzn"], "brass"),
+    (&["delrin", "acetal"], "POM"),
+    (&["gf30"], "PA66-GF30"),
+    (&["si3n4", "siliconnitride"], "silicon nitride"),
+];
+
+/// The built-in material that is nearest to what a name says in the words of standards and workshops.
+pub(in crate::app) fn built_in_like(name: &str) -> Option<&'static str> {
+    let plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
+    let said = SAID.iter().find(|(words, _)| words.iter().any(|word| plain.contains(word)));
+    said.map(|(_, material)| *material)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::BUILT_IN_MATERIALS;
+    use super::{BUILT_IN_MATERIALS, SAID, built_in_like};
+
+    #[test]
+    fn names_of_standards_and_workshops_have_a_nearest_material() {
+        for (name, near) in [
+            ("GG25", "EN-GJL-250"),
+            ("grey iron", "EN-GJL-250"),
+            ("en-gjl-250", "EN-GJL-250"),
+            ("GGG40", "EN-GJS-400-15"),
+            ("C45", "steel"),
+            ("42CrMo4", "steel"),
+            ("S355", "steel"),
+            ("AlSi10Mg", "cast aluminium"),
+            ("100Cr6", "bearing steel"),
+        ] {
+            assert_eq!(built_in_like(name), Some(near), "{name}");
+        }
+        assert_eq!(built_in_like("housing"), None);
+        assert!(SAID.iter().all(|(_, near)| BUILT_IN_MATERIALS.iter().any(|known| known.name == *near)));
+    }
 
     /// The modulus of steel within its range, and so on: the first two numbers before "GPa".
     #[test]

@@ -64,7 +64,7 @@ impl Case {
     }
 
     /// Every file that the case names.
-    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+    pub(super) fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let housing = self.housing.iter_mut().map(HousingSource::path_mut);
         let compared = self.modes.compare.iter_mut().map(|other| &mut other.file);
         let meshes = self.modes.convergence.iter_mut();

@@ -54,6 +54,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Slip, Wave};
+pub(in crate::app) use built_in_materials::built_in_like;
 pub use built_in_materials::{BUILT_IN_MATERIALS, BuiltInMaterial};
 pub(crate) use check::short;
 pub use check::{BrokenRule, Rule};
@@ -179,6 +180,11 @@ impl Case {
             (None, Some(transient)) => Some([0.0, 0.5 * transient.output_hz]),
             (None, None) => None,
         }
+    }
+
+    /// The band, or that of the source paper's figures.
+    pub(crate) fn band_or_default(&self) -> [f64; 2] {
+        self.band_hz().unwrap_or([0.0, 40e3])
     }
 
     /// Returns the relative error that the frequencies in the band may have: that of `[accuracy]`, else 0.01.

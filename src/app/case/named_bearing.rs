@@ -52,7 +52,11 @@ pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
         let expected = "a bearing of the catalogue, or no name and all its numbers";
         let mut fault = Fault::wrong(format!("\"{name}\""), &expected);
         let names = names_help(name, &names, "bearings");
-        fault.help = Some(format!("{names}; plummer init --list-bearings says their dimensions"));
+        // a designation of the same length is another bearing, not a slip of the pen
+        let other = [3, 4].contains(&name.len()) && name.bytes().all(|digit| digit.is_ascii_digit());
+        let names = names.split_once("? ").filter(|_| other).map_or(&*names, |(_, list)| list);
+        let instead = format!("write its data sheet's numbers into [bearing] instead of a name: {}", GIVEN.join(", "));
+        fault.help = Some(format!("{names}; plummer init --list-bearings says their dimensions; or {instead}"));
         let fault = fault.at(mark).under(Step::Key("name".to_owned()));
         return Err(fault.under(Step::Key("bearing".to_owned())));
     };
@@ -161,6 +165,8 @@ mod tests {
         ), "{error}");
         let help = error.help().unwrap();
         assert!(help.starts_with("did you mean `6204`? bearings here: 625, 626, "), "{help}");
+        let help = with("bearing = 6304", &[]).unwrap_err().help().unwrap();
+        assert!(help.starts_with("bearings here: 625, ") && help.ends_with("instead of a name: balls, ball_radius, inner_race_radius, outer_race_radius, inner_groove_radius, outer_groove_radius"), "{help}");
         let error = with("bearing = 6204", &["bearing.name=9999"]).unwrap_err().to_string();
         assert!(error.starts_with("--set bearing.name=9999: `bearing.name`: found \"9999\""), "{error}");
         let error = with("[bearing]\nname = true", &[]).unwrap_err().to_string();

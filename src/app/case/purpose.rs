@@ -1,7 +1,10 @@
 //! What a command needs of a case, a case that has what a simulation needs, and what a result depends on.
 
 use super::error::CaseError;
-use super::{Bearing, Case, Interface, Linearise, Ring, Shaft, Speed, Transient};
+use super::{Bearing, Case, Defect, Interface, Linearise, Ring, Shaft, Speed, Transient};
+use crate::files::{self, FileDigest};
+use sha2::{Digest, Sha256};
+use std::path::Path;
 
 /// What a case is to be used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,14 +131,52 @@ impl Case {
     }
 }
 
+/// Tables that say how results are looked at, not what they are.
+const VIEWS: [&str; 3] = ["analysis", "title", "report"];
+
 /// What modes without contact do not depend on, as they are those of ring and housing in full.
 const OF_CONTACT: [&str; 9] =
     ["frf", "speed", "transient", "damping", "bearing", "shaft", "accuracy", "condense", "sensors"];
 
 impl Case {
-    /// SHA-256 of the values that the result of a command depends on, 64 hexadecimal digits; `None` if the source is no case any more.
+    /// SHA-256 of what the result of a command depends on, 64 hexadecimal digits: the values, and the content of [`Case::tables`]. Meshes
+    /// stand by their own digests in results. `None` of values that have no JSON.
     pub(crate) fn digest(&self, command: &str) -> Option<String> {
-        self.source.digest(self.unread(command)).ok()
+        let mut text = self.values(command, &VIEWS)?;
+        for table in self.tables(command) {
+            // one that cannot be read is named where it is needed
+            text.extend(FileDigest::of_file(table).map(|file| file.sha256));
+        }
+        Some(files::hex(Sha256::new_with_prefix(text)))
+    }
+
+    /// The values that the result of a command depends on, defaults filled in and each in one unit, without the tables `left_out`. Files
+    /// are named as the case names them.
+    pub(crate) fn values(&self, command: &str, left_out: &[&str]) -> Option<String> {
+        let mut case = self.clone();
+        let folder = self.source.path.parent();
+        for path in case.paths_mut() {
+            if let Some(Ok(named)) = folder.map(|folder| path.strip_prefix(folder)) {
+                *path = named.to_owned();
+            }
+        }
+        let mut values = serde_json::to_value(&case).ok()?;
+        let tables = values.as_object_mut()?;
+        tables
+            .retain(|table, _| !left_out.contains(&table.as_str()) && !self.unread(command).contains(&table.as_str()));
+        Some(values.to_string())
+    }
+
+    /// Files beside meshes that the result of a command depends on: measured profiles, and modes from elsewhere.
+    pub(crate) fn tables(&self, command: &str) -> impl Iterator<Item = &Path> {
+        let unread = self.unread(command);
+        let bearing = self.bearing.iter().filter(|_| !unread.contains(&"bearing"));
+        let profiles = bearing.flat_map(|bearing| &bearing.defects).filter_map(|defect| match defect {
+            Defect::Measured(measured) => Some(measured.profile.csv.as_path()),
+            Defect::Dent(_) | Defect::Flat(_) => None,
+        });
+        let compared = self.modes.compare.iter().filter(|_| !unread.contains(&"modes"));
+        profiles.chain(compared.map(|other| other.file.as_path()))
     }
 
     /// Tables that the result of a command does not depend on, beside those that say how results are looked at.
@@ -182,10 +223,38 @@ mod tests {
                 all.into_iter().filter(|command| before.digest(command).unwrap() != after.digest(command).unwrap());
             assert_eq!(found.collect::<Vec<_>>(), changes, "{set}");
         }
+        // the same values: in another unit, by a default that is written down, by the name of a bearing and by its numbers
+        let digest = |set: &[&str]| Case::example("scenes/pedestal", set).digest("run");
+        let speed = "speed.profile=[{time=0,hz=20}]";
+        assert_eq!(
+            digest(&[speed]),
+            digest(&["speed.profile=[{time=0.0,rpm=1200}]", "ring.shear=true", "shaft.unbalance=0.2e-4"])
+        );
+        assert_ne!(digest(&[speed]), digest(&["speed.profile=[{time=0,hz=20.000000000000004}]"]));
         // a variant may be of loaded modes
         let variant = "modes.variants=[{what=\"a\",set=[\"modes.linearise=static\"]}]";
         let cases = [&[unloaded, variant][..], &[unloaded, variant, "shaft.mass=0.2"]];
         let [before, after] = cases.map(|set| Case::example("scenes/pedestal", set).digest("modes"));
         assert_ne!(before, after);
+    }
+
+    /// A file that is not as it was is another value; of a command that does not read it, it is not.
+    #[test]
+    fn a_digest_is_of_the_content_of_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let profile = format!("bearing.defects=[{{on=\"outer\",angle_deg=0,profile={{csv={:?}}}}}]", path("pit.csv"));
+        let compared = format!("modes.compare=[{{file={:?}}}]", path("modes.csv"));
+        let case = Case::example("scenes/pedestal", &[&profile, &compared, "modes.linearise=none"]);
+        let digests = || ["modes", "frf", "run"].map(|command| case.digest(command).unwrap());
+        let mut last = digests();
+        for (file, changes) in [("pit.csv", [false, true, true]), ("modes.csv", [true, false, false])] {
+            for content in ["1", "2"] {
+                std::fs::write(path(file), content).unwrap();
+                let now = digests();
+                assert_eq!([0, 1, 2].map(|command| now[command] != last[command]), changes, "{file}");
+                last = now;
+            }
+        }
     }
 }

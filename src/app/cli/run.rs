@@ -66,7 +66,7 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
         return Err(CliError::input(format!("{} holds an unfinished run", partial.display()))
             .with_help("go on with --resume, or give it up and begin anew with --force"));
     }
-    let identity = RunIdentity::of(case)?;
+    let identity = RunIdentity::of(case, "run")?;
     let mut unfinished = match resume {
         true => UnfinishedRun::resume(&partial, identity)?,
         false => UnfinishedRun::begin(&partial, identity),

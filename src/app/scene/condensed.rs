@@ -15,9 +15,6 @@ use crate::numerics::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Top of the band of a case that names none, Hz: that of the source's figures.
-const DEFAULT_BAND_HZ: f64 = 40e3;
-
 /// A condensed housing and what it was condensed from.
 #[derive(Debug, Clone)]
 pub struct CondensedHousing {
@@ -224,7 +221,7 @@ pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
             FixedInterfaceModes::Auto => BasisSize::Auto(case.target()),
         },
         enhanced: case.condense.enhanced,
-        band_hz: case.band_hz().map_or(DEFAULT_BAND_HZ, |band| band[1]),
+        band_hz: case.band_or_default()[1],
     }
 }
 

@@ -14,10 +14,11 @@ use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// How a file begins; the number is that of the format.
 const MAGIC: &[u8] = b"plummer condensed housing 1\n";
@@ -34,6 +35,10 @@ const MOST_BYTES: u64 = 1 << 30;
 /// Degrees of freedom of the interior from which on a housing is kept: fewer are condensed in less than half a second.
 const LEAST_DOF: usize = if cfg!(test) { 500 } else { 3000 };
 
+/// How long a process waits for another that condenses the same housing. It may have been stopped: then one condensation more is the
+/// lesser evil.
+const LONGEST_WAIT: Duration = Duration::from_secs(if cfg!(test) { 1 } else { 120 });
+
 /// What a ring's structure takes of the housing.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OnRing {
@@ -45,7 +50,7 @@ pub(super) struct OnRing {
     pub(super) complete_hz: f64,
 }
 
-/// The place of a condensed housing in a folder; other processes that want the same one wait until it is dropped.
+/// The place of a condensed housing in a folder; other processes that want the same one wait until it is dropped, [`LONGEST_WAIT`] at most.
 pub(super) struct Kept {
     path: PathBuf,
     key: String,
@@ -80,18 +85,15 @@ impl Kept {
             return None;
         }
         watch.stage("look for the condensed housing");
-        let place = key(matrices, boundary, choice, places).and_then(|key| Self::at(folder, key));
+        let place = key(matrices, boundary, choice, places).and_then(|key| Self::at(folder, key, watch));
         place.map_err(|error| watch.reuse(format!("condensed housing: not kept in {}: {error}", folder.display()))).ok()
     }
 
-    fn at(folder: &Path, key: String) -> io::Result<Self> {
+    fn at(folder: &Path, key: String, watch: &impl Watch) -> io::Result<Self> {
         let name = folder.file_name().unwrap_or(OsStr::new("cache"));
         let folder = make_below(folder.parent().unwrap_or(Path::new("")), Path::new(name))?;
         let file = |extension: &str| folder.join(format!("{}.{extension}", &key[..16]));
-        let (path, lock) = (file(EXTENSION), file("lock"));
-        no_link(&lock)?;
-        let lock = File::create(lock)?;
-        lock.lock()?;
+        let (path, lock) = (file(EXTENSION), locked(&file("lock"), watch)?);
         Ok(Self { path, key, _lock: lock })
     }
 
@@ -132,6 +134,35 @@ impl Kept {
             watch.reuse(format!("condensed housing: not kept: {error}"));
         }
     }
+}
+
+/// A file locked by this process, whose number stands in it.
+fn locked(path: &Path, watch: &impl Watch) -> io::Result<File> {
+    no_link(path)?;
+    let mut file = File::options().write(true).create(true).truncate(false).open(path)?;
+    let began = Instant::now();
+    let mut holder = None;
+    loop {
+        match file.try_lock() {
+            Ok(()) => break,
+            Err(TryLockError::Error(error)) => return Err(error),
+            Err(TryLockError::WouldBlock) => {}
+        }
+        let wait = LONGEST_WAIT.as_secs();
+        let holder = holder.get_or_insert_with(|| {
+            let number = fs::read_to_string(path).unwrap_or_default();
+            let holder = format!("process {} holds {}", number.trim(), path.display());
+            watch.stage(&format!("{holder}: wait for {wait} s at most"));
+            holder
+        });
+        if began.elapsed() >= LONGEST_WAIT {
+            return Err(io::Error::other(format!("{holder} for more than {wait} s, end it if it is stopped")));
+        }
+        thread::sleep(Duration::from_millis(100));
+    }
+    file.set_len(0)?;
+    write!(file, "{}", std::process::id())?;
+    Ok(file)
 }
 
 /// Digest of all that a condensed housing follows from.

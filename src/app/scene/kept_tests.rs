@@ -2,6 +2,7 @@ use super::*;
 use crate::app::case::Case;
 use crate::app::commands::run::compute_run;
 use crate::app::scene::CoupledStructure;
+use std::process::Command;
 use std::sync::Mutex;
 
 /// A folder, the stages, and what was said of the folder.
@@ -153,6 +154,30 @@ fn a_folder_that_keeps_nothing_stops_nothing() {
         assert!(condensed);
         assert!(said[0].starts_with(&format!("condensed housing: not kept in {}: ", place.display())), "{said:?}");
     }
+}
+
+/// A process that holds the lock and was stopped is named, and the housing is condensed without the folder.
+#[test]
+fn a_stopped_process_is_not_waited_for_for_ever() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let (first, ..) = built(Some(folder), &[]);
+    let lock = kept(folder)[0].with_extension("lock");
+    let script = "echo $$ > $0; exec flock --no-fork $0 sleep 600";
+    let mut holder = Command::new("sh").args(["-c", script]).arg(&lock).spawn().unwrap();
+    let number = holder.id().to_string();
+    while !fs::read_to_string(format!("/proc/{number}/comm")).unwrap().starts_with("sleep") {
+        thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-STOP", &number]).status().unwrap().success());
+    let (again, condensed, said) = built(Some(folder), &[]);
+    holder.kill().unwrap();
+    holder.wait().unwrap();
+    assert!(condensed);
+    same(&again, &first);
+    let held = format!("process {number} holds {} for more than 1 s, end it if it is stopped", lock.display());
+    assert_eq!(said, [format!("condensed housing: not kept in {}: {held}", folder.display())]);
+    assert!(!built(Some(folder), &[]).1, "it is used again");
 }
 
 #[test]

@@ -20,8 +20,11 @@ const SPEEDS_OF_SOUND: [f64; 2] = [10.0, 20_000.0];
 /// Densities of solids, kg/m^3: from foams to osmium (22 590).
 const DENSITIES: [f64; 2] = [5.0, 23_000.0];
 
-/// Density (kg/m^3) from which solids are metals or ceramics, and the least speed of sound there, m/s: lead has 1190 (Ashby).
-const HEAVY: [f64; 2] = [3000.0, 300.0];
+/// Density (kg/m^3) above that of every rubber and foam, and the least speed of sound there, m/s: PTFE has 470, lead 1190 (Ashby).
+const HEAVY: [f64; 2] = [2300.0, 300.0];
+
+/// Density of the lightest metals that housings are made of, kg/m^3: magnesium has 1740.
+const METALS_FROM: f64 = 1500.0;
 
 /// Highest modulus of a solid, Pa: diamond has 1.22e12.
 const STIFFEST: f64 = 1.3e12;
@@ -120,7 +123,7 @@ fn unit_of_material(young: f64, density: f64) -> Option<String> {
         let (young, density) = (young * modulus.1, density * heavy.1);
         let speed = (young / density).sqrt();
         let fits = [young, density, speed].into_iter().zip(USUAL).all(|(value, range)| within(range, value));
-        let off = if density > HEAVY[0] - 1500.0 { (speed / METAL).ln().abs() } else { 0.0 };
+        let off = if density > METALS_FROM { (speed / METAL).ln().abs() } else { 0.0 };
         let changed = usize::from(!modulus.0.is_empty()) + usize::from(!heavy.0.is_empty());
         fits.then_some(((modulus.0, young), (heavy.0, density), changed, off))
     });
@@ -321,6 +324,8 @@ mod tests {
         ] {
             let gigapascals = |young: f64, density: f64| is_solid([1e9 * young, 1e9 * young], density);
             assert!(gigapascals(young, density), "{what}");
+            // psi
+            assert!(density < 2300.0 || !is_solid([1e9 * young / 6894.757; 2], density), "{what}");
             // GPa, MPa, t/mm^3, both, g/cm^3
             for (modulus, heavy) in [(1e-9, 1.0), (1e-6, 1.0), (1.0, 1e-12), (1e-6, 1e-12), (1.0, 1e-3)] {
                 assert!(!gigapascals(young * modulus, density * heavy), "{what} {modulus} {heavy}");
@@ -336,6 +341,7 @@ mod tests {
             (210.0, 7850.0, "210 looks like GPa: write 2.1e11"),
             (70e9, 2.7, "2.7 looks like g/cm^3: write 2700"),
             (30e6, 7850.0, "3e7 looks like psi: write 2.0684e11"),
+            (10e6, 2700.0, "1e7 looks like psi: write 6.8948e10"),
             (2500.0, 1100.0, "2500 looks like MPa: write 2.5e9"),
             (2.5, 1100.0, "2.5 looks like GPa: write 2.5e9"),
             (110e3, 7.2e-9, "110000 looks like MPa: write 1.1e11; 7.2e-9 looks like t/mm^3: write 7200"),

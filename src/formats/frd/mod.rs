@@ -2,6 +2,7 @@
 //!
 //! The columns are those of "CalculiX CGX: result format" (K. Wittig, user's manual of cgx): nodes in a block `2C`, results in
 //! blocks `100C` of which each has a value (of a mode its frequency in Hz), a kind of analysis (2: frequencies) and components.
+//! The head of each block has the number of its rows.
 //!
 //! **Limitations**: binary files, and complex modes (`*COMPLEX FREQUENCY`, sectors of cyclic symmetry) are refused.
 
@@ -11,6 +12,7 @@ mod tests;
 use super::{FormatError, ModeShapes};
 use crate::files::{Fault, bytes_of};
 use std::collections::HashMap;
+use std::ops::Range;
 use std::path::Path;
 
 /// Kind of analysis of a block with a mode.
@@ -74,6 +76,14 @@ impl<'a> Line<'a> {
         }
     }
 
+    /// Whether as many were there as these columns say; files of old versions leave them blank.
+    fn counted(self, columns: Range<usize>, found: usize, what: &str) -> Result<(), Fault> {
+        let said = self.columns(columns.start, columns.end);
+        let expected = format!("{said} {what} in the block, as its head says");
+        Fault::unless(said.is_empty() || said.parse() == Ok(found), expected, found)
+            .map_err(|fault| fault.line(self.number))
+    }
+
     /// Number of a node and the three numbers after it.
     fn row(self, width: usize) -> Result<(u64, [f64; 3]), Fault> {
         let node = self.columns(3, 3 + width);
@@ -106,11 +116,14 @@ impl<'a> Reader<'a> {
             match line.key() {
                 "2C" => {
                     let width = line.width(73)?;
-                    self.rows(width, |node, place| {
+                    self.rows(line, |row| {
+                        let (node, place) = row.row(width)?;
                         places.insert(node, place.map(|x| metres * x));
+                        Ok(())
                     })?;
                 }
-                "100C" if line.columns(56, 58) == FREQUENCIES => modes.extend(self.mode(line)?),
+                "3C" if line.width(73).is_ok() => self.rows(line, |_| Ok(()))?,
+                "100C" => modes.extend(self.results(line)?),
                 END => ended = true,
                 _ => {}
             }
@@ -139,8 +152,12 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The mode of a block; `None` if it holds something else than displacements.
-    fn mode(&mut self, head: Line<'a>) -> Result<Option<Mode>, Fault> {
+    /// The mode of a block of results; `None` if it holds something else than displacements, or is of another analysis.
+    fn results(&mut self, head: Line<'a>) -> Result<Option<Mode>, Fault> {
+        if head.columns(56, 58) != FREQUENCIES {
+            // lines of a binary block are no lines
+            return head.width(74).map_or(Ok(()), |_| self.rows(head, |_| Ok(()))).map(|()| None);
+        }
         let found = head.columns(12, 24);
         let frequency = found.parse::<f64>().ok().filter(|hz| hz.is_finite());
         let frequency_hz = frequency.ok_or_else(|| head.fault("the frequency of a mode", found))?;
@@ -152,29 +169,36 @@ impl<'a> Reader<'a> {
         if matches!(name, "DISPI" | "PDISP") {
             return Err(kind.fault("real displacements (DISP)", name));
         }
-        let mut mode = Mode { frequency_hz, nodes: Vec::new(), shape: Vec::new() };
-        if name != "DISP" {
-            return Ok(None);
+        let mut components = 0;
+        while self.lines.clone().next().is_some_and(|(_, text)| text.trim_start().starts_with("-5")) {
+            components += 1;
+            self.next();
         }
-        self.rows(width, |node, displacement| {
-            mode.nodes.push(node);
-            mode.shape.extend(displacement);
+        kind.counted(13..18, components, "components -5")?;
+        let mut mode = Mode { frequency_hz, nodes: Vec::new(), shape: Vec::new() };
+        self.rows(head, |line| {
+            if name == "DISP" {
+                let (node, displacement) = line.row(width)?;
+                mode.nodes.push(node);
+                mode.shape.extend(displacement);
+            }
+            Ok(())
         })?;
-        Ok(Some(mode))
+        Ok((name == "DISP").then_some(mode))
     }
 
-    /// Takes the rows of a block up to its end.
-    fn rows(&mut self, width: usize, mut take: impl FnMut(u64, [f64; 3])) -> Result<(), Fault> {
-        let mut last = 0;
+    /// Takes the rows of a block up to its end, as many as its head says.
+    fn rows(&mut self, head: Line<'a>, mut take: impl FnMut(Line<'a>) -> Result<(), Fault>) -> Result<(), Fault> {
+        let (mut last, mut rows) = (head.number, 0);
         while let Some(line) = self.next() {
             last = line.number;
             match line.key().get(..2) {
                 Some("-1") => {
-                    let (node, values) = line.row(width)?;
-                    take(node, values);
+                    take(line)?;
+                    rows += 1;
                 }
-                Some("-3") => return Ok(()),
-                Some("-4" | "-5") => {}
+                Some("-3") => return head.counted(24..36, rows, "rows -1"),
+                Some("-2" | "-4" | "-5" | "-6") => {}
                 _ => return Err(line.fault("a row -1 or the end -3 of the block", line.key())),
             }
         }

@@ -33,12 +33,9 @@ fn what_is_no_file_of_modes_is_refused_with_its_line() {
     let until = |lines: usize| whole.lines().take(lines).collect::<Vec<_>>().join("\n");
     let block = whole.lines().position(|line| line.contains("100CL")).unwrap();
     assert_eq!(refused(""), "expected displacements of modes (*FREQUENCY with *NODE FILE and U), found none");
-    assert_eq!(
-        refused(
-            &whole.replace(" 2    1MODAL", " 0    1MODAL").lines().take(block + 100).collect::<Vec<_>>().join("\n")
-        ),
-        "expected displacements of modes (*FREQUENCY with *NODE FILE and U), found none"
-    );
+    let of_static = whole.replace(" 2    1MODAL", " 0    1     ").replace("MODAL", "     ");
+    let of_static = of_static.replace("                     2    ", "                     0    ");
+    assert_eq!(refused(&of_static), refused(""));
     let cut = refused(&until(block + 20));
     assert_eq!(cut, format!("line {}: expected the end -3 of the block, found the end of the file", block + 20));
     let complex = refused(&whole.replacen("-4  DISP ", "-4  DISPI", 1));
@@ -51,6 +48,20 @@ fn what_is_no_file_of_modes_is_refused_with_its_line() {
     });
     let binary = refused(&binary.collect::<Vec<_>>().join("\n"));
     assert!(binary.ends_with("expected text of format 0 or 1 (binary files are not read), found \"3\""), "{binary}");
+    // a row, an element or a component less than the head of its block says, or more
+    let without = |start: &str, after: usize| {
+        let place = after + whole.lines().skip(after).position(|line| line.starts_with(start)).unwrap();
+        let lines = whole.lines().enumerate().filter(|(number, _)| *number != place).map(|(_, line)| line);
+        refused(&lines.collect::<Vec<_>>().join("\n"))
+    };
+    assert_eq!(without(" -1", 0), "line 12: expected 125 rows -1 in the block, as its head says, found 124");
+    assert_eq!(without(" -1", 138), "line 139: expected 96 rows -1 in the block, as its head says, found 95");
+    let of_mode = format!("line {}: expected 125 rows -1 in the block, as its head says, found 124", block + 1);
+    assert_eq!(without(" -1", block), of_mode);
+    let of_kind = format!("line {}: expected 4 components -5 in the block, as its head says, found 3", block + 2);
+    assert_eq!(without(" -5", block), of_kind);
+    let of_static = of_static.replacen("0.00000E+00         125 ", "0.00000E+00         126 ", 1);
+    assert_eq!(refused(&of_static), of_mode.replace("125", "126").replace("124", "125"));
     // never a panic, whatever is cut or changed
     for at in (0..whole.len()).step_by(997) {
         let _ = Reader::new(&whole[..at]).modes(1.0);

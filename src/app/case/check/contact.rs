@@ -6,8 +6,8 @@ use super::super::{
     Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Ring, Slip,
 };
 use super::range::{
-    ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, needs, not_beside, not_empty,
-    repeated,
+    self, ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, needs, not_beside,
+    not_empty, repeated,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::bearing::Race;
@@ -27,8 +27,10 @@ pub(super) fn bearing(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> 
         not_beside("bearing.formulation", other, bearing.formulation == Formulation::Printed)?;
     }
     if let ContactStiffness::Given { inner, outer } = bearing.stiffness {
-        ABOVE_ZERO.check("bearing.stiffness.inner", inner)?;
-        ABOVE_ZERO.check("bearing.stiffness.outer", outer)?;
+        for (key, stiffness) in [("bearing.stiffness.inner", inner), ("bearing.stiffness.outer", outer)] {
+            ABOVE_ZERO.check(key, stiffness)?;
+            range::STIFFNESS.check(key, stiffness)?;
+        }
     }
     irregular(bearing)?;
     slip(&bearing.slip)
@@ -82,6 +84,7 @@ fn slip(slip: &Slip) -> Result<(), BrokenRule> {
 fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     ABOVE_ZERO.check("bearing.ball_radius", bearing.ball_radius)?;
     ABOVE_ZERO.check("bearing.ball_mass", bearing.ball_mass)?;
+    range::MASS.check("bearing.ball_mass", bearing.ball_mass)?;
     ABOVE_ZERO.check("bearing.density", bearing.density)?;
     not_beside("bearing.ball_mass", "bearing.density", bearing.ball_mass.is_some() && bearing.density.is_some())?;
     known_isotropic(case, "bearing.ball_material", &bearing.ball_material)?;

@@ -2,6 +2,7 @@
 
 use std::ops::RangeBounds;
 
+use super::super::built_in_materials::built_in_like;
 use super::super::error::names_help;
 use super::super::{Case, IsotropicMaterial, Material};
 use super::rule::{BrokenRule, Rule, short};
@@ -23,6 +24,14 @@ pub(super) const ZERO_TO_ONE: Range = Range("a number from 0 to 1", |x| (0.0..=1
 pub(super) const LOSS_FACTOR: Range = Range("a number from 0 to below 2", |x| (0.0..2.0).contains(&x));
 /// Cycles of a wavelet.
 pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=1000.0).contains(&x));
+/// Wide beyond all shafts: further out, squares leave the numbers.
+pub(super) const SPEED: Range = Range("a speed of at most 1e6 Hz (6e7 rpm) either way", |x| x.abs() <= 1e6);
+/// As [`SPEED`], of masses, kg.
+pub(super) const MASS: Range = Range("a mass of at most 1e15 kg", |x| x <= 1e15);
+/// As [`SPEED`], of forces, accelerations and unbalances.
+pub(super) const LOAD: Range = Range("at most 1e15 either way", |x| x.abs() <= 1e15);
+/// As [`SPEED`], of springs.
+pub(super) const STIFFNESS: Range = Range("a stiffness of at most 1e20", |x| x <= 1e20);
 /// Beyond, an angle has lost digits or is a number of something else.
 pub(super) const DEGREES: Range = Range("an angle from -36000 to 36000 degrees", |x| x.abs() <= 36_000.0);
 pub(super) const POISSON: Range = Range("a number above -1 and below 0.5", |x| x > -1.0 && x < 0.5);
@@ -110,7 +119,11 @@ pub(super) fn repeated(name: &str) -> Rule {
 pub(crate) fn known_material<'c>(case: &'c Case, key: &str, name: &str) -> Result<&'c Material, BrokenRule> {
     case.material(name).ok_or_else(|| {
         let names: Vec<&str> = case.materials.keys().map(String::as_str).collect();
-        Rule::new(format!("no material is called \"{name}\"")).with_help(names_help(name, &names, "materials")).at(key)
+        let mut help = names_help(name, &names, "materials");
+        if let Some(near) = built_in_like(name).filter(|_| help.starts_with("materials")) {
+            help = format!("the nearest that is built in is \"{near}\" (plummer init --list-materials); or give it a table [materials.\"{name}\"]; {help}");
+        }
+        Rule::new(format!("no material is called \"{name}\"")).with_help(help).at(key)
     })
 }
 

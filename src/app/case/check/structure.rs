@@ -4,8 +4,8 @@ use super::super as case;
 use super::super::tree::quoted;
 use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
 use super::range::{
-    ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count, direction,
-    each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
+    self, ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count,
+    direction, each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule};
 use crate::fe::material::{MaterialError, OrthotropicMaterial, RadiusRule};
@@ -64,6 +64,7 @@ pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     links(housing)?;
     for (index, mass) in housing.masses.iter().enumerate() {
         ABOVE_ZERO.check(format!("housing.masses[{index}].mass"), mass.mass)?;
+        range::MASS.check(format!("housing.masses[{index}].mass"), mass.mass)?;
     }
     Ok(())
 }
@@ -112,6 +113,7 @@ fn springs(at: impl Fn(&str) -> String, stiffness: SpringStiffness, plane: bool)
     let parts = [("x", x), ("y", y), ("z", z)];
     for (name, stiffness) in parts {
         ZERO_OR_MORE.check(format!("{key}.{name}"), stiffness)?;
+        range::STIFFNESS.check(format!("{key}.{name}"), stiffness)?;
     }
     let acting = parts.iter().filter(|(_, stiffness)| *stiffness > 0.0);
     not_empty(key.as_str(), acting.count(), "a stiffness above 0")?;

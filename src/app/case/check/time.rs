@@ -18,10 +18,20 @@ const RESERVED_NAMES: [&str; 8] =
 
 pub(super) fn shaft(shaft: &Shaft) -> Result<(), BrokenRule> {
     ABOVE_ZERO.check("shaft.mass", shaft.mass)?;
+    range::MASS.check("shaft.mass", shaft.mass)?;
     ZERO_OR_MORE.check("shaft.unbalance", shaft.unbalance)?;
+    range::LOAD.check("shaft.unbalance", shaft.unbalance)?;
+    let loads = |key: String, force: [f64; 2]| force.iter().try_for_each(|&part| range::LOAD.check(key.clone(), part));
+    loads("shaft.gravity".to_owned(), shaft.gravity)?;
     for (index, load) in shaft.loads.iter().enumerate() {
-        if let Load::Profile(points) = load {
-            increasing(&format!("shaft.loads[{index}].profile"), points.iter().map(|point| point.time))?;
+        let key = format!("shaft.loads[{index}]");
+        match load {
+            Load::Constant(force) => loads(key, *force)?,
+            Load::Profile(points) => {
+                let key = format!("{key}.profile");
+                increasing(&key, points.iter().map(|point| point.time))?;
+                points.iter().try_for_each(|point| loads(key.clone(), point.force))?;
+            }
         }
     }
     Ok(())
@@ -47,6 +57,10 @@ pub(super) fn damping(damping: &Damping) -> Result<(), BrokenRule> {
 }
 
 pub(super) fn speed(speed: &Speed) -> Result<(), BrokenRule> {
+    for (index, point) in speed.profile.iter().enumerate() {
+        // `hz` or `rpm`
+        range::SPEED.check(format!("speed.profile[{index}]"), point.frequency_hz)?;
+    }
     increasing("speed.profile", speed.profile.iter().map(|point| point.time))
 }
 
@@ -188,8 +202,16 @@ pub(super) fn frf(case: &Case, frf: &Frf) -> Result<(), BrokenRule> {
         known_sensor(case, format!("frf.to[{index}]"), name)?;
     }
     frf.band_hz.iter().try_for_each(|&band| band_of("frf.band_hz", band))?;
+    // the condensed housing is made for the band: above, a difference from the full model says nothing
+    let highest = frf.band_hz.unwrap_or(case.band_or_default())[1];
     for (index, &hz) in frf.check_hz.iter().flatten().enumerate() {
-        ZERO_OR_MORE.check(format!("frf.check_hz[{index}]"), hz)?;
+        let key = format!("frf.check_hz[{index}]");
+        ZERO_OR_MORE.check(key.clone(), hz)?;
+        kept(hz <= highest, key, || {
+            Rule::beyond(hz, "at most the highest frequency of the band", highest).with_help(
+                "the band is that of `frf.band_hz`, else of `accuracy.band_hz`: raise it or leave this frequency out",
+            )
+        })?;
     }
     Ok(())
 }

@@ -315,9 +315,9 @@ mod tests {
                  help: go on with --resume, replace it with --force, or choose another folder with --out\n",
             ),
             (
-                changed(folder, &["another text of the case file".to_owned()]),
+                changed(folder, &["other values in the case file".to_owned()]),
                 2,
-                "error: the sweep in out/a was begun with something else: another text of the case file\n\
+                "error: the sweep in out/a was begun with something else: other values in the case file\n\
                  help: go on with what it was begun with, or begin anew with --force\n",
             ),
             (

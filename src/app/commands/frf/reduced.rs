@@ -140,7 +140,7 @@ impl<'c> ReducedPaths<'c> {
     /// [`ComputeError`] of the stages that it goes through.
     pub(crate) fn build(case: &'c Case, frf: &'c case::Frf, watch: &impl Watch) -> Result<Self, ComputeError> {
         let choice = basis_choice(case);
-        let band_hz = frf.band_hz.or(case.band_hz()).unwrap_or([0.0, choice.band_hz]);
+        let band_hz = frf.band_hz.unwrap_or(case.band_or_default());
         if let Some(path) = case.superelement() {
             watch.stage("read");
             let ring = case.ring.as_ref().ok_or(ComputeError::NothingToCondense)?;

@@ -1,5 +1,6 @@
 //! What the groups of a mesh are for, by dimension and name.
 
+use crate::app::case::built_in_like;
 use crate::fe::mesh::{Mesh, PhysicalGroup};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -11,22 +12,8 @@ const SUPPORTS: [&str; 11] =
 /// Parts of names of points where something is measured.
 const SENSORS: [&str; 5] = ["sensor", "accel", "probe", "pickup", "top"];
 
-/// Parts of names and what they are made of.
-const MATERIALS: [(&str, &str); 13] = [
-    ("cast_alu", "cast aluminium"),
-    ("alu", "aluminium"),
-    ("gjl", "EN-GJL-250"),
-    ("gjs", "EN-GJS-400-15"),
-    ("grey_iron", "EN-GJL-250"),
-    ("cast_iron", "EN-GJL-250"),
-    ("stainless", "1.4301"),
-    ("brass", "brass"),
-    ("steel", "steel"),
-    ("stahl", "steel"),
-    ("shaft", "steel"),
-    ("bolt", "steel"),
-    ("screw", "steel"),
-];
+/// Parts of names of what is made of steel.
+const STEEL: [&str; 3] = ["shaft", "bolt", "screw"];
 
 /// What a part is made of where its name says nothing.
 const USUAL_MATERIAL: &str = "aluminium";
@@ -104,10 +91,10 @@ impl Groups {
             for &node in &group.nodes {
                 on_housing[node] = true;
             }
-            let known = MATERIALS.iter().find(|(word, _)| says(&group.name, &[*word]));
+            let known = built_in_like(&group.name).or_else(|| says(&group.name, &STEEL).then_some("steel"));
             found.parts.push(PartGuess {
                 group: group.name.clone(),
-                material: known.map_or(USUAL_MATERIAL, |(_, material)| material),
+                material: known.unwrap_or(USUAL_MATERIAL),
                 by_name: known.is_some(),
             });
         }

@@ -171,7 +171,7 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
         "analysis.envelope=[{from=4e-3,to=5e-3}]",
     ]);
     let in_memory = compute_run(&case, &Unwatched).unwrap();
-    let identity = || RunIdentity::of(&case).unwrap();
+    let identity = || RunIdentity::of(&case, "run").unwrap();
     let mut unfinished = UnfinishedRun::begin(&path, identity());
     let on_disk = compute_kept_run(&case, &Unwatched, &mut unfinished).unwrap();
     assert_eq!(Recording::rows(&on_disk.simulation.record), 4801);

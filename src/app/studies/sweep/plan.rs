@@ -9,7 +9,6 @@ use super::axis::EXAMPLES;
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::run::unfinished::RunIdentity;
 use crate::app::error::ComputeError;
-use crate::files;
 
 /// Most points of a sweep: each has a folder.
 const MOST_POINTS: usize = 100_000;
@@ -103,7 +102,7 @@ impl Plan {
         Ok(Self {
             command,
             case: std::path::absolute(path).map_err(ComputeError::io(path))?,
-            identity: RunIdentity::of(case)?,
+            identity: RunIdentity::of(case, command.name())?,
             set: case.source.set.clone(),
             axes,
         })
@@ -159,16 +158,17 @@ impl Plan {
         result: &serde_json::Value,
     ) -> Result<(), ComputeError> {
         let set: Option<Vec<String>> = serde_json::from_value(result["set"].clone()).ok();
-        let text = files::read(&self.case).ok().and_then(|bytes| String::from_utf8(bytes).ok());
-        let text = text.filter(|text| self.identity.is_of_text(text));
-        let case = text.and_then(|text| self.case_at(point, &text).ok());
-        let expected = case.and_then(|case| case.digest(self.command.name()));
-        let same_values = match (expected, result["case_digest"].as_str()) {
-            (Some(expected), Some(found)) => expected == found,
-            _ => true,
-        };
+        let command = self.command.name();
+        let planned = Case::load(&self.case, &self.set).ok();
+        let planned = planned.filter(|case| self.identity.has_values_of(case, command));
+        let case = planned.and_then(|case| self.case_at(point, &case.source.text).ok());
+        let expected = case.and_then(|case| case.digest(command));
         let other = set.as_ref().is_some_and(|set| *set != point.set);
-        if same_values && !other {
+        let same = match (expected, result["case_digest"].as_str()) {
+            (Some(expected), Some(found)) => expected == found,
+            _ => !other,
+        };
+        if same {
             return Ok(());
         }
         let found = match other {

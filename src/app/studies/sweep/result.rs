@@ -419,10 +419,13 @@ pub(super) mod tests {
         let digest = plan.case_at(&point, &case.source.text).unwrap().digest("modes").unwrap();
         belongs(&point.set, &digest).unwrap();
         // of a point with other values, and of another case with the same arguments
-        let other = belongs(&plan.point(2).set, &digest).unwrap_err();
+        let second = plan.case_at(&plan.point(2), &case.source.text).unwrap().digest("modes").unwrap();
+        let other = belongs(&plan.point(2).set, &second).unwrap_err();
         assert!(other.contains("expected --set ring.nodes=36"), "{other}");
         assert!(other.contains("found --set ring.nodes=72"), "{other}");
         belongs(&point.set, &case.digest("modes").unwrap()).unwrap_err();
+        // the same value in other words
+        belongs(&["ring.nodes = 36".to_owned()], &digest).unwrap();
     }
 
     #[test]

@@ -50,6 +50,8 @@ fn materials_exist() {
     assert_eq!(help("steal"), format!("did you mean `steel`? {known}"));
     assert_eq!(help("EN-GJL-25"), format!("did you mean `EN-GJL-250`? {known}"));
     assert_eq!(help("unobtainium"), known);
+    let built_in = "the nearest that is built in is \"EN-GJL-250\" (plummer init --list-materials); or give it a table";
+    assert_eq!(help("GG25"), format!("{built_in} [materials.\"GG25\"]; {known}"));
 }
 
 #[test]

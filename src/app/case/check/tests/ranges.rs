@@ -80,6 +80,41 @@ fn what_may_be_zero_is_not_below() {
     holds(FULL, &["damping={alpha=0,beta=0}"]);
 }
 
+/// Beyond, squares leave the numbers and no equilibrium is found.
+#[test]
+fn what_is_beyond_all_measure_is_refused() {
+    const MASS: &str = "found 1e300, expected a mass of at most 1e15 kg";
+    const LOAD: &str = "found 1e300, expected at most 1e15 either way";
+    const STIFF: &str = "found 1e300, expected a stiffness of at most 1e20";
+    for (argument, key, rule) in [
+        ("shaft.mass=1e300", "shaft.mass", MASS),
+        ("bearing.ball_mass=1e300", "bearing.ball_mass", MASS),
+        ("housing.masses[0].mass=1e300", "housing.masses[0].mass", MASS),
+        ("shaft.unbalance=1e300", "shaft.unbalance", LOAD),
+        ("shaft.gravity=[0,1e300]", "shaft.gravity", LOAD),
+        ("shaft.loads=[{force=[1e300,0]}]", "shaft.loads[0]", LOAD),
+        ("shaft.loads=[{profile=[{time=0,force=[0,1e300]}]}]", "shaft.loads[0].profile", LOAD),
+        ("bearing.stiffness={inner=1,outer=1e300}", "bearing.stiffness.outer", STIFF),
+        ("housing.supports[1].spring.x=1e300", "housing.supports[1].spring.x", STIFF),
+        (
+            "speed.profile=[{time=0,rpm=1e300}]",
+            "speed.profile[0]",
+            "found 1.66666666667e298, expected a speed of at most 1e6 Hz (6e7 rpm) either way",
+        ),
+    ] {
+        breaks(FULL, &[argument], key, rule);
+    }
+}
+
+/// The condensed housing is made for the band.
+#[test]
+fn responses_are_checked_in_their_band() {
+    const PATHS: &str = "frf={from=[{ring_deg=3,direction=[0,1,0]}],check_hz=[1,41e3]}";
+    let rule = "found 41000, expected at most the highest frequency of the band (40000)";
+    breaks(FULL, &[PATHS], "frf.check_hz[1]", rule);
+    holds(FULL, &[&PATHS.replace("check", "band_hz=[0,42e3],check")]);
+}
+
 #[test]
 fn a_spectral_radius_is_of_one_method_and_from_zero_to_one() {
     let (key, alpha) = ("transient.spectral_radius", "transient.method=generalized-alpha");

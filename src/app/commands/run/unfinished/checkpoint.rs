@@ -1,13 +1,13 @@
 //! The file of a checkpoint, and what a run was begun with, told apart by content.
 //!
 //! ```text
-//! plummer checkpoint 2            a line
+//! plummer checkpoint 3            a line
 //! {"identity": ..}                a line of JSON: what the run was begun with, how far it is, rows, words
 //! words                           64 bits each, little-endian
 //! SHA-256 of all before           32 bytes
 //! ```
 
-use crate::app::case::{Case, Defect};
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
 use crate::files::{self, FileDigest, FileError, write_atomic};
@@ -19,7 +19,7 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-const MAGIC: &[u8] = b"plummer checkpoint 2\n";
+const MAGIC: &[u8] = b"plummer checkpoint 3\n";
 
 /// Bytes of the digest at the end.
 const DIGEST: usize = 32;
@@ -109,37 +109,39 @@ impl Checkpoint {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunIdentity {
     plummer: String,
-    /// SHA-256 of the case file's text, 64 hexadecimal digits.
+    /// SHA-256 of the values, 64 hexadecimal digits.
     case_sha256: String,
     set: Vec<String>,
-    /// Meshes and tables that it names.
+    /// Meshes and tables that they name.
     files: Vec<FileDigest>,
 }
 
 impl RunIdentity {
-    /// Of a case as it would be run now.
+    /// Of a case as this command would compute it now.
     ///
     /// # Errors
     /// [`ComputeError`] for a mesh that cannot be read.
-    pub fn of(case: &Case) -> Result<Self, ComputeError> {
+    pub fn of(case: &Case, command: &str) -> Result<Self, ComputeError> {
         let mut files = mesh_digests(case)?;
-        let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects);
         // one that cannot be read is named where it is needed
-        files.extend(defects.filter_map(|defect| match defect {
-            Defect::Measured(measured) => FileDigest::of_file(&measured.profile.csv).ok(),
-            _ => None,
-        }));
+        files.extend(case.tables(command).filter_map(|table| FileDigest::of_file(table).ok()));
         Ok(Self {
             plummer: env!("CARGO_PKG_VERSION").to_owned(),
-            case_sha256: files::hex(Sha256::new_with_prefix(&case.source.text)),
+            case_sha256: Self::values_of(case, command),
             set: case.source.set.clone(),
             files,
         })
     }
 
-    /// Whether the case file's text is this one.
-    pub(crate) fn is_of_text(&self, text: &str) -> bool {
-        self.case_sha256 == files::hex(Sha256::new_with_prefix(text))
+    fn values_of(case: &Case, command: &str) -> String {
+        // all but what a report's head says
+        let values = case.values(command, &["title", "report"]);
+        files::hex(Sha256::new_with_prefix(values.unwrap_or_default()))
+    }
+
+    /// Whether a case has these values.
+    pub(crate) fn has_values_of(&self, case: &Case, command: &str) -> bool {
+        self.case_sha256 == Self::values_of(case, command)
     }
 
     /// What is not the same now, in words.
@@ -149,10 +151,10 @@ impl RunIdentity {
             changes.push(format!("plummer {}, now plummer {}", self.plummer, now.plummer));
         }
         if self.case_sha256 != now.case_sha256 {
-            changes.push("another text of the case file".to_owned());
-        }
-        if self.set != now.set {
-            changes.push(format!("{}, now {}", set_text(&self.set), set_text(&now.set)));
+            changes.push(match self.set == now.set {
+                true => "other values in the case file".to_owned(),
+                false => format!("{}, now {}", set_text(&self.set), set_text(&now.set)),
+            });
         }
         let [then, current] = [self, now].map(|run| run.files.iter().map(|file| &file.sha256));
         if then.ne(current) {
@@ -187,7 +189,7 @@ mod tests {
                 .to_owned(),
             ..Source::default()
         });
-        RunIdentity::of(&case.unwrap()).unwrap()
+        RunIdentity::of(&case.unwrap(), "run").unwrap()
     }
 
     #[test]
@@ -238,13 +240,13 @@ mod tests {
         };
         assert_eq!(
             identity.changes(&other),
-            [
-                "plummer 0.1.0, now plummer 0.2.0",
-                "another text of the case file",
-                "--set a=1, now no --set",
-                "another content of a.msh",
-            ]
+            ["plummer 0.1.0, now plummer 0.2.0", "--set a=1, now no --set", "another content of a.msh",]
         );
+        let values = RunIdentity { case_sha256: "ab".to_owned(), ..identity.clone() };
+        assert_eq!(identity.changes(&values), ["other values in the case file"]);
+        // the same values in other words
+        let words = RunIdentity { set: vec!["a=1.0".to_owned()], ..identity.clone() };
+        assert!(identity.changes(&words).is_empty());
         moved.files.clear();
         assert_eq!(identity.changes(&moved), ["another content of more or fewer files"]);
     }
