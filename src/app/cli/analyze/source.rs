@@ -93,7 +93,8 @@ impl Source {
         let mut doubts = Vec::new();
         for signal in &signals {
             let typed = machine.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            extend_new(&mut doubts, typed.into_iter().chain(flaws(signal, &settings.windows)));
+            let flaws = flaws(signal, &settings.windows);
+            extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
             extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
