@@ -487,11 +487,22 @@ fn many_files_are_one_table() {
     assert_eq!(named(&windows[4]), [outer]);
     assert_eq!(written["inputs"][1]["input"], "a.csv");
     assert!((written["inputs"][1]["defect_orders"]["outer"].as_f64().unwrap() - 3.585).abs() < 1e-12);
-    // the report has the table first, then the windows
+    // the report has the inputs first, then the verdicts and the windows
+    let inputs = fs::read_to_string(out.join("tables/analysis-1-inputs.csv")).unwrap();
+    let inputs: Vec<&str> = inputs.lines().collect();
+    assert_eq!(
+        inputs,
+        [
+            "File,Channel,Length / s,Sampling rate / Hz,Unit,\"Mean shaft speed, as given / Hz\"",
+            "b.csv,P1,1,16000,,25",
+            "b.csv,P2,1,16000,,25",
+            "a.csv,P1,1,16000,g,25",
+        ]
+    );
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(report.contains("plummer analyze b.csv a.csv --orders"), "the command line");
     assert!(report.contains("a.csv: P1, 0 to 0.5 s"));
-    let first = fs::read_to_string(out.join("tables/analysis-1-verdicts.csv")).unwrap();
+    let first = fs::read_to_string(out.join("tables/analysis-2-verdicts.csv")).unwrap();
     assert_eq!(first, fs::read_to_string(out.join("analysis.csv")).unwrap());
     // whatever the number of threads
     let same = |threads| {
@@ -509,7 +520,7 @@ fn many_files_are_one_table() {
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     let few = "This report has no plots of windows: there are 13, and it shows at most 12.";
     assert!(report.contains(few));
-    assert!(!out.join("tables/analysis-2-verdict.csv").exists());
+    assert!(!out.join("tables/analysis-3-verdict.csv").exists());
     // an array that is no signal is left out
     let values =
         recorded("").lines().skip(1).filter_map(|row| row.split_once(',')?.1.parse().ok()).collect::<Vec<f64>>();
@@ -524,10 +535,25 @@ fn many_files_are_one_table() {
     assert_eq!(found, ["m.npz P1", "a.csv P1"]);
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(report.contains("is left out: it is no signal (shape [2, 3])"));
-    // of one file as well
-    let one = analyze(&["a.csv"], &[]);
-    assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
-    assert_eq!(rows(&folder.join("out/a"))[0][8], outer);
+    // of one file as well; the head of a report has names without a case too
+    let names = ["--set", "report.customer=ACME", "--set", "report.title=Pump 3"];
+    for (files, out) in [(&["a.csv"][..], "out/a"), (&["a.csv", "b.csv"], "out/analysis")] {
+        let one = analyze(files, &[&names[..], &["--force"]].concat());
+        assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
+        assert_eq!(rows(&folder.join(out))[0][8], outer);
+        let report = fs::read_to_string(folder.join(out).join("report.html")).unwrap();
+        assert!(report.contains("ACME") && report.contains("<title>Pump 3"), "{out}");
+        assert!(report.contains("--set report.customer=ACME --set 'report.title=Pump 3'"), "the command line");
+    }
+    for (set, expected) in [
+        ("bearing.balls=8", "error: --set bearing.balls=8: `bearing`: unknown key"),
+        ("report.client=A", "error: --set report.client=A: `report.client`: unknown key"),
+        ("report.title=''", "error: --set report.title='': `report.title`: found an empty text, expected some text"),
+    ] {
+        let wrong = analyze(&["a.csv"], &["--force", "--set", set]);
+        assert_eq!(wrong.status.code(), Some(2));
+        assert!(errors(&wrong).starts_with(expected), "{}", errors(&wrong));
+    }
 }
 
 #[test]
