@@ -1,8 +1,5 @@
 //! `[report]`: for whom and by whom a report is made.
 
-use super::check::report;
-use super::document::{Document, Source};
-use super::error::CaseError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,28 +24,7 @@ pub struct ReportDetails {
     pub remark: Option<String>,
 }
 
-/// What arguments may set where there is no case.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WithoutCase {
-    #[serde(default)]
-    report: Option<ReportDetails>,
-}
-
 impl ReportDetails {
-    /// Entries of `KEY=VALUE` arguments for a command without a case, `report.customer=...`; `None` without any.
-    ///
-    /// # Errors
-    /// [`CaseError`]: an argument that is none, another key than those of `report`, an entry that does not fit the report's head.
-    pub(crate) fn of_arguments(set: &[String]) -> Result<Option<Self>, CaseError> {
-        let source = Source { set: set.to_vec(), ..Source::default() };
-        let document = Document::read(&source)?;
-        let read = WithoutCase::deserialize(&document.root).map_err(|fault| document.error(fault))?;
-        let checked = read.report.iter().try_for_each(report);
-        checked.map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
-        Ok(read.report)
-    }
-
     /// Every entry with its key, in the order of the report's head.
     pub(crate) fn entries(&self) -> [(&'static str, Option<&str>); 5] {
         let Self { title, author, customer, project, remark } = self;

@@ -68,7 +68,7 @@ impl Layout {
         if !named(last) {
             // a title; of a table with commas perhaps the name of one column of decimal commas
             let title = separator != b',' && last.len() == 1;
-            return title.then(|| Self { titles: start, nameless: Some(own), ..layout });
+            return title.then_some(Self { titles: start, nameless: Some(own), ..layout });
         }
         let remarks = (0..last.len()).filter(|place| !own.contains(place)).collect();
         let before = above.iter().rev().nth(1).filter(|row| row.len() == last.len());
