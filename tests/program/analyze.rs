@@ -538,7 +538,7 @@ fn many_files_are_one_table() {
     assert!(report.contains("is left out: it is no signal (shape [2, 3])"));
     // of one file as well; the head of a report has names without a case too
     let names = ["--set", "report.customer=ACME", "--set", "report.title=Pump 3"];
-    for (files, out) in [(&["a.csv"][..], "out/a"), (&["a.csv", "b.csv"], "out/analysis")] {
+    for (files, out) in [(&["a.csv"][..], "out/a"), (&["a.csv", "b.csv"][..], "out/analysis")] {
         let one = analyze(files, &[&names[..], &["--force"]].concat());
         assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
         assert_eq!(rows(&folder.join(out))[0][8], outer);
