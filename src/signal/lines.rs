@@ -29,6 +29,8 @@ const FLOOR_BINS: f64 = 5.0;
 pub struct NamedLine {
     name: String,
     frequency_hz: f64,
+    /// Where a signal shows it, Hz.
+    found_hz: f64,
     harmonics: u32,
 }
 
@@ -45,7 +47,13 @@ impl NamedLine {
                 Brief(frequency_hz)
             )));
         }
-        Ok(Self { name, frequency_hz, harmonics })
+        Ok(Self { name, frequency_hz, found_hz: frequency_hz, harmonics })
+    }
+
+    /// The same where a signal shows its fundamental, Hz, > 0: peaks are told apart by that, and deviate from what was expected.
+    #[must_use]
+    pub(crate) fn found_at(self, found_hz: f64) -> Self {
+        Self { found_hz, ..self }
     }
 
     /// Name ("shaft", "outer").
@@ -178,17 +186,18 @@ fn above_median_db(spectrum: &EnvelopeSpectrum, peak: &Peak, reach_hz: f64) -> f
 /// [`LINE_TOLERANCE`] of their frequency and half of `resolution_hz` (what the window separates, whatever the padding) the
 /// nearest, and those nearer to it than `resolution_hz`, which nothing tells from it. Empty if the peak is none of `lines`.
 pub fn lines_at(frequency_hz: f64, lines: &[NamedLine], resolution_hz: f64) -> Vec<LineMatch> {
-    let harmonics =
-        lines.iter().flat_map(|line| (1..=line.harmonics).map(move |harmonic| line.at(harmonic, frequency_hz)));
-    let distance = |line: &LineMatch| (frequency_hz - line.expected_hz).abs();
-    let mut near: Vec<LineMatch> = harmonics
-        .filter(|line| distance(line) <= (LINE_TOLERANCE * line.expected_hz).max(0.5 * resolution_hz))
-        .collect();
-    near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-    if let Some(nearest) = near.first().map(|line| line.expected_hz) {
-        near.retain(|line| (line.expected_hz - nearest).abs() < resolution_hz.max(f64::MIN_POSITIVE));
+    let harmonics = lines.iter().flat_map(|line| {
+        let place = |harmonic: u32| f64::from(harmonic) * line.found_hz;
+        (1..=line.harmonics).map(move |harmonic| (place(harmonic), line.at(harmonic, frequency_hz)))
+    });
+    let distance = |place: f64| (frequency_hz - place).abs();
+    let mut near: Vec<(f64, LineMatch)> =
+        harmonics.filter(|(hz, _)| distance(*hz) <= (LINE_TOLERANCE * hz).max(0.5 * resolution_hz)).collect();
+    near.sort_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
+    if let Some(nearest) = near.first().map(|line| line.0) {
+        near.retain(|line| (line.0 - nearest).abs() < resolution_hz.max(f64::MIN_POSITIVE));
     }
-    near
+    near.into_iter().map(|(_, line)| line).collect()
 }
 
 /// The line and harmonic nearest to `frequency_hz` (in Hz; the first given wins a tie), `None` without lines.
@@ -196,14 +205,11 @@ pub fn match_line(frequency_hz: f64, lines: &[NamedLine]) -> Option<LineMatch> {
     lines
         .iter()
         .map(|line| {
-            let multiple = (frequency_hz / line.frequency_hz).round();
-            let harmonic = multiple.clamp(1.0, f64::from(line.harmonics)) as u32;
-            line.at(harmonic, frequency_hz)
+            let multiple = (frequency_hz / line.found_hz).round().clamp(1.0, f64::from(line.harmonics));
+            ((frequency_hz - multiple * line.found_hz).abs(), line.at(multiple as u32, frequency_hz))
         })
-        .min_by(|a, b| {
-            let distance = |m: &LineMatch| (frequency_hz - m.expected_hz).abs();
-            distance(a).total_cmp(&distance(b))
-        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, line)| line)
 }
 
 /// Whether a peak is more than the leakage of the stronger ones.
@@ -340,6 +346,21 @@ mod tests {
         let lines = lines.map(|(name, f)| NamedLine::new(name, f, 1).expect("a valid line"));
         let count = |resolution_hz| lines_at(101.4, &lines, resolution_hz).len();
         assert_eq!((count(2.9), count(3.1)), (1, 2));
+    }
+
+    /// The outer race slips by 1.5 %: its line is nearer to another's than to where it is expected.
+    #[test]
+    fn a_line_is_matched_where_the_signal_shows_it() {
+        let named = |name, f| NamedLine::new(name, f, 1).expect("a valid line");
+        let matched = |outer: NamedLine| {
+            let lines = [outer, named("ball", 102.5)];
+            let nearest = match_line(101.6, &lines).expect("lines were given");
+            (lines_at(101.6, &lines, 0.5).iter().map(LineMatch::label).collect::<Vec<_>>(), nearest)
+        };
+        assert_eq!(matched(named("outer", 100.0)).0, ["1 x ball"]);
+        let (labels, nearest) = matched(named("outer", 100.0).found_at(101.5));
+        assert_eq!((labels, nearest.nearest.as_str()), (vec!["1 x outer".to_owned()], "outer"));
+        assert!((nearest.expected_hz - 100.0).abs() < 1e-12 && (nearest.deviation - 0.016).abs() < 1e-12);
     }
 
     /// Two names for one frequency are both said, however fine the resolution.

@@ -487,11 +487,23 @@ fn many_files_are_one_table() {
     assert_eq!(named(&windows[4]), [outer]);
     assert_eq!(written["inputs"][1]["input"], "a.csv");
     assert!((written["inputs"][1]["defect_orders"]["outer"].as_f64().unwrap() - 3.585).abs() < 1e-12);
-    // the report has the table first, then the windows
+    // the report has the inputs first, then the verdicts and the windows
+    let inputs = fs::read_to_string(out.join("tables/analysis-1-inputs.csv")).unwrap();
+    let inputs: Vec<Vec<&str>> = inputs.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!(inputs.len(), 3);
+    for (row, [file, channel, unit]) in
+        inputs.iter().zip([["b.csv", "P1", ""], ["b.csv", "P2", ""], ["a.csv", "P1", "g"]])
+    {
+        assert_eq!([row[0], row[1], row[4]], [file, channel, unit]);
+        for (place, expected) in [(2, 1.0), (3, 16e3), (5, 25.0)] {
+            // instants of the table are rounded
+            assert!((row[place].parse::<f64>().unwrap() / expected - 1.0).abs() < 1e-9, "{row:?}");
+        }
+    }
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(report.contains("plummer analyze b.csv a.csv --orders"), "the command line");
     assert!(report.contains("a.csv: P1, 0 to 0.5 s"));
-    let first = fs::read_to_string(out.join("tables/analysis-1-verdicts.csv")).unwrap();
+    let first = fs::read_to_string(out.join("tables/analysis-2-verdicts.csv")).unwrap();
     assert_eq!(first, fs::read_to_string(out.join("analysis.csv")).unwrap());
     // whatever the number of threads
     let same = |threads| {
@@ -509,7 +521,7 @@ fn many_files_are_one_table() {
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     let few = "This report has no plots of windows: there are 13, and it shows at most 12.";
     assert!(report.contains(few));
-    assert!(!out.join("tables/analysis-2-verdict.csv").exists());
+    assert!(!out.join("tables/analysis-3-verdict.csv").exists());
     // an array that is no signal is left out
     let values =
         recorded("").lines().skip(1).filter_map(|row| row.split_once(',')?.1.parse().ok()).collect::<Vec<f64>>();
@@ -524,10 +536,28 @@ fn many_files_are_one_table() {
     assert_eq!(found, ["m.npz P1", "a.csv P1"]);
     let report = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(report.contains("is left out: it is no signal (shape [2, 3])"));
-    // of one file as well
-    let one = analyze(&["a.csv"], &[]);
-    assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
-    assert_eq!(rows(&folder.join("out/a"))[0][8], outer);
+    // of one file as well; the head of a report has names without a case too
+    let names = ["--set", "report.customer=ACME", "--set", "report.title=Pump 3"];
+    for (files, out) in [(&["a.csv"][..], "out/a"), (&["a.csv", "b.csv"][..], "out/analysis")] {
+        let one = analyze(files, &[&names[..], &["--force"]].concat());
+        assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
+        assert_eq!(rows(&folder.join(out))[0][8], outer);
+        let report = fs::read_to_string(folder.join(out).join("report.html")).unwrap();
+        assert!(report.contains("ACME") && report.contains("<title>Pump 3"), "{out}");
+        assert!(
+            report.contains("--set report.customer=ACME --set &#x27;report.title=Pump 3&#x27;"),
+            "the command line"
+        );
+    }
+    for (set, expected) in [
+        ("bearing.balls=8", "error: --set bearing.balls=8: unknown key `bearing`"),
+        ("report.client=A", "error: --set report.client=A: unknown key `report.client`"),
+        ("report.title=''", "error: --set report.title='': `report.title`: found an empty text, expected some text"),
+    ] {
+        let wrong = analyze(&["a.csv"], &["--force", "--set", set]);
+        assert_eq!(wrong.status.code(), Some(2));
+        assert!(errors(&wrong).starts_with(expected), "{}", errors(&wrong));
+    }
 }
 
 #[test]

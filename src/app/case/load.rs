@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::check::{BrokenRule, groups_of, known_isotropic, known_material};
+use super::check::{BrokenRule, groups_of, known_isotropic, known_material, report};
 use super::document::{Document, Source};
 use super::error::{CaseError, names_help, one_of};
-use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material};
+use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material, ReportDetails};
 
 /// A variant of a case, read.
 #[derive(Debug, Clone)]
@@ -16,6 +16,29 @@ pub struct VariantCase {
     pub what: String,
     /// The whole case with the variant's keys set.
     pub case: Case,
+}
+
+/// What arguments may set where there is no case.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WithoutCase {
+    #[serde(default)]
+    report: Option<ReportDetails>,
+}
+
+impl ReportDetails {
+    /// Entries of `KEY=VALUE` arguments for a command without a case, `report.customer=...`; `None` without any.
+    ///
+    /// # Errors
+    /// [`CaseError`]: an argument that is none, another key than those of `report`, an entry that does not fit the report's head.
+    pub(crate) fn of_arguments(set: &[String]) -> Result<Option<Self>, CaseError> {
+        let source = Source { set: set.to_vec(), ..Source::default() };
+        let document = Document::read(&source)?;
+        let read = WithoutCase::deserialize(&document.root).map_err(|fault| document.error(fault))?;
+        let checked = read.report.iter().try_for_each(report);
+        checked.map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
+        Ok(read.report)
+    }
 }
 
 impl Case {

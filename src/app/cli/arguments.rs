@@ -448,7 +448,8 @@ pub struct Options {
     /// Condense anew, and keep nothing
     #[arg(long, global = true)]
     pub no_cache: bool,
-    /// Set a key of the case, as bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated
+    /// Set a key of the case, as bearing.balls=8 or bearing.defects.0.depth=2e-5; can be repeated. `analyze` takes report.title,
+    /// .customer, .project, .author and .remark without a case too
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
@@ -564,7 +565,6 @@ pub(super) fn check_set(arguments: &Arguments) -> Result<(), CliError> {
 /// The command, if it reads no case of its own.
 fn without_case(command: &Command) -> Option<&'static str> {
     match command {
-        Command::Analyze(asked) if asked.inputs.iter().all(|input| !input.is_dir()) => Some("analyze FILE"),
         Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
         Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
         Command::Run { .. }

@@ -22,6 +22,8 @@ pub struct MeasuredSignal {
     pub speed_hz: Option<f64>,
     /// Sampling rate by what the file itself says of time, Hz, whatever rate was asked for.
     pub own_rate_hz: Option<f64>,
+    /// What was read in one of two ways that the file allows, in words.
+    pub doubts: Vec<String>,
 }
 
 /// What is wanted of a file.
@@ -41,6 +43,8 @@ pub(super) struct Channel {
     pub(super) clock: Rc<Clock>,
     /// Shaft speed that the file states, Hz, > 0.
     pub(super) speed_hz: Option<f64>,
+    /// As of [`MeasuredSignal::doubts`].
+    pub(super) doubts: Vec<String>,
 }
 
 impl Channel {
@@ -54,7 +58,8 @@ impl Channel {
         let expected = format!("a largest magnitude from {least:e} to {most:e}");
         Fault::unless(fits, expected, format_args!("{peak:e}"))
             .map_err(|fault| fault.within(format!("channel \"{}\"", self.name)).of(path))?;
-        Ok(MeasuredSignal { name: self.name, series, speed_hz: self.speed_hz, own_rate_hz: self.clock.rate_hz() })
+        let own_rate_hz = self.clock.rate_hz();
+        Ok(MeasuredSignal { name: self.name, series, speed_hz: self.speed_hz, own_rate_hz, doubts: self.doubts })
     }
 }
 

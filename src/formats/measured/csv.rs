@@ -1,28 +1,45 @@
 //! Signals in a table.
 //!
 //! Numbers have a decimal point or, where a semicolon or a tab separates the columns or quotes stand around, a decimal comma:
-//! the same in all of the table, and no sign between thousands.
+//! the same in all of the table, and no sign between thousands. A sign before three digits may be either, `4,744`: that is said
+//! where no other number of the table shows what it is, and refused beside whole numbers.
+//!
+//! Recorders write what they were set to above the names of the columns, a row of units below these, and some a column of remarks.
 
+mod layout;
+
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::path::Path;
 use std::rc::Rc;
 
 use ::csv::{Position, StringRecord};
 
-use super::super::csv::{first_line, line_of, table_of};
+use super::super::csv::{line_of, table_of};
 use super::channel::{Channel, Clock, choose};
 use super::names::{name_and_unit, time_unit};
 use super::{MeasuredError, SignalRequest};
 use crate::files::{Fault, bytes_of};
+use layout::{Layout, is_blank, real};
 
 /// What is read of each line.
 struct Columns {
     /// How many columns there are.
     count: usize,
+    /// How many of them a line has at least.
+    least: usize,
     /// Place of the time and seconds in its unit.
     time: Option<(usize, f64)>,
     /// Place, name and unit of the channels that are wanted.
     wanted: Vec<(usize, String, String)>,
+}
+
+/// A column as it is read: its numbers, the first that may have a sign between thousands, and the first without any sign.
+#[derive(Default)]
+struct Read {
+    values: Vec<f64>,
+    grouped: Option<(u64, String)>,
+    whole: Option<(u64, String)>,
 }
 
 /// Text of a table with its path, for messages.
@@ -31,6 +48,8 @@ struct Table<'a> {
     text: &'a str,
     /// The decimal sign of the first number that has one, and its line.
     sign: Cell<Option<(char, u64)>>,
+    /// Whether a number shows that the point, and the comma, is a decimal sign.
+    shown: Cell<[bool; 2]>,
 }
 
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
@@ -38,19 +57,45 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
 }
 
 pub(super) fn from_bytes(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-    // comments may be in any encoding; header and numbers are text
-    let text = String::from_utf8_lossy(bytes);
-    let text = text.trim_start_matches('\u{feff}');
-    Table { path, text, sign: Cell::new(None) }.channels(request)
+    Table { path, text: &text_of(bytes), sign: Cell::new(None), shown: Cell::new([false; 2]) }.channels(request)
 }
+
+/// The text of a file: UTF-16 by its byte-order mark, UTF-8, or else Latin-1, in which instruments write units.
+fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    let wide = |order: fn([u8; 2]) -> u16| {
+        let units = bytes.as_chunks::<2>().0.iter().skip(1).map(|pair| order(*pair));
+        let letters = char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER));
+        Cow::Owned(letters.collect())
+    };
+    match (bytes, std::str::from_utf8(bytes)) {
+        ([0xff, 0xfe, ..], _) => wide(u16::from_le_bytes),
+        ([0xfe, 0xff, ..], _) => wide(u16::from_be_bytes),
+        (_, Ok(text)) => Cow::Borrowed(text.trim_start_matches('\u{feff}')),
+        (_, Err(_)) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect()),
+    }
+}
+
+/// What to do about decimal commas that may be separators.
+const WRITE: &str = "write decimal points, semicolons between the columns, or quotes about each number (\"0,12\"): decimal commas are read then";
 
 impl Table<'_> {
     fn channels(&self, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-        let mut table = table_of(self.text, self.separator());
+        let layout = Layout::of(self.text);
+        if let Some((line, row)) = &layout.decimals {
+            let path = self.path.display();
+            return Err(MeasuredError::refused_with(
+                format!(
+                    "{path}:{line}: expected whole numbers between commas, found \"{row}\": are the commas decimal signs?"
+                ),
+                WRITE,
+            ));
+        }
+        let mut table = table_of(self.text, layout.separator);
         let mut record = StringRecord::new();
+        let mut titles = layout.titles;
         let mut columns: Option<Columns> = None;
-        let (mut times, mut first_row) = (Vec::new(), 0);
-        let mut values: Vec<Vec<f64>> = Vec::new();
+        let (mut times, mut first_row) = (Read::default(), 0);
+        let mut values: Vec<Read> = Vec::new();
         loop {
             let more = table.read_record(&mut record);
             let damaged = |error: ::csv::Error| {
@@ -60,17 +105,23 @@ impl Table<'_> {
             if !more.map_err(damaged)? {
                 break;
             }
-            if record.iter().all(str::is_empty) {
+            if is_blank(&record) {
                 continue;
             }
-            let Some(found) = &mut columns else {
-                let found = columns.insert(self.header(&record, request)?);
-                values = vec![Vec::new(); found.wanted.len()];
-                if numbers(&record) {
-                    first_row = line_of(self.text, &record);
-                    self.row(&record, found, &mut times, &mut values)?;
-                }
+            if titles > 0 {
+                titles -= 1;
                 continue;
+            }
+            let found = match &mut columns {
+                Some(found) => found,
+                None => {
+                    let found = columns.insert(self.header(&record, &layout, request)?);
+                    values.resize_with(found.wanted.len(), Read::default);
+                    if layout.nameless.is_none() {
+                        continue;
+                    }
+                    found
+                }
             };
             // a row of units below the names
             if first_row == 0 && record.iter().all(|cell| real(cell).is_none()) {
@@ -80,49 +131,83 @@ impl Table<'_> {
             if first_row == 0 {
                 first_row = line_of(self.text, &record);
             }
-            self.row(&record, found, &mut times, &mut values)?;
+            self.row(&record, found, &layout, &mut times, &mut values)?;
         }
         let Some(columns) = columns.filter(|_| first_row > 0) else {
             return Err(self.content(1, "a header and rows of numbers", "none"));
         };
+        let of_time = self.thousands(&times, "the time")?;
         let clock = Rc::new(match columns.time {
-            Some(_) => Clock::Times { times, first_row },
+            Some(_) => Clock::Times { times: times.values, first_row },
             None => Clock::Unknown,
         });
-        let channel =
-            |((_, name, unit), values)| Channel { name, unit, values, clock: Rc::clone(&clock), speed_hz: None };
-        Ok(columns.wanted.into_iter().zip(values).map(channel).collect())
+        let channel = |((_, name, unit), read): ((usize, String, String), Read)| {
+            let doubts = of_time.iter().cloned().chain(self.thousands(&read, &name)?).collect();
+            Ok(Channel { name, unit, values: read.values, clock: Rc::clone(&clock), speed_hz: None, doubts })
+        };
+        columns.wanted.into_iter().zip(values).map(channel).collect()
     }
 
-    /// What separates the columns: the first of tab, semicolon and comma that the first line has.
-    fn separator(&self) -> u8 {
-        let first = first_line(self.text).as_bytes();
-        [b'\t', b';'].into_iter().find(|separator| first.contains(separator)).unwrap_or(b',')
+    /// Whether a number shows that the sign of the numbers is a decimal one.
+    fn is_shown(&self) -> bool {
+        self.sign.get().is_some_and(|(sign, _)| self.shown.get()[usize::from(sign == ',')])
     }
 
-    fn header(&self, record: &StringRecord, request: &SignalRequest) -> Result<Columns, MeasuredError> {
+    /// What is to be said of numbers whose only sign may stand between thousands, where nothing shows that it does not.
+    ///
+    /// # Errors
+    /// Where numbers without a sign stand beside.
+    fn thousands(&self, read: &Read, what: &str) -> Result<Option<String>, MeasuredError> {
+        let Some((line, text)) = read.grouped.as_ref().filter(|_| !self.is_shown()) else {
+            return Ok(None);
+        };
+        let sign = if text.contains(',') { "comma" } else { "point" };
+        let Some((other, whole)) = &read.whole else {
+            return Ok(Some(format!(
+                "{what}: \"{text}\" in line {line} is read as {}: nothing in the file shows whether its {sign} is a decimal sign or stands between thousands",
+                text.replace(',', ".")
+            )));
+        };
+        Err(MeasuredError::refused_with(
+            format!(
+                "{}:{line}: expected numbers for {what} that show whether the {sign} is a decimal sign or stands between thousands, found \"{text}\", and \"{whole}\" in line {other}",
+                self.path.display()
+            ),
+            "write them without a sign between thousands, or all with the same number of decimals",
+        ))
+    }
+
+    fn header(
+        &self,
+        record: &StringRecord,
+        layout: &Layout,
+        request: &SignalRequest,
+    ) -> Result<Columns, MeasuredError> {
         let count = record.len();
-        let (names, time): (Vec<(usize, String, String)>, _) = if numbers(record) {
+        let (names, time): (Vec<(usize, String, String)>, _) = if let Some(numbers) = &layout.nameless {
             // without names the first column is the time, unless a rate is given
-            let time = (request.rate_hz.is_none() && count > 1).then_some((0, 1.0));
+            let time =
+                numbers.first().filter(|_| request.rate_hz.is_none() && numbers.len() > 1).map(|&place| (place, 1.0));
             let first = usize::from(time.is_some());
-            let name = |place: usize| (place, format!("column {}", place + 1), String::new());
-            ((first..count).map(name).collect(), time)
+            let name = |&place: &usize| (place, format!("column {}", place + 1), String::new());
+            (numbers[first..].iter().map(name).collect(), time)
         } else {
             let place = record.iter().position(|cell| time_unit(cell).is_some());
             let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
             let named = |(own, cell): (usize, &str)| {
                 let (name, unit) = name_and_unit(cell);
-                (Some(own) != place).then_some((own, name, unit))
+                let remarks = layout.remarks.contains(&own) && matches!(cell.to_lowercase().as_str(), "" | "comment");
+                (Some(own) != place && !remarks).then_some((own, name, unit))
             };
             (record.iter().enumerate().filter_map(named).collect(), time)
         };
         if time.is_none() && request.rate_hz.is_none() {
             return Err(MeasuredError::NoTime { path: self.path.to_owned() });
         }
+        let least = names.iter().map(|name| name.0).chain(time.map(|time| time.0)).max().map_or(count, |last| last + 1);
         let only: Vec<String> = names.iter().map(|(_, name, _)| name.clone()).collect();
         let wanted = choose(self.path, &only, request)?;
-        Ok(Columns { count, time, wanted: wanted.into_iter().map(|place| names[place].clone()).collect() })
+        Ok(Columns { count, least, time, wanted: wanted.into_iter().map(|place| names[place].clone()).collect() })
     }
 
     /// Takes units from a row below the names.
@@ -133,8 +218,9 @@ impl Table<'_> {
         };
         if let Some((place, unit)) = &mut columns.time {
             let found = text(*place);
-            *unit = time_unit(&format!("time ({found})"))
-                .ok_or_else(|| self.content(line_of(self.text, record), "s, ms or us as unit of the time", &found))?;
+            *unit = time_unit(&format!("time ({found})")).ok_or_else(|| {
+                self.content(line_of(self.text, record), "s, ms, us or ns as unit of the time", &found)
+            })?;
         }
         for (place, _, unit) in &mut columns.wanted {
             if unit.is_empty() {
@@ -148,22 +234,31 @@ impl Table<'_> {
         &self,
         record: &StringRecord,
         columns: &Columns,
-        times: &mut Vec<f64>,
-        values: &mut [Vec<f64>],
+        layout: &Layout,
+        times: &mut Read,
+        values: &mut [Read],
     ) -> Result<(), MeasuredError> {
-        if record.len() != columns.count {
-            return Err(self.other_columns(record, columns.count));
+        let beyond = record.iter().skip(columns.count);
+        if record.len() < columns.least || beyond.filter(|cell| !cell.is_empty()).count() > 0 {
+            return Err(self.other_columns(record, columns.count, layout.separator));
+        }
+        if !self.is_shown() {
+            let mut shown = self.shown.get();
+            record.iter().filter_map(decimal_sign).for_each(|sign| shown[usize::from(sign == ',')] = true);
+            self.shown.set(shown);
         }
         if let Some((place, unit)) = columns.time {
-            times.push(self.number(record, place, "the time")? * unit);
+            let time = self.number(record, place, "the time", times)?;
+            times.values.push(time * unit);
         }
-        for ((place, name, _), values) in columns.wanted.iter().zip(values) {
-            values.push(self.number(record, *place, name)?);
+        for ((place, name, _), read) in columns.wanted.iter().zip(values) {
+            let value = self.number(record, *place, name, read)?;
+            read.values.push(value);
         }
         Ok(())
     }
 
-    fn number(&self, record: &StringRecord, place: usize, what: &str) -> Result<f64, MeasuredError> {
+    fn number(&self, record: &StringRecord, place: usize, what: &str, read: &mut Read) -> Result<f64, MeasuredError> {
         let cell = record.get(place).unwrap_or_default();
         let value = real(cell).filter(|value| value.is_finite());
         let line = || line_of(self.text, record);
@@ -184,20 +279,32 @@ impl Table<'_> {
             }
             _ => {}
         }
+        if !self.is_shown() {
+            let first = if sign.is_some() { &mut read.grouped } else { &mut read.whole };
+            first.get_or_insert_with(|| (line(), cell.to_owned()));
+        }
         Ok(value)
     }
 
     /// A line of more or fewer columns than the first; twice as many may be decimal commas.
-    fn other_columns(&self, record: &StringRecord, count: usize) -> MeasuredError {
+    fn other_columns(&self, record: &StringRecord, count: usize, separator: u8) -> MeasuredError {
         let (line, found) = (line_of(self.text, record), record.len());
-        let expected = format!("{count} columns, as in the first line");
-        if self.separator() == b',' && found == 2 * count && numbers(record) {
+        let expected = match count {
+            1 => "1 column, as in the first line".to_owned(),
+            _ => format!("{count} columns, as in the first line"),
+        };
+        if separator == b',' && found == 2 * count && record.iter().all(|cell| real(cell).is_some()) {
             let path = self.path.display();
-            return MeasuredError::refused_with(
-                format!(
-                    "{path}:{line}: expected {expected}, found \"{found}\": are commas both separators and decimal signs?"
+            let (question, help) = match count {
+                1 => (
+                    "is the comma a decimal sign?",
+                    "write decimal points, or quotes about each number (\"0,12\"); where the comma separates two columns, name both",
                 ),
-                "write the table with semicolons between the columns: decimal commas are read then",
+                _ => ("are commas both separators and decimal signs?", WRITE),
+            };
+            return MeasuredError::refused_with(
+                format!("{path}:{line}: expected {expected}, found \"{found}\": {question}"),
+                help,
             );
         }
         self.content(line, &expected, &found.to_string())
@@ -210,16 +317,11 @@ impl Table<'_> {
     }
 }
 
-/// Whether a line has numbers alone.
-fn numbers(record: &StringRecord) -> bool {
-    record.iter().all(|cell| real(cell).is_some())
-}
-
-/// A number with a decimal point, or with one decimal comma in its place.
-fn real(cell: &str) -> Option<f64> {
-    match cell.contains(',') {
-        false => cell.parse().ok(),
-        true if cell.contains('.') => None,
-        true => cell.replacen(',', ".", 1).parse().ok(),
-    }
+/// The sign of a number that stands between no thousands: these are three digits each, after one to three of which the first is no zero.
+fn decimal_sign(cell: &str) -> Option<char> {
+    let place = cell.find([',', '.']).filter(|_| real(cell).is_some())?;
+    let (before, after) = (cell[..place].trim_start_matches(['+', '-']), &cell[place + 1..]);
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let grouped = (1..=3).contains(&before.len()) && !before.starts_with('0') && after.len() == 3;
+    (!(grouped && digits(before) && digits(after))).then(|| if cell[place..].starts_with(',') { ',' } else { '.' })
 }

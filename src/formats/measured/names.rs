@@ -1,32 +1,75 @@
 //! What names say in a file: units, times, how often samples were taken and how fast the shaft turned.
 
-/// Name and unit of `P1 (m/s^2)` or `P1 [m/s^2]`; the unit is empty without brackets.
+/// Units that stand without brackets behind a name.
+const UNITS: [&str; 28] = [
+    "s",
+    "ms",
+    "us",
+    "\u{b5}s",
+    "\u{3bc}s",
+    "ns",
+    "g",
+    "mg",
+    "m/s^2",
+    "m/s2",
+    "m/s\u{b2}",
+    "mm/s^2",
+    "mm/s2",
+    "mm/s\u{b2}",
+    "m/s",
+    "mm/s",
+    "m",
+    "mm",
+    "um",
+    "\u{b5}m",
+    "\u{3bc}m",
+    "V",
+    "mV",
+    "N",
+    "kN",
+    "Pa",
+    "Hz",
+    "rpm",
+];
+
+/// Name and unit of `P1 (m/s^2)`, `P1 [m/s^2]`, `P1 / (m/s^2)`, `P1 / g` or `P1 in g`; the unit is empty without one.
 pub(super) fn name_and_unit(text: &str) -> (String, String) {
     let text = text.trim();
+    let pair = |name: &str, unit: &str| (name.trim().to_owned(), unit.trim().to_owned());
     for (open, close) in [('(', ')'), ('[', ']')] {
         let inside = text.strip_suffix(close).and_then(|text| text.rsplit_once(open));
         if let Some((name, unit)) = inside
             && !name.trim().is_empty()
         {
-            return (name.trim().to_owned(), unit.trim().to_owned());
+            return pair(name.trim_end().trim_end_matches('/'), unit);
         }
     }
-    (text.to_owned(), String::new())
+    let parts = [" / ", " in "].into_iter().filter_map(|between| text.rsplit_once(between));
+    let mut known = parts.filter(|(_, unit)| UNITS.contains(&unit.trim()));
+    known.next().map_or_else(|| pair(text, ""), |(name, unit)| pair(name, unit))
 }
 
-/// Seconds in the unit of a column or array that is a time; `None` if it is none.
+/// Seconds in the unit of a column or array that is a time; `None` if it is none. Besides what says so: the abscissa of LabVIEW and of
+/// oscilloscopes, and the times of catman, `Zeit  1 - Standardmessrate [s]`.
 pub(super) fn time_unit(text: &str) -> Option<f64> {
     let (name, unit) = name_and_unit(text);
     let name = name.to_lowercase();
-    let (name, suffix) = name.rsplit_once('_').unwrap_or((&name, ""));
+    let (stem, suffix) = match name.rsplit_once('_') {
+        Some((stem, suffix)) if name != "x_value" => (stem, suffix),
+        _ => (name.as_str(), ""),
+    };
+    // a number and the rate behind it
+    let stem =
+        stem.split_once(" - ").map_or(stem, |(time, _)| time.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end());
     let unit = if unit.is_empty() { suffix } else { &unit };
-    if !matches!(name, "t" | "time" | "zeit" | "temps") {
+    if !matches!(stem, "t" | "time" | "zeit" | "temps" | "x_value" | "x-axis") {
         return None;
     }
     match unit.to_lowercase().as_str() {
-        "" | "s" | "sec" | "seconds" => Some(1.0),
+        "" | "s" | "sec" | "second" | "seconds" => Some(1.0),
         "ms" => Some(1e-3),
         "us" | "\u{b5}s" | "\u{3bc}s" => Some(1e-6),
+        "ns" => Some(1e-9),
         _ => None,
     }
 }
@@ -95,11 +138,19 @@ mod tests {
         assert_eq!(name_and_unit(" P1 (m/s^2) "), pair("P1", "m/s^2"));
         assert_eq!(name_and_unit("top [g]"), pair("top", "g"));
         assert_eq!(name_and_unit("plain"), pair("plain", ""));
+        assert_eq!(name_and_unit("Beschleunigung / (m/s²)"), pair("Beschleunigung", "m/s²"));
+        assert_eq!(name_and_unit("a / g"), pair("a", "g"));
+        assert_eq!(name_and_unit("sensor in hall"), pair("sensor in hall", ""));
         assert_eq!(name_and_unit("(g)"), pair("(g)", ""));
         for (text, expected) in [
             ("time_s", Some(1.0)),
             ("Time", Some(1.0)),
             ("t [ms]", Some(1e-3)),
+            ("Zeit in s", Some(1.0)),
+            ("Time / ms", Some(1e-3)),
+            ("Time (ns)", Some(1e-9)),
+            ("X_Value", Some(1.0)),
+            ("Zeit  1 - Standardmessrate [s]", Some(1.0)),
             ("time_us", Some(1e-6)),
             ("time (min)", None),
             ("temperature", None),

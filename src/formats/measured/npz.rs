@@ -61,7 +61,7 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             return Err(MeasuredError::array(path, name, expected, format!("shape {:?}", array.shape)));
         }
         let (name, unit, clock) = (name.clone(), String::new(), Rc::clone(&clock));
-        found.push(Channel { name, unit, values: array.values, clock, speed_hz });
+        found.push(Channel { name, unit, values: array.values, clock, speed_hz, doubts: Vec::new() });
     }
     Ok(found)
 }

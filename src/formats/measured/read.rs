@@ -44,7 +44,7 @@ fn universal(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, Measu
             TimeAxis::Uneven(times) => Clock::Times { times, first_row: 0 },
         };
         let TimeResponse { name, unit, values, .. } = signal;
-        channels.push(Channel { name, unit, values, clock: Rc::new(clock), speed_hz: None });
+        channels.push(Channel { name, unit, values, clock: Rc::new(clock), speed_hz: None, doubts: Vec::new() });
     }
     Ok(channels)
 }

@@ -121,7 +121,7 @@ fn tables_are_refused_with_line_and_reason() {
         ("time,P1,P2\n0,1,2\n", "m.csv: expected one signal or the name of one, found \"P1\", \"P2\""),
         ("time_s\n0\n", "m.csv: expected one signal or the name of one, found no signals"),
         ("# nothing\n", "m.csv:1: expected a header and rows of numbers, found \"none\""),
-        ("time,P1\nmin,g\n0,1\n", "m.csv:2: expected s, ms or us as unit of the time, found \"min\""),
+        ("time,P1\nmin,g\n0,1\n", "m.csv:2: expected s, ms, us or ns as unit of the time, found \"min\""),
     ];
     for (text, expected) in cases {
         assert_eq!(refused(text, &any), expected, "{text}");
@@ -129,6 +129,110 @@ fn tables_are_refused_with_line_and_reason() {
     let error = table("time,top\n0,1\n", &request(&["tip"], None)).unwrap_err();
     assert_eq!(error.to_string(), "m.csv: expected a channel \"tip\", found \"top\"");
     assert_eq!(error.help().unwrap(), "did you mean --channel 'top'?");
+}
+
+/// A sign before three digits is a decimal one, or stands between thousands.
+#[test]
+fn numbers_that_may_have_thousands_are_told_or_refused() {
+    let any = request(&[], None);
+    for (table, line, text, whole, of) in [
+        ("time,P1\n0,128\n1,\"4,744\"\n2,-12\n", 3, "4,744", "128", 2),
+        ("Zeit;P1\n0;4.744\n1;-128\n2;3\n", 2, "4.744", "-128", 3),
+        // another column that is not read shows the other sign
+        ("time\tP1\tP2\n0\t4,744\t0.25\n1\t128\t0.5\n", 2, "4,744", "128", 3),
+    ] {
+        let sign = if text.contains(',') { "comma" } else { "point" };
+        let expected = format!(
+            "m.csv:{line}: expected numbers for P1 that show whether the {sign} is a decimal sign or stands between thousands, found \"{text}\", and \"{whole}\" in line {of}"
+        );
+        assert_eq!(refused(table, &request(&["P1"], None)), expected);
+    }
+    // a whole column is read, and told
+    let told = only(table("time;P1\n0;4,744\n1;-12,001\n", &any).unwrap());
+    assert_samples(&told, 0.0, 1.0, &[4.744, -12.001], 0.0);
+    let doubt = "P1: \"4,744\" in line 2 is read as 4.744: nothing in the file shows whether its comma is a decimal sign or stands between thousands";
+    assert_eq!(told.doubts, [doubt]);
+    let times = only(table("time;P1\n1.000;4\n2.000;5\n", &any).unwrap());
+    assert!(times.doubts[0].starts_with("the time: \"1.000\" in line 2 is read as 1.000: "), "{:?}", times.doubts);
+    // one number anywhere shows what the sign is
+    for shown in
+        ["0;4,744;1\n1;128;0,5\n", "0;4,744;1\n1;0,128;5\n", "0;4,744;1\n1;1280,128;5\n", "0;4,744;1\n1;128;1,5E3\n"]
+    {
+        let read = only(table(&format!("time;P1;P2\n{shown}"), &request(&["P1"], None)).unwrap());
+        assert_eq!(read.doubts, [""; 0], "{shown}");
+    }
+}
+
+/// What stands above the numbers in the files of recorders.
+#[test]
+fn lines_above_the_names_are_left_out() {
+    let labview = "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nTime\t11:31:20,4\n***End_of_Header***\t\n\t\n\
+        Channels\t1\t\nSamples\t3\t\nDelta_X\t0,25\t\n***End_of_Header***\t\t\nX_Value\tP1\tComment\n0,000000\t1,5\n0,250000\t-2\n0,500000\t3\n";
+    let dewesoft = "Data1\nSample rate: 4 Hz\nStart time: 03.05.2026 12:00:00,5\n\nTime (s);P1 (m/s²)\n0,00;1,5\n0,25;-2\n0,50;3\n";
+    let catman = "CATMAN 5.4;;\nBench;3;\n\"Zeit  1 - Standardmessrate [s]\";\"P1 [g]\"\n0,00;1,5\n0,25;-2\n0,50;3\n";
+    let famos = "Zeit in s;P1 / (m/s²)\n0,00;1,5\n0,25;-2\n0,50;3\n";
+    let tektronix = "Model,DPO4054\nFirmware Version,2.13\nRecord Length,3\nSample Interval,0.25\n,\nLabel,\nTIME,P1\n0.00e+00,1.5\n0.25,-2\n0.50,3\n";
+    let older =
+        "Record Length,2.5e+03,,0.000,1.50,\nSample Interval,2.5e-1,,0.25,-2.00,\n,,,0.50,3.00,\n,,,0.75,4.00,\n";
+    let keysight = "x-axis,1\nsecond,Volt\n0.0E+00,1.5\n0.25,-2\n0.50,3\n";
+    let pico = "Time,P1\n(ms),(mV)\n\n0.0,1.5\n250.0,-2\n500.0,3\n";
+    let any = request(&[], None);
+    for (text, name, unit, count) in [
+        (labview, "P1", "", 3),
+        (dewesoft, "P1", "m/s²", 3),
+        (catman, "P1", "g", 3),
+        (famos, "P1", "m/s²", 3),
+        (tektronix, "P1", "", 3),
+        (older, "column 5", "", 4),
+        (keysight, "1", "Volt", 3),
+        (pico, "P1", "mV", 3),
+        // a title above numbers without names
+        ("Bench 3\n0,00;1,5\n0,25;-2\n0,50;3\n", "column 2", "", 3),
+    ] {
+        let found = table(text, &any).map(only);
+        let found = found.unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!((found.name.as_str(), found.series.unit()), (name, unit), "{text}");
+        assert_samples(&found, 0.0, 0.25, &[1.5, -2.0, 3.0, 4.0][..count], 1e-12);
+    }
+    // the line is that of the file
+    let damaged = tektronix.to_owned() + "0.75,?\n";
+    assert_eq!(refused(&damaged, &any), "m.csv:11: expected a finite number for P1, found \"?\"");
+}
+
+/// Files of instruments are often Latin-1, those of spreadsheets UTF-16.
+#[test]
+fn units_of_other_encodings_are_read() {
+    let text = "t [µs];P1 [m/s²]\n0;1,5\n250000;-2\n";
+    let latin: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
+    let wide: Vec<u8> = std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    for bytes in [latin, wide] {
+        let channels = csv::from_bytes(&bytes, Path::new("m.csv"), &request(&[], None)).unwrap();
+        let found = only(
+            channels.into_iter().map(|own| own.signal(Path::new("m.csv"), &request(&[], None)).unwrap()).collect(),
+        );
+        assert_eq!(found.series.unit(), "m/s²");
+        assert_samples(&found, 0.0, 0.25, &[1.5, -2.0], 1e-12);
+    }
+}
+
+/// Of one column with decimal commas each line is two whole numbers.
+#[test]
+fn one_column_of_decimal_commas_is_told_how_to_be_written() {
+    let error = table("P1\n0,12\n-0,13\n", &request(&[], Some(4.0))).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "m.csv:2: expected 1 column, as in the first line, found \"2\": is the comma a decimal sign?"
+    );
+    assert!(error.help().unwrap().starts_with("write decimal points, or quotes about each number"));
+    for rate in [None, Some(4.0)] {
+        let error = table("0,12\n-0,13\n1,5\n", &request(&["column 2"], rate)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "m.csv:2: expected whole numbers between commas, found \"-0,13\": are the commas decimal signs?"
+        );
+    }
+    let quoted = only(table("P1\n\"0,12\"\n\"-0,13\"\n", &request(&[], Some(4.0))).unwrap());
+    assert_samples(&quoted, 0.0, 0.25, &[0.12, -0.13], 0.0);
 }
 
 /// Steps that are each within the tolerance, and a clock that runs away all the same.

@@ -40,6 +40,7 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
             .collect(),
         clock: Rc::clone(&clock),
         speed_hz: None,
+        doubts: Vec::new(),
     });
     Ok(made.collect())
 }

@@ -25,6 +25,33 @@ pub(super) struct Fit {
     pub(super) beside: Option<f64>,
 }
 
+/// Part of the best score that only round-off is below.
+const AS_GOOD: f64 = 1.0 - 1e-9;
+/// Places of the search for the most power, in the resolution of the highest harmonic that is shown.
+const SHARP_PLACES: f64 = 8.0;
+
+impl Fit {
+    /// The same with the order at which its free teeth have most power, of those within half of the resolution that score as much: the level
+    /// of a tooth is limited, and the same over half of the resolution, so that strong combs score alike over 0.2 % of their order. The
+    /// search takes the lowest of these.
+    pub(super) fn sharpened(self, spectra: &[Masked<'_>]) -> Self {
+        let masked = &spectra[self.spectrum];
+        let lines = &masked.spectrum.lines;
+        let free = |tooth: f64| lines.bin(tooth).is_some_and(|bin| !masked.taken[bin]);
+        let sides = self.beside.map_or_else(|| vec![0.0], |spacing| vec![-spacing, 0.0, spacing]);
+        let teeth = (1..=SHOWN_HARMONICS).flat_map(|k| sides.iter().map(move |side| (f64::from(k), *side)));
+        let teeth: Vec<(f64, f64)> = teeth.filter(|(k, side)| free(k * self.order + side)).collect();
+        let power = |order: f64| teeth.iter().map(|(k, side)| lines.ratio_at(k * order + side)).sum::<f64>();
+        let steps = (0.5 * f64::from(SHOWN_HARMONICS) * SHARP_PLACES) as i32;
+        let places =
+            (-steps..=steps).map(|step| self.order + 0.5 * lines.resolution * f64::from(step) / f64::from(steps));
+        let as_good =
+            |order: &f64| score(masked, *order, self.beside).is_some_and(|found| found >= AS_GOOD * self.score);
+        let best = places.filter(as_good).max_by(|a, b| power(*a).total_cmp(&power(*b)));
+        Self { order: best.unwrap_or(self.order), ..self }
+    }
+}
+
 /// A spectrum, and which of its bins have a reason already.
 #[derive(Clone)]
 pub(super) struct Masked<'a> {

@@ -42,7 +42,7 @@ impl Search<'_> {
         let mut explained = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let masked = self.masked(&known);
-            let parts = open.iter().filter_map(|&(fault, order)| self.part(&masked, fault, order));
+            let parts = open.iter().filter_map(|&(fault, order)| self.measured(&masked, fault, order));
             let other = self.something_else(&masked, &explained);
             let mut candidates: Vec<Candidate> = parts.chain(other).collect();
             candidates.sort_by(|a, b| b.fit.score.total_cmp(&a.fit.score));
@@ -76,7 +76,7 @@ impl Search<'_> {
         found.spectrum = strongest.map_or(0, |fit| fit.spectrum);
         let masked = self.masked(&known);
         for (fault, order) in open {
-            let verdict = match self.part(&masked, fault, order) {
+            let verdict = match self.measured(&masked, fault, order) {
                 Some(best) => {
                     let own = self.own_lines(&best, highest);
                     let chance = self.chance(&masked, &best, &own).unwrap_or(1.0);

@@ -135,6 +135,16 @@ impl LineSpectrum {
         self.bin(order).map_or(0.0, |bin| Self::largest(&self.ratio, bin))
     }
 
+    /// Power over the floor between two bins; 0 outside.
+    pub(super) fn ratio_at(&self, order: f64) -> f64 {
+        let place = order / self.step;
+        let below = place.floor().max(0.0) as usize;
+        match self.ratio.get(below..below + 2) {
+            Some(&[a, b]) => a + (place - below as f64) * (b - a),
+            _ => 0.0,
+        }
+    }
+
     /// Amplitude over the mean of the envelope, the largest within half of the resolution; 0 outside.
     pub(super) fn amplitude(&self, order: f64) -> f64 {
         self.bin(order).map_or(0.0, |bin| Self::largest(&self.amplitude, bin))

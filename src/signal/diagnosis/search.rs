@@ -81,6 +81,12 @@ impl Search<'_> {
         }
     }
 
+    /// The same at the order that its lines have in the signal: what is known of others is told by it.
+    pub(super) fn measured(&self, masked: &[Masked<'_>], fault: Fault, order: f64) -> Option<Candidate> {
+        let best = self.part(masked, fault, order)?;
+        Some(Candidate { fit: best.fit.sharpened(masked), ..best })
+    }
+
     /// Lines that a candidate explains.
     pub(super) fn own_lines(&self, candidate: &Candidate, highest: f64) -> Vec<KnownLine> {
         let name = format!("{:.2} Hz", candidate.fit.order * self.speed_hz);

@@ -62,7 +62,7 @@ impl Search<'_> {
                 fits.find(|(part, fit)| fit.score >= SAME_COMB * best.score && has_teeth_between(masked, fit, *part));
             same.map(|(_, fit)| fit)
         });
-        lowest.or(best).map(|fit| Candidate::at(None, fit))
+        lowest.or(best).map(|fit| Candidate::at(None, fit.sharpened(masked)))
     }
 
     /// Whether an order is one of the shaft's, or one of a part: its first harmonics, and of a ball its spin. Of a part that explains lines also what

@@ -10,6 +10,7 @@ mod tests;
 mod time;
 
 pub(super) use range::{known_isotropic, known_material};
+pub(super) use report::report;
 pub(crate) use rule::short;
 pub use rule::{BrokenRule, Rule};
 
@@ -25,7 +26,7 @@ impl Case {
             return Err(Rule::nothing_to_model().at("housing"));
         }
         report::title(&self.title)?;
-        self.report.iter().try_for_each(report::report)?;
+        self.report.iter().try_for_each(report)?;
         structure::materials(self)?;
         structure::housing(self)?;
         self.ring.iter().try_for_each(|ring| structure::ring(self, ring))?;

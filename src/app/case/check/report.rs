@@ -15,7 +15,7 @@ pub(super) fn title(title: &str) -> Result<(), BrokenRule> {
     })
 }
 
-pub(super) fn report(details: &ReportDetails) -> Result<(), BrokenRule> {
+pub(in crate::app::case) fn report(details: &ReportDetails) -> Result<(), BrokenRule> {
     for (key, text) in details.entries() {
         let Some(text) = text else { continue };
         let at = || format!("report.{key}");

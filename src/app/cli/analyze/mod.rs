@@ -93,7 +93,7 @@ fn claim(folder: &OutputFolder, inputs: &[PathBuf], force: bool) -> Result<(), C
 }
 
 /// The command line that analyses this again.
-fn command(asked: &AnalyzeArguments) -> String {
+fn command(asked: &AnalyzeArguments, given: &Options) -> String {
     let file = |path: &PathBuf| shell_word(&path.to_string_lossy());
     let number = |value: Option<f64>| value.map(|value| value.to_string());
     let speed = |speed: &Option<GivenSpeed>| speed.as_ref().map(|speed| shell_word(&speed.text));
@@ -124,7 +124,8 @@ fn command(asked: &AnalyzeArguments) -> String {
         ("baseline-rate", number(asked.baseline_rate)),
         ("baseline-window", asked.baseline_window.as_ref().map(window)),
     ];
-    let options = channels.chain(of_input).chain(windows).chain(of_baseline);
+    let set = given.set.iter().map(|set| ("set", Some(shell_word(set))));
+    let options = channels.chain(of_input).chain(windows).chain(of_baseline).chain(set);
     let options = options.filter_map(|(key, value)| Some(format!("--{key} {}", value?)));
     let whiten = asked.whiten.then(|| "--whiten".to_owned());
     let words = std::iter::once("plummer analyze".to_owned()).chain(asked.inputs.iter().map(file));

@@ -9,7 +9,7 @@ use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
 };
-use crate::app::commands::parts::{not_shown, with_details};
+use crate::app::commands::parts::{not_shown, with_details, with_entries};
 use crate::report::{given, significant};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
 
@@ -40,8 +40,11 @@ pub(super) fn single(
     progress.stage("write");
     let name = input.display().to_string();
     let truth = |diagnosis: &_| source.simulated().and_then(|case| not_shown(case, diagnosis));
-    let report = analysis_report(&name, source.inputs(), &windows, truth, &command(asked));
-    let mut report = source.case.iter().fold(report, with_details);
+    let report = analysis_report(&name, source.inputs(), &windows, truth, &command(asked, options));
+    let mut report = match &source.case {
+        Some(case) => with_details(report, case),
+        None => with_entries(report, source.details()),
+    };
     report.assumptions.extend_from_slice(&source.assumptions);
     report.warnings.extend(asked.doubts());
     report.warnings.extend(doubts);

@@ -4,7 +4,7 @@
 
 use super::AnalyzeArguments;
 use super::machine::{Machine, Named, named_bearing};
-use crate::app::case::{Case, EnvelopeBand, Purpose};
+use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
@@ -14,7 +14,7 @@ use crate::app::error::ComputeError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::report::{Fact, Section, given, pretty_unit, quantity, significant};
+use crate::report::{Cell, Fact, Section, given, pretty_unit, quantity, significant};
 use crate::signal::diagnosis::Kinematics;
 use std::path::Path;
 
@@ -29,6 +29,8 @@ pub(super) struct Source {
     pub(super) case: Option<Case>,
     /// Whether it is a run of that case.
     is_run: bool,
+    /// What `--set` says of the report where there is no case.
+    details: Option<ReportDetails>,
     /// What is taken for granted, in words.
     pub(super) assumptions: Vec<String>,
     /// What was typed against the file's own words, and what is wrong with the signals.
@@ -64,6 +66,10 @@ impl Source {
             };
             (input.to_owned(), case)
         };
+        let details = match &case {
+            Some(_) => None,
+            None => ReportDetails::of_arguments(&options.set)?,
+        };
         let machine = Machine::of(asked, is_run, case.as_ref(), options)?;
         let read = read(&file, request, unnamed).map_err(ComputeError::from)?;
         let mut missing = read.missing;
@@ -93,16 +99,38 @@ impl Source {
         let mut doubts = Vec::new();
         for signal in &signals {
             let typed = machine.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            extend_new(&mut doubts, typed.into_iter().chain(flaws(signal, &settings.windows)));
+            let flaws = flaws(signal, &settings.windows);
+            extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
             extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
-        Ok(Self { signals, settings, case, is_run, assumptions, doubts, machine })
+        Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, machine })
     }
 
     /// The case whose run it is, if it is one.
     pub(super) fn simulated(&self) -> Option<&Case> {
         self.case.as_ref().filter(|_| self.is_run)
+    }
+
+    /// What a case, or `--set`, says of the report's head.
+    pub(super) fn details(&self) -> Option<&ReportDetails> {
+        self.case.as_ref().map_or(self.details.as_ref(), |case| case.report.as_ref())
+    }
+
+    /// A row of the inputs for each signal of this file: file, signal, length, rate, unit, mean speed.
+    pub(super) fn input_rows(&self, input: &str) -> Vec<[Cell; 6]> {
+        let row = |signal: &MeasuredSignal| {
+            let (series, motion) = (&signal.series, self.machine.motion(signal));
+            [
+                Cell::text(input),
+                Cell::text(&signal.name),
+                Cell::number(series.values().len() as f64 * series.step_s(), 5),
+                Cell::number(series.rate_hz(), 6),
+                Cell::text(pretty_unit(series.unit())),
+                Cell::number_or(motion.map(|(kinematics, _)| kinematics.mean_speed_hz(series.span())), 5, ""),
+            ]
+        };
+        self.signals.iter().map(row).collect()
     }
 
     /// The signals, and what a case says of the machine, in words.
@@ -113,12 +141,16 @@ impl Source {
             let length = given(series.values().len() as f64 * series.step_s());
             Fact::new(format!("Signal {name}"), format!("{length} s at {}{unit}", quantity(series.rate_hz(), "Hz")))
         });
-        let machine: Vec<Fact> = match (&self.case, self.is_run) {
+        Section::new("Inputs").facts(signals.chain(self.machine_facts()))
+    }
+
+    /// What a case or the catalogue says of the machine, in words.
+    pub(super) fn machine_facts(&self) -> Vec<Fact> {
+        match (&self.case, self.is_run) {
             (Some(case), true) => parts::inputs(case, Purpose::Run, None),
             (Some(case), false) => case.bearing.iter().map(parts::bearing_fact).collect(),
             (None, _) => self.machine.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
-        };
-        Section::new("Inputs").facts(signals.chain(machine))
+        }
     }
 
     /// Analyses one of the signals in every window.

@@ -8,13 +8,15 @@ use super::baseline::{Baseline, analyse};
 use super::single::no_part_judged;
 use super::source::{Source, Unnamed};
 use super::{AnalyzeArguments, claim, command, warn, write_results};
+use crate::app::case::ReportDetails;
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisRow, FailureSummary, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput,
-    survey_report, survey_section, unexplained,
+    input_section, survey_report, survey_section, unexplained,
 };
-use crate::report::{Section, significant};
+use crate::app::commands::parts::with_entries;
+use crate::report::{Cell, Fact, Section, significant};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion};
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -26,11 +28,26 @@ use std::thread;
 struct Analysed {
     /// What `analysis.json` says of the input; nothing of one that could not be read.
     input: Option<InputSummary>,
+    /// What the page says of it.
+    said: Option<Said>,
     assumptions: Vec<String>,
     rows: Vec<AnalysisRow>,
     sections: Vec<Section>,
     warnings: Vec<String>,
     failures: Vec<Failure>,
+}
+
+/// What the page of all inputs says of one that could be read.
+#[derive(Debug)]
+struct Said {
+    details: Option<ReportDetails>,
+    machine: Vec<Fact>,
+    rows: Vec<[Cell; 6]>,
+}
+
+/// The value, if all are the same.
+fn same<T: PartialEq>(values: &[T]) -> Option<&T> {
+    values.first().filter(|first| values.iter().all(|value| value == *first))
 }
 
 /// Analyses every input into one folder.
@@ -57,6 +74,11 @@ pub(super) fn survey(
         analysed
     });
     progress.stage("write");
+    // what is said of one machine, as each run's case does, is not said of the others
+    let read = || analysed.iter().filter_map(|one| one.said.as_ref());
+    let details: Vec<_> = read().map(|said| said.details.clone()).collect();
+    let machines: Vec<_> = read().map(|said| said.machine.clone()).collect();
+    let input_section = input_section(read().flat_map(|said| said.rows.clone()), same(&machines));
     let mut all = Analysed::default();
     let mut of_inputs = Vec::new();
     let mut failed = 0;
@@ -73,7 +95,9 @@ pub(super) fn survey(
         progress.finish();
         return Err(failure(&all.failures, failed, inputs.len()));
     }
-    let mut report = survey_report(inputs.len(), &all.rows, all.sections, &all.assumptions, &command(asked));
+    let mut report =
+        survey_report(inputs.len(), &all.rows, input_section, all.sections, &all.assumptions, &command(asked, options));
+    report = with_entries(report, same(&details).and_then(Option::as_ref));
     report.warnings.extend(asked.doubts());
     all.warnings.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&all.warnings, options);
@@ -109,6 +133,11 @@ impl Analysed {
                 return analysed;
             }
         };
+        analysed.said = Some(Said {
+            details: source.details().cloned(),
+            machine: source.machine_facts(),
+            rows: source.input_rows(&name),
+        });
         let named = |text: &String| format!("{name}: {text}");
         analysed.warnings.extend(source.doubts.iter().map(named));
         let mut orders = None;

@@ -69,7 +69,7 @@ pub(super) fn fault_lines(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::TAU;
+    use std::f64::consts::{PI, TAU};
 
     /// A run-up from 10 to 40 Hz in 2 s.
     fn turns(t: f64) -> f64 {
@@ -90,11 +90,25 @@ mod tests {
             let found = lines.iter().find(|line| line.fault == fault && line.harmonic == harmonic);
             found.unwrap().amplitude
         };
-        // a mean over 1 / 54 of a turn takes 0.7 % of the first and 3 % of the second, and padding 0.6 %
-        assert!((amplitude(Fault::OuterRace, 1) / 0.5 - 1.0).abs() < 0.015);
-        assert!((amplitude(Fault::OuterRace, 2) / 0.2 - 1.0).abs() < 0.04);
-        // side lobes of the window at most, 1 / (pi 50 (5.43 - 3.57)) of the line
-        assert!(amplitude(Fault::InnerRace, 1) < 0.01);
+        let sinc = |x: f64| (PI * x).sin() / (PI * x);
+        // half of the resolution of 50 turns is how far from its place a line is looked for
+        let side_lobes = |order: f64| {
+            let of = |(line, height): (f64, f64)| {
+                let distances = [(order - line).abs() - 0.01, order + line - 0.01];
+                distances.into_iter().filter(|d| *d > 0.0).map(|d| height / (PI * 50.0 * d)).sum::<f64>()
+            };
+            [(3.57, 0.5), (7.14, 0.2)].map(of).iter().sum::<f64>()
+        };
+        for (harmonic, height) in [(1, 0.5), (2, 0.2)] {
+            let order = 3.57 * f64::from(harmonic);
+            // a mean over 1 / P of a turn takes sinc(order / P), P 2.5 times the order after the third harmonic of the inner race
+            let most = height * sinc(order / (2.5 * 4.0 * 5.43));
+            // a line halfway between two of the bins, eight a resolution
+            let least = most * sinc(1.0 / 16.0);
+            let (found, lobes) = (amplitude(Fault::OuterRace, harmonic), side_lobes(order));
+            assert!((least - lobes..=most + lobes).contains(&found), "{harmonic}: {found}, {least} to {most}");
+        }
+        assert!(amplitude(Fault::InnerRace, 1) < side_lobes(5.43));
         assert!(lines.iter().all(|line| line.fault != Fault::Ball), "its order is not known");
         assert!((lines[0].frequency_hz - 25.0 * lines[0].order).abs() < 1e-12);
         assert!(fault_lines(&envelope, window, |_| 0.0, &orders, 0.0).is_empty(), "a shaft at rest");

@@ -18,5 +18,5 @@ pub use fault_lines::FaultLine;
 pub(crate) use report::analysis_report;
 pub use summary::{AnalysisResult, FailureSummary, InputSummary, OrdersSummary, SurveyResult, WindowOfInput};
 pub use table::{AnalysisRow, SHOWN_WINDOWS};
-pub(crate) use table::{analysis_table, survey_report, survey_section, unexplained};
+pub(crate) use table::{analysis_table, input_section, survey_report, survey_section, unexplained};
 pub use window::{AnalysisSettings, OuterRaceLine, WindowAnalysis, WindowChange, analyse, compute_analysis};

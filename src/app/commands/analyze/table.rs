@@ -4,7 +4,7 @@
 
 use super::report::window_section;
 use super::window::WindowAnalysis;
-use crate::report::{Cell, Column, Report, Section, Table, Verdict};
+use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict};
 use crate::signal::diagnosis::{Conclusion, Fault, UnexplainedImpacts};
 
 /// A row of the table.
@@ -162,11 +162,29 @@ pub(crate) fn survey_section(input: &str, window: &WindowAnalysis) -> Section {
     section
 }
 
+/// What was analysed: a row for each signal (file, channel, length, rate, unit, mean speed), and what is said of all machines.
+pub(crate) fn input_section(rows: impl IntoIterator<Item = [Cell; 6]>, machine: Option<&Vec<Fact>>) -> Section {
+    let columns = [
+        Column::text("File"),
+        Column::text("Channel"),
+        Column::number("Length", "s"),
+        Column::number("Sampling rate", "Hz"),
+        Column::text("Unit"),
+        Column::number("Mean shaft speed, as given", "Hz"),
+    ];
+    let section = Section::new("Inputs").table(Table::new("Inputs", columns).rows(rows));
+    match machine {
+        Some(facts) if !facts.is_empty() => section.facts(facts.iter().cloned()),
+        _ => section,
+    }
+}
+
 /// Composes the report of `inputs` files: the table of their rows, then the sections of the windows, if they are at most
 /// [`SHOWN_WINDOWS`]; `command` is the line that made it.
 pub(crate) fn survey_report(
     inputs: usize,
     rows: &[AnalysisRow],
+    input_section: Section,
     sections: Vec<Section>,
     assumptions: &[String],
     command: &str,
@@ -175,7 +193,8 @@ pub(crate) fn survey_report(
     let title = format!("{inputs} files and folders");
     let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
         .subtitle("Diagnosis of ball bearings by their vibration signals");
-    report = counts(report, rows).section(verdicts(rows, "Analyse a file alone to see its spectra."));
+    let verdicts = verdicts(rows, "Analyse a file alone to see its spectra.");
+    report = counts(report, rows).section(input_section).section(verdicts);
     if failed > 0 {
         report = report.warning(format!("{failed} rows have no window: their last column says why."));
     }

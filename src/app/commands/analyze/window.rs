@@ -292,22 +292,24 @@ fn lines(
     if speed_hz <= 0.0 {
         return Ok((Vec::new(), false));
     }
-    let harmonics = |fault: Fault| {
-        let mut named = diagnosis.into_iter().flat_map(Diagnosis::named);
-        let named = named.find(|verdict| verdict.fault == fault);
+    let shaft_hz = diagnosis.map_or(speed_hz, |found| found.speed_hz);
+    // a part that is named has more harmonics, and its own order
+    let known = [Fault::OuterRace, Fault::InnerRace, Fault::Ball].into_iter().filter_map(|fault| {
+        let order = orders.order(fault)?;
+        let named = diagnosis.into_iter().flat_map(Diagnosis::named).find(|verdict| verdict.fault == fault);
         let last = named.and_then(|verdict| verdict.harmonics.last());
-        last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS))
-    };
-    let faults = [Fault::OuterRace, Fault::InnerRace, Fault::Ball];
-    let known = faults.into_iter().filter_map(|fault| Some((fault.name(), orders.order(fault)?, harmonics(fault))));
+        let harmonics = last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS));
+        let own = named.filter(|verdict| verdict.cage_lines.is_none()).and_then(|verdict| verdict.order);
+        Some((fault.name(), order, own.unwrap_or(order), harmonics))
+    });
     let mut lines = Vec::new();
     let mut smeared = false;
-    for (name, order, harmonics) in std::iter::once(("shaft", 1.0, HARMONICS)).chain(known) {
+    for (name, order, found, harmonics) in std::iter::once(("shaft", 1.0, 1.0, HARMONICS)).chain(known) {
         let kept = (1..=harmonics).take_while(|&k| f64::from(k) * order <= sharp);
         let kept = kept.last().unwrap_or(0);
         smeared |= kept < harmonics;
         if kept > 0 {
-            lines.push(NamedLine::new(name, order * speed_hz, kept)?);
+            lines.push(NamedLine::new(name, order * speed_hz, kept)?.found_at(found * shaft_hz));
         }
     }
     Ok((lines, smeared))

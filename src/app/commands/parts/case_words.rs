@@ -65,7 +65,14 @@ pub(crate) fn inputs(case: &Case, purpose: Purpose, size: Option<&HousingSize>) 
 pub(crate) fn with_details(mut report: Report, case: &Case) -> Report {
     let head = report.document.get_or_insert_with(|| Document::new().case(case.source.path.display().to_string()));
     head.case_hash = MeshFile::from(&FileDigest::of_bytes(&case.source.path, case.source.text.as_bytes())).hash;
-    for (key, text) in case.report.iter().flat_map(ReportDetails::entries) {
+    with_entries(report, case.report.as_ref())
+}
+
+/// A report with these entries in its head.
+pub(crate) fn with_entries(mut report: Report, details: Option<&ReportDetails>) -> Report {
+    let Some(details) = details else { return report };
+    let head = report.document.get_or_insert_with(Document::new);
+    for (key, text) in details.entries() {
         match (key, text) {
             ("title", Some(title)) => title.clone_into(&mut report.title),
             (_, Some(text)) => head.details.push(Fact::new(capital(key), text)),

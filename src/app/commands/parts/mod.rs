@@ -11,7 +11,7 @@ pub(crate) mod tables;
 
 pub(crate) use bearing_table::bearing_table;
 pub(crate) use bearing_words::{NO_FAULT, bearing_fact, faults, not_shown};
-pub(crate) use case_words::{HousingSize, inputs, with_details};
+pub(crate) use case_words::{HousingSize, inputs, with_details, with_entries};
 pub(crate) use drawing::draw;
 pub(crate) use statics_report::statics_section;
 pub use summary::{CheckSummary, SuperelementSummary};

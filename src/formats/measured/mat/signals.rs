@@ -93,6 +93,7 @@ fn channels(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Ch
             values: file.values(&mut opened, place)?,
             clock: own,
             speed_hz: speed_hz(&file.arrays, array),
+            doubts: Vec::new(),
         });
     }
     Ok(found)

@@ -35,6 +35,23 @@ fn sidebands_count_for_the_inner_race_alone() {
     }
 }
 
+/// An outer race that slips by 0.31 %, as in CWRU 130: looked for 0.1 % beside, its sixth harmonic seems to be the fourth of the inner race.
+#[test]
+fn lines_of_a_strong_race_are_known_where_they_are() {
+    let orders = super::bearing();
+    let outer = 1.0031 * orders.outer;
+    // strong, so that its first harmonics all reach the limit of what counts
+    let signal = with_noise(&struck(9.0, steady, outer, |_| 3.0), 0.1, 44);
+    let found = judged(&signal, steady, &orders, 0.01);
+    assert_eq!(named(&found), [Fault::OuterRace], "{:#?}", found.faults);
+    let measured = verdict(&found, Fault::OuterRace).order.unwrap();
+    // a quarter of the spectrum's step, half of the resolution of 64 revolutions, at the second harmonic; the search alone is 3 times as far off
+    assert!((measured - outer).abs() < 0.25 * 0.5 / 64.0 / 2.0, "{measured}, {outer}");
+    // beside its place the eighth is 11 dB lower
+    let race = verdict(&found, Fault::OuterRace);
+    assert!(race.harmonics.iter().all(|line| line.above_floor_db > 12.0), "{race:#?}");
+}
+
 #[test]
 fn both_races_sharpen_the_speed() {
     let signal = both_races(1.0, 1.6, 43);
