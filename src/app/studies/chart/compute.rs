@@ -15,7 +15,7 @@ use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
-use crate::report::{duration, significant};
+use crate::report::{counted, duration, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,6 +27,8 @@ pub struct Chart {
     pub budget_s: Option<f64>,
     /// What there was no time for, a few words each.
     pub left_out: Vec<String>,
+    /// Methods and models that there was no time to refine, each with what it lacks.
+    pub unrefined: Vec<String>,
     /// What was simulated.
     pub scene: Scene,
     /// What was compared.
@@ -65,8 +67,12 @@ impl Chart {
     /// What there was no time for, in a sentence; `None` where nothing was left out.
     pub(crate) fn without(&self) -> Option<String> {
         let budget = duration(self.budget_s?);
-        let list = self.left_out.join("; ");
-        (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {list}."))
+        let unrefined = (!self.unrefined.is_empty()).then(|| {
+            let count = counted(self.unrefined.len(), "combination");
+            format!("{count} of method and model not refined to the end, see Omissions and left_out in chart.json")
+        });
+        let list: Vec<String> = self.left_out.iter().cloned().chain(unrefined).collect();
+        (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {}.", list.join("; ")))
     }
 
     /// Points without an error, and why.
@@ -161,8 +167,7 @@ pub(crate) fn compute_chart(
         until: budget.until(stage),
     };
     let (found, [chosen, source]) = candidates(on(Stage::Points), &families, wanted, told, watch);
-    let Found { mut points, taken, left_out: untried } = found;
-    left_out.extend(untried);
+    let Found { mut points, taken, unrefined } = found;
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
         let run_s = on(Stage::Times).measure(&mut points, &taken, first, |part| watch.fraction(part));
@@ -196,6 +201,7 @@ pub(crate) fn compute_chart(
     Ok(Chart {
         budget_s: whole.seconds(),
         left_out,
+        unrefined,
         scene,
         settings,
         starts,
