@@ -10,7 +10,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
-use crate::report::significant;
+use crate::report::{significant, trimmed};
 
 /// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
 /// A superelement from a file is checked instead.
@@ -80,7 +80,7 @@ fn verdict(checks: &[Check], help: &str) -> Result<(), CliError> {
                 Bound::AtMost => "at most",
                 Bound::AtLeast => "at least",
             };
-            let [value, limit] = [check.value, check.limit].map(|value| significant(value, 4));
+            let [value, limit] = [check.value, check.limit].map(|value| trimmed(value, 4));
             format!("{}: found {value}, expected {bound} {limit} ({})", check.name, check.what)
         })
         .collect();
@@ -138,8 +138,6 @@ fn check_lines(checks: &[Check]) -> Vec<String> {
     let failed = || checks.iter().filter(|check| !check.ok());
     let passed = checks.len() - failed().count();
     let mut lines = vec![format!("checks passed: {passed} of {}", checks.len())];
-    lines.extend(
-        failed().map(|check| format!("  {} FAILS: {}: {}", check.name, check.what, significant(check.value, 4))),
-    );
+    lines.extend(failed().map(|check| format!("  {} FAILS: {}: {}", check.name, check.what, trimmed(check.value, 4))));
     lines
 }

@@ -241,9 +241,9 @@ pub(super) fn shaft(case: &Case) -> Vec<String> {
     let pitch = bearing.inner_race_radius + bearing.outer_race_radius;
     if 1e3 * pitch * 60.0 * fastest > SPEED {
         found.push(format!(
-            "speed.profile reaches {} Hz, {} revolutions a minute: no ball bearing of {} mean diameter runs as fast; check that it is in Hz, not in revolutions a minute",
-            short(fastest),
-            significant(60.0 * fastest, 3),
+            "speed.profile reaches {} Hz ({} rpm): no ball bearing of {} mean diameter runs as fast; check which of `hz` and `rpm` is meant",
+            Brief(fastest),
+            Brief::rounded(60.0 * fastest, 4),
             metres(pitch)
         ));
     }
