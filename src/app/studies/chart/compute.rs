@@ -66,13 +66,7 @@ pub struct ModelStatistics {
 impl Chart {
     /// What there was no time for, in a sentence; `None` where nothing was left out.
     pub(crate) fn without(&self) -> Option<String> {
-        let budget = duration(self.budget_s?);
-        let unrefined = (!self.unrefined.is_empty()).then(|| {
-            let count = counted(self.unrefined.len(), "combination");
-            format!("{count} of method and model not refined to the end, see Omissions and left_out in chart.json")
-        });
-        let list: Vec<String> = self.left_out.iter().cloned().chain(unrefined).collect();
-        (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {}.", list.join("; ")))
+        cut_short(self.budget_s?, &self.left_out, self.unrefined.len())
     }
 
     /// Points without an error, and why.
@@ -86,6 +80,17 @@ impl Chart {
         let error = point.error.as_ref();
         error.is_ok_and(|error| error.mean < self.reference.disagreement)
     }
+}
+
+/// That a budget (s) cut a chart short, in one sentence: what a page lists by itself is counted.
+fn cut_short(budget_s: f64, left_out: &[String], unrefined: usize) -> Option<String> {
+    let unrefined = (unrefined > 0).then(|| {
+        let count = counted(unrefined, "combination");
+        format!("{count} of method and model not refined to the end, see Omissions and left_out in chart.json")
+    });
+    let list: Vec<String> = left_out.iter().cloned().chain(unrefined).collect();
+    let budget = duration(budget_s);
+    (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {}.", list.join("; ")))
 }
 
 /// What a chart tells while it is computed.
@@ -395,6 +400,14 @@ impl<'a, W: Watch> Counter<'a, W> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_cut_is_one_sentence_however_much_it_is() {
+        assert_eq!(super::cut_short(45.0, &[], 0), None);
+        let said = super::cut_short(45.0, &["3 starts instead of 6".to_owned()], 20).unwrap();
+        let begin = "The budget of 45 s cut the chart short: 3 starts instead of 6; 20 combinations of method and model not refined";
+        assert!(said.starts_with(begin) && said.len() < 250, "{said}");
+    }
 
     #[test]
     fn only_what_none_beats_is_on_the_front() {
