@@ -47,7 +47,7 @@ pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome
         folder.claim_unless(&["sweep.json"], options.force, other)?;
         let beneath = std::env::current_dir().ok();
         let beneath = beneath.and_then(|here| plan.case.strip_prefix(here).ok().map(Path::to_owned));
-        let case = Case::load(&beneath.unwrap_or_else(|| plan.case.clone()), &plan.set)?;
+        let case = Case::load(beneath.unwrap_or_else(|| plan.case.clone()), &plan.set)?;
         merge(plan, &case, folder, options, &progress)
     } else {
         whole(asked, options, &progress)
