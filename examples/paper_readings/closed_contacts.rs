@@ -124,7 +124,7 @@ pub fn section(grid: &Grid, rows: &[Row]) -> Section {
     let columns = [
         Column::text("Springs"),
         Column::text("Balls below"),
-        Column::number("Gap closed", "um"),
+        Column::number("Gap closed", "µm"),
         Column::text("Inner contacts"),
         Column::text("Modes from 6 to 40 kHz without the balls' own [Hz]"),
         Column::number("Worst against 8.2, 11.3, 36 kHz", "%"),

@@ -24,9 +24,9 @@ const TABULATED: [f64; 2] = [0.3204, 0.4795];
 pub struct Hypothesis {
     /// What was done.
     pub what: String,
-    /// Inner race, N/m^1.5; `None`: theory refuses it.
+    /// Inner race, N/m^(3/2); `None`: theory refuses it.
     pub inner: Option<f64>,
-    /// Outer race, N/m^1.5; `None`: theory refuses it.
+    /// Outer race, N/m^(3/2); `None`: theory refuses it.
     pub outer: Option<f64>,
     /// Relative distances from Table 1.
     pub misfit: [Option<f64>; 2],
@@ -146,7 +146,7 @@ pub fn hypotheses() -> Result<Vec<Hypothesis>, Failure> {
         hypothesis("geometry, 206 GPa", scaled(1.0)),
         hypothesis("geometry, 200 GPa", of(RaceCurvatures::right(), modulus_of(200e9)?)),
         hypothesis("geometry, 210 GPa", of(RaceCurvatures::right(), modulus_of(210e9)?)),
-        hypothesis("the same per N/mm^1.5, turned with 10^4 instead of 10^4.5", scaled(10_f64.powf(-0.5))),
+        hypothesis("the same per N/mm^(3/2), turned with 10^4 instead of 10^4.5", scaled(10_f64.powf(-0.5))),
         hypothesis("E' = E/(1 - nu^2) in the place of half of it", scaled(2.0)),
         hypothesis("a quarter of E/(1 - nu^2): the half taken twice", scaled(0.5)),
         hypothesis("Poisson's ratio left out", scaled(1.0 - POISSON * POISSON)),
@@ -217,7 +217,7 @@ pub fn section(hypotheses: &[Hypothesis]) -> Section {
     let [inner, outer] = TABLE_ONE;
     let mut section = Section::new("Where Table 1's contact stiffness may come from")
         .paragraph(format!(
-            "Table 1 prints a contact stiffness of {} and {} N/m^1.5, a third of what its own radii give, and softer at the inner race where the radii make it stiffer. Whatever acts on both contacts alike, such as units or moduli, keeps their ratio of 1.114; Table 1 has 0.990. The slips below were tried. None gives both of its four-digit numbers. The nearest are those that take every radius of Table 1 as positive, the concave grooves too, in the equations (21) and (22) as they are printed.",
+            "Table 1 prints a contact stiffness of {} and {} N/m^(3/2), a third of what its own radii give, and softer at the inner race where the radii make it stiffer. Whatever acts on both contacts alike, such as units or moduli, keeps their ratio of 1.114; Table 1 has 0.990. The slips below were tried. None gives both of its four-digit numbers. The nearest are those that take every radius of Table 1 as positive, the concave grooves too, in the equations (21) and (22) as they are printed.",
             significant(inner, 4),
             significant(outer, 4)
         ))
@@ -258,8 +258,8 @@ fn moduli(hypotheses: &[Hypothesis]) -> Option<[f64; 2]> {
 pub fn table(hypotheses: &[Hypothesis]) -> Table {
     let columns = [
         Column::text("What was done"),
-        Column::number("Inner race", "10^9 N/m^1.5"),
-        Column::number("Outer race", "10^9 N/m^1.5"),
+        Column::number("Inner race", "10^9 N/m^(3/2)"),
+        Column::number("Outer race", "10^9 N/m^(3/2)"),
         Column::number("Their ratio", ""),
         Column::number("Inner against Table 1", "%"),
         Column::number("Outer against Table 1", "%"),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Why a table cannot be computed: nothing that the reader of the tables could set right.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Table 1's contact stiffness of the inner and the outer race, N/m^1.5 (printed as N/m).
+/// Table 1's contact stiffness of the inner and the outer race, N/m^(3/2) (printed as N/m).
 pub const TABLE_ONE: [f64; 2] = [3.828e9, 3.867e9];
 
 /// Eigenfrequency "of the bearing/housing-pedestal system", Hz ("around", section 4.2).

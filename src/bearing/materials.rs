@@ -86,7 +86,7 @@ impl ContactStiffness {
     pub fn given(inner: f64, outer: f64) -> Result<Self, BearingError> {
         for (race, value) in [(Race::Inner, inner), (Race::Outer, outer)] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(BearingError(format!("stiffness.{race} = {value} N/m^1.5 must be positive and finite")));
+                return Err(BearingError(format!("stiffness.{race} = {value} N/m^(3/2) must be positive and finite")));
             }
         }
         Ok(Self { inner, outer })
@@ -148,7 +148,7 @@ mod tests {
         let error = RaceContacts::new(&source_bearing(), steel(), steel(), bad).unwrap_err();
         assert_eq!(error.to_string(), "outer race: Young's modulus -1 Pa must be positive");
         let error = ContactStiffness::given(0.0, 1.0).unwrap_err();
-        assert_eq!(error.to_string(), "stiffness.inner = 0 N/m^1.5 must be positive and finite");
+        assert_eq!(error.to_string(), "stiffness.inner = 0 N/m^(3/2) must be positive and finite");
         assert!(ContactStiffness::given(1.0, f64::NAN).is_err());
     }
 }

@@ -7,6 +7,13 @@ use std::fmt::{Display, Formatter, Result};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Brief(pub f64);
 
+impl Brief {
+    /// A number with at most so many significant digits, 1 to 7.
+    pub(crate) fn rounded(number: f64, digits: usize) -> Self {
+        Self(format!("{number:.*e}", digits.saturating_sub(1)).parse().unwrap_or(number))
+    }
+}
+
 impl Display for Brief {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         // the text of a number always reads back
@@ -32,5 +39,8 @@ mod tests {
         ] {
             assert_eq!(Brief(number).to_string(), text);
         }
+        // no power of ten that is one
+        assert_eq!(Brief::rounded(1.570_42, 4).to_string(), "1.57");
+        assert_eq!(Brief::rounded(0.0, 4).to_string(), "0");
     }
 }

@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn numbers_are_whole_and_units_stand_in_the_header() {
-        let columns = [Column::text("What"), Column::number("Stiffness", "N/m^1.5"), Column::number("Area", "m^2")];
+        let columns = [Column::text("What"), Column::number("Stiffness", "N/m^(3/2)"), Column::number("Area", "m^2")];
         let table = Table::new("t", columns)
             .row([
                 Cell::text("a"),
@@ -156,7 +156,7 @@ mod tests {
             .row([Cell::text("c"), Cell::number(f64::NAN, 3), Cell::number(-0.25, 2).judged(Verdict::Ok)]);
         assert_eq!(
             table.to_csv(),
-            "What,Stiffness [N/m^1.5],Area [m²],Area: verdict\r\n\
+            "What,Stiffness [N/m^(3/2)],Area [m²],Area: verdict\r\n\
              a,3828123456.789,5.37e-16,fail\r\n\
              b,,0.30000000000000004,\r\n\
              c,,-0.25,pass\r\n"

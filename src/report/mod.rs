@@ -42,7 +42,7 @@ pub use curve::{Abscissa, Curve, CurveStyle, Symbol};
 pub(crate) use embed::SIGNAL_POINTS;
 pub use error::ReportError;
 pub use matrix::Matrix;
-pub(crate) use number::{display_unit, duration, given, pretty_unit, quantity};
+pub(crate) use number::{display_unit, duration, given, pretty_unit, quantity, signed, signed_fixed, trimmed};
 pub use number::{fixed, shaft_speed, significant};
 pub(in crate::report) use number::{raised_powers, with_unit};
 pub(crate) use plot::Raster;

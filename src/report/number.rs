@@ -83,9 +83,29 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     out
 }
 
+/// A number with its sign, with so many significant digits; a zero has none.
+pub(crate) fn signed(value: f64, digits: usize) -> String {
+    with_plus(value, significant(value, digits))
+}
+
+/// A number with its sign, with so many decimals; what rounds to zero has none.
+pub(crate) fn signed_fixed(value: f64, decimals: usize) -> String {
+    with_plus(value, fixed(value, decimals))
+}
+
+fn with_plus(value: f64, text: String) -> String {
+    let zero = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
+    if value > 0.0 && !zero { format!("+{text}") } else { text }
+}
+
 /// A value as somebody gave it: with up to five significant digits, without the zeros behind them.
 pub(crate) fn given(value: f64) -> String {
-    let text = significant(value, 5);
+    trimmed(value, 5)
+}
+
+/// A number with up to so many significant digits, without the zeros behind them.
+pub(crate) fn trimmed(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
     let (number, power) = text.split_once('·').map_or((text.as_str(), String::new()), |(n, p)| (n, format!("·{p}")));
     match number.contains('.') {
         true => format!("{}{power}", number.trim_end_matches('0').trim_end_matches('.')),
@@ -122,7 +142,7 @@ fn raised(c: char) -> char {
 }
 
 /// A unit as it is printed: "m/s^2" becomes "m/s²", "kg*m" becomes "kg·m"; powers with a decimal point stay
-/// ("N/m^1.5").
+/// ("N/m^(3/2)").
 pub(crate) fn pretty_unit(unit: &str) -> String {
     raised_powers(unit).replace('*', "·")
 }
@@ -171,6 +191,10 @@ pub(crate) fn display_unit(unit: &str, largest: f64) -> DisplayUnit {
     }
     // beyond, a power of ten is no normal number
     let exponent = (3 * (largest.log10() / 3.0 + 1e-9).floor() as i32).clamp(-306, 306);
+    let powers = [("m^2", "mm²", 1e-6), ("m^3", "mm³", 1e-9), ("m^4", "mm⁴", 1e-12), ("kg*m", "g·mm", 1e-6)];
+    if let (Some((_, text, factor)), true) = (powers.iter().find(|(of, ..)| *of == unit), largest < 1e-3) {
+        return DisplayUnit { factor: *factor, text: (*text).to_owned() };
+    }
     if takes_prefix {
         let wanted = !(0.1..1e4).contains(&largest) && (unit != "s" || exponent < 0);
         let prefix = PREFIXES.iter().find(|(e, _)| *e == exponent);
@@ -230,6 +254,8 @@ mod tests {
         assert_eq!(fixed(-0.001, 2), "0.00");
         assert_eq!(fixed(-1_234_567.0, 1), "−1\u{202f}234\u{202f}567.0");
         assert_eq!(fixed(1234.0, 0), "1234");
+        assert_eq!([0.5, -0.001, 0.001].map(|value| signed_fixed(value, 2)), ["+0.50", "0.00", "0.00"]);
+        assert_eq!([0.5, -0.001].map(|value| signed(value, 2)), ["+0.50", "−0.0010"]);
     }
 
     #[test]
@@ -247,7 +273,7 @@ mod tests {
     fn units_are_raised_and_prefixed() {
         assert_eq!(pretty_unit("m/s^2"), "m/s²");
         assert_eq!(pretty_unit("kg*m^-2 x"), "kg·m⁻² x");
-        assert_eq!(pretty_unit("N/m^1.5"), "N/m^1.5");
+        assert_eq!(pretty_unit("N/m^(3/2)"), "N/m^(3/2)");
         let shown = |unit, largest| {
             let d = display_unit(unit, largest);
             format!("{} {:e}", d.text, d.factor)
@@ -258,6 +284,7 @@ mod tests {
         assert_eq!(shown("s", 2e4), "s 1e0");
         assert_eq!(shown("m/s^2", 1500.0), "m/s² 1e0");
         assert_eq!(shown("m/s^2", 3e-6), "10⁻⁶ m/s² 1e-6");
+        assert_eq!(shown("m^4", 9e-12), "mm⁴ 1e-12");
         assert_eq!(shown("", 1e9), "10⁹ 1e9");
         assert_eq!(shown("Hz", 0.0), "Hz 1e0");
     }

@@ -1,6 +1,6 @@
 //! Sizes, masses and counts as one says them: "120 x 80 x 30 mm", "0.62 kg", "1 path".
 
-use super::number::significant;
+use super::number::trimmed;
 
 /// Sides (m) of a box in the one unit that suits the longest, those of length zero left out; up to 4 digits each.
 pub(crate) fn size_in_words(sides: [f64; 3]) -> String {
@@ -8,10 +8,10 @@ pub(crate) fn size_in_words(sides: [f64; 3]) -> String {
     let (unit, metres) = match longest {
         10.0.. => ("m", 1.0),
         1e-3.. => ("mm", 1e-3),
-        _ => ("um", 1e-6),
+        _ => ("µm", 1e-6),
     };
     let sides = sides.into_iter().filter(|side| *side > 1e-9 * longest);
-    let sides: Vec<String> = sides.map(|side| short(side / metres, 4)).collect();
+    let sides: Vec<String> = sides.map(|side| trimmed(side / metres, 4)).collect();
     format!("{} {unit}", sides.join(" x "))
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn mass_in_words(kilograms: f64, digits: usize) -> String {
         1e-6.. => ("g", 1e3),
         _ => ("kg", 1.0),
     };
-    format!("{} {unit}", short(kilograms * kilogram, digits))
+    format!("{} {unit}", trimmed(kilograms * kilogram, digits))
 }
 
 /// "1 path", "2 paths", "3 frequencies".
@@ -32,15 +32,6 @@ pub(crate) fn counted(count: usize, what: &str) -> String {
         (1, _) => format!("1 {what}"),
         (_, Some(stem)) => format!("{count} {stem}ies"),
         (_, None) => format!("{count} {what}s"),
-    }
-}
-
-/// A number with at most so many digits, without zeros behind the point.
-fn short(number: f64, digits: usize) -> String {
-    let text = significant(number, digits);
-    match text.contains('.') && !text.contains('·') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
     }
 }
 
@@ -55,7 +46,7 @@ mod tests {
             ([0.018, 0.018, 0.0], "18 x 18 mm"),
             ([1.2345, 0.5, 1e-3], "1234 x 500 x 1 mm"),
             ([120.0, 80.0, 0.5], "120 x 80 x 0.5 m"),
-            ([1.2e-4, 8e-5, 3e-5], "120 x 80 x 30 um"),
+            ([1.2e-4, 8e-5, 3e-5], "120 x 80 x 30 µm"),
         ] {
             assert_eq!(size_in_words(sides), words);
         }
@@ -64,7 +55,7 @@ mod tests {
             (0.0345, "34.5 g"),
             (1250.0, "1250 kg"),
             (6.3e8, "630\u{202f}000 t"),
-            (6e-13, "6.00·10⁻¹³ kg"),
+            (6e-13, "6·10⁻¹³ kg"),
         ] {
             assert_eq!(mass_in_words(mass, 3), words);
         }

@@ -106,8 +106,8 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
         let sentence = diagnosis.sentence();
         assert!(sentence.contains("outer race: its lines stand out"));
     };
-    let sound = "The case has no damage there, and the play is 2.5 um";
-    let hidden = "This cannot be told from damage: the play is 2.5 um";
+    let sound = "The case has no damage there, and the play is 2.5 µm";
+    let hidden = "This cannot be told from damage: the play is 2.5 µm";
     told("healthy", &set, sound);
     told("outer-dent", &set, hidden);
     // a shaft that is as heavy itself is such a load

@@ -12,18 +12,20 @@ pub fn scratch(name: &str) -> PathBuf {
     folder
 }
 
-/// The program with these arguments in a folder, to its end. A page that it says it wrote reads as a document.
+/// The program with these arguments in a folder, to its end. What it prints, and a page that it says it wrote, read as a document.
 pub fn plummer(folder: &Path, words: &[&str]) -> Output {
     let output = Command::new(env!("CARGO_BIN_EXE_plummer")).current_dir(folder).args(words).output().unwrap();
-    if ["run", "modes", "condense", "frf", "analyze"].iter().any(|command| words.contains(command)) {
-        let said = String::from_utf8_lossy(&output.stdout);
-        let pages = said.lines().filter_map(|line| line.strip_prefix("wrote ")).filter(|name| name.ends_with(".html"));
-        for page in pages {
-            let typed = words.iter().map(|word| fs::read_to_string(folder.join(word)).unwrap_or_default());
-            let typed: String = typed.chain(words.iter().map(|&word| word.to_owned())).collect();
-            let found = unreadable(&fs::read_to_string(folder.join(page)).unwrap(), &typed);
-            assert!(found.is_empty(), "{words:?}: {page}: {found:?}");
-        }
+    let said = String::from_utf8_lossy(&output.stdout);
+    for text in [&said, &String::from_utf8_lossy(&output.stderr)] {
+        let found = raw_forms(text);
+        assert!(found.is_empty(), "{words:?}: {found:?} in {text}");
+    }
+    let pages = said.lines().filter_map(|line| line.strip_prefix("wrote ")).filter(|name| name.ends_with(".html"));
+    for page in pages {
+        let typed = words.iter().map(|word| fs::read_to_string(folder.join(word)).unwrap_or_default());
+        let typed: String = typed.chain(words.iter().map(|&word| word.to_owned())).collect();
+        let found = unreadable(&fs::read_to_string(folder.join(page)).unwrap(), &typed);
+        assert!(found.is_empty(), "{words:?}: {page}: {found:?}");
     }
     output
 }
@@ -34,20 +36,51 @@ const NAMES: [&str; 3] = ["CalculiX", "BooleanDifference", "BooleanFragments"];
 /// Digits that a page may show: frequencies have seven, which tell the halves of a pair apart.
 const MOST_DIGITS: usize = 7;
 
-/// What a page shows that is no text for a reader: identifiers of the program such as `ExactArc`, and numbers with more digits than
-/// anybody reads. Names that were typed may be as they are; digests and pictures in space are no text.
+/// Parts of a page that say the case file and the command line as they were typed.
+const ECHOES: [(&str, &str); 2] = [("<dl class=\"document\">", "</dl>"), ("<section id=\"reproduce\">", "</section>")];
+
+/// What a page shows that is no text for a reader: identifiers of the program such as `ExactArc`, numbers with more digits than
+/// anybody reads, and [`raw_forms`]. Names that were typed in quotes may be as they are, and all where the page echoes what was typed;
+/// digests and pictures in space are no text.
 pub fn unreadable(page: &str, typed: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for text in texts(page) {
+    let mut page = page.to_owned();
+    for (begin, end) in ECHOES {
+        if let Some(from) = page.find(begin) {
+            let to = page[from..].find(end).map_or(page.len(), |length| from + length);
+            page.replace_range(from..to, "");
+        }
+    }
+    let names: Vec<&str> = typed.split(['"', '\'']).skip(1).step_by(2).collect();
+    let is_name = |word: &&str| names.iter().any(|name| name.contains(word));
+    for text in texts(&page) {
         if text.trim().starts_with("SHA-256") {
             continue;
         }
         let text = text.replace('\u{202f}', "");
         let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| is_identifier(word));
-        found.extend(words.filter(|word| !NAMES.contains(word) && !typed.contains(word)).map(str::to_owned));
+        found.extend(words.filter(|word| !NAMES.contains(word) && !is_name(word)).map(str::to_owned));
         let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.')).filter(|word| digits(word) > MOST_DIGITS);
-        found.extend(numbers.filter(|number| !typed.contains(number)).map(str::to_owned));
+        found.extend(numbers.filter(|number| !is_name(number)).map(str::to_owned));
+        found.extend(raw_forms(&text));
     }
+    found
+}
+
+/// Numbers and units as a program writes them and a reader does not: a zero with a minus, a power of ten that is one, "um" for "µm", a
+/// power with a decimal point, an exact value with an error of nothing.
+pub fn raw_forms(text: &str) -> Vec<String> {
+    let words: Vec<&str> = text.split(|c: char| c.is_whitespace() || "(),;:|=[]".contains(c)).collect();
+    let has_digit = |word: &str| word.bytes().any(|b| b.is_ascii_digit());
+    let raw = |word: &&&str| {
+        let zero = word.strip_prefix(['-', '−']).is_some_and(|number| number.chars().all(|c| c == '0' || c == '.'));
+        let one = word.strip_suffix("e0").is_some_and(|number| number.ends_with(|c: char| c.is_ascii_digit()));
+        zero && has_digit(word) || one && word.parse::<f64>().is_ok() || word.contains("^1.5")
+    };
+    let mut found: Vec<String> = words.iter().filter(raw).map(|word| (*word).to_owned()).collect();
+    let pairs = words.windows(2).filter(|pair| pair[1] == "um" && has_digit(pair[0]));
+    found.extend(pairs.map(|pair| pair.join(" ")));
+    found.extend(text.contains("exact, to 0").then(|| "exact, to 0".to_owned()));
     found
 }
 
@@ -86,7 +119,18 @@ fn digits(number: &str) -> usize {
 fn identifiers_and_raw_numbers_on_a_page_are_found() {
     let page = "<p>an ExactArc at 25599.999839999375 Hz</p><script>var x = 123456789.5; SomeName</script>\
         <td>16\u{202f}300.79</td><span>SHA-256 9108123456789</span><b>CalculiX, MySensor, 120000000 N</b>";
-    assert_eq!(unreadable(page, "MySensor"), ["ExactArc", "25599.999839999375"]);
+    assert_eq!(unreadable(page, "name = \"MySensor\""), ["ExactArc", "25599.999839999375"]);
+    // what was typed is ignored where it is echoed, not elsewhere
+    let page = "<dl class=\"document\"><dd>--set a=25599.99983 ExactArc</dd></dl><p>25599.99983 Hz, ExactArc</p>\
+        <section id=\"reproduce\">25599.99983</section>";
+    assert_eq!(unreadable(page, "a=25599.99983 ExactArc"), ["ExactArc", "25599.99983"]);
+}
+
+#[test]
+fn forms_of_programs_are_found() {
+    let text = "moved by -0.00 %, −0 N, 1.391433e0 kg, 15 um, 12 GN/m^1.5, exact, to 0 %; 2e-3 m, -0.5 N, 1e10 Hz, 0.0, 2026-11-26, -";
+    assert_eq!(raw_forms(text), ["-0.00", "−0", "1.391433e0", "GN/m^1.5", "15 um", "exact, to 0"]);
+    assert!(raw_forms("length unit um, in; x-0 node 0xe0").is_empty());
 }
 
 /// What it wrote to standard error behind the lines of its progress: from the first error or warning on.

@@ -214,7 +214,7 @@ fn interrupted_runs_go_on() {
     let amplitude = |point: usize| sweep["points"][point]["figures"]["P1.1.BPFO.1"].as_f64().unwrap();
     assert!(amplitude(0) > 0.0 && amplitude(1) > 0.0);
     let page = fs::read_to_string(folder.join("whole/report.html")).unwrap();
-    for text in ["Envelope at the lines of the bearing", "shaft.mass [kg]", "BPFO", "2 x BSF"] {
+    for text in ["Envelope at the lines of the bearing", "Mass of the shaft [kg]", "BPFO", "2 x BSF"] {
         assert!(page.contains(text), "{text}");
     }
     let header = fs::read_to_string(folder.join("whole/sweep.csv")).unwrap();

@@ -168,7 +168,7 @@ fn a_body_in_another_is_refused_unless_allowed() {
         blocks.cube(1, "a", [0.0; 3], 3);
         blocks.cube(2, "b", [0.0; 3], cells);
         blocks.write(&folder, &["a", "b"], "");
-        refused(&folder, &["the parts \"a\" and \"b\" lie in one another", "1.000e-3 m^3", "housing.overlap"]);
+        refused(&folder, &["the parts \"a\" and \"b\" lie in one another", "0.001 m^3", "housing.overlap"]);
         blocks.write(&folder, &["a", "b"], "overlap = 'allow'");
         let output = modes(&folder);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
@@ -190,7 +190,7 @@ fn parts_that_touch_without_a_link_are_said() {
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
         let words = [
             "the parts \"a\" and \"b\" touch without common nodes".to_owned(),
-            format!("{} faces on 1.000e-2 m^2,", 9 + cells * cells),
+            format!("{} faces on 0.01 m^2,", 9 + cells * cells),
             format!("{pairs} pairs of nodes in one place"),
             "the first at (0.1".to_owned(),
         ];
@@ -252,7 +252,7 @@ fn parts_that_reach_into_one_another_by_little_are_said() {
     blocks.write(&folder, &["a", "b"], "");
     for output in [modes(&folder), inspect(&folder)] {
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
-        let words = "the parts \"a\" and \"b\" reach into one another: 9 pairs of elements do, by up to 1.3e-3 m";
+        let words = "the parts \"a\" and \"b\" reach into one another: 9 pairs of elements do, by up to 0.0013 m";
         assert!(text(&output).contains(words), "{}", text(&output));
     }
 }

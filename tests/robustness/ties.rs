@@ -34,9 +34,9 @@ fn ties_across_a_gap_are_said_and_from_within_refused() {
         assert_eq!(warnings, "[]");
     }
     for (between, gap, words) in [
-        (faces, 0.02, ["up to 2.00e-2 m, 0.40 of the size", "about 1.570e0 kg of material would fill the gap"]),
-        (faces, 0.0004, ["up to 4.00e-4 m, 0.01 of the size", "about 3.140e-2 kg of material would fill the gap"]),
-        (["a", "b"], 0.004, ["up to 4.00e-3 m, 0.08 of the size", "about 3.140e-1 kg of material would fill the gap"]),
+        (faces, 0.02, ["up to 0.02 m, 0.40 of the size", "about 1.57 kg of material would fill the gap"]),
+        (faces, 0.0004, ["up to 4e-4 m, 0.01 of the size", "about 0.0314 kg of material would fill the gap"]),
+        (["a", "b"], 0.004, ["up to 0.004 m, 0.08 of the size", "about 0.314 kg of material would fill the gap"]),
     ] {
         write(&folder, gap);
         let (warnings, _) = result(&folder, &modes(&folder, &housing(between, "")));
@@ -47,8 +47,8 @@ fn ties_across_a_gap_are_said_and_from_within_refused() {
     // no centre of an element lies in another one; of bodies, nodes at the rim lie on the sides of the other
     write(&folder, -0.004);
     for (between, inside, twice) in [
-        (faces, "16 of them into the other body", "; about 3.140e-1 kg count twice"),
-        (["a", "b"], "4 of them into the other body", "; about 1.396e-1 kg count twice"),
+        (faces, "16 of them into the other body", "; about 0.314 kg count twice"),
+        (["a", "b"], "4 of them into the other body", "; about 0.1396 kg count twice"),
     ] {
         let refused = modes(&folder, &housing(between, ""));
         let said = errors(&refused);

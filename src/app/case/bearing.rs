@@ -165,7 +165,7 @@ pub enum ContactStiffness {
     /// From the geometry and the materials.
     #[default]
     Hertz,
-    /// Given, in N/m^1.5, each > 0.
+    /// Given, in N/m^(3/2), each > 0.
     #[serde(untagged)]
     Given {
         /// Between ball and inner race.

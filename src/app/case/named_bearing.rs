@@ -127,7 +127,7 @@ mod tests {
             let told = bearing.taken_from().unwrap();
             assert!(told.starts_with("bearing 6204: balls and diameters are those of GMN, "), "{told}");
             for part in
-                ["0.52 (inner) and 0.53 (outer)", "a radial play of 6.25 um is half", "give your own in [bearing]"]
+                ["0.52 (inner) and 0.53 (outer)", "a radial play of 6.25 µm is half", "give your own in [bearing]"]
             {
                 assert!(told.contains(part), "{part}: {told}");
             }

@@ -3,6 +3,7 @@
 use super::Bearing;
 use super::named_bearing::{GIVEN, lengths};
 use crate::bearing::catalogue::{CatalogueBearing, UsualNumbers};
+use crate::report::quantity;
 
 impl Bearing {
     /// What a named bearing is taken from, and which of its numbers no maker says of it; `None` without a name.
@@ -33,8 +34,8 @@ impl Bearing {
         }
         if self.radial_play.is_some_and(|own| same(own, play)) {
             guessed.push(format!(
-                "a radial play of {:.2} um is half the middle of the clearance of group N: tight fits and a warm inner ring take part of it away",
-                1e6 * play
+                "a radial play of {} is half the middle of the clearance of group N: tight fits and a warm inner ring take part of it away",
+                quantity(play, "m")
             ));
         }
         let suffix = self.name.as_ref()?.trim().trim_start_matches(bearing.name);

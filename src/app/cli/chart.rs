@@ -79,8 +79,8 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
     let mut report = chart_report(case, &result, &command);
     if let Some(stability) = &stability {
-        // after the chart itself
-        report.sections.insert(1, stability_section(stability));
+        // after inputs and the chart itself
+        report.sections.insert(2, stability_section(stability));
     }
     let files = ReportFiles::write(folder, "chart", case, report, progress)?;
     let record = job.record(&files.meshes, Some(&files.tables), result.summary(case));
@@ -177,8 +177,9 @@ fn verdict(result: &Chart) -> Result<(), CliError> {
     let [by, beside] = result.reference.models.map(|model| model.method.name());
     let longer = if result.reference.starts.iter().any(|start| start.cut_short) { "a longer --budget; " } else { "" };
     Err(CliError::failed(format!(
-        "{by} and {beside} differ by {:.1e} over the horizon, not well below the target {:.1e}",
-        result.reference.disagreement, result.settings.target
+        "{by} and {beside} differ by {} over the horizon, not well below the target {}",
+        significant(result.reference.disagreement, 2),
+        significant(result.settings.target, 2)
     ))
     .with_help(format!(
         "points below that are not marked; {longer}a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
@@ -232,11 +233,11 @@ fn shown(point: &Point, of: &Chart) -> String {
 
 fn line(point: &Point) -> String {
     let parameter = match Parameter::of(&point.model) {
-        Parameter::StepS(step) => format!("step_s {}", significant(step, 3)),
+        Parameter::StepS(step) => format!("step {} µs", significant(1e6 * step, 3)),
         Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 3)),
     };
     let error = match &point.error {
-        Ok(error) => format!("error {} (+- {})", significant(error.mean, 2), significant(error.deviation, 2)),
+        Ok(error) => format!("error {} (± {})", significant(error.mean, 2), significant(error.deviation, 2)),
         Err(failure) => failure.reason.clone(),
     };
     let wall = point.wall_s.map_or_else(String::new, |wall| format!("{} s/s  ", significant(wall, 3)));

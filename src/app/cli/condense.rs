@@ -10,6 +10,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
+use crate::report::{significant, trimmed};
 
 /// Condenses the housing of a case and writes `report.html`, its tables, `superelement.npz` and, last, `condense.json`.
 /// A superelement from a file is checked instead.
@@ -79,7 +80,8 @@ fn verdict(checks: &[Check], help: &str) -> Result<(), CliError> {
                 Bound::AtMost => "at most",
                 Bound::AtLeast => "at least",
             };
-            format!("{}: found {:.3e}, expected {bound} {:.3e} ({})", check.name, check.value, check.limit, check.what)
+            let [value, limit] = [check.value, check.limit].map(|value| trimmed(value, 4));
+            format!("{}: found {value}, expected {bound} {limit} ({})", check.name, check.what)
         })
         .collect();
     if failed.is_empty() { Ok(()) } else { Err(CliError::failed(failed.join("; ")).with_help(help)) }
@@ -89,10 +91,10 @@ fn summary(result: &CondenseResult) -> String {
     let (element, basis) = (&result.stage.condensed.superelement, &result.stage.condensed.basis);
     let of_modes = result.interface.as_ref().map(|interface| {
         format!(
-            "{} modes of the interface in place of its coordinates: frequencies up to {:.1e} higher, on average {:.0} % of \
+            "{} modes of the interface in place of its coordinates: frequencies up to {} higher, on average {:.0} % of \
              the interface's static flexibility lost",
             interface.reduction.kept(),
-            interface.largest_rise(),
+            significant(interface.largest_rise(), 2),
             100.0 * interface.lost.mean
         )
     });
@@ -105,10 +107,10 @@ fn summary(result: &CondenseResult) -> String {
             result.stage.condensed.substructure.interior_dof()
         ),
         format!(
-            "estimated error of the {} frequencies up to {:.0} Hz: {:.1e}",
+            "estimated error of the {} frequencies up to {:.0} Hz: {}",
             result.estimate.modes.len(),
             result.estimate.band_hz,
-            result.estimate.largest()
+            significant(result.estimate.largest(), 2)
         ),
     ];
     lines.splice(1..1, of_modes);
@@ -125,7 +127,7 @@ fn summary(result: &CondenseResult) -> String {
     if let Some(full) = &result.full {
         let errors = full.relative_errors.iter().flatten();
         let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));
-        lines.push(format!("error against the full model: {largest:.1e}"));
+        lines.push(format!("error against the full model: {}", significant(largest, 2)));
     }
     lines.extend(check_lines(&result.checks));
     lines.join("\n")
@@ -136,6 +138,6 @@ fn check_lines(checks: &[Check]) -> Vec<String> {
     let failed = || checks.iter().filter(|check| !check.ok());
     let passed = checks.len() - failed().count();
     let mut lines = vec![format!("checks passed: {passed} of {}", checks.len())];
-    lines.extend(failed().map(|check| format!("  {} FAILS: {}: {:.3e}", check.name, check.what, check.value)));
+    lines.extend(failed().map(|check| format!("  {} FAILS: {}: {}", check.name, check.what, trimmed(check.value, 4))));
     lines
 }

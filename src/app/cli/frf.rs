@@ -9,7 +9,7 @@ use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report
 use crate::app::error::ComputeError;
 use crate::fe::reduction::frf::FrfQuantity;
 use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
-use crate::report::counted;
+use crate::report::{counted, significant};
 
 /// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
 ///
@@ -40,7 +40,7 @@ fn verdict(result: &FrfResult) -> Result<(), CliError> {
     }
     let found = |(how, at): (&str, Option<(f64, f64)>)| {
         let (hz, error) = at.filter(|&(_, error)| error > result.target)?;
-        Some(format!("{how} {error:.1e} at {hz:.0} Hz"))
+        Some(format!("{how} {} at {hz:.0} Hz", significant(error, 2)))
     };
     let errors = [
         ("estimated error", result.largest_estimate()),
@@ -48,8 +48,8 @@ fn verdict(result: &FrfResult) -> Result<(), CliError> {
     ];
     let misses: Vec<String> = errors.into_iter().filter_map(found).collect();
     Err(CliError::failed(format!(
-        "the reduced responses miss the target {:.1e}: {}",
-        result.target,
+        "the reduced responses miss the target {}: {}",
+        significant(result.target, 2),
         misses.join(", ")
     ))
     .with_help(
@@ -81,12 +81,13 @@ fn summary(result: &FrfResult) -> String {
         lines.push(format!("{} to {}: largest modal contributions: {}", path.from, path.to, modes.join(", ")));
     }
     if let Some((hz, error)) = result.largest_estimate() {
-        lines.push(format!("estimated error of the responses: up to {error:.1e}, at {hz:.0} Hz"));
+        lines.push(format!("estimated error of the responses: up to {}, at {hz:.0} Hz", significant(error, 2)));
     }
     if let Some((hz, difference)) = result.largest_difference() {
         lines.push(format!(
-            "against the full model at {}: up to {difference:.1e}, at {hz:.0} Hz",
-            counted(result.compared.len(), "frequency")
+            "against the full model at {}: up to {}, at {hz:.0} Hz",
+            counted(result.compared.len(), "frequency"),
+            significant(difference, 2)
         ));
     }
     for ranked in &result.ranking {

@@ -7,9 +7,9 @@ use super::results::{Job, warnings, write_modes};
 use super::{CliError, Outcome};
 use crate::app::commands::modes::{
     FileComparison, LoneMode, MeshConvergence, ModesResult, Reading, SequenceMesh, completeness, compute_modes,
-    error_text, misses_text, mode_numbers, modes_report, plain, signed,
+    error_text, misses_text, mode_numbers, modes_report, plain,
 };
-use crate::report::significant;
+use crate::report::{mass_in_words, signed, signed_fixed, significant};
 
 /// Computes the modes of a case and writes `report.html`, its tables, `modes.npz` and, last, `modes.json`.
 ///
@@ -43,7 +43,7 @@ fn summary(result: &ModesResult) -> String {
         first.push_str(" (all that were asked for)");
     }
     if let Some(mass) = &survey.mass {
-        first.push_str(&format!(", {:.6e} kg", mass.mass));
+        first.push_str(&format!(", {}", mass_in_words(mass.mass, 5)));
     }
     let mut lines = vec![first];
     let imported = result.bodies.iter().flat_map(|bodies| &bodies.imported);
@@ -74,10 +74,10 @@ fn reading(reading: &Reading) -> Vec<String> {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{hz:.1}"));
         let error = expected.relative_error.unwrap_or(f64::NAN);
         lines.push(format!(
-            "  {:<32} expected {:>8.1}  found {found:>8}  {:+6.2} %  {}",
+            "  {:<32} expected {:>8.1}  found {found:>8}  {:>6} %  {}",
             expected.what,
             expected.hz,
-            100.0 * error,
+            signed_fixed(100.0 * error, 2),
             if expected.ok { "ok" } else { "FAILS" }
         ));
     }

@@ -11,7 +11,7 @@ use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::{given, significant};
+use crate::report::{given, quantity, signed_fixed, significant};
 use std::time::Duration;
 
 /// Folder of an unfinished run, in that of the results.
@@ -162,12 +162,12 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     let (scene, simulation) = (&result.scene, &result.simulation);
     let mut lines = vec![bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)).plain()];
     lines.push(format!(
-        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {:.3e} s ({}), {} of {} modes{}, {} s of computing per simulated second",
+        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {} ({}), {} of {} modes{}, {} s of computing per simulated second",
         significant(simulation.simulated_s, 4),
         significant(simulation.stepping_s, 3),
         significant(wall_s, 3),
         simulation.statistics.steps,
-        simulation.step_s(),
+        quantity(simulation.step_s(), "s"),
         simulation.method.name(),
         simulation.modes,
         result.scene.stage.structure.dof(),
@@ -198,8 +198,8 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
             let expected = line.expected_hz;
             lines.push(match line.found_hz.zip(line.amplitude) {
                 Some((hz, amplitude)) => format!(
-                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({:+.2} %), {} {}",
-                    100.0 * (hz / expected - 1.0),
+                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({} %), {} {}",
+                    signed_fixed(100.0 * (hz / expected - 1.0), 2),
                     significant(amplitude, 3),
                     window.spectrum.unit
                 ),

@@ -71,7 +71,7 @@ fn a_map_has_its_files_and_limits() {
     for name in ["newmark", "generalized-alpha"] {
         let method = of(0, name);
         assert!(method["predicted_limit_s"].is_null() && method["measured_limit_s"].is_null());
-        assert_eq!(method["note"], "none found up to h = 7.92e-6 s");
+        assert_eq!(method["note"], "none found up to a step of 7.92 µs");
     }
     let measured = |condition: usize| limit(&of(condition, "exponential"), "measured_limit_s");
     // a damper that is known a step late takes a third here: 1 s/m under a preload of 1.5 um

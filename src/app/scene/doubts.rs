@@ -5,7 +5,7 @@
 use super::bearing::race_contacts;
 use super::housing::{description, read_mesh};
 use super::plausible::STATIC_RATING;
-use super::ring::{Seat, layer};
+use super::ring::{Seat, layer, metres};
 use super::{fit, plausible};
 use crate::app::case;
 use crate::app::case::Case;
@@ -15,7 +15,8 @@ use crate::bearing::{Race, RaceContacts};
 use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::pieces_at;
 use crate::fe::model::HousingModel;
-use crate::numerics::Unwatched;
+use crate::numerics::{Brief, Unwatched};
+use crate::report::mass_in_words;
 use crate::system::{BallLoad, BearingSetup, Equilibrium};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -159,8 +160,9 @@ fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, Compute
     let mut found = Vec::new();
     for (index, radius, [height, width]) in &sections {
         if *width > WIDTH * (2.0 * radius + height) {
+            let [width, height, radius] = [*width, *height, *radius].map(metres);
             found.push(format!(
-                "ring.sections[{index}] is about {width:.3e} m wide by its area and inertia, and {height:.3e} m high at a radius of {radius:.3e} m: no ring is as wide; check area (m^2) and inertia (m^4)"
+                "ring.sections[{index}] is about {width} wide by its area and inertia, and {height} high at a radius of {radius}: no ring is as wide; check area (m^2) and inertia (m^4)"
             ));
         }
     }
@@ -175,8 +177,8 @@ fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, Compute
                 false => "reach into each other by",
             };
             found.push(format!(
-                "ring.sections[{inner}] and ring.sections[{outer}] {how} about {:.3e} m by their radii, areas and inertias: rings that are fitted into each other touch; check radius (m), area (m^2) and inertia (m^4)",
-                gap.abs()
+                "ring.sections[{inner}] and ring.sections[{outer}] {how} about {} by their radii, areas and inertias: rings that are fitted into each other touch; check radius (m), area (m^2) and inertia (m^4)",
+                metres(gap.abs())
             ));
         }
     }
@@ -217,11 +219,12 @@ fn ring_doubts(
         let outside = seat.share_outside(width);
         if outside > OVERHANG {
             found.push(format!(
-                "{:.0} % of the ring's width lies outside the bore \"{}\": the ring is about {width:.3e} m wide by its sections and the bore reaches from {:.3e} to {:.3e} m along the axis, from the ring's plane; the overhang is tied as a rigid arm; check ring.tie.centre, ring.tie.axis and ring.sections",
+                "{:.0} % of the ring's width lies outside the bore \"{}\": the ring is about {} wide by its sections and the bore reaches from {} to {} along the axis, from the ring's plane; the overhang is tied as a rigid arm; check ring.tie.centre, ring.tie.axis and ring.sections",
                 100.0 * outside,
                 tie.group,
-                seat.from,
-                seat.to
+                metres(width),
+                metres(seat.from),
+                metres(seat.to)
             ));
         }
     }
@@ -231,8 +234,10 @@ fn ring_doubts(
     };
     if (outer - face).abs() > ARM * height {
         found.push(format!(
-            "ring.outer_radius is {outer:.4e} m and the outer face of ring.sections lies at about {face:.4e} m: the tie bridges {:.3e} m between them as a rigid arm; check both",
-            (outer - face).abs()
+            "ring.outer_radius is {} and the outer face of ring.sections lies at about {}: the tie bridges {} between them as a rigid arm; check both",
+            metres(outer),
+            metres(face),
+            metres((outer - face).abs())
         ));
     }
     Ok(found)
@@ -261,7 +266,10 @@ fn ball_density(setup: &BearingSetup) -> Option<String> {
     let [least, most] = BALL_DENSITIES;
     (!(least..=most).contains(&density)).then(|| {
         format!(
-            "a ball of {mass:.4e} kg and {radius:.4e} m radius has a density of {density:.3e} kg/m^3, which no solid ball has: check bearing.ball_mass, bearing.density and bearing.ball_radius"
+            "a ball of {} and {} radius has a density of {} kg/m^3, which no solid ball has: check bearing.ball_mass, bearing.density and bearing.ball_radius",
+            mass_in_words(mass, 4),
+            metres(radius),
+            Brief::rounded(density, 4)
         )
     })
 }
@@ -316,17 +324,18 @@ pub(crate) fn accept_contacts(
     let ball_radius = setup.geometry.ball_radius();
     for contact in contacts(setup, hertz, equilibrium) {
         let Contact { race, force, patch, .. } = contact;
+        let newtons = Brief::rounded(force, 4);
         if patch.longer >= ball_radius {
-            let (half_axis, groove) = (patch.longer, contact.groove);
+            let (half_axis, ball) = (metres(patch.longer), metres(ball_radius));
+            let (groove, part) = (metres(contact.groove), Brief(0.5 * contact.groove / ball_radius));
             return Err(ComputeError::wrong(format!(
-                "bearing.{race}_groove_radius: the contact of a ball with the {race} race would have a half-axis of {half_axis:.3e} m under the largest force at rest, {force:.3e} N, and the ball's radius is {ball_radius:.3e} m: expected a patch well below it, found a groove of {groove:e} m, {:.7} of the ball's diameter (0.51 to 0.54 are built); check the groove, the ball and the load on the shaft",
-                0.5 * groove / ball_radius
+                "bearing.{race}_groove_radius: the contact of a ball with the {race} race would have a half-axis of {half_axis} under the largest force at rest, {newtons} N, and the ball's radius is {ball}: expected a patch well below it, found a groove of {groove}, {part} of the ball's diameter (0.51 to 0.54 are built); check the groove, the ball and the load on the shaft"
             )));
         }
         let limit = STRENGTH * contact.hertz.effective_modulus;
         if patch.peak_pressure > limit {
             return Err(ComputeError::wrong(format!(
-                "bearing: the pressure between a ball and the {race} race would be {:.0} MPa under the largest force at rest, {force:.3e} N: expected below {:.0} MPa, a tenth of the effective modulus, beyond which no solid is elastic (bearing steel is rated to 4200 MPa, ISO 76); check the load on the shaft, bearing.ball_radius and the groove radii",
+                "bearing: the pressure between a ball and the {race} race would be {:.0} MPa under the largest force at rest, {newtons} N: expected below {:.0} MPa, a tenth of the effective modulus, beyond which no solid is elastic (bearing steel is rated to 4200 MPa, ISO 76); check the load on the shaft, bearing.ball_radius and the groove radii",
                 1e-6 * patch.peak_pressure,
                 1e-6 * limit
             )));
@@ -341,6 +350,7 @@ pub(crate) fn contact_doubts(setup: &BearingSetup, hertz: &RaceContacts, equilib
     let mut found = Vec::new();
     for contact in contacts(setup, hertz, equilibrium) {
         let Contact { race, force, patch, .. } = contact;
+        let newtons = Brief::rounded(force, 4);
         let conformity = 0.5 * contact.groove / ball_radius;
         if !(CONFORMITY[0]..=CONFORMITY[1]).contains(&conformity) {
             found.push(format!(
@@ -349,14 +359,14 @@ pub(crate) fn contact_doubts(setup: &BearingSetup, hertz: &RaceContacts, equilib
         }
         if patch.longer > WIDE * ball_radius {
             found.push(format!(
-                "the patch at the {race} race has a half-axis of {:.3e} m under {force:.3e} N at rest, {:.0} % of the ball's radius: Hertz theory holds for small patches; check the load and bearing.{race}_groove_radius",
-                patch.longer,
+                "the patch at the {race} race has a half-axis of {} under {newtons} N at rest, {:.0} % of the ball's radius: Hertz theory holds for small patches; check the load and bearing.{race}_groove_radius",
+                metres(patch.longer),
                 100.0 * patch.longer / ball_radius
             ));
         }
         if patch.peak_pressure > STATIC_RATING {
             found.push(format!(
-                "the pressure at the {race} race is {:.0} MPa under {force:.3e} N at rest, above the {:.0} MPa of the static load rating (ISO 76): the races keep dents, which the elastic contact leaves out; check the load and the bearing's size",
+                "the pressure at the {race} race is {:.0} MPa under {newtons} N at rest, above the {:.0} MPa of the static load rating (ISO 76): the races keep dents, which the elastic contact leaves out; check the load and the bearing's size",
                 1e-6 * patch.peak_pressure,
                 1e-6 * STATIC_RATING
             ));

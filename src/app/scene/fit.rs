@@ -57,8 +57,10 @@ fn race_in_ring(case: &Case, ring: &case::Ring, bearing: &case::Bearing) -> Resu
     let near = faces[0] - APART * height..faces[1];
     if !near.contains(&race) {
         return Ok(Some(format!(
-            "bearing.outer_race_radius is {race:.4e} m and the innermost of ring.sections reaches from about {:.4e} to {:.4e} m: the race is cut into that ring; check both",
-            faces[0], faces[1]
+            "bearing.outer_race_radius is {} and the innermost of ring.sections reaches from about {} to {}: the race is cut into that ring; check both",
+            metres(race),
+            metres(faces[0]),
+            metres(faces[1])
         )));
     }
     if race > section.radius {

@@ -10,6 +10,7 @@ use crate::fe::reduction::{Bound, Check, Superelement, check_matrices};
 use crate::formats::{
     DofBody, DofLabel, FormatError, SuperelementRecord, read_superelement_npz, read_superelement_op4,
 };
+use crate::numerics::Brief;
 use crate::numerics::linalg::DenseMatrix;
 use crate::report::significant;
 use std::fmt::Display;
@@ -117,7 +118,7 @@ impl ImportedHousing {
                 let Check { name, what, value, limit, .. } = check;
                 Err(refused(
                     &self.path,
-                    format!("check \"{name}\" ({what}): expected {bound} {limit:e}, found {value:e}"),
+                    format!("check \"{name}\" ({what}): expected {bound} {}, found {}", Brief(*limit), Brief(*value)),
                     "`plummer condense` of this case lists all checks; expected are Craig-Bampton matrices in SI units, modes of mass 1 after the interface",
                 ))
             }

@@ -3,7 +3,7 @@
 //! Names of all degrees of freedom of housing and ring, in the order of the matrices before anything is left out.
 
 use super::housing::AssembledHousing;
-use super::ring::Boundary;
+use super::ring::{Boundary, metres};
 use crate::app::case::{Push, Sensor, SensorSpot};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
@@ -11,6 +11,7 @@ use crate::fe::mesh::BoundingBox;
 use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
 use crate::fe::reduction::CraigBampton;
 use crate::formats::{DofBody, DofDirection, DofLabel};
+use crate::numerics::Brief;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -265,9 +266,10 @@ fn nearest_node(housing: &AssembledHousing, spot: Spot<'_>, point: &[f64; 3]) ->
         }
     }
     let missed = |distance: f64| {
-        let [x, y, z] = point;
+        let [x, y, z] = point.map(Brief);
         ComputeError::wrong(format!(
-            "{spot}: the nearest node of the housing to ({x:e}, {y:e}, {z:e}) m is {distance:.3e} m away; give a point on the mesh, in metres"
+            "{spot}: the nearest node of the housing to ({x}, {y}, {z}) m is {} away; give a point on the mesh, in metres",
+            metres(distance)
         ))
     };
     let (index, away) = found.ok_or_else(|| missed(f64::INFINITY))?;

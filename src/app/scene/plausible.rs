@@ -9,6 +9,7 @@ use crate::bearing::RaceContacts;
 use crate::fe::element::continuum::measure;
 use crate::fe::mesh::BoundingBox;
 use crate::fe::model::HousingModel;
+use crate::numerics::Brief;
 use crate::numerics::units::LengthUnit;
 use crate::report::{mass_in_words, significant, size_in_words};
 use crate::system::BearingSetup;
@@ -243,9 +244,9 @@ pub(super) fn shaft(case: &Case) -> Vec<String> {
     let pitch = bearing.inner_race_radius + bearing.outer_race_radius;
     if 1e3 * pitch * 60.0 * fastest > SPEED {
         found.push(format!(
-            "speed.profile reaches {} Hz, {} revolutions a minute: no ball bearing of {} mean diameter runs as fast; check that it is in Hz, not in revolutions a minute",
-            short(fastest),
-            significant(60.0 * fastest, 3),
+            "speed.profile reaches {} Hz ({} rpm): no ball bearing of {} mean diameter runs as fast; check which of `hz` and `rpm` is meant",
+            Brief(fastest),
+            Brief::rounded(60.0 * fastest, 4),
             metres(pitch)
         ));
     }
@@ -261,7 +262,9 @@ pub(super) fn contacts(case: &Case, setup: &BearingSetup, hertz: &RaceContacts) 
     {
         if !within([1.0 / STIFFNESS, STIFFNESS], given / own) {
             found.push(format!(
-                "bearing.stiffness.{race} is {given:.3e} N/m^1.5, and Hertz's theory gives {own:.3e} for these balls and races: check that it is in N/m^1.5 (1 N/mm^1.5 is 3.16e4)"
+                "bearing.stiffness.{race} is {} N/m^(3/2), and Hertz's theory gives {} for these balls and races: check that it is in N/m^(3/2) (1 N/mm^(3/2) is 3.16e4)",
+                short(given),
+                Brief::rounded(own, 4)
             ));
         }
     }
@@ -361,7 +364,7 @@ mod tests {
         );
         let told = size_doubt([1.2e-4, 8e-5, 3e-5], LengthUnit::Millimetre, "--length-unit").unwrap();
         assert!(
-            told.contains("120 x 80 x 30 um") && told.contains("write --length-unit \"m\" (120 x 80 x 30 mm)"),
+            told.contains("120 x 80 x 30 µm") && told.contains("write --length-unit \"m\" (120 x 80 x 30 mm)"),
             "{told}"
         );
         assert_eq!(size_doubt([10.0, 10.0, 1.0], LengthUnit::Metre, ""), None);

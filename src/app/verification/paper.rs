@@ -84,8 +84,8 @@ fn contacts() -> Result<Vec<Check>, VerificationError> {
         assumptions: "Table 1's radii; grooves concave across the rolling direction. The inner race is convex along it, the outer race concave. Ball and races of steel, 206 GPa, nu 0.3.",
         reason,
     };
-    let k = kind("N/m^1.5", "The reference has four digits and is asked to 0.1 %.");
-    let in_series = kind("N/m^1.5", "Half a unit in the last of three digits.");
+    let k = kind("N/m^(3/2)", "The reference has four digits and is asked to 0.1 %.");
+    let in_series = kind("N/m^(3/2)", "Half a unit in the last of three digits.");
     let shape = kind("", "Half a unit in the reference's last digit.");
     let (inner, outer) = (contacts.inner, contacts.outer);
     Ok(vec![
@@ -114,7 +114,7 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
     let exact = "Seven digits are given; 1e-6.";
     let force = kind("N", "Half a unit in the last of five digits.");
     Ok(vec![
-        kind("N/m^1.5", exact).check("Sphere on a flat: stiffness", contact.stiffness, 1.087_857e10, 1e-6),
+        kind("N/m^(3/2)", exact).check("Sphere on a flat: stiffness", contact.stiffness, 1.087_857e10, 1e-6),
         kind("m", exact).check("Sphere on a flat: indentation", peak.indentation, 1.171_042e-5, 1e-6),
         force.check("Sphere on a flat: force", peak.force, 435.94, 0.5e-2 / 435.94),
         kind("s", exact).check("Sphere on a flat: contact time", peak.contact_time, 3.446_700e-5, 1e-6),

@@ -5,7 +5,7 @@
 use crate::app::case::{Case, Source};
 use crate::app::commands::result::ResultHead;
 use crate::bearing::BearingDimensions;
-use crate::report::{Cell, Column, Section, Table, Verdict, significant};
+use crate::report::{Cell, Column, Section, Table, Verdict, signed, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -92,8 +92,14 @@ impl Check {
     /// One line for a reader.
     pub(crate) fn line(&self) -> String {
         format!(
-            "{}: {:.6e} {} against {:.6e} ({}), {:+.2e}, limit {:.1e}",
-            self.name, self.computed, self.unit, self.reference, self.source, self.relative_error, self.limit
+            "{}: {} {} against {} ({}), {}, limit {}",
+            self.name,
+            significant(self.computed, 7),
+            self.unit,
+            significant(self.reference, 7),
+            self.source,
+            signed(self.relative_error, 3),
+            significant(self.limit, 2)
         )
     }
 }
@@ -179,7 +185,7 @@ impl SectionResult {
                 Cell::number(check.computed, 6),
                 Cell::number(check.reference, 6),
                 Cell::text(&check.unit),
-                Cell::text(signed(error)).value(error),
+                Cell::text(signed(error, 2)).value(error),
                 Cell::number(100.0 * check.limit, 2),
                 Cell::badge(Verdict::of(check.ok)),
             ]
@@ -230,11 +236,6 @@ impl SectionResult {
         }
         std::iter::once(first).chain(sections).collect()
     }
-}
-
-/// A number of per cent with its sign, two significant digits.
-pub(super) fn signed(value: f64) -> String {
-    if value > 0.0 { format!("+{}", significant(value, 2)) } else { significant(value, 2) }
 }
 
 /// `examples/tadina2011/beam.toml` as it was when the program was built.

@@ -118,7 +118,7 @@ fn dent() -> Result<Vec<Check>, VerificationError> {
     let kind = Kind {
         unit: "per shaft turn",
         source: "kinematics: N/2 (1 - d/D), Harris, chapter 8",
-        assumptions: "The source's bearing with its dent in the outer race, play of 2.5 um, 20 Hz, 0.4 s. The order is the one where the envelope's lines fit best.",
+        assumptions: "The source's bearing with its dent in the outer race, play of 2.5 µm, 20 Hz, 0.4 s. The order is the one where the envelope's lines fit best.",
         reason: "Half the resolution of 8 turns, over four harmonics and the order: 1 %.",
     };
     let found = found.unwrap_or(f64::NAN);

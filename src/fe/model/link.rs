@@ -11,6 +11,7 @@ use super::support::{
 use super::surface::{Foot, SideFace, nearest};
 use super::{Apart, ModelError, OverlapRule};
 use crate::fe::mesh::{BoundaryFace, BoundingBox, Mesh, PhysicalGroup};
+use crate::numerics::Brief;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
 use nalgebra::DMatrix;
 
@@ -132,12 +133,13 @@ impl HousingModel {
         }
         let (distance, farthest) = worst;
         Err(ModelError::Refused(format!(
-            "{}: {far} of the {} nodes of group \"{}\" are too far from \"{}\" to be tied to it (node {}: {distance:.3e} m, more than half a face): expected two surfaces that lie on each other, one within the other",
+            "{}: {far} of the {} nodes of group \"{}\" are too far from \"{}\" to be tied to it (node {}: {} m, more than half a face): expected two surfaces that lie on each other, one within the other",
             self.path,
             side.nodes.len(),
             side.name,
             to.name,
-            self.node_tags[farthest]
+            self.node_tags[farthest],
+            Brief::rounded(distance, 4)
         )))
     }
 

@@ -21,6 +21,7 @@
 
 use super::{HousingModel, ModelError, Ring};
 use crate::fe::mesh::Mesh;
+use crate::numerics::Brief;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -174,28 +175,30 @@ fn check_places(housing: &HousingModel, group: &str, nodes: &[usize], outer_radi
     let [nearest, farthest] = extremes(|[x, y, _]| x.hypot(y));
     let [lowest, highest] = extremes(|[_, _, z]| z);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
-    let ([x, y, z], [a, b, c]) = (housing.frame.centre(), housing.frame.axis());
+    let ([x, y, z], [a, b, c]) = (housing.frame.centre().map(Brief), housing.frame.axis());
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
         let at_ring = nodes.iter().filter(|&&node| {
             let [x, y, _] = housing.ring_coordinates(node);
             (x.hypot(y) - outer_radius).abs() <= tolerance
         });
         let share = at_ring.count() as f64 / nodes.len() as f64;
+        let [outer_radius, nearest, farthest] = [outer_radius, nearest, farthest].map(Brief);
         if share >= LEAST_SHARE {
             return Err(ModelError::Refused(format!(
-                "{:.0} % of the nodes of group \"{group}\" ({}) lie at the ring's outer radius {outer_radius:.6e} m, and the others do not: all lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); a tie takes the cylinder alone: leave shoulders and chamfers out of the group",
+                "{:.0} % of the nodes of group \"{group}\" ({}) lie at the ring's outer radius {outer_radius} m, and the others do not: all lie {nearest} to {farthest} m from the axis through ({x}, {y}, {z}) m along ({a}, {b}, {c}); a tie takes the cylinder alone: leave shoulders and chamfers out of the group",
                 100.0 * share,
                 housing.path
             )));
         }
         return Err(ModelError::Refused(format!(
-            "the tie finds no nodes of group \"{group}\" ({}) at the ring's outer radius {outer_radius:.6e} m: they lie {nearest:.6e} to {farthest:.6e} m from the axis through ({x:e}, {y:e}, {z:e}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
+            "the tie finds no nodes of group \"{group}\" ({}) at the ring's outer radius {outer_radius} m: they lie {nearest} to {farthest} m from the axis through ({x}, {y}, {z}) m along ({a}, {b}, {c}); check length_unit, tie.centre, tie.axis and ring.outer_radius",
             housing.path
         )));
     }
     if housing.dimension == 3 && (lowest > tolerance || highest < -tolerance) {
+        let [lowest, highest] = [lowest, highest].map(Brief);
         return Err(ModelError::Refused(format!(
-            "the ring's plane, through ({x:e}, {y:e}, {z:e}) m across ({a}, {b}, {c}), does not cut the group \"{group}\" ({}) that it is tied to: its nodes lie {lowest:.6e} to {highest:.6e} m from there along the axis, expected on both sides; check length_unit and tie.centre",
+            "the ring's plane, through ({x}, {y}, {z}) m across ({a}, {b}, {c}), does not cut the group \"{group}\" ({}) that it is tied to: its nodes lie {lowest} to {highest} m from there along the axis, expected on both sides; check length_unit and tie.centre",
             housing.path
         )));
     }

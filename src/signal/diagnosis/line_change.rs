@@ -105,7 +105,9 @@ impl LineChange {
 
 /// A change with its interval, in words.
 pub(crate) fn change_words(change_db: Option<f64>, interval_db: [Option<f64>; 2]) -> String {
-    match (change_db, interval_db) {
+    // what rounds to zero has no minus
+    let tenth = |db: f64| (10.0 * db).round() / 10.0 + 0.0;
+    match (change_db.map(tenth), interval_db.map(|db| db.map(tenth))) {
         (Some(change), [Some(low), Some(high)]) => {
             format!("{change:+.1} dB ({low:.1} to {high:.1})")
         }

@@ -10,6 +10,7 @@ use crate::formats::{
     DofLabel, FormatError, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
     write_superelement_op4,
 };
+use crate::report::mass_in_words;
 
 /// Whether a case has a housing and something that it is condensed on, coordinates and not modes of an interface.
 ///
@@ -66,10 +67,11 @@ pub(super) fn mbdyn(case: &Case, folder: &OutputFolder, progress: &Progress) -> 
     let joint = match (written.mass, reference) {
         (None, _) => "held by its supports: `clamped` in MBDyn's joint".to_owned(),
         (Some(mass), MbdynReference::Node { body, node }) => format!(
-            "free, {mass:.6e} kg, shapes relative to {} node {node}: `origin node` in MBDyn's joint",
+            "free, {}, shapes relative to {} node {node}: `origin node` in MBDyn's joint",
+            mass_in_words(mass, 5),
             body.name()
         ),
-        (Some(mass), MbdynReference::Floating) => format!("free, {mass:.6e} kg, free-free shapes"),
+        (Some(mass), MbdynReference::Floating) => format!("free, {}, free-free shapes", mass_in_words(mass, 5)),
     };
     let what =
         format!("{} modes at {} nodes for MBDyn's modal joint, SI; {joint}", written.frequency_hz.len(), written.nodes);

@@ -20,7 +20,6 @@ use crate::app::studies::sweep::{
     Axis, Plan, PointState, ScriptsSummary, SweepResult, SweptCommand, TaskSummary, slurm_scripts, sweep_report,
     write_sweep_npz,
 };
-use crate::report::Document;
 use points::Workers;
 
 /// Folder of the points and the plan, in that of the results.
@@ -46,7 +45,10 @@ pub(super) fn sweep(asked: &SweepArguments, options: &Options) -> Result<Outcome
         let plan = read_plan(&folder)?;
         let other = |path: &Path| result_of("sweep", path).is_null().then_some("");
         folder.claim_unless(&["sweep.json"], options.force, other)?;
-        merge(plan, folder, options, &progress)
+        let beneath = std::env::current_dir().ok();
+        let beneath = beneath.and_then(|here| plan.case.strip_prefix(here).ok().map(Path::to_owned));
+        let case = Case::load(beneath.unwrap_or_else(|| plan.case.clone()), &plan.set)?;
+        merge(plan, &case, folder, options, &progress)
     } else {
         whole(asked, options, &progress)
     };
@@ -87,7 +89,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         let line = sweep_line(&case, asked.vary.iter().cloned(), asked.command);
         return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &resuming(&line, options)));
     }
-    merge(plan, folder, options, progress)
+    merge(plan, &case, folder, options, progress)
 }
 
 /// One share of the points, of the sweep in a folder.
@@ -111,7 +113,7 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
         let again = format!("plummer sweep --task {}/{} {from}", share.number, share.of);
         return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again));
     }
-    let result = SweepResult::collect(plan, &points)?;
+    let result = SweepResult::collect(plan, &case, &points)?;
     let of_share = result.points.iter().filter(|point| share.has(point.point.number));
     let lines = of_share.map(|point| {
         let message = point.record.as_ref().map_or("", |record| record.message.as_str());
@@ -192,20 +194,23 @@ fn no_plan(folder: &Path, plan: &Path) -> ComputeError {
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
-fn merge(plan: Plan, folder: OutputFolder, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
+fn merge(
+    plan: Plan,
+    case: &Case,
+    folder: OutputFolder,
+    options: &Options,
+    progress: &Progress,
+) -> Result<Outcome, CliError> {
     progress.stage("write");
-    let case = Case::load(&plan.case, &plan.set)?;
-    let job = Job { folder, ..Job::new("sweep", &case, options, progress) };
+    let job = Job { folder, ..Job::new("sweep", case, options, progress) };
     let folder = &job.folder;
-    let result = SweepResult::collect(plan, &folder.path.join(POINTS))?;
+    let result = SweepResult::collect(plan, case, &folder.path.join(POINTS))?;
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
     let npz = folder.path.join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
     let axes = result.plan.axes.iter().map(|axis| format!("{}={}", axis.key, axis.values.join(",")));
-    let command = sweep_line(&case, axes, result.plan.command);
-    let document = Document::new().case(case.source.path.display().to_string());
-    let report = sweep_report(&case.title, &result, &command).document(document);
-    let files = ReportFiles::write(folder, "sweep", &case, report, progress)?;
+    let report = sweep_report(case, &result, &sweep_line(case, axes, result.plan.command));
+    let files = ReportFiles::write(folder, "sweep", case, report, progress)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),

@@ -5,7 +5,7 @@ use super::change_report::{change_headlines, change_section, last_order, order_c
 use super::window::WindowAnalysis;
 use crate::report::{
     Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, given,
-    shaft_speed, significant,
+    shaft_speed, signed_fixed, significant,
 };
 use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource, TAKEN_BACK};
 
@@ -157,11 +157,10 @@ fn speed_fact(window: &WindowAnalysis) -> Fact {
         }
         SpeedSource::Exact | SpeedSource::Given => String::new(),
     };
-    Fact::new(name, hz(diagnosis.speed_hz)).note(format!(
-        "{}, to {} %{shown}",
-        diagnosis.speed_source.words(),
-        significant(100.0 * diagnosis.speed_error, 1)
-    ))
+    let words = diagnosis.speed_source.words();
+    let error = Some(100.0 * diagnosis.speed_error).filter(|percent| *percent > 0.0);
+    let error = error.map_or_else(String::new, |percent| format!(", to {} %", significant(percent, 1)));
+    Fact::new(name, hz(diagnosis.speed_hz)).note(format!("{words}{error}{shown}"))
 }
 
 fn order_plot(window: &WindowAnalysis, diagnosis: &Diagnosis) -> Plot {
@@ -332,7 +331,7 @@ fn peak_table(window: &WindowAnalysis) -> Table {
     ];
     Table::new("Strongest peaks", columns).rows(window.peaks.iter().map(|peak| {
         let named = peak.line.as_ref().filter(|_| !peak.labels.is_empty());
-        let deviation = |deviation: f64| Cell::text(format!("{:+.1}", 100.0 * deviation)).value(100.0 * deviation);
+        let deviation = |deviation: f64| Cell::text(signed_fixed(100.0 * deviation, 1)).value(100.0 * deviation);
         [
             Cell::number(peak.frequency_hz, 4),
             Cell::number(peak.amplitude, 3),

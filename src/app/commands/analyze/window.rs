@@ -396,7 +396,7 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
     let Some(bearing) = case.bearing.as_ref() else {
         return Vec::new();
     };
-    let play = (bearing.play() > 0.0).then(|| format!("the play is {} um", significant(1e6 * bearing.play(), 2)));
+    let play = (bearing.play() > 0.0).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
     let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
             Race::Outer => Fault::OuterRace,

@@ -192,8 +192,11 @@ fn vectors(result: &CondenseResult) -> Section {
     let columns = [Column::number("Vector", ""), Column::number("Frequency with the interface held", "Hz")];
     let vectors = (1..).zip(basis.values());
     let rows = vectors.map(|(vector, value)| [Cell::text(vector.to_string()), Cell::number(value.sqrt() / TAU, 7)]);
-    Section::new("What the interior may do")
-        .table(Table::new("Vectors of the interior", columns).rows(rows).footnote(format!(
+    let section = Section::new("What the interior may do");
+    if basis.values().is_empty() {
+        return section.paragraph("Nothing but what follows the interface: there are no vectors of the interior.");
+    }
+    section.table(Table::new("Vectors of the interior", columns).rows(rows).footnote(format!(
         "Below {} Hz these are the fixed-interface modes, all of them; above, combinations with the residual vectors.",
         significant(basis.complete_below.sqrt() / TAU, 6)
     )))

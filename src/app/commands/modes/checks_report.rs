@@ -7,7 +7,7 @@ use super::kinds::REPEATED;
 use super::shape_view::shown_places;
 use crate::fe::modal::{MatchedBy, ModalSurvey};
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, given, significant,
+    Abscissa, Axis, Cell, Column, Curve, Matrix, Plot, Report, Section, Table, Verdict, given, signed, significant,
 };
 
 /// Modes in the plot over the mesh size: as many as have colours of their own.
@@ -15,12 +15,6 @@ const PLOTTED: usize = 6;
 
 /// Column of what a pair misses.
 const MISSES: usize = 6;
-
-/// A number with its sign, with so many significant digits.
-pub(crate) fn signed(value: f64, digits: usize) -> String {
-    let text = significant(value, digits);
-    if value > 0.0 { format!("+{text}") } else { text }
-}
 
 /// A limit as it was given, without trailing zeros.
 pub(crate) fn plain(value: f64) -> String {

@@ -12,7 +12,7 @@ use crate::fe::modal::{
     partners, richardson,
 };
 use crate::fe::model::HousingModel;
-use crate::numerics::{Unwatched, Watch};
+use crate::numerics::{Brief, Unwatched, Watch};
 use crate::report::significant;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -285,7 +285,9 @@ impl MeshSequence {
             let same = (found - own).abs() <= SAME_BODY * own;
             if !same {
                 let what = format!(
-                    "expected a mesh of the same body, of area or volume {own:.4e} (m^2, m^3), found {found:.4e}"
+                    "expected a mesh of the same body, of area or volume {} (m^2, m^3), found {}",
+                    Brief::rounded(own, 5),
+                    Brief::rounded(found, 5)
                 );
                 return Err(at(index, path, ComputeError::wrong(what)));
             }

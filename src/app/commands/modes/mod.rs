@@ -14,7 +14,7 @@ pub(crate) mod shape_view;
 pub(crate) mod summary;
 pub(crate) mod tables;
 
-pub(crate) use checks_report::{error_text, misses_text, mode_numbers, plain, signed};
+pub(crate) use checks_report::{error_text, misses_text, mode_numbers, plain};
 pub use comparison::{ComparedPair, ComparedPoints, FileComparison, LoneMode, Miss};
 pub(crate) use compute::compute_mode_shapes;
 pub use compute::{ModesResult, Reading, compute_modes};

@@ -11,7 +11,7 @@ use crate::app::scene::{bearing_setup, race_contacts};
 use crate::fe::modal::FrequencyCount;
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, ModeShapeView, Plot, Report, Section, ShapeFigures, Table,
-    Verdict, significant,
+    Verdict, signed_fixed, significant,
 };
 use crate::system::{LoadedPass, LoadedPoint};
 
@@ -180,7 +180,7 @@ fn variant_table(base: &Reading, variants: &[Reading]) -> Table {
             let cell = match (expected.found_hz, expected.relative_error) {
                 (Some(hz), Some(error)) => {
                     let error = 100.0 * error;
-                    Cell::text(format!("{} ({error:+.1} %)", significant(hz, 4))).value(hz)
+                    Cell::text(format!("{} ({} %)", significant(hz, 4), signed_fixed(error, 1))).value(hz)
                 }
                 _ => Cell::text("none"),
             };

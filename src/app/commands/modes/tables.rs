@@ -4,7 +4,7 @@ use super::compute::ModesResult;
 use super::kinds::kinds;
 use super::shape_view::shown_places;
 use crate::fe::modal::{FrequencyCount, MassDistribution, MassProperties, ModalSurvey, Participation};
-use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, quantity, significant};
+use crate::report::{Axis, Bars, Cell, Column, Fact, Table, fixed, mass_in_words, quantity, significant};
 
 /// Direction of a column of a participation, by the number of columns.
 fn directions(columns: usize) -> &'static [&'static str] {
@@ -97,7 +97,7 @@ pub(crate) fn mass_facts(mass: &MassProperties) -> Vec<Fact> {
         }
     };
     let centroid = Fact::new("Centroid", format!("{} mm", vector(centroid, 1e3)));
-    let whole = Fact::new("Mass", format!("{} kg", significant(mass.mass, 6)));
+    let whole = Fact::new("Mass", mass_in_words(mass.mass, 6));
     [vec![whole, centroid], more].concat()
 }
 

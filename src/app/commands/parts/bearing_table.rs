@@ -114,7 +114,7 @@ fn order_rows(setup: &BearingSetup) -> [Row; 5] {
 }
 
 fn contact_rows(setup: &BearingSetup, contacts: &RaceContacts) -> [Row; 7] {
-    let unit = "N/m^1.5";
+    let unit = "N/m^(3/2)";
     let of = |value: fn(&HertzStiffness) -> f64| [&contacts.inner, &contacts.outer].map(value);
     [
         both("Curvature sum", "1/mm", of(|c| 1e-3 * c.curvature_sum), 5),

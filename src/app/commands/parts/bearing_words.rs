@@ -61,7 +61,7 @@ pub(crate) fn bearing_fact(bearing: &Bearing) -> Fact {
 fn contact(case: &Case, bearing: &Bearing) -> Vec<Fact> {
     let text = |[inner, outer]: [f64; 2]| {
         let [inner, outer] = [inner, outer].map(|k| significant(1e-9 * k, 4));
-        format!("{inner} (inner race) and {outer} (outer race) GN/m^1.5")
+        format!("{inner} (inner race) and {outer} (outer race) GN/m^(3/2)")
     };
     let stiffness = match bearing.stiffness {
         ContactStiffness::Given { inner, outer } => {

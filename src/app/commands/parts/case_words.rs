@@ -12,7 +12,7 @@ use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{Connection, Fit, HousingModel, SpringShare, SpringStiffness, SupportShare};
 use crate::files::FileDigest;
-use crate::report::{Document, Fact, MeshFile, Report, given, quantity};
+use crate::report::{Document, Fact, MeshFile, Report, given, mass_in_words, quantity};
 
 /// What a mesh says of a housing.
 pub(crate) struct HousingSize {
@@ -89,7 +89,7 @@ fn housing_facts(case: &Case, housing: &Housing, size: Option<&HousingSize>) -> 
         // a plane mesh has no third extent
         let extent: Vec<String> = extent.iter().filter(|m| **m > 0.0).map(|metres| given(1e3 * metres)).collect();
         text += &format!(", {} mm", extent.join(" x "));
-        text.extend(mass.map(|kg| format!(", {} kg", given(kg))));
+        text.extend(mass.map(|kg| format!(", {}", mass_in_words(kg, 5))));
         text += &format!(", {nodes} nodes, {elements} elements");
     }
     let mut facts = vec![Fact::new("Housing", text)];

@@ -8,7 +8,7 @@ use crate::app::case::{Bond, Case, Defect, DentProfile, Expected};
 use crate::app::scene::RingInHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::RadiusRule;
-use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, significant};
+use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, signed_fixed, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
 /// Loaded modes listed in a report.
@@ -87,7 +87,7 @@ pub(crate) fn expected_table(expected: &[ExpectedMode]) -> Table {
     ];
     Table::new("Expected eigenfrequencies", columns).rows(expected.iter().map(|row| {
         let verdict = Verdict::of(row.ok);
-        let difference = |error: f64| Cell::text(format!("{:+.2}", 100.0 * error)).value(100.0 * error);
+        let difference = |error: f64| Cell::text(signed_fixed(100.0 * error, 2)).value(100.0 * error);
         [
             Cell::text(&row.what),
             Cell::number(row.hz, 5),

@@ -7,12 +7,13 @@ use crate::app::case;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
-use crate::app::scene::ring::{Seat, layer};
+use crate::app::scene::ring::{Seat, layer, metres};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};
 use crate::fe::modal::{FullModes, ModeSet};
 use crate::fe::model::{HousingModel, MeshedRing, PlaneModel, Ring, RingFrame, SolidRing};
 use crate::numerics::linalg::DenseMatrix;
+use crate::report::{quantity, signed};
 use schemars::JsonSchema;
 use serde::Serialize;
 use thiserror::Error;
@@ -67,11 +68,11 @@ impl RingBody {
         let radius = placed(&layer, height, bore, &mut notes)?;
         if layer_is_not_rectangular(&layer) && housing.model.dimension() == 3 {
             notes.push(format!(
-                "The case gives the ring a second moment about its radial axis of {:.4e} m^4 and a torsion constant of {:.4e} m^4; the rectangle has {:.4e} and {:.4e} m^4.",
-                layer.out_of_plane_inertia(),
-                layer.torsion_constant(),
-                rectangular(&layer).out_of_plane_inertia(),
-                rectangular(&layer).torsion_constant(),
+                "The case gives the ring a second moment about its radial axis of {} and a torsion constant of {}; the rectangle has {} and {}.",
+                quantity(layer.out_of_plane_inertia(), "m^4"),
+                quantity(layer.torsion_constant(), "m^4"),
+                quantity(rectangular(&layer).out_of_plane_inertia(), "m^4"),
+                quantity(rectangular(&layer).torsion_constant(), "m^4"),
             ));
         }
         if !asked.shear || !asked.rotary_inertia {
@@ -80,8 +81,10 @@ impl RingBody {
         let seat = Seat::of(&housing.mesh, &housing.model, tie)?;
         if housing.model.dimension() == 3 && seat.share_outside(width) > 1e-6 {
             notes.push(format!(
-                "The ring, {:.4e} m wide, reaches beyond the bore, whose nodes lie from {:.4e} to {:.4e} m along its axis.",
-                width, seat.from, seat.to
+                "The ring, {} wide, reaches beyond the bore, whose nodes lie from {} to {} along its axis.",
+                metres(width),
+                metres(seat.from),
+                metres(seat.to)
             ));
         }
         let mut ring = SolidRing {
@@ -140,8 +143,8 @@ fn placed(layer: &RingLayer, height: f64, bore: f64, notes: &mut Vec<String>) ->
         if gap.abs() > 1e-6 * bore {
             let side = if gap > 0.0 { "inside" } else { "outside" };
             notes.push(format!(
-                "The outer face of the rectangle lies {:.3e} m {side} the bore's radius; the joint bridges that as a rigid arm, as the beams' tie does.",
-                gap.abs()
+                "The outer face of the rectangle lies {} {side} the bore's radius; the joint bridges that as a rigid arm, as the beams' tie does.",
+                metres(gap.abs())
             ));
         }
         // also false for sizes that are no numbers
@@ -155,9 +158,10 @@ fn placed(layer: &RingLayer, height: f64, bore: f64, notes: &mut Vec<String>) ->
     }
     let share = gap / layer.radius;
     notes.push(format!(
-        "To bring the outer face of the rectangle to the bore, the solid ring's centroid line was moved by {gap:+.3e} m ({:+.2} %): EA and EI are the beams', EI/R^3 is {:+.2} % off.",
-        100.0 * share,
-        100.0 * ((1.0 + share).powi(-3) - 1.0),
+        "To bring the outer face of the rectangle to the bore, the solid ring's centroid line was moved by {} ({} %): EA and EI are the beams', EI/R^3 is {} % off.",
+        metres(gap),
+        signed(100.0 * share, 2),
+        signed(100.0 * ((1.0 + share).powi(-3) - 1.0), 2),
     ));
     Ok(moved)
 }
@@ -287,7 +291,10 @@ pub enum NoTiePrice {
     NoOuterRadius,
     /// A rectangle that does not go into the bore.
     #[error(
-        "the rectangle of the section's area and second moment is {height_m:.4e} m high, so that its outer face lies at a radius of {outside_m:.4e} m, and the bore at {bore_m:.4e} m: too far apart for one to stand in the other"
+        "the rectangle of the section's area and second moment is {} high, so that its outer face lies at a radius of {}, and the bore at {}: too far apart for one to stand in the other",
+        metres(*.height_m),
+        metres(*.outside_m),
+        metres(*.bore_m)
     )]
     Rectangle {
         /// Height of the rectangle, m.

@@ -15,7 +15,7 @@ use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
-use crate::report::{duration, significant};
+use crate::report::{counted, duration, significant};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,6 +27,8 @@ pub struct Chart {
     pub budget_s: Option<f64>,
     /// What there was no time for, a few words each.
     pub left_out: Vec<String>,
+    /// Methods and models that there was no time to refine, each with what it lacks.
+    pub unrefined: Vec<String>,
     /// What was simulated.
     pub scene: Scene,
     /// What was compared.
@@ -64,9 +66,7 @@ pub struct ModelStatistics {
 impl Chart {
     /// What there was no time for, in a sentence; `None` where nothing was left out.
     pub(crate) fn without(&self) -> Option<String> {
-        let budget = duration(self.budget_s?);
-        let list = self.left_out.join("; ");
-        (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {list}."))
+        cut_short(self.budget_s?, &self.left_out, self.unrefined.len())
     }
 
     /// Points without an error, and why.
@@ -80,6 +80,17 @@ impl Chart {
         let error = point.error.as_ref();
         error.is_ok_and(|error| error.mean < self.reference.disagreement)
     }
+}
+
+/// That a budget (s) cut a chart short, in one sentence: what a page lists by itself is counted.
+fn cut_short(budget_s: f64, left_out: &[String], unrefined: usize) -> Option<String> {
+    let unrefined = (unrefined > 0).then(|| {
+        let count = counted(unrefined, "combination");
+        format!("{count} of method and model not refined to the end, see Omissions and left_out in chart.json")
+    });
+    let list: Vec<String> = left_out.iter().cloned().chain(unrefined).collect();
+    let budget = duration(budget_s);
+    (!list.is_empty()).then(|| format!("The budget of {budget} cut the chart short: {}.", list.join("; ")))
 }
 
 /// What a chart tells while it is computed.
@@ -161,8 +172,7 @@ pub(crate) fn compute_chart(
         until: budget.until(stage),
     };
     let (found, [chosen, source]) = candidates(on(Stage::Points), &families, wanted, told, watch);
-    let Found { mut points, taken, left_out: untried } = found;
-    left_out.extend(untried);
+    let Found { mut points, taken, unrefined } = found;
     watch.stage("time");
     if let Some(first) = reference.starts.first() {
         let run_s = on(Stage::Times).measure(&mut points, &taken, first, |part| watch.fraction(part));
@@ -196,6 +206,7 @@ pub(crate) fn compute_chart(
     Ok(Chart {
         budget_s: whole.seconds(),
         left_out,
+        unrefined,
         scene,
         settings,
         starts,
@@ -389,6 +400,14 @@ impl<'a, W: Watch> Counter<'a, W> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_cut_is_one_sentence_however_much_it_is() {
+        assert_eq!(super::cut_short(45.0, &[], 0), None);
+        let said = super::cut_short(45.0, &["3 starts instead of 6".to_owned()], 20).unwrap();
+        let begin = "The budget of 45 s cut the chart short: 3 starts instead of 6; 20 combinations of method and model not refined";
+        assert!(said.starts_with(begin) && said.len() < 250, "{said}");
+    }
 
     #[test]
     fn only_what_none_beats_is_on_the_front() {

@@ -6,6 +6,7 @@ use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;
 use crate::app::scene::RunModel;
+use crate::report::significant;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -215,7 +216,10 @@ fn judged(starts: &[StartErrors]) -> Result<PointError, Failure> {
     } else {
         Err(Failure {
             kind: FailureKind::TooInaccurate,
-            reason: format!("the signal differs from the reference by {mean:.2e} of its root mean square"),
+            reason: format!(
+                "the signal differs from the reference by {} of its root mean square",
+                significant(mean, 3)
+            ),
             error: Some(mean),
         })
     }

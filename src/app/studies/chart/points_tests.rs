@@ -59,7 +59,7 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
             let on =
                 Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };
             let found = refine(&families, &[], on, |_| (), |_| ());
-            assert_eq!((found.points.len(), found.left_out.len()), (found.taken.len(), 0));
+            assert_eq!((found.points.len(), found.unrefined.len()), (found.taken.len(), 0));
             (reference, found.points)
         })
     };
@@ -138,7 +138,7 @@ fn what_there_is_no_time_for_is_left_out_and_said() {
     // what is known stays; nothing is computed in no time
     assert_eq!((found.points, told.into_inner()), (vec![known[0].0.clone()], 0));
     assert_eq!(
-        found.left_out,
+        found.unrefined,
         [
             "dop853, all modes: without tolerances of 0.0010 and smaller",
             "exponential-adams, all modes: without steps of 0.150 µs and shorter",

@@ -25,7 +25,7 @@ pub(super) struct Found {
     /// What a simulated second of each took, s, while other runs were under way; `None` without an error.
     pub(super) taken: Vec<Option<f64>>,
     /// What there was no time for, a sentence a family.
-    pub(super) left_out: Vec<String>,
+    pub(super) unrefined: Vec<String>,
 }
 
 /// The candidates of one method on one model, from the roughest to the finest, and how far it is.
@@ -82,7 +82,7 @@ pub(super) fn refine(
 ) -> Found {
     let begin = |models| Family { models, points: Vec::new(), means: Vec::new(), ended: false };
     let mut all: Vec<Family<'_>> = families.iter().map(|models| begin(models.as_slice())).collect();
-    let mut left_out = Vec::new();
+    let mut unrefined = Vec::new();
     loop {
         let mut open: Vec<&mut Family<'_>> = all.iter_mut().filter(|family| family.next().is_some()).collect();
         done(families.len() - open.len());
@@ -115,10 +115,10 @@ pub(super) fn refine(
                 }
             })
             .collect();
-        left_out.extend(cut.into_iter().flatten());
+        unrefined.extend(cut.into_iter().flatten());
     }
     let (points, taken) = all.into_iter().flat_map(|family| family.points).unzip();
-    Found { points, taken, left_out }
+    Found { points, taken, unrefined }
 }
 
 /// Whether a point was cut short.

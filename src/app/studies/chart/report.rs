@@ -290,6 +290,9 @@ fn figures_table(what: &str, figures: &[ComparedFigure]) -> Table {
 
 fn omissions_section(chart: &Chart) -> Section {
     let section = Section::new("Omissions");
+    let untried = Table::new("What there was no time to refine", [Column::text("Method, model and what they lack")])
+        .rows(chart.unrefined.iter().map(|text| [Cell::text(text)]));
+    let section = if untried.rows.is_empty() { section } else { section.table(untried) };
     if chart.omissions().next().is_none() {
         return section.paragraph("Every candidate that was tried has a point.");
     }

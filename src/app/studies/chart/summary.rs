@@ -33,7 +33,7 @@ pub struct ChartSummary<'a> {
     /// The time that the chart was given, s; `None` for as long as it takes.
     pub budget_s: Option<f64>,
     /// What there was no time for, a few words each.
-    pub left_out: &'a [String],
+    pub left_out: Vec<&'a String>,
     /// Longest span compared point by point, s.
     pub span_s: f64,
     /// Where the runs began.
@@ -217,7 +217,7 @@ impl Chart {
             band_hz: case.band_hz(),
             target: settings.target,
             budget_s: self.budget_s,
-            left_out: &self.left_out,
+            left_out: self.left_out.iter().chain(&self.unrefined).collect(),
             span_s: settings.span_s,
             ensemble: EnsembleSummary {
                 starts_s: starts.clone().map(|of| of.start.time_s).collect(),

@@ -82,11 +82,12 @@ fn of_run(result: &Value, fixed: bool) -> Vec<Output> {
         ("largest_static_force", "largest static force", "N", &largest),
         ("modes", "modes", "", &result["model"]["modes"]),
         ("estimated_error", "estimated error", "", &result["estimated_error"]),
-        ("stepping_s", "stepping", "s", &result["stepping_s"]),
     ];
     let model = figures.map(|(name, label, unit, value)| Output::number(name, label, unit, value).in_table(MODEL));
     outputs.extend(model);
-    outputs.push(Output::number("estimate_held", "estimate held", "s", &result["estimate_held_s"]));
+    let files_alone = [("stepping_s", "stepping"), ("estimate_held", "estimate held")]
+        .map(|(name, label)| Output::number(name, label, "s", &result[name.trim_end_matches("_s").to_owned() + "_s"]));
+    outputs.extend(files_alone);
     outputs
 }
 

@@ -3,7 +3,8 @@
 use super::SweepResult;
 use super::outputs::{LINES, PlotOf};
 use super::result::{NamedColumn, Values};
-use super::tables::{Scaled, last_name};
+use super::tables::{Scaled, short_name};
+use crate::app::commands::analyze::report::capital;
 use crate::report::{Abscissa, Axis as PlotAxis, Curve, CurveStyle, Plot, Symbol};
 
 /// Most curves of a plot: as many as can be told apart.
@@ -28,7 +29,7 @@ pub(super) fn plots(result: &SweepResult) -> Vec<Plot> {
     // a range over decades shows nothing on a linear axis
     let [least, most] = [f64::min, f64::max].map(|pick| numbers.iter().copied().reduce(pick));
     let ratios = least.zip(most).is_some_and(|(least, most)| least > 0.0 && most >= 100.0 * least);
-    let axis = PlotAxis::new(key.label.clone(), key.unit);
+    let axis = PlotAxis::new(capital(&key.label), Scaled::of(key.unit, &numbers).unit);
     let x = if ratios { axis.log() } else { axis };
     let figures = result.figures();
     let mut titles: Vec<&PlotOf> = Vec::new();
@@ -81,7 +82,7 @@ fn families(result: &SweepResult, varied: &[NamedColumn], place: usize, column: 
     for (row, (&x, &y)) in at.iter().zip(values).enumerate() {
         let mut name = column.plot.as_ref().map_or_else(String::new, |plot| plot.curve.clone());
         for other in &others {
-            name.push_str(&format!(", {} = {}", last_name(&other.label), in_words(other, row)));
+            name.push_str(&format!(", {} = {}", short_name(&other.label), in_words(other, row)));
         }
         let point = At { x, y, indicated: column.indicated[row] && y.is_finite() };
         match families.iter_mut().find(|family| family.name == name) {
@@ -96,7 +97,7 @@ fn families(result: &SweepResult, varied: &[NamedColumn], place: usize, column: 
 }
 
 /// A value of a column with its unit.
-fn in_words(column: &NamedColumn, row: usize) -> String {
+pub(super) fn in_words(column: &NamedColumn, row: usize) -> String {
     match &column.values {
         Values::Numbers(numbers) => Scaled::of(column.unit, numbers).words(numbers[row]),
         Values::Texts(texts) => texts[row].clone(),
@@ -116,7 +117,7 @@ fn draw(mut plot: Plot, mut families: Vec<Family>, key: &NamedColumn) -> Plot {
         Values::Texts(_) => Scaled::of("", &[]),
     };
     let points = |points: &[At]| {
-        let x = points.iter().map(|point| point.x).collect();
+        let x = points.iter().map(|point| point.x / scaled.factor).collect();
         (Abscissa::Points(x), points.iter().map(|point| point.y).collect::<Vec<f64>>())
     };
     for (number, family) in families.iter().enumerate() {
@@ -129,7 +130,7 @@ fn draw(mut plot: Plot, mut families: Vec<Family>, key: &NamedColumn) -> Plot {
     }
     let indicated: Vec<At> =
         families.iter().flat_map(|family| &family.points).filter(|at| at.indicated).copied().collect();
-    let mut caption = format!("{} over {}.", plot.y.label, key.label);
+    let mut caption = format!("{} over the {}.", plot.y.label, key.label);
     if !indicated.is_empty() {
         let (x, y) = points(&indicated);
         plot = plot.curve(Curve::new("fault indicated", x, y).points(Symbol::Ring).colour(COLOURS - 1));
@@ -145,7 +146,7 @@ fn draw(mut plot: Plot, mut families: Vec<Family>, key: &NamedColumn) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::super::result::tests::{dents, four};
-    use super::{Abscissa, Symbol, last_name, plots};
+    use super::{Abscissa, Symbol, plots};
 
     #[test]
     fn a_curve_a_figure_and_combination() {
@@ -175,7 +176,13 @@ mod tests {
         let plots = plots(&dents());
         let lines = plots.iter().find(|plot| plot.title.starts_with("Envelope at the lines")).unwrap();
         assert_eq!(lines.title, plots[0].title, "what a fault is looked for by comes first");
-        assert_eq!([lines.x.label.as_str(), &lines.x.unit], ["bearing.defects[0].depth", "m"]);
+        assert_eq!([lines.x.label.as_str(), &lines.x.unit], ["Depth of the dent", "µm"]);
+        assert_eq!(
+            lines.caption.as_deref().map(|text| text.starts_with("Envelope amplitude over the depth of the dent. ")),
+            Some(true)
+        );
+        let Abscissa::Points(depths) = &lines.curves[0].x else { panic!("{:?}", lines.curves[0].x) };
+        assert!(depths.iter().zip([5.0, 15.0]).all(|(depth, typed)| (depth - typed).abs() < 1e-9), "{depths:?}");
         assert_eq!([lines.y.label.as_str(), &lines.y.unit], ["Envelope amplitude", "m/s^2"]);
         let named = lines.curves.iter().filter(|curve| !curve.name.is_empty());
         let names: Vec<&str> = named.map(|curve| curve.name.as_str()).collect();
@@ -184,12 +191,5 @@ mod tests {
         assert_eq!(lines.curves[1].labels, ["BPFO, 5 µm", "BPFO, 15 µm"]);
         let ring = lines.curves.last().unwrap();
         assert_eq!((ring.symbol, &ring.y), (Symbol::Ring, &vec![20.0]), "the verdict at 15 µm alone names the race");
-    }
-
-    #[test]
-    fn names_of_keys_are_short() {
-        assert_eq!(last_name("bearing.defects[0].depth"), "depth");
-        assert_eq!(last_name("bearing.defects.0"), "defects");
-        assert_eq!(last_name("title"), "title");
     }
 }

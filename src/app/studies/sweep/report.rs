@@ -1,22 +1,30 @@
 //! A sweep as a page.
 
-use super::plots::plots;
+use super::plots::{in_words, plots};
 use super::result::{NamedColumn, Values};
-use super::tables::Scaled;
-use super::{PointState, SweepResult};
+use super::tables::{Scaled, short_name};
+use super::{PointState, SweepResult, SweptCommand};
+use crate::app::case::Case;
+use crate::app::commands::analyze::report::capital;
+use crate::app::commands::parts;
 use crate::report::{Cell, Column, Fact, Plot, Report, Section, Table, Verdict};
 
-/// The report of a sweep: what was varied, plots of its figures, points that are not done, the table.
+/// The report of a sweep of a case: inputs, what was varied, plots of its figures, points that are not done, the table.
 ///
 /// `command` is the command line that computes it again.
-pub(crate) fn sweep_report(title: &str, result: &SweepResult, command: &str) -> Report {
+pub(crate) fn sweep_report(case: &Case, result: &SweepResult, command: &str) -> Report {
     let done = result.count(PointState::Done);
     let all = result.points.len();
     let missing = result.count(PointState::Missing);
-    let mut report = Report::new(title, command, env!("CARGO_PKG_VERSION"))
-        .subtitle(format!("plummer {} at {all} points", result.plan.command.name()))
-        .headline("points done", format!("{done} of {all}"), Verdict::of(done == all))
-        .section(varied(result));
+    let what = match result.plan.command {
+        SweptCommand::Run => "Simulated runs",
+        SweptCommand::Modes => "Modes",
+    };
+    let inputs = parts::inputs(case, result.plan.command.purpose(), None);
+    let mut report = parts::signed_report(case, command, &format!("{what} at {all} points"))
+        .headline("Points done", format!("{done} of {all}"), Verdict::of(done == all))
+        .section(varied(result))
+        .section(Section::new("Inputs").paragraph("All points have these, but for what was varied.").facts(inputs));
     let plots: Vec<Plot> = plots(result);
     if !plots.is_empty() {
         let section = Section::new("Figures over what was varied");
@@ -51,18 +59,18 @@ fn varied(result: &SweepResult) -> Section {
             1 => "one value".to_owned(),
             count => format!("{count} values"),
         };
-        Fact::new(column.label, text).note(count)
+        Fact::new(capital(&column.label), text).note(format!("{count} of the key {}", axis.key))
     };
     let section = Section::new("What was varied").facts(result.axes().into_iter().zip(&result.plan.axes).map(fact));
     match result.plan.axes.len() {
         1 => section,
-        _ => section.paragraph("Every value of each key with every value of the others."),
+        _ => section.paragraph("Every value of each is combined with every value of the others."),
     }
 }
 
 fn all_points(result: &SweepResult) -> Section {
     let section = Section::new("All points").paragraph(
-        "sweep.csv and sweep.json beside this report have these figures in SI units, and the harmonics of the lines.",
+            "sweep.csv and sweep.json beside this report have these figures in SI units, the harmonics of the lines, and the points' wall times.",
     );
     result.tables().into_iter().fold(section, Section::table)
 }
@@ -75,9 +83,11 @@ fn not_done(result: &SweepResult) -> Section {
         Column::text("exit code"),
         Column::text("message"),
     ];
-    let table = Table::new("Points that are not done", columns).rows(result.not_done().map(|point| {
-        let axes = result.plan.axes.iter().zip(&point.point.values);
-        let values: Vec<String> = axes.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
+    let axes = result.axes();
+    let points = result.points.iter().enumerate().filter(|(_, point)| point.state != PointState::Done);
+    let table = Table::new("Points that are not done", columns).rows(points.map(|(row, point)| {
+        let values = axes.iter().map(|axis| format!("{} = {}", short_name(&axis.label), in_words(axis, row)));
+        let values: Vec<String> = values.collect();
         let record = point.record.as_ref();
         let code = record.map_or_else(String::new, |record| {
             record.exit_code.map_or_else(|| "ended by a signal".to_owned(), |code| code.to_string())
@@ -95,15 +105,32 @@ fn not_done(result: &SweepResult) -> Section {
 
 #[cfg(test)]
 mod tests {
-    use super::super::result::tests::four;
-    use super::sweep_report;
+    use super::super::result::tests::{dents, four};
+    use super::{Case, sweep_report};
 
     #[test]
     fn messages_are_text_and_points_are_told() {
-        let html = sweep_report("Ring", &four(), "plummer sweep a.toml").to_html().unwrap();
+        let html =
+            sweep_report(&Case::example("tadina2011/beam", &[]), &four(), "plummer sweep a.toml").to_html().unwrap();
         assert!(html.contains("1 of 4"));
         assert!(html.contains("&lt;script&gt;alert(1)"));
         assert!(!html.contains("<script>alert(1)"));
         assert!(html.contains("1 of 4 points are not computed."));
+        assert!(html.contains("number of nodes = 72, element = exact-arc"));
+    }
+
+    #[test]
+    fn a_page_says_inputs_and_axes_in_words_and_no_wall_times() {
+        let report = sweep_report(&Case::example("tadina2011/outer-dent", &[]), &dents(), "plummer sweep a.toml");
+        let titles: Vec<&str> = report.sections.iter().map(|section| section.title.as_str()).collect();
+        assert_eq!(titles, ["What was varied", "Inputs", "Figures over what was varied", "All points"]);
+        let html = report.to_html().unwrap();
+        for text in
+            ["<dt>Depth of the dent</dt><dd>5 µm, 15 µm", "Depth of the dent [µm]", "<dt>Bearing</dt>", "Checked by"]
+        {
+            assert!(html.contains(text), "{text}");
+        }
+        assert!(!html.contains("wall time<") && !html.contains("stepping<"));
+        assert_eq!(html.matches("bearing.defects").count(), 1, "the key stands where it is said what was varied");
     }
 }

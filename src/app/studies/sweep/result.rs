@@ -2,9 +2,10 @@
 //!
 //! What became of one point.
 
-use super::outputs::{MODEL, Output, PlotOf, outputs_of, plain};
-use super::unit::unit_of;
+use super::outputs::{Output, PlotOf, outputs_of, plain};
+use super::unit::{unit_of, words_of};
 use super::{Plan, SweepPoint};
+use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::formats::{FormatError, NpzWriter};
 use crate::report::{Cell, Column, Table};
@@ -43,6 +44,8 @@ pub struct PointWarning {
 pub struct SweepResult {
     /// What was to be computed.
     pub plan: Plan,
+    /// What each key that was varied is, in words.
+    pub names: Vec<String>,
     /// All points, in the order of their numbers.
     pub points: Vec<PointResult>,
 }
@@ -96,11 +99,20 @@ impl PointResult {
 }
 
 impl SweepResult {
-    /// Reads what the points of a plan left below the folder of the sweep.
+    /// Reads what the points of a plan left below the folder of the sweep. `case` is the plan's: messages and warnings name
+    /// files as it was named.
     ///
     /// # Errors
     /// [`ComputeError::Input`] for a result of other values than its point has.
-    pub fn collect(plan: Plan, sweep: &Path) -> Result<Self, ComputeError> {
+    pub fn collect(plan: Plan, case: &Case, sweep: &Path) -> Result<Self, ComputeError> {
+        let [absolute, named] = [&plan.case, &case.source.path].map(|path| match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => format!("{}/", parent.display()),
+            _ => String::new(),
+        });
+        let as_named = |text: &str| match absolute.is_empty() {
+            true => text.to_owned(),
+            false => text.replace(&absolute, &named),
+        };
         let points = plan.points().map(|point| {
             let folder = plan.folder(sweep, point.number);
             let file = folder.join(format!("{}.json", plan.command.name()));
@@ -109,18 +121,22 @@ impl SweepResult {
             if let Some(result) = &result {
                 plan.belongs(&point, &file, result)?;
             }
-            let record = PointRecord::read(&folder);
+            let mut record = PointRecord::read(&folder);
+            if let Some(record) = &mut record {
+                record.message = as_named(&record.message);
+            }
             let state = PointRecord::state(record.as_ref(), result.is_some());
             let outputs = match &result {
                 Some(result) if state.has_result() => outputs_of(&plan, result),
                 _ => Vec::new(),
             };
             let warnings = result.as_ref().and_then(|result| result["warnings"].as_array());
-            let warnings = warnings.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
+            let warnings = warnings.into_iter().flatten().filter_map(Value::as_str).map(as_named).collect();
             Ok(PointResult { point, state, record, outputs, warnings })
         });
         let points = points.collect::<Result<_, ComputeError>>()?;
-        Ok(Self { plan, points })
+        let names = plan.axes.iter().map(|axis| words_of(&axis.key, case)).collect();
+        Ok(Self { plan, names, points })
     }
 
     /// Number of points in a state.
@@ -153,7 +169,7 @@ impl SweepResult {
     /// The columns of what was varied, one an axis.
     pub(super) fn axes(&self) -> Vec<NamedColumn> {
         let axes = self.plan.axes.iter().enumerate();
-        let columns = axes.map(|(place, axis)| {
+        let columns = axes.zip(&self.names).map(|((place, axis), words)| {
             let texts = self.points.iter().map(|point| point.point.values[place].clone());
             let (unit, values) = if axis.numbers().is_some() {
                 let numbers = texts.map(|text| text.parse().unwrap_or(f64::NAN));
@@ -161,7 +177,7 @@ impl SweepResult {
             } else {
                 ("", Values::Texts(texts.collect()))
             };
-            self.column(&axis.name(), &axis.key, unit, values)
+            self.column(&axis.name(), words, unit, values)
         });
         columns.collect()
     }
@@ -175,8 +191,7 @@ impl SweepResult {
     /// Their wall times.
     fn wall(&self) -> NamedColumn {
         let wall = |point: &PointResult| point.record.as_ref().map_or(f64::NAN, |r| r.wall_s);
-        let walls = self.points.iter().map(wall).collect();
-        NamedColumn { table: Some(MODEL.to_owned()), ..self.column("wall_s", "wall time", "s", Values::Numbers(walls)) }
+        self.column("wall_s", "wall time", "s", Values::Numbers(self.points.iter().map(wall).collect()))
     }
 
     fn column(&self, name: &str, label: &str, unit: &'static str, values: Values) -> NamedColumn {
@@ -333,7 +348,6 @@ impl PointRecord {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::app::case::Case;
     use crate::app::studies::sweep::{Axis, SweptCommand};
     use crate::formats::NpzReader;
 
@@ -362,7 +376,7 @@ pub(super) mod tests {
             "missed",
         );
         write(3, 2, None, "<script>alert(1)</script>");
-        SweepResult::collect(plan, folder.path()).unwrap()
+        SweepResult::collect(plan, &case, folder.path()).unwrap()
     }
 
     /// Two runs with dents of 5 and 15 um, whose verdict names the race at the deeper one.
@@ -389,7 +403,7 @@ pub(super) mod tests {
             PointResult { point, state: PointState::Done, record: None, outputs, warnings: Vec::new() }
         });
         let points = points.collect();
-        SweepResult { plan, points }
+        SweepResult { names: vec!["depth of the dent".to_owned()], plan, points }
     }
 
     #[test]

@@ -3,19 +3,19 @@
 use super::SweepResult;
 use super::outputs::MODEL;
 use super::result::{NamedColumn, Values};
-use crate::report::{Cell, Column, Table, display_unit, pretty_unit};
+use crate::report::{Cell, Column, Table, display_unit, trimmed};
 
 /// Most figures in a table: more do not fit a page beside what was varied.
 const MOST_FIGURES: usize = 8;
 /// Digits of a figure.
 const DIGITS: usize = 4;
+/// Most digits of what was typed.
+const TYPED_DIGITS: usize = 7;
 
 impl SweepResult {
     /// The tables, each with what was varied before its figures.
     pub(crate) fn tables(&self) -> Vec<Table> {
         let figures = self.figures();
-        let wall = self.columns().into_iter().filter(|column| column.name == "wall_s");
-        let figures: Vec<NamedColumn> = figures.into_iter().chain(wall).collect();
         let mut titles: Vec<&String> = Vec::new();
         for title in figures.iter().filter_map(|column| column.table.as_ref()) {
             if !titles.contains(&title) {
@@ -42,7 +42,7 @@ impl SweepResult {
 
     fn table_of(&self, title: &str, figures: &[&NamedColumn]) -> Table {
         let (mut axes, states) = (self.axes(), self.states());
-        let names: Vec<String> = axes.iter().map(|axis| last_name(&axis.label).to_owned()).collect();
+        let names: Vec<String> = axes.iter().map(|axis| short_name(&axis.label).to_owned()).collect();
         for (axis, name) in axes.iter_mut().zip(&names) {
             if names.iter().filter(|other| *other == name).count() == 1 {
                 axis.label.clone_from(name);
@@ -63,10 +63,9 @@ impl SweepResult {
     }
 }
 
-/// The key's own name, without its path.
-pub(super) fn last_name(key: &str) -> &str {
-    let name = key.rsplit('.').find(|name| !name.bytes().all(|b| b.is_ascii_digit()));
-    name.unwrap_or(key)
+/// What a key is without what it is of.
+pub(super) fn short_name(words: &str) -> &str {
+    words.split_once(" of the ").map_or(words, |(name, _)| name)
 }
 
 /// A column in the unit in which it is shown.
@@ -91,7 +90,7 @@ impl Shown {
         let cell = |&value: &f64| {
             let value = Some(value / scaled.factor).filter(|value| value.is_finite());
             match value {
-                Some(value) if typed || whole => Cell::text(short(value)).value(value),
+                Some(value) if typed || whole => Cell::text(trimmed(value, TYPED_DIGITS)).value(value),
                 value => Cell::number_or(value, DIGITS, "–"),
             }
         };
@@ -102,6 +101,7 @@ impl Shown {
 /// The unit in which numbers are shown, and what they are divided by.
 pub(super) struct Scaled {
     pub(super) factor: f64,
+    /// As it is printed; "" for none.
     pub(super) unit: String,
 }
 
@@ -118,30 +118,19 @@ impl Scaled {
 
     /// A number with its unit, as short as it was typed.
     pub(super) fn words(&self, value: f64) -> String {
-        let number = short(value / self.factor);
+        let number = trimmed(value / self.factor, TYPED_DIGITS);
         match self.unit.as_str() {
             "" => number,
             "°" => format!("{number}°"),
-            unit => format!("{number} {}", pretty_unit(unit)),
+            unit => format!("{number} {unit}"),
         }
     }
-}
-
-/// A number without the digits that a division adds.
-fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    let text = if rounded.abs() > 0.0 && !(1e-4..1e7).contains(&rounded.abs()) {
-        format!("{rounded:e}")
-    } else {
-        rounded.to_string()
-    };
-    text.replace('-', "−")
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::result::tests::four;
-    use super::{Scaled, short};
+    use super::{Scaled, short_name};
 
     #[test]
     fn tables_are_narrow_and_in_units_of_what_they_show() {
@@ -149,7 +138,7 @@ mod tests {
         let titles: Vec<&str> = tables.iter().map(|table| table.caption.as_str()).collect();
         assert_eq!(titles, ["Model", "Eigenfrequencies"]);
         let heads: Vec<&str> = tables[1].columns.iter().map(|column| column.title.as_str()).collect();
-        assert_eq!(heads, ["point", "nodes", "element", "state", "mode 1", "mode 2", "mode 3"]);
+        assert_eq!(heads, ["point", "number of nodes", "element", "state", "mode 1", "mode 2", "mode 3"]);
         assert_eq!(tables[1].rows[1][4].text, "8100");
         assert_eq!(tables[1].rows[2][4].text, "–");
     }
@@ -159,9 +148,14 @@ mod tests {
         let metres = Scaled::of("m", &[1e-6, 2.5e-6, 4e-6]);
         assert_eq!([metres.words(2.5e-6), metres.words(4e-6)], ["2.5 µm", "4 µm"]);
         assert_eq!(Scaled::of("°", &[270.0]).words(270.0), "270°");
-        assert_eq!(Scaled::of("", &[1e5]).words(1e5), "100000");
-        assert_eq!(Scaled::of("Hz", &[12e3]).words(12e3), "12000 Hz");
-        assert_eq!(short(-0.1 - 0.2), "−0.3");
-        assert_eq!(short(0.0), "0");
+        assert_eq!(Scaled::of("", &[1e5]).words(-0.1 - 0.2), "−0.3");
+        assert_eq!(Scaled::of("Hz", &[12e3]).words(12e3), "12\u{202f}000 Hz");
+        assert_eq!(Scaled::of("m^4", &[9e-12]).words(9e-12), "9 mm⁴");
+    }
+
+    #[test]
+    fn names_of_keys_are_short() {
+        assert_eq!(short_name("second moment of area of the first section of the ring"), "second moment of area");
+        assert_eq!(short_name("title"), "title");
     }
 }

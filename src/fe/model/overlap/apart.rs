@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, at};
 use super::facets::Facet;
 use crate::fe::model::support::{TiedNode, sorted};
+use crate::numerics::Brief;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -38,7 +39,7 @@ impl Apart {
             0 => String::new(),
             count => format!(", {count} of them into the other body"),
         };
-        let [gap, twice] = self.masses.map(|mass| format!("{mass:.3e} kg"));
+        let [gap, twice] = self.masses.map(|mass| format!("{} kg", Brief::rounded(mass, 4)));
         let masses = match self.masses {
             [0.0, 0.0] => String::new(),
             [_, 0.0] => format!("; about {gap} of material would fill the gap"),
@@ -46,8 +47,8 @@ impl Apart {
             _ => format!("; about {gap} of material would fill the gap, about {twice} count twice"),
         };
         format!(
-            "the tie of \"{a}\" and \"{b}\" bridges up to {:.2e} m, {:.2} of the size of a face: {} of {} tied nodes are not on the other side{inside}, the farthest is node {} at {}{masses}",
-            self.distance,
+            "the tie of \"{a}\" and \"{b}\" bridges up to {} m, {:.2} of the size of a face: {} of {} tied nodes are not on the other side{inside}, the farthest is node {} at {}{masses}",
+            Brief::rounded(self.distance, 3),
             self.share,
             self.nodes,
             self.tied,

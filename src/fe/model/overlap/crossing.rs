@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, Solid, at, both};
 use super::outline::{BoxTree, corners_of, normal};
 use super::{Overlap, Touching};
+use crate::numerics::Brief;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -36,9 +37,9 @@ impl Crossing {
             parts => format!("the parts {}", both(parts)),
         };
         format!(
-            "{parts} reach into one another: {} pairs of elements do, by up to {:.1e} m, the deepest are elements {first} and {second} at {}",
+            "{parts} reach into one another: {} pairs of elements do, by up to {} m, the deepest are elements {first} and {second} at {}",
             self.pairs,
-            self.depth,
+            Brief::rounded(self.depth, 2),
             at(self.place)
         )
     }

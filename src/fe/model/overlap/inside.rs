@@ -2,6 +2,7 @@
 
 use super::bodies::{Bodies, at, both, common_size};
 use super::outline::{BoxTree, centre, holds};
+use crate::numerics::Brief;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -46,10 +47,10 @@ impl Overlap {
             parts => format!("the parts {} lie in one another", both(parts)),
         };
         format!(
-            "{parts}: {} elements have their centre in another element, on about {:.3e} m^{}, the first is element \
+            "{parts}: {} elements have their centre in another element, on about {} m^{}, the first is element \
              {first} in element {second} at {}",
             self.elements,
-            self.size,
+            Brief::rounded(self.size, 4),
             self.dimension,
             at(self.place)
         )

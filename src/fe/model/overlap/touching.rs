@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, at, both, common_size};
 use super::facets::Facet;
 use super::outline::{BoxTree, centre, holds};
+use crate::numerics::Brief;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -48,10 +49,10 @@ impl Touching {
             parts => format!("the parts {} touch", both(parts)),
         };
         format!(
-            "{parts} without common nodes: {} {what} on {:.3e} m{power}, at most {:.1e} m apart or into one another, {} pairs of nodes in one place, the first at {}",
+            "{parts} without common nodes: {} {what} on {} m{power}, at most {} m apart or into one another, {} pairs of nodes in one place, the first at {}",
             self.faces,
-            self.size,
-            self.gap,
+            Brief::rounded(self.size, 4),
+            Brief::rounded(self.gap, 2),
             self.node_pairs,
             at(self.place)
         )

@@ -2,7 +2,7 @@
 
 use super::condition::{Measurement, observe};
 use crate::numerics::ode::{LinearCoordinate, Linearised, Method, Resonance, SecondOrderSystem, fastest, growth};
-use crate::report::StepState;
+use crate::report::{StepState, significant};
 use std::f64::consts::PI;
 
 /// Steps of the linear system at each step length of the grid.
@@ -159,7 +159,7 @@ pub(super) fn on_grid(
     });
     let longest = grid.last().copied().unwrap_or(0.0);
     let note = match first {
-        None => Some(format!("none found up to h = {longest:.2e} s")),
+        None => Some(format!("none found up to a step of {} µs", significant(1e6 * longest, 3))),
         Some(0) => Some("grows in the shortest step of the grid".to_owned()),
         Some(_) => failure.filter(|_| method.is_implicit()).map(|failure| failure.to_string()),
     };
