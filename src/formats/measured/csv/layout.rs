@@ -1,6 +1,6 @@
 //! Where the numbers of a table begin, and what stands above them.
 //!
-//! Recorders write their settings first, a line each: LabVIEW, Dewesoft, catman, oscilloscopes. Tektronix writes them left of the first
+//! Recorders write their settings first, a line each: LabVIEW, catman, oscilloscopes. Tektronix writes them left of the first
 //! samples. The table begins where two lines in a row have numbers in the same columns and nothing else; the names stand right above.
 
 use ::csv::StringRecord;
