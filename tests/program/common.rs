@@ -31,7 +31,7 @@ pub fn plummer(folder: &Path, words: &[&str]) -> Output {
 }
 
 /// Names of programs and of their commands that a page may show.
-const NAMES: [&str; 3] = ["CalculiX", "BooleanDifference", "BooleanFragments"];
+const NAMES: [&str; 5] = ["CalculiX", "NumPy", "SciPy", "BooleanDifference", "BooleanFragments"];
 
 /// Digits that a page may show: frequencies have seven, which tell the halves of a pair apart.
 const MOST_DIGITS: usize = 7;

@@ -294,7 +294,7 @@ fn the_catalogue_is_listed_with_its_sources() {
     }
     let json = init(&folder, &["--list-bearings"]);
     let bearings = json["bearings"].as_array().unwrap();
-    assert_eq!(bearings.len(), 34);
+    assert_eq!(bearings.len(), 69);
     let bearing = bearings.iter().find(|bearing| bearing["name"] == "6205").unwrap();
     // with gamma = 7.938 / 39.1: 4.5 (1 - gamma), 4.5 (1 + gamma), (1 - gamma^2) / (2 gamma), (1 - gamma) / 2
     let gamma = 7.938 / 39.1;

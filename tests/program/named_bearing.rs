@@ -41,7 +41,7 @@ fn commands_take_a_bearing_by_its_name() {
     fs::write(folder.join("named.toml"), CASE).unwrap();
     let told = "warning: bearing 6204: balls and diameters are those of GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), \
                 pp. 52-55; groove radii of 0.52 (inner) and 0.53 (outer) of the ball's diameter are usual ones, no maker's; \
-                a radial play of 6.25 um is half the middle of the clearance of group N";
+                a radial play of 6.25 µm is half the middle of the clearance of group N";
     for command in ["modes", "run"] {
         let output = plummer(&folder, &[command, "named.toml"]);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));

@@ -150,7 +150,7 @@ fn a_race_outside_of_its_ring_is_refused_and_one_in_doubt_is_said() {
             "shaft.mass is 0.1 g and the 7 balls have 0.23 g together",
         ),
         (vec!["shaft.unbalance=0.02".to_owned()], "off its axis by 0.133333 m"),
-        (vec!["speed.profile=[{time=0,hz=60000}]".to_owned()], "check that it is in Hz"),
+        (vec!["speed.profile=[{time=0,hz=60000}]".to_owned()], "check which of `hz` and `rpm` is meant"),
     ] {
         let set: Vec<&str> = set.iter().map(String::as_str).chain([FEW]).collect();
         warned("race-in-doubt", "modes", RING, &set, &[word]);

@@ -40,7 +40,7 @@ pub struct Bearing {
     /// Radial play from the centred position to first contact; negative: preload. `None`: what the radii give.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_play: Option<f64>,
-    /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^1.5 (1 + c delta').
+    /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^(3/2) (1 + c delta').
     #[serde(default)]
     pub contact_damping: f64,
     /// How balls follow their radial motion; `None`: the program's choice by the accuracy asked for.
@@ -158,7 +158,7 @@ impl From<RaceMaterial> for Loose<InnerAndOuter<String>> {
     }
 }
 
-/// Contact stiffness k of F = k delta^1.5.
+/// Contact stiffness k of F = k delta^(3/2).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactStiffness {

@@ -165,7 +165,7 @@ mod tests {
         ), "{error}");
         let help = error.help().unwrap();
         assert!(help.starts_with("did you mean `6204`? bearings here: 625, 626, "), "{help}");
-        let help = with("bearing = 6304", &[]).unwrap_err().help().unwrap();
+        let help = with("bearing = 6400", &[]).unwrap_err().help().unwrap();
         assert!(help.starts_with("bearings here: 625, ") && help.ends_with("instead of a name: balls, ball_radius, inner_race_radius, outer_race_radius, inner_groove_radius, outer_groove_radius"), "{help}");
         let error = with("bearing = 6204", &["bearing.name=9999"]).unwrap_err().to_string();
         assert!(error.starts_with("--set bearing.name=9999: `bearing.name`: found \"9999\""), "{error}");

@@ -71,7 +71,7 @@ fn sphere() -> Result<Vec<Check>, VerificationError> {
     let kind = |unit| Kind {
         unit,
         source: "closed form: Johnson, Contact Mechanics, (11.22) to (11.24)",
-        assumptions: "Steel sphere, diameter 10 mm, at 1 m/s against a steel flat, F = k delta^1.5; 1000 steps in the time of contact.",
+        assumptions: "Steel sphere, diameter 10 mm, at 1 m/s against a steel flat, F = k delta^(3/2); 1000 steps in the time of contact.",
         reason: "Second order, (w h)^2 / 24 with w h about pi / 1000, and the largest of steps for the largest value.",
     };
     let mut checks = Vec::new();

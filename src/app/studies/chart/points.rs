@@ -253,6 +253,6 @@ mod tests {
         assert!((error.deviation - 0.02_f64.sqrt()).abs() < 1e-15);
         let failure = judged(&starts([0.5, 2.5])).unwrap_err();
         assert_eq!(failure.kind, FailureKind::TooInaccurate);
-        assert!(failure.reason.contains("by 1.50e0 of its"), "{}", failure.reason);
+        assert!(failure.reason.contains("by 1.50 of its"), "{}", failure.reason);
     }
 }

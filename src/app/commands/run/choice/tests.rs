@@ -60,10 +60,10 @@ fn a_condensed_housing_is_part_of_the_estimate() {
     assert!(few > 0.1, "{few}");
 }
 
-/// Beside a smaller tolerance the dented bearing in a pillow block errs by little, beside more modes by more.
+/// Beside a smaller tolerance the dented ring errs by little, beside more modes by more.
 #[test]
 fn what_makes_the_measured_error_is_named() {
-    let choice = choice("housings/pillow_block", &[]);
+    let choice = choice("scenes/impact", &[]);
     let [modes, method] = ["modes", "method"].map(|what| part(&choice, what));
     println!("{modes} {method}");
     assert!(modes > method, "{modes} {method}");
