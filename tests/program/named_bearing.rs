@@ -60,5 +60,6 @@ fn commands_take_a_bearing_by_its_name() {
         text.contains("--set bearing=6240: `bearing.name`: found \"6240\", expected a bearing of the catalogue"),
         "{text}"
     );
-    assert!(text.contains("did you mean `6200`?") || text.contains("did you mean `6204`?"), "{text}");
+    // another size is no misprint
+    assert!(!text.contains("did you mean"), "{text}");
 }

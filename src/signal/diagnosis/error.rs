@@ -31,7 +31,8 @@ pub enum DiagnosisError {
     },
     /// A signal of tones alone, computed or recorded with too few digits: its rounding makes lines of its own.
     #[error(
-        "expected noise beside the tones, to judge lines against, found a floor of {noise:.1e} (RMS) where the values have steps of {step:.1e}: record with a higher gain or more digits; a signal that was computed, repeated or resampled to a higher rate lacks it: give the original record, or add noise"
+        "expected noise beside the tones, to judge lines against, found a floor of {} (RMS) where the values have steps of {}: record with a higher gain or more digits; a signal that was computed, repeated or resampled to a higher rate lacks it: give the original record, or add noise",
+        Brief::rounded(*noise, 2), Brief::rounded(*step, 2)
     )]
     NoNoise {
         /// Root mean square of white noise with the floor's density, in the signal's unit.

@@ -4,6 +4,7 @@ use super::shape_values;
 use super::table::{Table, for_kind, tables};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
+use crate::numerics::Brief;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -197,8 +198,8 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
     let [(low, low_at), (high, high_at)] = extremes::<N, D>(kind, &placed.coords, table);
     let name = kind.name();
     let place = |natural: [f64; 3]| match position(kind, coords, natural) {
-        [x, y, _] if D == 2 => format!("({x:.6e}, {y:.6e}) m"),
-        [x, y, z] => format!("({x:.6e}, {y:.6e}, {z:.6e}) m"),
+        [x, y, _] if D == 2 => format!("({}, {}) m", Brief(x), Brief(y)),
+        [x, y, z] => format!("({}, {}, {}) m", Brief(x), Brief(y), Brief(z)),
     };
     if high < -SMALLEST_DETERMINANT * power(placed.size, D) {
         let (cause, remedy) = match D {
@@ -209,7 +210,8 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
             _ => ("its nodes are numbered inside out", "the mesh was mirrored or the node order is not gmsh's"),
         };
         return ElementError(format!(
-            "the {name} element is inverted: {cause} (Jacobian determinant {high:.6e} m^{D} at {}); {remedy}",
+            "the {name} element is inverted: {cause} (Jacobian determinant {} m^{D} at {}); {remedy}",
+            Brief(high),
             place(high_at)
         ));
     }
@@ -218,7 +220,8 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
         [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
     };
     ElementError(format!(
-        "the {name} element is degenerate or folded: Jacobian determinant {low:.6e} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        "the {name} element is degenerate or folded: Jacobian determinant {} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        Brief(low),
         place(low_at)
     ))
 }

@@ -17,6 +17,7 @@ use super::table::{Table, for_kind, tables};
 use super::{ContinuumProperties, Formulation, Integration, LinearFormulation};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
+use crate::numerics::Brief;
 
 /// Stiffness `K = int B^T D B dV` (solid) or `t int B^T D B dA` (plane), N/m, into `out` (dof x dof, symmetric,
 /// column by column, both triangles; whatever it held is replaced).
@@ -164,8 +165,9 @@ fn incompatible<const N: usize, const M: usize, const D: usize>(
 /// Incompatible modes without stiffness of their own; the pivot should be positive, N/m.
 pub(super) fn soft_modes(kind: ElementKind, pivot: f64) -> ElementError {
     ElementError(format!(
-        "the incompatible modes of the {} element have no stiffness (pivot {pivot:.6e} N/m): use the plain formulation",
-        kind.name()
+        "the incompatible modes of the {} element have no stiffness (pivot {} N/m): use the plain formulation",
+        kind.name(),
+        Brief(pivot)
     ))
 }
 

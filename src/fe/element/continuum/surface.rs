@@ -7,6 +7,7 @@ use super::geometry::{cross, not_finite, wrong_node_count};
 use super::shape::{ShapeDerivatives, ShapeValues, shape};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
+use crate::numerics::Brief;
 
 /// Smallest area accepted, as a part of the squared size; see the Jacobian of the elements.
 const SMALLEST_AREA: f64 = 1e-12;
@@ -51,7 +52,7 @@ pub(crate) fn surface_weights(kind: ElementKind, coords: &[[f64; 3]]) -> Result<
         let [x, y, z] = origin;
         let (what, size) = if kind.dimension() == 1 { ("edge", "length") } else { ("surface", "area") };
         let name = kind.name();
-        Err(ElementError(format!("the {name} {what} at ({x:.6e}, {y:.6e}, {z:.6e}) m has no {size}")))
+        Err(ElementError(format!("the {name} {what} at ({}, {}, {}) m has no {size}", Brief(x), Brief(y), Brief(z))))
     }
 }
 

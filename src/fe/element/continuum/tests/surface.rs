@@ -119,13 +119,10 @@ fn curved_faces_have_the_area_of_their_parabola() -> Outcome {
 fn every_rule_fires_with_its_message() {
     let message = |kind, coords: &[[f64; 3]]| message(surface_weights(kind, coords));
     assert_eq!(message(ElementKind::Line2, &[[0.0; 3]]), "a Line2 element has 2 nodes, found 1");
-    assert_eq!(
-        message(ElementKind::Line2, &[[0.5, 0.25, 0.0]; 2]),
-        "the Line2 edge at (5.000000e-1, 2.500000e-1, 0.000000e0) m has no length"
-    );
+    assert_eq!(message(ElementKind::Line2, &[[0.5, 0.25, 0.0]; 2]), "the Line2 edge at (0.5, 0.25, 0) m has no length");
     assert_eq!(
         message(ElementKind::Tri3, &[[1.0, 0.0, 0.0], [2.0, 0.1, 0.0], [3.0, 0.2, 0.0]]),
-        "the Tri3 surface at (1.000000e0, 0.000000e0, 0.000000e0) m has no area"
+        "the Tri3 surface at (1, 0, 0) m has no area"
     );
     assert_eq!(
         message(ElementKind::Line2, &[[0.0; 3], [f64::NAN, 0.0, 1.0]]),
