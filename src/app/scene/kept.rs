@@ -151,9 +151,8 @@ fn locked(path: &Path, watch: &impl Watch) -> io::Result<File> {
         let wait = LONGEST_WAIT.as_secs();
         let holder = holder.get_or_insert_with(|| {
             let number = fs::read_to_string(path).unwrap_or_default();
-            let holder = format!("process {} holds {}", number.trim(), path.display());
-            watch.stage(&format!("{holder}: wait for {wait} s at most"));
-            holder
+            watch.stage("wait for another run to condense the housing");
+            format!("process {} holds {}", number.trim(), path.display())
         });
         if began.elapsed() >= LONGEST_WAIT {
             return Err(io::Error::other(format!("{holder} for more than {wait} s, end it if it is stopped")));
