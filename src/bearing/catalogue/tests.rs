@@ -138,8 +138,8 @@ fn off([balls, diameter]: [f64; 2], pitch: f64, (_, dynamic, fixed, f0): (&str, 
     [f0 * balls * diameter.powi(2) / fixed - 1.0, rating_of(balls, diameter, pitch) / dynamic - 1.0]
 }
 
-/// Both ratings are those of the balls: the static one but for the roundings of f0 (0.45 %) and of its own digits (0.3 %), the dynamic one with what the formula of f_c errs by
-/// against NSK in each of the 40 bearings whose balls are published as well.
+/// Whether both ratings are those of the balls. The static one may be off by the roundings of f0 (0.45 %) and of its own digits (0.3 %). The dynamic
+/// one is off by what the formula of f_c errs by against NSK, in each of the 40 bearings whose balls are published as well.
 fn fits([fixed, dynamic]: [f64; 2]) -> bool {
     fixed.abs() < 7.5e-3 && (-0.05..-0.01).contains(&dynamic)
 }

@@ -34,10 +34,12 @@ struct Columns {
     wanted: Vec<(usize, String, String)>,
 }
 
-/// A column as it is read: its numbers, the first that may have a sign between thousands, and the first without any sign.
+/// A column as it is read: its numbers, whether one shows that their sign is a decimal one, the first that may have a sign between
+/// thousands, and the first without any sign.
 #[derive(Default)]
 struct Read {
     values: Vec<f64>,
+    shown: bool,
     grouped: Option<(u64, String)>,
     whole: Option<(u64, String)>,
 }
@@ -153,20 +155,29 @@ impl Table<'_> {
         self.sign.get().is_some_and(|(sign, _)| self.shown.get()[usize::from(sign == ',')])
     }
 
-    /// What is to be said of numbers whose only sign may stand between thousands, where nothing shows that it does not.
+    /// What is to be said of numbers whose only sign may stand between thousands, where no number of the column shows that it does not.
     ///
     /// # Errors
-    /// Where numbers without a sign stand beside.
+    /// Where numbers without a sign stand beside, and no other column shows it either.
     fn thousands(&self, read: &Read, what: &str) -> Result<Option<String>, MeasuredError> {
-        let Some((line, text)) = read.grouped.as_ref().filter(|_| !self.is_shown()) else {
+        let Some((line, text)) = read.grouped.as_ref().filter(|_| !read.shown) else {
             return Ok(None);
         };
         let sign = if text.contains(',') { "comma" } else { "point" };
-        let Some((other, whole)) = &read.whole else {
-            return Ok(Some(format!(
-                "{what}: \"{text}\" in line {line} is read as {}: nothing in the file shows whether its {sign} is a decimal sign or stands between thousands",
-                text.replace(',', ".")
-            )));
+        let number = text.replace(',', ".");
+        let (other, whole) = match (&read.whole, self.is_shown()) {
+            (None, true) => return Ok(None),
+            (None, false) => {
+                return Ok(Some(format!(
+                    "{what}: \"{text}\" in line {line} is read as {number}: nothing in the file shows whether its {sign} is a decimal sign or stands between thousands"
+                )));
+            }
+            (Some((other, whole)), true) => {
+                return Ok(Some(format!(
+                    "{what}: \"{text}\" in line {line} is read as {number}, beside \"{whole}\" in line {other}: only another column shows that the {sign} does not stand between thousands"
+                )));
+            }
+            (Some(found), false) => found,
         };
         Err(MeasuredError::refused_with(
             format!(
@@ -279,7 +290,8 @@ impl Table<'_> {
             }
             _ => {}
         }
-        if !self.is_shown() {
+        read.shown |= decimal_sign(cell).is_some();
+        if !read.shown {
             let first = if sign.is_some() { &mut read.grouped } else { &mut read.whole };
             first.get_or_insert_with(|| (line(), cell.to_owned()));
         }

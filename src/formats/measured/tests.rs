@@ -155,11 +155,20 @@ fn numbers_that_may_have_thousands_are_told_or_refused() {
     let times = only(table("time;P1\n1.000;4\n2.000;5\n", &any).unwrap());
     assert!(times.doubts[0].starts_with("the time: \"1.000\" in line 2 is read as 1.000: "), "{:?}", times.doubts);
     // one number anywhere shows what the sign is
-    for shown in
-        ["0;4,744;1\n1;128;0,5\n", "0;4,744;1\n1;0,128;5\n", "0;4,744;1\n1;1280,128;5\n", "0;4,744;1\n1;128;1,5E3\n"]
-    {
+    for shown in [
+        "0;4,744;1\n1;128,001;0,5\n",
+        "0;4,744;1\n1;0,128;5\n",
+        "0;4,744;1\n1;1280,128;5\n",
+        "0,5;4,744;1\n1,0;128,5;1\n",
+    ] {
         let read = only(table(&format!("time;P1;P2\n{shown}"), &request(&["P1"], None)).unwrap());
         assert_eq!(read.doubts, [""; 0], "{shown}");
+    }
+    // of whole numbers beside, another column shows it but for an exporter that writes counts with thousands and times with decimals
+    for beside in ["0,5;4,744;1\n1,0;128;1\n", "0;4,744;1\n1;128;1,5E3\n"] {
+        let told = only(table(&format!("time;P1;P2\n{beside}"), &request(&["P1"], None)).unwrap());
+        let doubt = "P1: \"4,744\" in line 2 is read as 4.744, beside \"128\" in line 3: only another column shows that the comma does not stand between thousands";
+        assert_eq!(told.doubts, [doubt], "{beside}");
     }
 }
 

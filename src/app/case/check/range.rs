@@ -2,7 +2,7 @@
 
 use std::ops::RangeBounds;
 
-use super::super::built_in_materials::built_in_like;
+use super::super::built_in_materials::{BUILT_IN_MATERIALS, built_in_like};
 use super::super::error::names_help;
 use super::super::{Case, IsotropicMaterial, Material};
 use super::rule::{BrokenRule, Rule, short};
@@ -26,6 +26,9 @@ pub(super) const LOSS_FACTOR: Range = Range("a number from 0 to below 2", |x| (0
 pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=1000.0).contains(&x));
 /// Wide beyond all shafts: further out, squares leave the numbers.
 pub(super) const SPEED: Range = Range("a speed of at most 1e6 Hz (6e7 rpm) either way", |x| x.abs() <= 1e6);
+/// Further from 0, the shaft's angle loses digits that steps of a run need: 2e-9 s at 1e7 s.
+pub(super) const TIME: Range =
+    Range("a time of at most 1e7 s from 0 (let the profile begin near 0)", |x| x.abs() <= 1e7);
 /// As [`SPEED`], of masses, kg.
 pub(super) const MASS: Range = Range("a mass of at most 1e15 kg", |x| x <= 1e15);
 /// As [`SPEED`], of forces, accelerations and unbalances.
@@ -120,8 +123,14 @@ pub(crate) fn known_material<'c>(case: &'c Case, key: &str, name: &str) -> Resul
     case.material(name).ok_or_else(|| {
         let names: Vec<&str> = case.materials.keys().map(String::as_str).collect();
         let mut help = names_help(name, &names, "materials");
-        if let Some(near) = built_in_like(name).filter(|_| help.starts_with("materials")) {
-            help = format!("the nearest that is built in is \"{near}\" (plummer init --list-materials); or give it a table [materials.\"{name}\"]; {help}");
+        if let Some(near) = built_in_like(name) {
+            let meant = |other: &str| help.starts_with(&format!("did you mean `{other}`?"));
+            let is_own = |other: &str| BUILT_IN_MATERIALS.iter().all(|known| known.name != other);
+            // few letters may part grey iron from ductile iron, and not a name of the case from the same with a misprint
+            if !meant(near) && !names.iter().any(|other| is_own(other) && meant(other)) {
+                let list = help.split_once("`? ").map_or(help.as_str(), |(_, list)| list);
+                help = format!("the nearest that is built in is \"{near}\" (plummer init --list-materials); or give it a table [materials.\"{name}\"]; {list}");
+            }
         }
         Rule::new(format!("no material is called \"{name}\"")).with_help(help).at(key)
     })

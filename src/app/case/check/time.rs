@@ -60,6 +60,7 @@ pub(super) fn speed(speed: &Speed) -> Result<(), BrokenRule> {
     for (index, point) in speed.profile.iter().enumerate() {
         // `hz` or `rpm`
         range::SPEED.check(format!("speed.profile[{index}]"), point.frequency_hz)?;
+        range::TIME.check(format!("speed.profile[{index}].time"), point.time)?;
     }
     increasing("speed.profile", speed.profile.iter().map(|point| point.time))
 }
@@ -223,6 +224,8 @@ pub(super) fn accuracy(accuracy: &Accuracy) -> Result<(), BrokenRule> {
 
 pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), BrokenRule> {
     ZERO_OR_MORE.check("transient.start", transient.start)?;
+    range::TIME.check("transient.start", transient.start)?;
+    range::TIME.check("transient.end", transient.end)?;
     above("transient.end", transient.end, "`transient.start`", transient.start)?;
     if let Some(radius) = transient.spectral_radius {
         ZERO_TO_ONE.check("transient.spectral_radius", radius)?;

@@ -52,6 +52,9 @@ fn materials_exist() {
     assert_eq!(help("unobtainium"), known);
     let built_in = "the nearest that is built in is \"EN-GJL-250\" (plummer init --list-materials); or give it a table";
     assert_eq!(help("GG25"), format!("{built_in} [materials.\"GG25\"]; {known}"));
+    // three letters from grey iron
+    let ductile = "the nearest that is built in is \"EN-GJS-400-15\" ";
+    assert!(help("EN-GJS-400").starts_with(ductile), "{}", help("EN-GJS-400"));
 }
 
 #[test]

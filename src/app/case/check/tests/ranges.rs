@@ -97,6 +97,16 @@ fn what_is_beyond_all_measure_is_refused() {
         ("bearing.stiffness={inner=1,outer=1e300}", "bearing.stiffness.outer", STIFF),
         ("housing.supports[1].spring.x=1e300", "housing.supports[1].spring.x", STIFF),
         (
+            "speed.profile=[{time=-1e300,hz=21},{time=1e300,hz=21}]",
+            "speed.profile[0].time",
+            "found -1e300, expected a time of at most 1e7 s from 0 (let the profile begin near 0)",
+        ),
+        (
+            "transient.end=1.7e9",
+            "transient.end",
+            "found 1.7e9, expected a time of at most 1e7 s from 0 (let the profile begin near 0)",
+        ),
+        (
             "speed.profile=[{time=0,rpm=1e300}]",
             "speed.profile[0]",
             "found 1.66666666667e298, expected a speed of at most 1e6 Hz (6e7 rpm) either way",
