@@ -99,12 +99,12 @@ fn what_is_beyond_all_measure_is_refused() {
         (
             "speed.profile=[{time=-1e300,hz=21},{time=1e300,hz=21}]",
             "speed.profile[0].time",
-            "found -1e300, expected a time of at most 1e7 s from 0 (let the profile begin near 0)",
+            "found -1e300, expected a time of at most 1e7 s from 0 (let the clock begin near 0)",
         ),
         (
             "transient.end=1.7e9",
             "transient.end",
-            "found 1.7e9, expected a time of at most 1e7 s from 0 (let the profile begin near 0)",
+            "found 1.7e9, expected a time of at most 1e7 s from 0 (let the clock begin near 0)",
         ),
         (
             "speed.profile=[{time=0,rpm=1e300}]",
