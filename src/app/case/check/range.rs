@@ -27,8 +27,7 @@ pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=100
 /// Wide beyond all shafts: further out, squares leave the numbers.
 pub(super) const SPEED: Range = Range("a speed of at most 1e6 Hz (6e7 rpm) either way", |x| x.abs() <= 1e6);
 /// Further from 0, the shaft's angle loses digits that steps of a run need: 2e-9 s at 1e7 s.
-pub(super) const TIME: Range =
-    Range("a time of at most 1e7 s from 0 (let the clock begin near 0)", |x| x.abs() <= 1e7);
+pub(super) const TIME: Range = Range("a time of at most 1e7 s from 0 (let the clock begin near 0)", |x| x.abs() <= 1e7);
 /// As [`SPEED`], of masses, kg.
 pub(super) const MASS: Range = Range("a mass of at most 1e15 kg", |x| x <= 1e15);
 /// As [`SPEED`], of forces, accelerations and unbalances.
