@@ -156,17 +156,21 @@ fn even(path: &Path, times: &[f64], first_row: u64) -> Result<(f64, f64), Measur
         let (path, row) = (path.display(), first_row + place as u64);
         Err(MeasuredError::refused_with(
             format!("{path}: row {row}: expected equal time steps{expected}, found {found} s"),
-            "resample the signal at equal steps; if only the time column is coarse, --rate HZ takes its place",
+            "resample the signal at equal steps; if only the time column is coarse, or the first of columns without names is no time, --rate HZ takes its place",
         ))
     };
     let mut pairs = times.windows(2).enumerate();
+    // a median of nothing, or of times that fall, is no step to expect
+    let expected = match median > 0.0 {
+        true => format!(" of {median} s (the median, within {} %)", 100.0 * STEP_TOLERANCE),
+        false => " above 0 s".to_owned(),
+    };
     let wrong = pairs.find(|(_, pair)| {
         let step = pair[1] - pair[0];
         // a step that is none (NaN) is wrong too
-        !(median > 0.0 && (step / median - 1.0).abs() <= STEP_TOLERANCE)
+        !(step > 0.0 && (median <= 0.0 || (step / median - 1.0).abs() <= STEP_TOLERANCE))
     });
     if let Some((place, pair)) = wrong {
-        let expected = format!(" of {median} s (the median, within {} %)", 100.0 * STEP_TOLERANCE);
         return uneven(place + 1, expected, format!("a step of {}", pair[1] - pair[0]));
     }
     let step = (last - first) / (times.len() - 1) as f64;

@@ -6,7 +6,10 @@
 //!
 //! Recorders write what they were set to above the names of the columns, a row of units below these, and some a column of remarks.
 
+mod columns;
 mod layout;
+#[cfg(test)]
+mod tests;
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -15,28 +18,16 @@ use std::rc::Rc;
 
 use ::csv::{Position, StringRecord};
 
-use super::super::csv::{line_of, table_of};
-use super::channel::{Channel, Clock, choose};
-use super::names::{name_and_unit, time_unit};
+use super::super::csv::{first_line, line_of, table_of};
+use super::channel::{Channel, Clock};
 use super::{MeasuredError, SignalRequest};
 use crate::files::{Fault, bytes_of};
+use columns::{Columns, Timing, Wanted, When};
 use layout::{Layout, is_blank, real};
-
-/// What is read of each line.
-struct Columns {
-    /// How many columns there are.
-    count: usize,
-    /// How many of them a line has at least.
-    least: usize,
-    /// Place of the time and seconds in its unit.
-    time: Option<(usize, f64)>,
-    /// Place, name and unit of the channels that are wanted.
-    wanted: Vec<(usize, String, String)>,
-}
 
 /// A column as it is read: its numbers, whether one shows that their sign is a decimal one, the first that may have a sign between
 /// thousands, and the first without any sign.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Read {
     values: Vec<f64>,
     shown: bool,
@@ -59,7 +50,14 @@ pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>,
 }
 
 pub(super) fn from_bytes(bytes: &[u8], path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
-    Table { path, text: &text_of(bytes), sign: Cell::new(None), shown: Cell::new([false; 2]) }.channels(request)
+    let text = text_of(bytes);
+    let first = first_line(&text);
+    let parts: Vec<&str> = first.split_whitespace().collect();
+    // blanks separate the columns, any number of them
+    let blanks = !first.contains(['\t', ';', ',']) && parts.len() > 1 && parts.iter().all(|part| real(part).is_some());
+    let table = |line: &str| line.split_whitespace().collect::<Vec<_>>().join("\t");
+    let text = if blanks { text.lines().map(table).collect::<Vec<_>>().join("\n").into() } else { text };
+    Table { path, text: &text, sign: Cell::new(None), shown: Cell::new([false; 2]) }.channels(request)
 }
 
 /// The text of a file: UTF-16 by its byte-order mark, UTF-8, or else Latin-1, in which instruments write units.
@@ -77,6 +75,10 @@ fn text_of(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// Sampling rate, Hz, below which a time without a unit is told: vibration of bearings is recorded faster, and times in ms or
+/// numbers of samples look as slow as this.
+const SLOW_HZ: f64 = 1e3;
+
 /// What to do about decimal commas that may be separators.
 const WRITE: &str = "write decimal points, semicolons between the columns, or quotes about each number (\"0,12\"): decimal commas are read then";
 
@@ -92,12 +94,13 @@ impl Table<'_> {
                 WRITE,
             ));
         }
+        if layout.rows.is_empty() {
+            return Err(self.content(1, "a header and rows of numbers", "none"));
+        }
+        let mut columns = self.columns(&layout, request)?;
         let mut table = table_of(self.text, layout.separator);
         let mut record = StringRecord::new();
-        let mut titles = layout.titles;
-        let mut columns: Option<Columns> = None;
-        let (mut times, mut first_row) = (Read::default(), 0);
-        let mut values: Vec<Read> = Vec::new();
+        let (mut titles, mut first_row) = (layout.start, 0);
         loop {
             let more = table.read_record(&mut record);
             let damaged = |error: ::csv::Error| {
@@ -114,40 +117,40 @@ impl Table<'_> {
                 titles -= 1;
                 continue;
             }
-            let found = match &mut columns {
-                Some(found) => found,
-                None => {
-                    let found = columns.insert(self.header(&record, &layout, request)?);
-                    values.resize_with(found.wanted.len(), Read::default);
-                    if layout.nameless.is_none() {
-                        continue;
-                    }
-                    found
-                }
-            };
-            // a row of units below the names
-            if first_row == 0 && record.iter().all(|cell| real(cell).is_none()) {
-                self.units(&record, found)?;
-                continue;
-            }
             if first_row == 0 {
                 first_row = line_of(self.text, &record);
             }
-            self.row(&record, found, &layout, &mut times, &mut values)?;
+            self.row(&record, &mut columns, layout.separator, request)?;
         }
-        let Some(columns) = columns.filter(|_| first_row > 0) else {
+        if first_row == 0 {
             return Err(self.content(1, "a header and rows of numbers", "none"));
-        };
-        let of_time = self.thousands(&times, "the time")?;
-        let clock = Rc::new(match columns.time {
-            Some(_) => Clock::Times { times: times.values, first_row },
-            None => Clock::Unknown,
-        });
-        let channel = |((_, name, unit), read): ((usize, String, String), Read)| {
+        }
+        let mut clocks = Vec::new();
+        for Timing { when, read, .. } in columns.timings {
+            let mut doubts: Vec<String> = self.thousands(&read, "the time")?.into_iter().collect();
+            let clock = match when {
+                When::Column(..) if read.values.is_empty() => Clock::Unknown,
+                When::Column(..) => Clock::Times { times: read.values, first_row },
+                When::Even(start_s, step_s) => Clock::Even { start_s, step_s },
+                When::Unknown => Clock::Unknown,
+            };
+            let slow = clock
+                .rate_hz()
+                .filter(|hz| matches!(when, When::Column(_, None)) && *hz < SLOW_HZ && request.rate_hz.is_none());
+            doubts.extend(slow.map(|hz| {
+                let hz = (1e3 * hz).round() / 1e3;
+                format!(
+                    "the time: nothing states its unit: it is read in s, which makes {hz} Hz; --rate HZ takes its place"
+                )
+            }));
+            clocks.push((Rc::new(clock), doubts));
+        }
+        let channel = |Wanted { name, unit, timing, read, .. }| {
+            let (clock, of_time) = &clocks[timing];
             let doubts = of_time.iter().cloned().chain(self.thousands(&read, &name)?).collect();
-            Ok(Channel { name, unit, values: read.values, clock: Rc::clone(&clock), speed_hz: None, doubts })
+            Ok(Channel { name, unit, values: read.values, clock: Rc::clone(clock), speed_hz: None, doubts })
         };
-        columns.wanted.into_iter().zip(values).map(channel).collect()
+        columns.wanted.into_iter().map(channel).collect()
     }
 
     /// Whether a number shows that the sign of the numbers is a decimal one.
@@ -188,83 +191,44 @@ impl Table<'_> {
         ))
     }
 
-    fn header(
-        &self,
-        record: &StringRecord,
-        layout: &Layout,
-        request: &SignalRequest,
-    ) -> Result<Columns, MeasuredError> {
-        let count = record.len();
-        let (names, time): (Vec<(usize, String, String)>, _) = if let Some(numbers) = &layout.nameless {
-            // without names the first column is the time, unless a rate is given
-            let time =
-                numbers.first().filter(|_| request.rate_hz.is_none() && numbers.len() > 1).map(|&place| (place, 1.0));
-            let first = usize::from(time.is_some());
-            let name = |&place: &usize| (place, format!("column {}", place + 1), String::new());
-            (numbers[first..].iter().map(name).collect(), time)
-        } else {
-            let place = record.iter().position(|cell| time_unit(cell).is_some());
-            let time = place.and_then(|place| Some((place, time_unit(record.get(place)?)?)));
-            let named = |(own, cell): (usize, &str)| {
-                let (name, unit) = name_and_unit(cell);
-                let remarks = layout.remarks.contains(&own) && matches!(cell.to_lowercase().as_str(), "" | "comment");
-                (Some(own) != place && !remarks).then_some((own, name, unit))
-            };
-            (record.iter().enumerate().filter_map(named).collect(), time)
-        };
-        if time.is_none() && request.rate_hz.is_none() {
-            return Err(MeasuredError::NoTime { path: self.path.to_owned() });
-        }
-        let least = names.iter().map(|name| name.0).chain(time.map(|time| time.0)).max().map_or(count, |last| last + 1);
-        let only: Vec<String> = names.iter().map(|(_, name, _)| name.clone()).collect();
-        let wanted = choose(self.path, &only, request)?;
-        Ok(Columns { count, least, time, wanted: wanted.into_iter().map(|place| names[place].clone()).collect() })
-    }
-
-    /// Takes units from a row below the names.
-    fn units(&self, record: &StringRecord, columns: &mut Columns) -> Result<(), MeasuredError> {
-        let text = |place: usize| {
-            let cell = record.get(place).unwrap_or_default();
-            cell.trim_matches(['(', ')', '[', ']']).to_owned()
-        };
-        if let Some((place, unit)) = &mut columns.time {
-            let found = text(*place);
-            *unit = time_unit(&format!("time ({found})")).ok_or_else(|| {
-                self.content(line_of(self.text, record), "s, ms, us or ns as unit of the time", &found)
-            })?;
-        }
-        for (place, _, unit) in &mut columns.wanted {
-            if unit.is_empty() {
-                *unit = text(*place);
-            }
-        }
-        Ok(())
-    }
-
     fn row(
         &self,
         record: &StringRecord,
-        columns: &Columns,
-        layout: &Layout,
-        times: &mut Read,
-        values: &mut [Read],
+        columns: &mut Columns,
+        separator: u8,
+        request: &SignalRequest,
     ) -> Result<(), MeasuredError> {
         let beyond = record.iter().skip(columns.count);
         if record.len() < columns.least || beyond.filter(|cell| !cell.is_empty()).count() > 0 {
-            return Err(self.other_columns(record, columns.count, layout.separator));
+            return Err(self.other_columns(record, columns.count, separator));
         }
         if !self.is_shown() {
             let mut shown = self.shown.get();
             record.iter().filter_map(decimal_sign).for_each(|sign| shown[usize::from(sign == ',')] = true);
             self.shown.set(shown);
         }
-        if let Some((place, unit)) = columns.time {
-            let time = self.number(record, place, "the time", times)?;
-            times.values.push(time * unit);
+        let cell = |place: usize| record.get(place).unwrap_or_default();
+        for (own, timing) in columns.timings.iter_mut().enumerate() {
+            let mut wanted = columns.wanted.iter_mut().filter(|wanted| wanted.timing == own);
+            let When::Column(place, unit) = timing.when else { continue };
+            let empty = cell(place).is_empty() && wanted.all(|wanted| cell(wanted.place).is_empty());
+            if timing.ended && !empty {
+                return Err(self.content(
+                    line_of(self.text, record),
+                    "no numbers below the end of a channel",
+                    cell(place),
+                ));
+            }
+            timing.ended |= columns.blocks && empty;
+            // a rate takes the place of times that are no numbers
+            if !timing.ended && (request.rate_hz.is_none() || real(cell(place)).is_some()) {
+                let time = self.number(record, place, "the time", &mut timing.read)?;
+                timing.read.values.push(time * unit.unwrap_or(1.0));
+            }
         }
-        for ((place, name, _), read) in columns.wanted.iter().zip(values) {
-            let value = self.number(record, *place, name, read)?;
-            read.values.push(value);
+        for wanted in columns.wanted.iter_mut().filter(|wanted| !columns.timings[wanted.timing].ended) {
+            let value = self.number(record, wanted.place, &wanted.name, &mut wanted.read)?;
+            wanted.read.values.push(value);
         }
         Ok(())
     }

@@ -23,10 +23,14 @@ mod error;
 mod mat;
 mod names;
 mod npz;
+#[cfg(test)]
+mod npz_tests;
 mod read;
 #[cfg(test)]
 mod tests;
 mod wav;
+#[cfg(test)]
+mod wav_tests;
 
 pub use channel::{MeasuredSignal, SignalRequest};
 pub use error::MeasuredError;

@@ -49,25 +49,57 @@ pub(super) fn name_and_unit(text: &str) -> (String, String) {
     known.next().map_or_else(|| pair(text, ""), |(name, unit)| pair(name, unit))
 }
 
+/// A text without the brackets about it.
+pub(super) fn bracketless(text: &str) -> &str {
+    text.trim().trim_matches(['(', ')', '[', ']']).trim()
+}
+
+/// Whether a text is a unit, with or without brackets.
+pub(super) fn is_unit(text: &str) -> bool {
+    UNITS.contains(&bracketless(text))
+}
+
 /// Seconds in the unit of a column or array that is a time; `None` if it is none. Besides what says so: the abscissa of LabVIEW and of
-/// oscilloscopes, and the times of catman, `Zeit  1 - Standardmessrate [s]`.
+/// oscilloscopes, the times of catman, `Zeit  1 - Standardmessrate [s]`, and a unit alone, `[s]` or `in s`.
 pub(super) fn time_unit(text: &str) -> Option<f64> {
+    time_of(text).map(|(seconds, _)| seconds)
+}
+
+/// Whether a time has its unit beside its name.
+pub(super) fn is_stated(text: &str) -> bool {
+    time_of(text).is_some_and(|(_, stated)| stated)
+}
+
+fn time_of(text: &str) -> Option<(f64, bool)> {
+    let alone = bracketless(text);
+    let siglent = text.eq_ignore_ascii_case("second").then_some(text);
+    let alone =
+        siglent.or(text.trim().strip_prefix("in ")).or_else(|| (alone.len() < text.trim().len()).then_some(alone));
+    if let Some(seconds) = alone.and_then(seconds) {
+        return Some((seconds, true));
+    }
     let (name, unit) = name_and_unit(text);
     let name = name.to_lowercase();
+    // LabVIEW's are seconds
     let (stem, suffix) = match name.rsplit_once('_') {
-        Some((stem, suffix)) if name != "x_value" => (stem, suffix),
-        _ => (name.as_str(), ""),
+        Some(("x", "value")) => (name.as_str(), "s"),
+        Some((stem, suffix)) => (stem, suffix),
+        None => (name.as_str(), ""),
     };
     // a number and the rate behind it
     let stem =
         stem.split_once(" - ").map_or(stem, |(time, _)| time.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end());
     let unit = if unit.is_empty() { suffix } else { &unit };
-    if !matches!(stem, "t" | "time" | "zeit" | "temps" | "x_value" | "x-axis") {
-        return None;
-    }
-    match unit.to_lowercase().as_str() {
-        "" | "s" | "sec" | "second" | "seconds" => Some(1.0),
-        "ms" => Some(1e-3),
+    let known = matches!(stem, "t" | "time" | "zeit" | "temps" | "x_value" | "x-axis");
+    known.then_some(())?;
+    if unit.is_empty() { Some((1.0, false)) } else { seconds(unit).map(|seconds| (seconds, true)) }
+}
+
+/// Seconds in a unit of time.
+pub(super) fn seconds(unit: &str) -> Option<f64> {
+    match unit.trim().to_lowercase().as_str() {
+        "s" | "sec" | "second" | "seconds" => Some(1.0),
+        "ms" | "msec" => Some(1e-3),
         "us" | "\u{b5}s" | "\u{3bc}s" => Some(1e-6),
         "ns" => Some(1e-9),
         _ => None,

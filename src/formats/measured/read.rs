@@ -16,12 +16,11 @@ pub fn read_signals(path: &Path, request: &SignalRequest) -> Result<Vec<Measured
     let channels = match ending.to_ascii_lowercase().as_str() {
         "npz" => npz::read(path, request),
         "mat" => mat::read(path, request),
-        "csv" | "txt" => csv::read(path, request),
+        "csv" | "txt" | "tsv" | "asc" | "lvm" => csv::read(path, request),
         "wav" => wav::read(path, request),
         "uff" | "unv" => universal(path, request),
         _ => {
-            const EXPECTED: &str =
-                "a file .npz, .mat, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`";
+            const EXPECTED: &str = "a file .npz, .mat, .csv, .txt, .tsv, .asc, .lvm, .wav, .uff or .unv, or a folder with results of `plummer run`";
             Err(MeasuredError::refused(format!("{}: expected {EXPECTED}", path.display())))
         }
     }?;
