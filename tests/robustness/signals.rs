@@ -167,7 +167,7 @@ fn tables_that_are_no_signals_are_refused() {
         ("gap.csv", "expected equal time steps"),
         ("back.csv", "expected equal time steps"),
         ("still.csv", "expected equal time steps"),
-        ("twice.csv", "expected one channel of this name, found 2"),
+        ("twice.csv", "found \"x (column 2)\", \"x (column 3)\""),
         ("commas.csv", "expected 2 columns"),
         ("nan.csv", "nan.csv:2002: expected a finite number"),
     ] {

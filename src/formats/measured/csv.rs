@@ -22,7 +22,7 @@ use super::super::csv::{first_line, line_of, table_of};
 use super::channel::{Channel, Clock};
 use super::{MeasuredError, SignalRequest};
 use crate::files::{Fault, bytes_of};
-use columns::{Columns, Timing, Wanted, When};
+use columns::{Columns, Timing, Wanted};
 use layout::{Layout, is_blank, real};
 
 /// A column as it is read: its numbers, whether one shows that their sign is a decimal one, the first that may have a sign between
@@ -80,7 +80,7 @@ fn text_of(bytes: &[u8]) -> Cow<'_, str> {
 const SLOW_HZ: f64 = 1e3;
 
 /// What to do about decimal commas that may be separators.
-const WRITE: &str = "write decimal points, semicolons between the columns, or quotes about each number (\"0,12\"): decimal commas are read then";
+const WRITE: &str = "write decimal points, semicolons between the columns, or quotes about each number (\"0,12\"): decimal commas are read then; name every column";
 
 impl Table<'_> {
     fn channels(&self, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
@@ -94,27 +94,20 @@ impl Table<'_> {
                 WRITE,
             ));
         }
-        if layout.rows.is_empty() {
+        if layout.rows.len() <= layout.start {
             return Err(self.content(1, "a header and rows of numbers", "none"));
         }
         let mut columns = self.columns(&layout, request)?;
         let mut table = table_of(self.text, layout.separator);
         let mut record = StringRecord::new();
-        let (mut titles, mut first_row) = (layout.start, 0);
-        loop {
-            let more = table.read_record(&mut record);
-            let damaged = |error: ::csv::Error| {
-                let line = error.position().map_or(0, Position::line);
-                self.content(line, "a line of the table", &error.to_string())
-            };
-            if !more.map_err(damaged)? {
-                break;
-            }
-            if is_blank(&record) {
-                continue;
-            }
-            if titles > 0 {
-                titles -= 1;
+        let (mut rows, mut first_row) = (0, 0);
+        let damaged = |error: ::csv::Error| {
+            let line = error.position().map_or(0, Position::line);
+            self.content(line, "a line of the table", &error.to_string())
+        };
+        while table.read_record(&mut record).map_err(damaged)? {
+            rows += usize::from(!is_blank(&record));
+            if rows <= layout.start || is_blank(&record) {
                 continue;
             }
             if first_row == 0 {
@@ -122,22 +115,15 @@ impl Table<'_> {
             }
             self.row(&record, &mut columns, layout.separator, request)?;
         }
-        if first_row == 0 {
-            return Err(self.content(1, "a header and rows of numbers", "none"));
-        }
         let mut clocks = Vec::new();
-        for Timing { when, read, .. } in columns.timings {
+        for Timing { time, clock, read, .. } in columns.timings {
             let mut doubts: Vec<String> = self.thousands(&read, "the time")?.into_iter().collect();
-            let clock = match when {
-                When::Column(..) if read.values.is_empty() => Clock::Unknown,
-                When::Column(..) => Clock::Times { times: read.values, first_row },
-                When::Even(start_s, step_s) => Clock::Even { start_s, step_s },
-                When::Unknown => Clock::Unknown,
+            let clock = match read.values.is_empty() {
+                true => clock,
+                false => Clock::Times { times: read.values, first_row },
             };
-            let slow = clock
-                .rate_hz()
-                .filter(|hz| matches!(when, When::Column(_, None)) && *hz < SLOW_HZ && request.rate_hz.is_none());
-            doubts.extend(slow.map(|hz| {
+            let unstated = request.rate_hz.is_none() && time.is_some_and(|(_, unit)| unit.is_none());
+            doubts.extend(clock.rate_hz().filter(|hz| unstated && *hz < SLOW_HZ).map(|hz| {
                 let hz = (1e3 * hz).round() / 1e3;
                 format!(
                     "the time: nothing states its unit: it is read in s, which makes {hz} Hz; --rate HZ takes its place"
@@ -167,28 +153,23 @@ impl Table<'_> {
             return Ok(None);
         };
         let sign = if text.contains(',') { "comma" } else { "point" };
-        let number = text.replace(',', ".");
-        let (other, whole) = match (&read.whole, self.is_shown()) {
-            (None, true) => return Ok(None),
-            (None, false) => {
-                return Ok(Some(format!(
-                    "{what}: \"{text}\" in line {line} is read as {number}: nothing in the file shows whether its {sign} is a decimal sign or stands between thousands"
-                )));
-            }
-            (Some((other, whole)), true) => {
-                return Ok(Some(format!(
-                    "{what}: \"{text}\" in line {line} is read as {number}, beside \"{whole}\" in line {other}: only another column shows that the {sign} does not stand between thousands"
-                )));
-            }
-            (Some(found), false) => found,
-        };
-        Err(MeasuredError::refused_with(
-            format!(
-                "{}:{line}: expected numbers for {what} that show whether the {sign} is a decimal sign or stands between thousands, found \"{text}\", and \"{whole}\" in line {other}",
-                self.path.display()
-            ),
-            "write them without a sign between thousands, or all with the same number of decimals",
-        ))
+        let told = format!("{what}: \"{text}\" in line {line} is read as {}", text.replace(',', "."));
+        match (&read.whole, self.is_shown()) {
+            (None, true) => Ok(None),
+            (None, false) => Ok(Some(format!(
+                "{told}: nothing in the file shows whether its {sign} is a decimal sign or stands between thousands"
+            ))),
+            (Some((other, whole)), true) => Ok(Some(format!(
+                "{told}, beside \"{whole}\" in line {other}: only another column shows that the {sign} does not stand between thousands"
+            ))),
+            (Some((other, whole)), false) => Err(MeasuredError::refused_with(
+                format!(
+                    "{}:{line}: expected numbers for {what} that show whether the {sign} is a decimal sign or stands between thousands, found \"{text}\", and \"{whole}\" in line {other}",
+                    self.path.display()
+                ),
+                "write them without a sign between thousands, or all with the same number of decimals",
+            )),
+        }
     }
 
     fn row(
@@ -210,7 +191,7 @@ impl Table<'_> {
         let cell = |place: usize| record.get(place).unwrap_or_default();
         for (own, timing) in columns.timings.iter_mut().enumerate() {
             let mut wanted = columns.wanted.iter_mut().filter(|wanted| wanted.timing == own);
-            let When::Column(place, unit) = timing.when else { continue };
+            let Some((place, unit)) = timing.time else { continue };
             let empty = cell(place).is_empty() && wanted.all(|wanted| cell(wanted.place).is_empty());
             if timing.ended && !empty {
                 return Err(self.content(
@@ -265,23 +246,12 @@ impl Table<'_> {
     /// A line of more or fewer columns than the first; twice as many may be decimal commas.
     fn other_columns(&self, record: &StringRecord, count: usize, separator: u8) -> MeasuredError {
         let (line, found) = (line_of(self.text, record), record.len());
-        let expected = match count {
-            1 => "1 column, as in the first line".to_owned(),
-            _ => format!("{count} columns, as in the first line"),
-        };
+        let expected = format!("{count} column{}, as in the first line", if count == 1 { "" } else { "s" });
         if separator == b',' && found == 2 * count && record.iter().all(|cell| real(cell).is_some()) {
             let path = self.path.display();
-            let (question, help) = match count {
-                1 => (
-                    "is the comma a decimal sign?",
-                    "write decimal points, or quotes about each number (\"0,12\"); where the comma separates two columns, name both",
-                ),
-                _ => ("are commas both separators and decimal signs?", WRITE),
-            };
-            return MeasuredError::refused_with(
-                format!("{path}:{line}: expected {expected}, found \"{found}\": {question}"),
-                help,
-            );
+            let question = "are commas both separators and decimal signs?";
+            let message = format!("{path}:{line}: expected {expected}, found \"{found}\": {question}");
+            return MeasuredError::refused_with(message, WRITE);
         }
         self.content(line, &expected, &found.to_string())
     }

@@ -1,36 +1,7 @@
 //! What names say in a file: units, times, how often samples were taken and how fast the shaft turned.
 
 /// Units that stand without brackets behind a name.
-const UNITS: [&str; 28] = [
-    "s",
-    "ms",
-    "us",
-    "\u{b5}s",
-    "\u{3bc}s",
-    "ns",
-    "g",
-    "mg",
-    "m/s^2",
-    "m/s2",
-    "m/s\u{b2}",
-    "mm/s^2",
-    "mm/s2",
-    "mm/s\u{b2}",
-    "m/s",
-    "mm/s",
-    "m",
-    "mm",
-    "um",
-    "\u{b5}m",
-    "\u{3bc}m",
-    "V",
-    "mV",
-    "N",
-    "kN",
-    "Pa",
-    "Hz",
-    "rpm",
-];
+const UNITS: &str = "s ms us \u{b5}s \u{3bc}s ns g mg m/s^2 m/s2 m/s\u{b2} mm/s^2 mm/s2 mm/s\u{b2} m/s mm/s m mm um \u{b5}m \u{3bc}m V mV N kN Pa Hz rpm";
 
 /// Name and unit of `P1 (m/s^2)`, `P1 [m/s^2]`, `P1 / (m/s^2)`, `P1 / g` or `P1 in g`; the unit is empty without one.
 pub(super) fn name_and_unit(text: &str) -> (String, String) {
@@ -45,7 +16,7 @@ pub(super) fn name_and_unit(text: &str) -> (String, String) {
         }
     }
     let parts = [" / ", " in "].into_iter().filter_map(|between| text.rsplit_once(between));
-    let mut known = parts.filter(|(_, unit)| UNITS.contains(&unit.trim()));
+    let mut known = parts.filter(|(_, unit)| is_unit(unit));
     known.next().map_or_else(|| pair(text, ""), |(name, unit)| pair(name, unit))
 }
 
@@ -56,7 +27,8 @@ pub(super) fn bracketless(text: &str) -> &str {
 
 /// Whether a text is a unit, with or without brackets.
 pub(super) fn is_unit(text: &str) -> bool {
-    UNITS.contains(&bracketless(text))
+    let unit = bracketless(text);
+    UNITS.split(' ').any(|known| known == unit)
 }
 
 /// Seconds in the unit of a column or array that is a time; `None` if it is none. Besides what says so: the abscissa of LabVIEW and of
@@ -121,17 +93,9 @@ pub(super) fn is_rate(name: &str) -> bool {
     if name == "ratehz" {
         return true;
     }
-    matches!(
-        name.strip_suffix("hz").unwrap_or(&name),
-        "fs" | "sr"
-            | "fsamp"
-            | "samplerate"
-            | "samplingrate"
-            | "samplefrequency"
-            | "samplingfrequency"
-            | "samplefreq"
-            | "samplingfreq"
-    )
+    const RATES: &str = "fs sr fsamp samplerate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq";
+    let name = name.strip_suffix("hz").unwrap_or(&name);
+    RATES.split(' ').any(|known| known == name)
 }
 
 /// Whether a number is called a rate and nothing more: beside a sampling rate it is the shaft's, in Hz.

@@ -35,6 +35,8 @@ pub(super) struct Source {
     pub(super) assumptions: Vec<String>,
     /// What was typed against the file's own words, and what is wrong with the signals.
     pub(super) doubts: Vec<String>,
+    /// Named channels that are not there, with the error.
+    pub(super) absent: Vec<(String, CliError)>,
     pub(super) machine: Machine,
 }
 
@@ -104,7 +106,7 @@ impl Source {
             extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
-        Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, machine })
+        Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, absent: read.absent, machine })
     }
 
     /// The case whose run it is, if it is one.
@@ -295,6 +297,8 @@ pub(super) struct Read {
     pub(super) first: Option<MeasuredError>,
     /// Arrays that were left out as they are no signals, in words.
     pub(super) left_out: Vec<String>,
+    /// Named channels that are not there, with the error; others are.
+    absent: Vec<(String, CliError)>,
 }
 
 /// Reads signals; what is missing is gathered, with a stand-in in its place, so that all of it can be said at once.
@@ -335,6 +339,14 @@ pub(super) fn read(path: &Path, mut request: SignalRequest, unnamed: Unnamed) ->
                 request.channels.retain(|channel| *channel != name);
                 let words = format!("{}: array \"{name}\" is left out: it is no signal ({found}).", path.display());
                 read.left_out.push(words);
+            }
+            // of several files each may have some of the named channels
+            Err(MeasuredError::NoChannel { path, wanted, known })
+                if unnamed == Unnamed::Every && request.channels.len() > 1 =>
+            {
+                request.channels.retain(|channel| *channel != wanted);
+                let error = ComputeError::from(MeasuredError::NoChannel { path, wanted: wanted.clone(), known });
+                read.absent.push((wanted, error.into()));
             }
             // the stand-in's fault
             Err(_) if !read.missing.is_empty() => break,

@@ -16,7 +16,7 @@ use crate::app::commands::analyze::{
     input_section, survey_report, survey_section, unexplained,
 };
 use crate::app::commands::parts::with_entries;
-use crate::report::{Cell, Fact, Section, significant};
+use crate::report::{Cell, Column, Fact, Section, Table, significant};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion};
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -126,13 +126,14 @@ impl Analysed {
     ) -> Self {
         let mut analysed = Self::default();
         let name = input.display().to_string();
-        let source = match Source::open(asked, input, Unnamed::Every, options) {
+        let mut source = match Source::open(asked, input, Unnamed::Every, options) {
             Ok(source) => source,
             Err(error) => {
                 analysed.fail(&name, "", error);
                 return analysed;
             }
         };
+        source.absent.drain(..).for_each(|(channel, error)| analysed.fail(&name, &channel, error));
         analysed.said = Some(Said {
             details: source.details().cloned(),
             machine: source.machine_facts(),
@@ -237,7 +238,7 @@ impl Failure {
         let message = error.to_string();
         let named = message.starts_with(input) || message.contains(&format!(" {input}:"));
         match channel.as_str() {
-            "" if named => message,
+            _ if named && message.contains(channel.as_str()) => message,
             "" => format!("{input}: {message}"),
             channel => format!("{input}, channel \"{channel}\": {message}"),
         }
@@ -259,35 +260,15 @@ pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> Cli
     CliError { is_input, what, help: Some(helps.join("\n")).filter(|help| !help.is_empty()) }
 }
 
-const HEAD: [&str; 8] =
-    ["file", "channel", "window s", "speed Hz", "RMS", "kurtosis", "indicated", "not enough evidence"];
-/// Columns of numbers, which end at the same place.
-const NUMBERS: std::ops::Range<usize> = 3..6;
-const GAP: &str = "  ";
-
 /// The rows, aligned, under a head.
 pub(super) fn table(rows: &[AnalysisRow]) -> String {
-    let head = HEAD.map(str::to_owned);
-    let cells: Vec<[String; 8]> = std::iter::once(head).chain(rows.iter().map(cells)).collect();
-    let mut widths = [0; 8];
-    // what a row without a window says is as long as it is
-    let whole = cells.iter().zip(std::iter::once(true).chain(rows.iter().map(|row| row.found.is_ok())));
-    for (row, whole) in whole {
-        let measured = if whole { HEAD.len() } else { 2 };
-        for (width, cell) in widths.iter_mut().zip(row).take(measured) {
-            *width = (*width).max(cell.chars().count());
-        }
-    }
-    let line = |row: &[String; 8]| {
-        let cells = row.iter().zip(widths).enumerate().map(|(place, (cell, width))| match NUMBERS.contains(&place) {
-            true => format!("{cell:>width$}"),
-            false => format!("{cell:<width$}"),
-        });
-        cells.collect::<Vec<_>>().join(GAP).trim_end().to_owned()
-    };
-    let mut lines: Vec<String> = cells.iter().map(line).collect();
-    lines.extend(rows.iter().filter_map(grown));
-    lines.join("\n")
+    let words = |title: &str| Column::text(title);
+    let columns = ["file", "channel", "window s"].map(words).into_iter();
+    let columns = columns.chain(["speed Hz", "RMS", "kurtosis"].map(|title| Column::number(title, "")));
+    let columns = columns.chain(["indicated", "not enough evidence"].map(words));
+    let text = Table::new("", columns).rows(rows.iter().map(|row| cells(row).map(Cell::text))).plain();
+    let lines = text.lines().skip(1).map(|line| line.trim_start().to_owned());
+    lines.chain(rows.iter().filter_map(grown)).collect::<Vec<_>>().join("\n")
 }
 
 /// What grew since the baseline, in a line.
@@ -307,8 +288,7 @@ fn cells(row: &AnalysisRow) -> [String; 8] {
         Ok(window) => window,
         Err(why) => {
             let none = String::new;
-            let said = format!("not analysed: {}", one_line(why));
-            return [input, channel, said, none(), none(), none(), none(), none()];
+            return [input, channel, none(), none(), none(), none(), row.indicated(), one_line(why)];
         }
     };
     let not_enough = if window.is_judged() { unclear(window, &row.remark()) } else { one_line(&row.remark()) };
@@ -481,7 +461,7 @@ file        channel  window s  speed Hz    RMS  kurtosis  indicated         not 
 a.csv       P1       0-10         29.95  0.123      3.00  outer race 22 dB  ball, of no part: 88.20 Hz (order 2.945) with 4 harmonics
 longer.csv  P1       0-10         29.95  0.123      3.00  no verdict        too short for a verdict on any part
 c.csv       P1       0-10         29.95  0.123      3.00  no verdict        two lines
-d .csv               not analysed: no such file";
+d .csv                                                not analysed      no such file";
         assert_eq!(table(&rows), expected);
     }
 }

@@ -39,7 +39,7 @@ impl Layout {
         let several = |places| [b'\t', b';', b','].into_iter().find_map(|sign| Self::under(text, sign, 2, places));
         let found = several(numbers).or_else(|| several(samples)).or_else(|| Self::under(text, plain, 1, numbers));
         found.unwrap_or_else(|| {
-            let rows: Vec<StringRecord> = rows(text, plain).take(1).collect();
+            let rows: Vec<StringRecord> = rows(text, plain).take(2).collect();
             let has_names = rows.first().is_some_and(|row| row.iter().any(|cell| real(cell).is_none()));
             let own = rows.first().map_or_else(Vec::new, |row| (0..row.len()).collect());
             let names = has_names.then_some(0);

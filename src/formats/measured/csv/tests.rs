@@ -219,9 +219,9 @@ fn one_column_of_decimal_commas_is_told_how_to_be_written() {
     let error = table("P1\n0,12\n-0,13\n", &request(&[], Some(4.0))).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "m.csv:2: expected 1 column, as in the first line, found \"2\": is the comma a decimal sign?"
+        "m.csv:2: expected 1 column, as in the first line, found \"2\": are commas both separators and decimal signs?"
     );
-    assert!(error.help().unwrap().starts_with("write decimal points, or quotes about each number"));
+    assert!(error.help().unwrap().starts_with("write decimal points, semicolons"));
     for rate in [None, Some(4.0)] {
         let error = table("0,12\n-0,13\n1,5\n", &request(&["column 2"], rate)).unwrap_err();
         assert_eq!(
