@@ -515,6 +515,14 @@ fn many_files_are_one_table() {
     let named = analyze(&["a.csv", "b.csv"], &["--force", "--channel", "P1"]);
     assert_eq!(named.status.code(), Some(0), "{}", errors(&named));
     assert_eq!(rows(&out).len(), 2);
+    // each file gives those of several that it has, and a row for each that it has not
+    let parts = analyze(&["a.csv", "b.csv", "a.xyz"], &["--force", "--channel", "P1", "--channel", "P2"]);
+    assert_eq!(parts.status.code(), Some(2));
+    assert!(errors(&parts).contains("\n  a.csv: expected a channel \"P2\", found \"P1\"\n"), "{}", errors(&parts));
+    let found: Vec<String> = rows(&out).iter().map(|row| format!("{} {} {}", row[0], row[1], row[8])).collect();
+    let expected =
+        ["a.csv P2 not analysed", "a.csv P1 outer race", "b.csv P1 outer race", "b.csv P2 none", "a.xyz  not analysed"];
+    assert_eq!(found, expected);
     // more than a report shows
     let many = analyze(&["a.csv"; 13], &["--force", "--window", "0:0.5"]);
     assert_eq!(many.status.code(), Some(0), "{}", errors(&many));

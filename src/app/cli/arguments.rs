@@ -103,11 +103,11 @@ many files in one table
   plummer analyze rise.wav --orders BPFO=3.585,BPFI=5.415,BSF=2.357,FTF=0.398 --speed 0:600rpm,8:3000rpm --band 6000:12000
   plummer analyze records/*.csv --bearing 6205 --speed 1797rpm --out out/records
 
-Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv or .txt (a column time; units in
-the header: P1 (m/s^2); decimal points or commas), .wav, .uff or .unv (data sets 58 and 58b over time). Equal time steps.
+Signals: .npz (an array time_s, time or t, or a rate fs), .mat (MATLAB 5 to 7; the same), .csv, .txt, .tsv, .asc or .lvm (a column
+time; units in the header: P1 (m/s^2); decimal points or commas), .wav, .uff or .unv (data sets 58 and 58b over time).
 
-Several files: the table has a row for each file, channel and window. Every channel counts unless --channel names some. A file
-that cannot be analysed has a row that says why, the others are analysed, and the exit code is 2.
+Several files: the table has a row for each file, channel and window. Every channel counts unless --channel names some. What
+cannot be analysed has a row that says why, the others are analysed, and the exit code is 2.
 
 Verdicts: fault indicated, not enough evidence, not seen. Each has its evidence and the probability that noise alone looks like it;
 docs/diagnosis.md explains them. A window needs at least 16 events of a part: 7 shaft turns for most bearings.

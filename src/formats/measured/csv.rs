@@ -179,8 +179,7 @@ impl Table<'_> {
         separator: u8,
         request: &SignalRequest,
     ) -> Result<(), MeasuredError> {
-        let beyond = record.iter().skip(columns.count);
-        if record.len() < columns.least || beyond.filter(|cell| !cell.is_empty()).count() > 0 {
+        if record.iter().skip(columns.count).any(|cell| !cell.is_empty()) {
             return Err(self.other_columns(record, columns.count, separator));
         }
         if !self.is_shown() {

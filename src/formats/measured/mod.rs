@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `.npz` | array `time_s`, `time` or `t`, or a rate `rate_hz`, `fs` or `sampling_rate` (Hz) | arrays as long as the time; without one, every array of one dimension |
 //! | `.mat` (MATLAB 5 to 7) | the same beside the signal, in its struct or in the file; more names of rates | vectors; columns of tables `x(:,1)`; fields of structs `bearing.gs` |
-//! | `.csv`, `.txt` | a column `time`, `time_s`, `t`, `Zeit`, with a unit `(ms)`, `[us]`, `/ ns` or `in s`; without a header the first column | the others; names and units from the header, `P1 (m/s^2)`; lines above it are left out |
+//! | `.csv`, `.txt`, `.tsv`, `.asc`, `.lvm` | a column `time`, `time_s`, `t`, `Zeit`, with a unit `(ms)`, `[us]`, `/ ns` or `in s`; of several the nearest to the left; without a header the first column; LabVIEW's `Delta_X` | the others; names and units from the header, `P1 (m/s^2)`; lines above it are left out |
 //! | `.wav` | the file's rate | one a channel, full scale 1 (`channel 1`, `channel 2`) |
 //! | `.uff`, `.unv` | of the data set | data sets 58 and 58b of function type 1 over time |
 //!

@@ -14,7 +14,11 @@ const RATES: [&str; 4] = ["rate_hz", "fs", "sampling_rate", "sample_rate"];
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     let mut archive = NpzReader::open(path)?;
     let names = archive.names();
-    let time = names.iter().find(|name| time_unit(name).is_some());
+    let mut times = names.iter().filter(|name| time_unit(name).is_some());
+    let time = times.next();
+    if let (Some(first), Some(second), None) = (time, times.next(), request.rate_hz) {
+        return Err(MeasuredError::array(path, second, "one array of times", format!("\"{first}\" beside it")));
+    }
     let rate = names.iter().find(|name| RATES.contains(&name.as_str()));
     let mut stated = None;
     if let Some(name) = rate {

@@ -43,6 +43,19 @@ fn archives_are_read_with_a_time_or_a_rate() {
 }
 
 #[test]
+fn two_times_are_refused_without_a_rate() {
+    let (_kept, path) = archive("two.npz", |npz| {
+        for (name, step) in [("t", 1e-3), ("time", 1e-4), ("x", 1.0)] {
+            put(npz, name, &[4], &[0.0, 1.0, 2.0, 3.0].map(|k| step * k));
+        }
+    });
+    let error = read_signals(&path, &request(&["x"], None)).unwrap_err().to_string();
+    assert!(error.ends_with("array \"time\": expected one array of times, found \"t\" beside it"), "{error}");
+    let typed = only(read_signals(&path, &request(&["x"], Some(2e3))).unwrap());
+    assert_eq!(typed.series.values(), [0.0, 1.0, 2.0, 3.0]);
+}
+
+#[test]
 fn a_time_and_a_rate_that_contradict_each_other_are_refused() {
     let (_kept, path) = archive("both.npz", |npz| {
         let times: Vec<f64> = (0..64).map(|k| f64::from(k) / 1000.0).collect();

@@ -124,7 +124,7 @@ fn files_of_other_kinds_and_none_are_refused() {
     let error = read_signals(Path::new("signal.xls"), &any).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "signal.xls: expected a file .npz, .mat, .csv, .txt, .wav, .uff or .unv, or a folder with results of `plummer run`"
+        "signal.xls: expected a file .npz, .mat, .csv, .txt, .tsv, .asc, .lvm, .wav, .uff or .unv, or a folder with results of `plummer run`"
     );
     for name in ["no.npz", "no.mat", "no.csv", "no.wav", "no.uff"] {
         let error = read_signals(Path::new(name), &any).unwrap_err().to_string();

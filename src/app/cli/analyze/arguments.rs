@@ -12,7 +12,7 @@ use crate::numerics::series::TimeWindow;
 /// A signal, a bearing, a speed, and what is to be looked at.
 #[derive(Debug, Clone, Args)]
 pub struct AnalyzeArguments {
-    /// Folders with results of `plummer run`, or files of signals: .npz, .mat, .csv, .txt, .wav, .uff, .unv
+    /// Folders with results of `plummer run`, or files of signals: .npz, .mat, .csv, .txt, .tsv, .asc, .lvm, .wav, .uff, .unv
     #[arg(value_name = "DIR|FILE", required = true)]
     pub inputs: Vec<PathBuf>,
     /// Signal to analyse, by name; can be repeated (default: the only one, a folder's sensors, or all channels of several files)

@@ -102,11 +102,15 @@ pub(super) fn survey(
     all.warnings.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&all.warnings, options);
     report.warnings.extend(all.warnings);
+    let windows = all.rows.iter().filter_map(|AnalysisRow { input, found, .. }| {
+        let window = found.as_ref().ok()?;
+        Some(WindowOfInput { input, window })
+    });
     let (result, written) = write_results(folder, &progress, started, report, &all.rows, |head| SurveyResult {
         head,
         inputs: of_inputs,
         failures: all.failures.iter().map(Failure::summary).collect(),
-        windows: all.rows.iter().filter_map(window_of_input).collect(),
+        windows: windows.collect(),
     })?;
     let verdict = match failed {
         0 => verdict(&all.rows),
@@ -188,11 +192,6 @@ fn verdict(rows: &[AnalysisRow]) -> Result<(), CliError> {
     }
 }
 
-fn window_of_input(row: &AnalysisRow) -> Option<WindowOfInput<'_>> {
-    let window = row.found.as_ref().ok()?;
-    Some(WindowOfInput { input: &row.input, window })
-}
-
 /// Does `work` on each item, as many at a time as there are threads to compute with, and returns what it gives in the order of the
 /// items.
 ///
@@ -262,10 +261,9 @@ pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> Cli
 
 /// The rows, aligned, under a head.
 pub(super) fn table(rows: &[AnalysisRow]) -> String {
-    let words = |title: &str| Column::text(title);
-    let columns = ["file", "channel", "window s"].map(words).into_iter();
-    let columns = columns.chain(["speed Hz", "RMS", "kurtosis"].map(|title| Column::number(title, "")));
-    let columns = columns.chain(["indicated", "not enough evidence"].map(words));
+    let texts = ["file", "channel", "window s", "indicated", "not enough evidence"].map(Column::text);
+    let mut columns = texts.to_vec();
+    columns.splice(3..3, ["speed Hz", "RMS", "kurtosis"].map(|title| Column::number(title, "")));
     let text = Table::new("", columns).rows(rows.iter().map(|row| cells(row).map(Cell::text))).plain();
     let lines = text.lines().skip(1).map(|line| line.trim_start().to_owned());
     lines.chain(rows.iter().filter_map(grown)).collect::<Vec<_>>().join("\n")

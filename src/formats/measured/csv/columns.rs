@@ -14,8 +14,6 @@ use super::{Read, Table};
 pub(super) struct Columns {
     /// How many columns there are.
     pub(super) count: usize,
-    /// How many of them a line has at least.
-    pub(super) least: usize,
     /// Whether there are several columns of times, whose channels may end before others.
     pub(super) blocks: bool,
     pub(super) timings: Vec<Timing>,
@@ -92,7 +90,6 @@ impl Table<'_> {
                 channels.push(Wanted::new(place, name_and_unit(cell)));
             }
         }
-        let least = times.iter().map(|time| time.0).chain(channels.iter().map(|channel| channel.place)).max();
         self.units(layout, &mut times, &mut channels, no_rate)?;
         times.retain(|(place, _)| own.contains(place));
         let all: Vec<String> = channels.iter().map(|channel| channel.name.clone()).collect();
@@ -121,14 +118,8 @@ impl Table<'_> {
             });
             wanted.push(channel);
         }
-        let (count, blocks) = (rows[layout.names.unwrap_or(*start)].len(), times.len() > 1);
-        Ok(Columns {
-            count,
-            least: least.map_or(count, |last| last + 1) * usize::from(!blocks),
-            blocks,
-            timings,
-            wanted,
-        })
+        let count = rows[layout.names.unwrap_or(*start)].len();
+        Ok(Columns { count, blocks: times.len() > 1, timings, wanted })
     }
 
     /// Takes units from the lines about the names, those with units of times first, and the only one below; then from settings.
