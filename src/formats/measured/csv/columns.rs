@@ -5,7 +5,7 @@
 
 use super::super::super::csv::line_of;
 use super::super::channel::{Clock, choose};
-use super::super::names::{bracketless, is_stated, is_unit, name_and_unit, seconds, time_unit};
+use super::super::names::{bracketless, is_stated, is_unit, name_and_unit, same, seconds, time_unit};
 use super::super::{MeasuredError, SignalRequest};
 use super::layout::{Layout, real};
 use super::{Read, Table};
@@ -144,7 +144,7 @@ impl Table<'_> {
                 let found = text(line, *place);
                 match (*unit, seconds(found)) {
                     (None, None) if !found.is_empty() => refused(line, UNITS_OF_TIME, found)?,
-                    (Some(before), Some(own)) if before != own => {
+                    (Some(before), Some(own)) if !same(before, own) => {
                         refused(line, "the unit of the time that the names state", found)?;
                     }
                     (before, own) => *unit = before.or(own),

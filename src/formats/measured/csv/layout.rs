@@ -96,7 +96,7 @@ impl Layout {
         let has = |place: usize, what: fn(&str) -> bool| above[place].iter().any(what);
         let is_name = |cell: &str| time_unit(cell).is_some() && seconds(bracketless(cell)).is_none();
         let with_time = near.clone().find(|&place| has(place, is_name));
-        let units = |place: usize| cells(place).all(|cell| is_unit(cell));
+        let units = |place: usize| cells(place).all(is_unit);
         let is_named = cells(0).zip(cells(last)).all(|(name, below)| !name.is_empty() || seconds(below).is_some());
         let two = last == 1 && named(&0) && words(1) && is_named && !units(0);
         with_time.or(two.then_some(0)).or_else(|| {
