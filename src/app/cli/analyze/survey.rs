@@ -459,7 +459,7 @@ file        channel  window s  speed Hz    RMS  kurtosis  indicated         not 
 a.csv       P1       0-10         29.95  0.123      3.00  outer race 22 dB  ball, of no part: 88.20 Hz (order 2.945) with 4 harmonics
 longer.csv  P1       0-10         29.95  0.123      3.00  no verdict        too short for a verdict on any part
 c.csv       P1       0-10         29.95  0.123      3.00  no verdict        two lines
-d .csv                                                not analysed      no such file";
+d .csv                                                    not analysed      no such file";
         assert_eq!(table(&rows), expected);
     }
 }
