@@ -21,29 +21,9 @@ use ::csv::{Position, StringRecord};
 use super::super::csv::{first_line, line_of, table_of};
 use super::channel::{Channel, Clock};
 use super::{MeasuredError, SignalRequest};
-use crate::files::{Fault, bytes_of};
+use crate::files::bytes_of;
 use columns::{Columns, Timing, Wanted};
-use layout::{Layout, is_blank, real};
-
-/// A column as it is read: its numbers, whether one shows that their sign is a decimal one, the first that may have a sign between
-/// thousands, and the first without any sign.
-#[derive(Clone, Default)]
-struct Read {
-    values: Vec<f64>,
-    shown: bool,
-    grouped: Option<(u64, String)>,
-    whole: Option<(u64, String)>,
-}
-
-/// Text of a table with its path, for messages.
-struct Table<'a> {
-    path: &'a Path,
-    text: &'a str,
-    /// The decimal sign of the first number that has one, and its line.
-    sign: Cell<Option<(char, u64)>>,
-    /// Whether a number shows that the point, and the comma, is a decimal sign.
-    shown: Cell<[bool; 2]>,
-}
+use layout::{Layout, Read, Table, is_blank, real};
 
 pub(super) fn read(path: &Path, request: &SignalRequest) -> Result<Vec<Channel>, MeasuredError> {
     from_bytes(&bytes_of(path)?, path, request)
@@ -253,12 +233,6 @@ impl Table<'_> {
             return MeasuredError::refused_with(message, WRITE);
         }
         self.content(line, &expected, &found.to_string())
-    }
-
-    fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
-        let short: String = found.chars().take(40).collect();
-        let fault = Fault::new(expected.to_owned(), format!("\"{short}\""));
-        fault.line(line).of(self.path).into()
     }
 }
 

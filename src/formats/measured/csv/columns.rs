@@ -7,8 +7,7 @@ use super::super::super::csv::line_of;
 use super::super::channel::{Clock, choose};
 use super::super::names::{bracketless, is_stated, is_unit, name_and_unit, same, seconds, time_unit};
 use super::super::{MeasuredError, SignalRequest};
-use super::layout::{Layout, real};
-use super::{Read, Table};
+use super::layout::{Layout, Read, Table, real};
 
 /// What is read of each line.
 pub(super) struct Columns {

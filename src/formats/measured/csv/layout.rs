@@ -4,13 +4,47 @@
 //! samples. The table begins where two lines in a row have numbers in the same columns. Beside these numbers may stand words, as
 //! LabVIEW's remarks, but not in the first column, where settings have their names.
 
+use std::cell::Cell;
+use std::path::Path;
+
 use ::csv::StringRecord;
 
 use super::super::super::csv::{first_line, line_of, table_of};
+use super::super::MeasuredError;
 use super::super::names::{bracketless, is_unit, seconds, time_unit};
+use crate::files::Fault;
 
 /// Most lines that the beginning of the numbers is looked for in.
 const MOST_TITLES: usize = 300;
+
+/// A column as it is read: its numbers, whether one shows that their sign is a decimal one, the first that may have a sign between
+/// thousands, and the first without any sign.
+#[derive(Clone, Default)]
+pub(super) struct Read {
+    pub(super) values: Vec<f64>,
+    pub(super) shown: bool,
+    pub(super) grouped: Option<(u64, String)>,
+    pub(super) whole: Option<(u64, String)>,
+}
+
+/// Text of a table with its path, for messages.
+pub(super) struct Table<'a> {
+    pub(super) path: &'a Path,
+    pub(super) text: &'a str,
+    /// The decimal sign of the first number that has one, and its line.
+    pub(super) sign: Cell<Option<(char, u64)>>,
+    /// Whether a number shows that the point, and the comma, is a decimal sign.
+    pub(super) shown: Cell<[bool; 2]>,
+}
+
+impl Table<'_> {
+    /// A fault in a line, with a part of what was found.
+    pub(super) fn content(&self, line: u64, expected: &str, found: &str) -> MeasuredError {
+        let short: String = found.chars().take(40).collect();
+        let fault = Fault::new(expected.to_owned(), format!("\"{short}\""));
+        fault.line(line).of(self.path).into()
+    }
+}
 
 /// Where a table is in a file.
 #[derive(Debug, Default)]
