@@ -310,7 +310,10 @@ fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), Broken
         return Ok(());
     };
     kept(from >= start && to <= end, key, || {
-        let [from, to, start, end] = [from, to, start, end].map(short);
+        // as much of the window as is simulated, else the second half of the simulation
+        let within = if from < end { from.max(start) } else { 0.5 * (start + end) };
+        let [from, to, start, end, within] = [from, to, start, end, within].map(short);
         Rule::found(format!("{from} to {to} s"), &format!("a window within the simulation ({start} to {end} s)"))
+            .with_help(format!("simulate it all, `transient.end` = {to}; or look at less, `{key}.from` = {within} and `{key}.to` = {end}"))
     })
 }
