@@ -283,7 +283,7 @@ fn names_are_found_with_suffixes_and_once() {
     for name in [" 6205 ", "6205-2RS", "6205 2Z", "6205/C3"] {
         assert_eq!(CatalogueBearing::named(name), Some(named("6205")), "{name}");
     }
-    for name in ["", "620", "62055", "SKF 6205", "6205.toml", "./6205"] {
+    for name in ["", "620", "62055", "6205.toml", "./6205"] {
         assert_eq!(CatalogueBearing::named(name), None, "{name}");
     }
     for source in Source::ALL {
