@@ -73,17 +73,19 @@ fn a_bearing_of_another_size_than_the_bore_is_refused() {
     fs::write(folder.join("a.msh"), tube.msh()).unwrap();
     assert_eq!(plummer(&folder, &["init", "a.msh", "--length-unit", "mm"]).status.code(), Some(0));
     let frf = "frf={from=[{ring_deg=270,direction=[0,1,0]}]}";
+    let nearest = "help: nearest of the catalogue: 6005 (47 mm), 6204 (47 mm), 6303 (47 mm); is ";
     for command in ["modes", "condense", "frf", "run", "chart"] {
-        let output = plummer(&folder, &[command, "a.toml", "--set", "bearing=6304", "--set", frf]);
-        assert_eq!(output.status.code(), Some(2), "{command}: {}", errors(&output));
-        assert!(
-            errors(&output).contains(
-                "error: --set bearing=6304: `bearing.name`: found the outer diameter of 6304, 52 mm, expected that of the bore \"bore\", 47 mm, within 1 %\n\
-                 help: nearest of the catalogue: 6005 (47 mm), 6204 (47 mm), 6303 (47 mm); is housing.length_unit right?"
-            ),
-            "{command}: {}",
-            errors(&output)
-        );
+        for (set, place, found, of, unit) in [
+            ("bearing=6304", "--set bearing=6304", "6304, 52", "`ring.outer_radius`", "it right?"),
+            ("bearing=6203", "--set bearing=6203", "6203, 40", "the bore \"bore\"", "housing.length_unit right?"),
+        ] {
+            let output = plummer(&folder, &[command, "a.toml", "--set", set, "--set", frf]);
+            assert_eq!(output.status.code(), Some(2), "{command}: {}", errors(&output));
+            let told = format!(
+                "error: {place}: `bearing.name`: found the outer diameter of {found} mm, expected that of {of}, 47 mm, within 1 %\n{nearest}{unit}"
+            );
+            assert!(errors(&output).contains(&told), "{command}: {}", errors(&output));
+        }
     }
     // the ring is that of the bearing, and one of the same size is taken with its own
     let area = |set: &[&str]| {

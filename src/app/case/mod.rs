@@ -69,7 +69,7 @@ pub use load::VariantCase;
 pub use material::{IsotropicMaterial, Material, OrthotropicMaterial};
 pub use modes::{ComparedModes, ConvergenceMeshes, Expected, Linearise, Modes, Variant};
 pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
-pub(in crate::app) use named_bearing::bearing_help;
+pub(in crate::app) use named_bearing::{FIT, bearing_help, other_size};
 pub use purpose::{Purpose, RunCase};
 pub use report::ReportDetails;
 pub use ring::{Bond, Ring, RingSupport, Section, Tie};

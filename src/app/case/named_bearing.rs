@@ -3,6 +3,7 @@
 
 use serde_json::{Value as Json, json};
 
+use super::check::{Rule, short};
 use super::decode::Fault;
 use super::error::names_help;
 use super::schema::one_of;
@@ -120,6 +121,35 @@ pub(super) fn lengths(bearing: &CatalogueBearing, ball_radius: f64) -> [f64; 5] 
     let pitch_radius = 0.5 * bearing.pitch_diameter;
     let [inner, outer] = GROOVES.map(|ratio| 2.0 * ratio * ball_radius);
     [ball_radius, pitch_radius - ball_radius, pitch_radius + ball_radius, inner, outer]
+}
+
+/// How far the outer diameter of a bearing may be from that of its bore, relative: the tie takes nodes that are so far off, a fit as tight
+/// as R7 of ISO 286 takes 0.1 %, and the next diameter of the catalogue differs by 3 %.
+pub(in crate::app) const FIT: f64 = 0.01;
+
+/// Whether a bearing is of another size than a bore (nearest and farthest node from the axis, m), which messages call `bore`; `unit`
+/// says the mesh's unit.
+pub(in crate::app) fn other_size(
+    bearing: &CatalogueBearing,
+    bore: &str,
+    [near, far]: [f64; 2],
+    unit: &str,
+) -> Option<Rule> {
+    let own = bearing.outer_diameter;
+    if (1.0 - FIT) * 2.0 * near <= own && own <= (1.0 + FIT) * 2.0 * far {
+        return None;
+    }
+    let bore_diameter = if near > 0.0 { near + far } else { 2.0 * far };
+    // what a mesh rounds is no digit of a diameter
+    let millimetres = |length: f64| short((1e7 * length).round() * 1e-4);
+    let nearest = CatalogueBearing::nearest(bore_diameter);
+    let nearest = nearest.iter().map(|(other, _)| format!("{} ({} mm)", other.name, millimetres(other.outer_diameter)));
+    let found = format!("the outer diameter of {}, {} mm", bearing.name, millimetres(own));
+    let expected = format!("that of {bore}, {} mm, within 1 %", millimetres(bore_diameter));
+    Some(Rule::found(found, &expected).with_help(format!(
+        "nearest of the catalogue: {}; is {unit} right? plummer init --list-bearings lists the catalogue",
+        nearest.collect::<Vec<_>>().join(", ")
+    )))
 }
 
 #[cfg(test)]

@@ -4,9 +4,8 @@
 //! What cannot be is refused where the case is read, or with the bore (`super::ring`).
 
 use super::ring::{Seat, layer, metres};
-use crate::app::case::{self, Case, Rule, short};
+use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
-use crate::bearing::catalogue::CatalogueBearing;
 
 /// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
 /// the faces of grooved sections.
@@ -99,28 +98,4 @@ pub(super) fn filled(bore: &str, seat: &Seat, face: f64, height: f64) -> Option<
             metres(gap)
         )
     })
-}
-
-/// How far the outer diameter of a bearing may be from that of its bore, relative: the tie takes nodes that are so far off, a fit as tight
-/// as R7 of ISO 286 takes 0.1 %, and the next diameter of the catalogue differs by 3 %.
-pub(crate) const FIT: f64 = 0.01;
-
-/// Whether a bearing is of another size than a bore (nearest and farthest node from the axis, m), which messages call `bore`; `unit`
-/// says the mesh's unit.
-pub(crate) fn other_size(bearing: &CatalogueBearing, bore: &str, [near, far]: [f64; 2], unit: &str) -> Option<Rule> {
-    let own = bearing.outer_diameter;
-    if (1.0 - FIT) * 2.0 * near <= own && own <= (1.0 + FIT) * 2.0 * far {
-        return None;
-    }
-    let bore_diameter = if near > 0.0 { near + far } else { 2.0 * far };
-    // what a mesh rounds is no digit of a diameter
-    let millimetres = |length: f64| short((1e7 * length).round() * 1e-4);
-    let nearest = CatalogueBearing::nearest(bore_diameter);
-    let nearest = nearest.iter().map(|(other, _)| format!("{} ({} mm)", other.name, millimetres(other.outer_diameter)));
-    let found = format!("the outer diameter of {}, {} mm", bearing.name, millimetres(own));
-    let expected = format!("that of {bore}, {} mm, within 1 %", millimetres(bore_diameter));
-    Some(Rule::found(found, &expected).with_help(format!(
-        "nearest of the catalogue: {}; is {unit} right? plummer init --list-bearings lists the catalogue",
-        nearest.collect::<Vec<_>>().join(", ")
-    )))
 }

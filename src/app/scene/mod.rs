@@ -30,7 +30,6 @@ pub use bearing::bearing_setup;
 pub(crate) use bearing::{bearing_geometry, race_contacts};
 pub use condensed::CondensedHousing;
 pub(crate) use doubts::{doubts, doubts_of_case};
-pub(crate) use fit::{FIT, other_size};
 pub use housing::AssembledHousing;
 pub(crate) use housing::mesh_digests;
 pub use imported::ImportedHousing;

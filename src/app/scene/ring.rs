@@ -1,8 +1,7 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
-use super::fit;
 use super::housing::{AssembledHousing, material};
-use crate::app::case::{self, Case, short};
+use crate::app::case::{self, Case, other_size, short};
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
 use crate::fe::assembly::SystemMatrices;
@@ -96,7 +95,7 @@ pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, radii: 
     if let Some(bearing) = name.and_then(CatalogueBearing::named) {
         // rings between bearing and bore are sections of their own
         let nearest = if ring.sections.len() > 1 { 0.0 } else { radii[0] };
-        if let Some(rule) = fit::other_size(bearing, bore, [nearest, radii[1]], "housing.length_unit") {
+        if let Some(rule) = other_size(bearing, bore, [nearest, radii[1]], "housing.length_unit") {
             return Err(case.broken(&rule.at("bearing.name")).into());
         }
     }

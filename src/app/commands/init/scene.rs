@@ -1,7 +1,7 @@
 //! What no mesh says: numbers of bearing, ring, shaft and run from the catalogue, usual ones and guesses; the unit of length;
 //! where the bearing's angle 0 and its "up" point.
 
-use crate::app::scene::FIT;
+use crate::app::case::FIT;
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection, UsualNumbers};
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
