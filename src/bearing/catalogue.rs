@@ -141,13 +141,18 @@ impl CatalogueBearing {
 
     /// The bearing of this designation; makers before it and suffixes behind it (`SKF 6205-2RS1/C3`, `6205zz`) count for nothing.
     pub fn named(name: &str) -> Option<&'static Self> {
-        Designation::of(name).bearing().map(|(bearing, _)| bearing)
+        let (number, _) = Designation::of(name).known(Self::has)?;
+        Self::all().iter().find(|bearing| bearing.name == number)
+    }
+
+    fn has(number: &str) -> bool {
+        Self::all().iter().any(|bearing| bearing.name == number)
     }
 
     /// What of a designation that [`named`](Self::named) knows counts for nothing, in quotes; `None`: all of it counts.
     pub(crate) fn left_out(name: &str) -> Option<String> {
         let designation = Designation::of(name);
-        let (_, suffix) = designation.bearing()?;
+        let (_, suffix) = designation.known(Self::has)?;
         let parts = [designation.maker, suffix.trim_start_matches(SEPARATORS)];
         let parts = parts.into_iter().filter(|part| !part.is_empty()).map(|part| format!("\"{part}\""));
         Some(parts.collect::<Vec<_>>().join(" and ")).filter(|parts| !parts.is_empty())

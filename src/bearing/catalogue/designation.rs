@@ -1,7 +1,5 @@
 //! What a designation says beside the size of a bearing: its maker, its suffixes, and whether it is of another type.
 
-use super::CatalogueBearing;
-
 /// Names that are printed before a designation.
 const MAKERS: [&str; 17] = [
     "SKF", "FAG", "INA", "NSK", "NTN", "SNR", "GMN", "TIMKEN", "FAFNIR", "KOYO", "JTEKT", "NACHI", "NMB", "ZKL", "ZWZ",
@@ -57,17 +55,17 @@ impl<'n> Designation<'n> {
         &self.number[..self.number.len() - self.number.trim_start_matches(|c: char| c.is_ascii_digit()).len()]
     }
 
-    /// The bearing of the catalogue and the suffixes, whose first digit may follow on the number: `62052RS`.
-    pub(super) fn bearing(&self) -> Option<(&'static CatalogueBearing, &'n str)> {
-        let (digits, suffix) = self.number.split_at(self.digits().len());
+    /// A number that is known and the suffixes, whose first digit may follow on the number: `62052RS`.
+    pub(super) fn known(&self, is_known: impl Fn(&str) -> bool) -> Option<(&'n str, &'n str)> {
+        let digits = self.digits();
+        let suffix = &self.number[digits.len()..];
         // a name with a dot is that of a file
         if !self.letters.is_empty() || suffix.contains('.') {
             return None;
         }
         let shorter = digits.strip_suffix('2').filter(|_| suffix.starts_with(['R', 'r', 'Z', 'z']));
-        let mut known = CatalogueBearing::all().iter();
-        let bearing = known.find(|bearing| bearing.name == digits || shorter == Some(bearing.name))?;
-        Some((bearing, &self.number[bearing.name.len()..]))
+        let number = [Some(digits), shorter].into_iter().flatten().find(|number| is_known(number))?;
+        Some(self.number.split_at(number.len()))
     }
 
     pub(super) fn other_type(&self) -> Option<&'static str> {
