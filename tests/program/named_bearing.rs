@@ -2,6 +2,7 @@
 
 use super::common::{errors, plummer, scratch};
 use super::tube::Tube;
+use plummer::app::case::Case;
 use serde_json::Value;
 use std::fs;
 use std::process::Output;
@@ -89,13 +90,11 @@ fn a_bearing_of_another_size_than_the_bore_is_refused() {
     }
     // the ring is that of the bearing, and one of the same size is taken with its own
     let area = |set: &[&str]| {
-        let words = [&["modes", "a.toml", "--json", "--force", "--set", "ring.nodes=24"], set].concat();
-        let output = plummer(&folder, &words);
-        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
-        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-        found["case"]["ring"]["sections"][0]["area"].as_f64().unwrap()
+        let set: Vec<String> = set.iter().map(|&key| key.to_owned()).collect();
+        let case = Case::load(folder.join("a.toml"), &set).unwrap();
+        case.ring.unwrap().sections[0].area
     };
-    let [own, other] = [area(&[]), area(&["--set", "bearing=6303"])];
+    let [own, other] = [area(&[]), area(&["bearing=6303"])];
     assert!((other / own - 1.0).abs() > 0.05, "{own} {other}");
     let inspected = plummer(&folder, &["inspect", "a.toml"]);
     assert_eq!(inspected.status.code(), Some(0), "{}", errors(&inspected));

@@ -55,7 +55,8 @@ impl CondensedHousing {
             return Ok(None);
         };
         let asked = case.frf.as_ref().and_then(|frf| frf.band_hz).map_or(0.0, |[_, high]| high);
-        let highest = highest_hz(&housing.matrices);
+        // two digits of what is an estimate
+        let highest = format!("{:.1e}", highest_hz(&housing.matrices)).parse().unwrap_or(f64::INFINITY);
         if asked > highest && choice.band_hz >= asked {
             let limit = "at most what the mesh tells, half the frequency of a node while all others are held";
             let rule = Rule::beyond(asked, limit, highest).with_help("end the band below it, or make the mesh finer");
