@@ -7,126 +7,130 @@
 //! **Limitations**: no raceway radii and no groove radii: makers do not publish them. They follow from ball and pitch diameter, a
 //! [clearance](normal_clearance) and [typical grooves](GROOVES).
 //!
-//! The numbers, as printed: millimetres, kilograms; balls in inches where they are no GMN's. GMN's 609 is left out: the mass printed for it is more
-//! than that of full steel.
-//!
-//! A bearing of a catalogue, and where its numbers are published.
-//!
-//! Cross-section of an outer ring: a rectangle less the groove.
+//! The numbers are as printed: millimetres, kilograms; balls in inches where they are no GMN's. GMN's 609 is left out: the mass printed for
+//! it is more than that of full steel.
 
+mod designation;
+
+use Source::{Gmn, Nsk, Timken};
+use designation::{Designation, SEPARATORS};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 const INCH: f64 = 25.4;
 
-/// GMN: designation, d, D, B, d_m, D_W, Z, D1, m.
-macro_rules! gmn {
-    ($name:literal, $bore:literal, $outer:literal, $width:literal, $pitch:literal, $ball:literal, $balls:literal, $shoulder:literal, $mass:literal) => {
-        CatalogueBearing {
-            name: $name,
-            bore: 1e-3 * $bore,
-            outer_diameter: 1e-3 * $outer,
-            width: 1e-3 * $width,
-            balls: $balls,
-            ball_diameter: 1e-3 * $ball,
-            pitch_diameter: 1e-3 * $pitch,
-            pitch_published: true,
-            shoulder_diameter: Some(1e-3 * $shoulder),
-            mass: $mass,
-            source: Source::Gmn,
-        }
-    };
+/// Of GMN: designation, d, D, B, d_m and D_W in mm, Z, then D1 in mm and the mass in kg.
+const fn gmn(
+    name: &'static str,
+    [bore, outer, width, pitch, ball]: [f64; 5],
+    balls: u32,
+    [shoulder, mass]: [f64; 2],
+) -> CatalogueBearing {
+    CatalogueBearing {
+        name,
+        bore: 1e-3 * bore,
+        outer_diameter: 1e-3 * outer,
+        width: 1e-3 * width,
+        balls,
+        ball_diameter: 1e-3 * ball,
+        pitch_diameter: 1e-3 * pitch,
+        pitch_published: true,
+        shoulder_diameter: Some(1e-3 * shoulder),
+        mass,
+        source: Gmn,
+    }
 }
 
-/// Without a published pitch diameter: designation, bore, outer diameter, width, balls, ball diameter in inches, mass, source.
-macro_rules! inches {
-    ($source:ident, $name:literal, $bore:literal, $outer:literal, $width:literal, $balls:literal, $numerator:literal / $denominator:literal, $mass:literal) => {
-        CatalogueBearing {
-            name: $name,
-            bore: 1e-3 * $bore,
-            outer_diameter: 1e-3 * $outer,
-            width: 1e-3 * $width,
-            balls: $balls,
-            ball_diameter: 1e-3 * INCH * $numerator / $denominator,
-            pitch_diameter: 1e-3 * 0.5 * ($bore + $outer),
-            pitch_published: false,
-            shoulder_diameter: None,
-            mass: $mass,
-            source: Source::$source,
-        }
-    };
+/// Without a published pitch diameter: source, designation, d, D and B in mm, number of balls, their diameter as a fraction of an inch,
+/// mass in kg.
+const fn inches(
+    source: Source,
+    name: &'static str,
+    [bore, outer, width]: [f64; 3],
+    balls: u32,
+    [numerator, denominator]: [f64; 2],
+    mass: f64,
+) -> CatalogueBearing {
+    CatalogueBearing {
+        ball_diameter: 1e-3 * INCH * numerator / denominator,
+        pitch_diameter: 1e-3 * 0.5 * (bore + outer),
+        pitch_published: false,
+        shoulder_diameter: None,
+        source,
+        ..gmn(name, [bore, outer, width, 0.0, 0.0], balls, [0.0, mass])
+    }
 }
 
 const BEARINGS: [CatalogueBearing; 69] = [
-    gmn!("625", 5.0, 16.0, 5.0, 10.0, 3.175, 6, 12.50, 0.005),
-    gmn!("626", 6.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
-    gmn!("607", 7.0, 19.0, 6.0, 13.3, 3.175, 8, 15.80, 0.008),
-    gmn!("627", 7.0, 22.0, 7.0, 14.7, 3.969, 7, 17.60, 0.012),
-    gmn!("608", 8.0, 22.0, 7.0, 14.7, 3.969, 7, 17.60, 0.012),
-    gmn!("629", 9.0, 26.0, 8.0, 18.0, 4.762, 7, 21.40, 0.020),
-    gmn!("6000", 10.0, 26.0, 8.0, 18.0, 4.762, 7, 21.40, 0.019),
-    gmn!("6001", 12.0, 28.0, 8.0, 20.0, 4.762, 8, 23.40, 0.022),
-    gmn!("6002", 15.0, 32.0, 9.0, 23.5, 4.762, 9, 26.90, 0.030),
-    gmn!("6003", 17.0, 35.0, 10.0, 26.0, 4.762, 10, 29.40, 0.039),
-    gmn!("6004", 20.0, 42.0, 12.0, 31.0, 6.350, 9, 35.45, 0.069),
-    gmn!("6005", 25.0, 47.0, 12.0, 36.0, 6.350, 10, 40.05, 0.080),
-    gmn!("6006", 30.0, 55.0, 13.0, 42.5, 7.144, 11, 46.95, 0.128),
-    inches!(Timken, "6007", 35.0, 62.0, 14.0, 11, 5.0 / 16.0, 0.144),
-    inches!(Timken, "6008", 40.0, 68.0, 15.0, 12, 5.0 / 16.0, 0.180),
-    inches!(Timken, "6009", 45.0, 75.0, 16.0, 13, 11.0 / 32.0, 0.230),
-    inches!(Timken, "6010", 50.0, 80.0, 16.0, 14, 11.0 / 32.0, 0.248),
-    inches!(Timken, "6011", 55.0, 90.0, 18.0, 13, 13.0 / 32.0, 0.362),
-    inches!(Timken, "6012", 60.0, 95.0, 18.0, 14, 13.0 / 32.0, 0.430),
-    inches!(Timken, "6013", 65.0, 100.0, 18.0, 15, 13.0 / 32.0, 0.450),
-    inches!(Timken, "6014", 70.0, 110.0, 20.0, 14, 15.0 / 32.0, 0.620),
-    inches!(Timken, "6015", 75.0, 115.0, 20.0, 15, 15.0 / 32.0, 0.606),
-    inches!(Timken, "6016", 80.0, 125.0, 22.0, 14, 17.0 / 32.0, 0.804),
-    inches!(Timken, "6017", 85.0, 130.0, 22.0, 15, 17.0 / 32.0, 0.845),
-    inches!(Timken, "6018", 90.0, 140.0, 24.0, 14, 19.0 / 32.0, 1.092),
-    inches!(Nsk, "6019", 95.0, 145.0, 24.0, 15, 19.0 / 32.0, 1.180),
-    inches!(Timken, "6020", 100.0, 150.0, 24.0, 15, 19.0 / 32.0, 1.208),
-    gmn!("6200", 10.0, 30.0, 9.0, 20.0, 5.556, 7, 24.45, 0.032),
-    gmn!("6201", 12.0, 32.0, 10.0, 22.0, 5.953, 7, 26.00, 0.037),
-    gmn!("6202", 15.0, 35.0, 11.0, 25.3, 5.953, 8, 29.00, 0.045),
-    gmn!("6203", 17.0, 40.0, 12.0, 28.5, 6.747, 8, 32.95, 0.065),
-    gmn!("6204", 20.0, 47.0, 14.0, 33.5, 7.938, 8, 38.55, 0.106),
-    gmn!("6205", 25.0, 52.0, 15.0, 39.1, 7.938, 9, 44.05, 0.128),
-    gmn!("6206", 30.0, 62.0, 16.0, 46.0, 9.525, 9, 52.05, 0.199),
-    gmn!("6207", 35.0, 72.0, 17.0, 53.5, 11.112, 9, 60.50, 0.315),
-    gmn!("6208", 40.0, 80.0, 18.0, 60.0, 11.906, 9, 67.60, 0.402),
-    inches!(Timken, "6209", 45.0, 85.0, 19.0, 9, 1.0 / 2.0, 0.377),
-    inches!(Timken, "6210", 50.0, 90.0, 20.0, 10, 1.0 / 2.0, 0.425),
-    inches!(Timken, "6211", 55.0, 100.0, 21.0, 10, 9.0 / 16.0, 0.564),
-    inches!(Timken, "6212", 60.0, 110.0, 22.0, 10, 5.0 / 8.0, 0.727),
-    inches!(Timken, "6213", 65.0, 120.0, 23.0, 10, 21.0 / 32.0, 0.928),
-    inches!(Timken, "6214", 70.0, 125.0, 24.0, 10, 11.0 / 16.0, 0.994),
-    inches!(Timken, "6215", 75.0, 130.0, 25.0, 10, 11.0 / 16.0, 1.074),
-    inches!(Timken, "6216", 80.0, 140.0, 26.0, 10, 3.0 / 4.0, 1.317),
-    inches!(Nsk, "6217", 85.0, 150.0, 28.0, 10, 13.0 / 16.0, 1.800),
-    inches!(Nsk, "6218", 90.0, 160.0, 30.0, 10, 7.0 / 8.0, 2.150),
-    inches!(Nsk, "6219", 95.0, 170.0, 32.0, 10, 15.0 / 16.0, 2.600),
-    inches!(Nsk, "6220", 100.0, 180.0, 34.0, 10, 1.0 / 1.0, 3.200),
-    inches!(Nsk, "6300", 10.0, 35.0, 11.0, 6, 9.0 / 32.0, 0.050),
-    inches!(Nsk, "6301", 12.0, 37.0, 12.0, 6, 5.0 / 16.0, 0.060),
-    inches!(Nsk, "6302", 15.0, 42.0, 13.0, 7, 5.0 / 16.0, 0.080),
-    inches!(Nsk, "6303", 17.0, 47.0, 14.0, 7, 11.0 / 32.0, 0.120),
-    inches!(Nsk, "6304", 20.0, 52.0, 15.0, 7, 3.0 / 8.0, 0.140),
-    inches!(Timken, "6305", 25.0, 62.0, 17.0, 7, 15.0 / 32.0, 0.222),
-    inches!(Timken, "6306", 30.0, 72.0, 19.0, 7, 17.0 / 32.0, 0.327),
-    inches!(Timken, "6307", 35.0, 80.0, 21.0, 7, 9.0 / 16.0, 0.431),
-    inches!(Timken, "6308", 40.0, 90.0, 23.0, 8, 5.0 / 8.0, 0.594),
-    inches!(Timken, "6309", 45.0, 100.0, 25.0, 8, 11.0 / 16.0, 0.807),
-    inches!(Timken, "6310", 50.0, 110.0, 27.0, 8, 3.0 / 4.0, 1.052),
-    inches!(Timken, "6311", 55.0, 120.0, 29.0, 8, 13.0 / 16.0, 1.329),
-    inches!(Timken, "6312", 60.0, 130.0, 31.0, 8, 7.0 / 8.0, 1.665),
-    inches!(Timken, "6313", 65.0, 140.0, 33.0, 8, 15.0 / 16.0, 2.046),
-    inches!(Timken, "6314", 70.0, 150.0, 35.0, 8, 1.0 / 1.0, 2.486),
-    inches!(Nsk, "6315", 75.0, 160.0, 37.0, 8, 17.0 / 16.0, 3.000),
-    inches!(Nsk, "6316", 80.0, 170.0, 39.0, 8, 9.0 / 8.0, 3.600),
-    inches!(Nsk, "6317", 85.0, 180.0, 41.0, 8, 19.0 / 16.0, 4.250),
-    inches!(Nsk, "6318", 90.0, 190.0, 43.0, 8, 5.0 / 4.0, 4.900),
-    inches!(Nsk, "6319", 95.0, 200.0, 45.0, 8, 21.0 / 16.0, 5.750),
-    inches!(Nsk, "6320", 100.0, 215.0, 47.0, 8, 23.0 / 16.0, 6.980),
+    gmn("625", [5.0, 16.0, 5.0, 10.0, 3.175], 6, [12.50, 0.005]),
+    gmn("626", [6.0, 19.0, 6.0, 13.3, 3.175], 8, [15.80, 0.008]),
+    gmn("607", [7.0, 19.0, 6.0, 13.3, 3.175], 8, [15.80, 0.008]),
+    gmn("627", [7.0, 22.0, 7.0, 14.7, 3.969], 7, [17.60, 0.012]),
+    gmn("608", [8.0, 22.0, 7.0, 14.7, 3.969], 7, [17.60, 0.012]),
+    gmn("629", [9.0, 26.0, 8.0, 18.0, 4.762], 7, [21.40, 0.020]),
+    gmn("6000", [10.0, 26.0, 8.0, 18.0, 4.762], 7, [21.40, 0.019]),
+    gmn("6001", [12.0, 28.0, 8.0, 20.0, 4.762], 8, [23.40, 0.022]),
+    gmn("6002", [15.0, 32.0, 9.0, 23.5, 4.762], 9, [26.90, 0.030]),
+    gmn("6003", [17.0, 35.0, 10.0, 26.0, 4.762], 10, [29.40, 0.039]),
+    gmn("6004", [20.0, 42.0, 12.0, 31.0, 6.350], 9, [35.45, 0.069]),
+    gmn("6005", [25.0, 47.0, 12.0, 36.0, 6.350], 10, [40.05, 0.080]),
+    gmn("6006", [30.0, 55.0, 13.0, 42.5, 7.144], 11, [46.95, 0.128]),
+    inches(Timken, "6007", [35.0, 62.0, 14.0], 11, [5.0, 16.0], 0.144),
+    inches(Timken, "6008", [40.0, 68.0, 15.0], 12, [5.0, 16.0], 0.180),
+    inches(Timken, "6009", [45.0, 75.0, 16.0], 13, [11.0, 32.0], 0.230),
+    inches(Timken, "6010", [50.0, 80.0, 16.0], 14, [11.0, 32.0], 0.248),
+    inches(Timken, "6011", [55.0, 90.0, 18.0], 13, [13.0, 32.0], 0.362),
+    inches(Timken, "6012", [60.0, 95.0, 18.0], 14, [13.0, 32.0], 0.430),
+    inches(Timken, "6013", [65.0, 100.0, 18.0], 15, [13.0, 32.0], 0.450),
+    inches(Timken, "6014", [70.0, 110.0, 20.0], 14, [15.0, 32.0], 0.620),
+    inches(Timken, "6015", [75.0, 115.0, 20.0], 15, [15.0, 32.0], 0.606),
+    inches(Timken, "6016", [80.0, 125.0, 22.0], 14, [17.0, 32.0], 0.804),
+    inches(Timken, "6017", [85.0, 130.0, 22.0], 15, [17.0, 32.0], 0.845),
+    inches(Timken, "6018", [90.0, 140.0, 24.0], 14, [19.0, 32.0], 1.092),
+    inches(Nsk, "6019", [95.0, 145.0, 24.0], 15, [19.0, 32.0], 1.180),
+    inches(Timken, "6020", [100.0, 150.0, 24.0], 15, [19.0, 32.0], 1.208),
+    gmn("6200", [10.0, 30.0, 9.0, 20.0, 5.556], 7, [24.45, 0.032]),
+    gmn("6201", [12.0, 32.0, 10.0, 22.0, 5.953], 7, [26.00, 0.037]),
+    gmn("6202", [15.0, 35.0, 11.0, 25.3, 5.953], 8, [29.00, 0.045]),
+    gmn("6203", [17.0, 40.0, 12.0, 28.5, 6.747], 8, [32.95, 0.065]),
+    gmn("6204", [20.0, 47.0, 14.0, 33.5, 7.938], 8, [38.55, 0.106]),
+    gmn("6205", [25.0, 52.0, 15.0, 39.1, 7.938], 9, [44.05, 0.128]),
+    gmn("6206", [30.0, 62.0, 16.0, 46.0, 9.525], 9, [52.05, 0.199]),
+    gmn("6207", [35.0, 72.0, 17.0, 53.5, 11.112], 9, [60.50, 0.315]),
+    gmn("6208", [40.0, 80.0, 18.0, 60.0, 11.906], 9, [67.60, 0.402]),
+    inches(Timken, "6209", [45.0, 85.0, 19.0], 9, [1.0, 2.0], 0.377),
+    inches(Timken, "6210", [50.0, 90.0, 20.0], 10, [1.0, 2.0], 0.425),
+    inches(Timken, "6211", [55.0, 100.0, 21.0], 10, [9.0, 16.0], 0.564),
+    inches(Timken, "6212", [60.0, 110.0, 22.0], 10, [5.0, 8.0], 0.727),
+    inches(Timken, "6213", [65.0, 120.0, 23.0], 10, [21.0, 32.0], 0.928),
+    inches(Timken, "6214", [70.0, 125.0, 24.0], 10, [11.0, 16.0], 0.994),
+    inches(Timken, "6215", [75.0, 130.0, 25.0], 10, [11.0, 16.0], 1.074),
+    inches(Timken, "6216", [80.0, 140.0, 26.0], 10, [3.0, 4.0], 1.317),
+    inches(Nsk, "6217", [85.0, 150.0, 28.0], 10, [13.0, 16.0], 1.800),
+    inches(Nsk, "6218", [90.0, 160.0, 30.0], 10, [7.0, 8.0], 2.150),
+    inches(Nsk, "6219", [95.0, 170.0, 32.0], 10, [15.0, 16.0], 2.600),
+    inches(Nsk, "6220", [100.0, 180.0, 34.0], 10, [1.0, 1.0], 3.200),
+    inches(Nsk, "6300", [10.0, 35.0, 11.0], 6, [9.0, 32.0], 0.050),
+    inches(Nsk, "6301", [12.0, 37.0, 12.0], 6, [5.0, 16.0], 0.060),
+    inches(Nsk, "6302", [15.0, 42.0, 13.0], 7, [5.0, 16.0], 0.080),
+    inches(Nsk, "6303", [17.0, 47.0, 14.0], 7, [11.0, 32.0], 0.120),
+    inches(Nsk, "6304", [20.0, 52.0, 15.0], 7, [3.0, 8.0], 0.140),
+    inches(Timken, "6305", [25.0, 62.0, 17.0], 7, [15.0, 32.0], 0.222),
+    inches(Timken, "6306", [30.0, 72.0, 19.0], 7, [17.0, 32.0], 0.327),
+    inches(Timken, "6307", [35.0, 80.0, 21.0], 7, [9.0, 16.0], 0.431),
+    inches(Timken, "6308", [40.0, 90.0, 23.0], 8, [5.0, 8.0], 0.594),
+    inches(Timken, "6309", [45.0, 100.0, 25.0], 8, [11.0, 16.0], 0.807),
+    inches(Timken, "6310", [50.0, 110.0, 27.0], 8, [3.0, 4.0], 1.052),
+    inches(Timken, "6311", [55.0, 120.0, 29.0], 8, [13.0, 16.0], 1.329),
+    inches(Timken, "6312", [60.0, 130.0, 31.0], 8, [7.0, 8.0], 1.665),
+    inches(Timken, "6313", [65.0, 140.0, 33.0], 8, [15.0, 16.0], 2.046),
+    inches(Timken, "6314", [70.0, 150.0, 35.0], 8, [1.0, 1.0], 2.486),
+    inches(Nsk, "6315", [75.0, 160.0, 37.0], 8, [17.0, 16.0], 3.000),
+    inches(Nsk, "6316", [80.0, 170.0, 39.0], 8, [9.0, 8.0], 3.600),
+    inches(Nsk, "6317", [85.0, 180.0, 41.0], 8, [19.0, 16.0], 4.250),
+    inches(Nsk, "6318", [90.0, 190.0, 43.0], 8, [5.0, 4.0], 4.900),
+    inches(Nsk, "6319", [95.0, 200.0, 45.0], 8, [21.0, 16.0], 5.750),
+    inches(Nsk, "6320", [100.0, 215.0, 47.0], 8, [23.0, 16.0], 6.980),
 ];
 
 impl CatalogueBearing {
@@ -135,10 +139,28 @@ impl CatalogueBearing {
         &BEARINGS
     }
 
-    /// The bearing of this designation; suffixes after a blank, a hyphen or a slash (`6205-2RS`, `6205/C3`) count for nothing.
+    /// The bearing of this designation; makers before it and suffixes behind it (`SKF 6205-2RS1/C3`, `6205zz`) count for nothing.
     pub fn named(name: &str) -> Option<&'static Self> {
-        let wanted = name.trim().split([' ', '-', '/']).next()?;
-        Self::all().iter().find(|bearing| bearing.name == wanted)
+        let (number, _) = Designation::of(name).known(Self::has)?;
+        Self::all().iter().find(|bearing| bearing.name == number)
+    }
+
+    fn has(number: &str) -> bool {
+        Self::all().iter().any(|bearing| bearing.name == number)
+    }
+
+    /// What of a designation that [`named`](Self::named) knows counts for nothing, in quotes; `None`: all of it counts.
+    pub(crate) fn left_out(name: &str) -> Option<String> {
+        let designation = Designation::of(name);
+        let (_, suffix) = designation.known(Self::has)?;
+        let parts = [designation.maker, suffix.trim_start_matches(SEPARATORS)];
+        let parts = parts.into_iter().filter(|part| !part.is_empty()).map(|part| format!("\"{part}\""));
+        Some(parts.collect::<Vec<_>>().join(" and ")).filter(|parts| !parts.is_empty())
+    }
+
+    /// What a designation names by its system, DIN 623-1, where that is no single-row deep groove ball bearing.
+    pub(crate) fn other_type(name: &str) -> Option<&'static str> {
+        Designation::of(name).other_type()
     }
 
     /// The bearings whose outer diameter is nearest to a length in m, with the relative difference; those of equal difference in

@@ -41,11 +41,6 @@ impl SignalError {
         Self(format!("{points} points are needed, at most {most} are offered: take a shorter stretch"))
     }
 
-    /// Too few turns of the shaft.
-    pub(super) fn few_turns(turns: f64, needed: usize) -> Self {
-        Self(format!("{turns} turns are known, at least {needed} needed"))
-    }
-
     /// The Fourier transform refused its buffers.
     pub(super) fn transform(points: usize, source: impl Display) -> Self {
         Self(format!("Fourier transform over {points} points failed: {source}"))

@@ -134,14 +134,6 @@ impl WindowFunction {
         self.terms().len() as f64
     }
 
-    /// Equivalent noise bandwidth n sum w^2 / (sum w)^2 in natural bins, 1 / duration (for n above twice the number of
-    /// terms).
-    pub fn noise_bandwidth_bins(self) -> f64 {
-        let terms = self.terms();
-        let cosines: f64 = terms[1..].iter().map(|a| 0.5 * a * a).sum();
-        1.0 + cosines / (terms[0] * terms[0])
-    }
-
     /// Most that a line shows at a distance of so many natural bins, relative to its own height: 1 within the main lobe,
     /// |sum_j (-1)^j a_j d / (d^2 - j^2)| / (pi a_0) at d beyond it (the transform of the cosines with its sine at 1).
     pub fn leakage(self, bins: f64) -> f64 {
@@ -237,16 +229,6 @@ mod window_function_tests {
             let steps = (1..100).map(|k| lobe * f64::from(k) / 100.0);
             let least = steps.fold(1.0, |w: f64, d| w.min(response(window, 500, d)));
             assert!(least > 1e-6, "{window:?}: {least:e}");
-        }
-    }
-
-    #[test]
-    fn noise_bandwidth_is_that_of_the_samples() {
-        for window in ALL {
-            let w = window.samples(400);
-            let (sum, squares): (f64, f64) = (w.iter().sum(), w.iter().map(|w| w * w).sum());
-            let expected = 400.0 * squares / (sum * sum);
-            assert!((window.noise_bandwidth_bins() / expected - 1.0).abs() < 1e-13);
         }
     }
 

@@ -321,8 +321,7 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     }
     let unknown = analyze(&["--speed", "25", "--bearing", "6299"]);
     assert_eq!(unknown.status.code(), Some(2));
-    let expected =
-        "error: --bearing: found \"6299\", expected a case file or a bearing of the catalogue\nhelp: bearings: 625, ";
+    let expected = "error: --bearing: found \"6299\", expected a case file or a bearing of the catalogue\nhelp: bearings here: 625, ";
     assert!(errors(&unknown).starts_with(expected), "{}", errors(&unknown));
     let still = by(&["--speed", "0"]);
     assert_eq!(still.status.code(), Some(1));

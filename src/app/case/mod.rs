@@ -69,6 +69,7 @@ pub use load::VariantCase;
 pub use material::{IsotropicMaterial, Material, OrthotropicMaterial};
 pub use modes::{ComparedModes, ConvergenceMeshes, Expected, Linearise, Modes, Variant};
 pub use motion::{Damping, Load, LoadPoint, RatioAt, Shaft, Speed};
+pub(in crate::app) use named_bearing::{FIT, bearing_help, other_size};
 pub use purpose::{Purpose, RunCase};
 pub use report::ReportDetails;
 pub use ring::{Bond, Ring, RingSupport, Section, Tie};
@@ -81,7 +82,7 @@ pub use transient::{Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWi
 /// One case: everything that a command computes from, but the mesh.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring"])))]
+#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring"]), "allOf" = named_bearing::named_or_sections()))]
 pub struct Case {
     /// What the case is about; the file's name where the file says nothing.
     #[serde(default)]

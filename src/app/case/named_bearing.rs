@@ -1,13 +1,14 @@
 //! A bearing by its name: `bearing = "6204"`, or `[bearing] name = "6204"` with keys of one's own beside. The catalogue gives the keys that are
-//! absent, before the case is decoded, so that a case has all of them in every later stage and in its echo.
+//! absent, and `ring.sections`, before the case is decoded, so that a case has all of them in every later stage and in its echo.
 
 use serde_json::{Value as Json, json};
 
+use super::check::{Rule, short};
 use super::decode::Fault;
 use super::error::names_help;
 use super::schema::one_of;
-use super::tree::{Node, Step, Value};
-use crate::bearing::catalogue::{CatalogueBearing, GROOVES, UsualNumbers};
+use super::tree::{Mark, Node, Step, Value};
+use crate::bearing::catalogue::{CatalogueBearing, GROOVES, OuterRingSection, UsualNumbers};
 
 /// Keys of `[bearing]` that the catalogue gives, the play aside.
 pub(super) const GIVEN: [&str; 6] =
@@ -20,6 +21,13 @@ pub(super) fn named_or_numbers() -> Json {
     };
     forms.push(numbers);
     forms.into()
+}
+
+/// A ring with sections, or a bearing with a name that gives them; a bearing that is no table is a name.
+pub(super) fn named_or_sections() -> Json {
+    let sections = json!({ "properties": { "ring": { "required": ["sections"] } } });
+    let named = json!({ "required": ["bearing"], "properties": { "bearing": { "required": ["name"] } } });
+    json!([{ "anyOf": [sections, named] }])
 }
 
 /// Writes a name in the place of the table as a table with a name, so that `--set bearing.KEY` finds one.
@@ -48,15 +56,13 @@ pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
     // another kind of value is for the decoder to refuse
     let Value::Text(name) = &name.value else { return Ok(()) };
     let Some(bearing) = CatalogueBearing::named(name) else {
-        let names: Vec<&str> = CatalogueBearing::all().iter().map(|bearing| bearing.name).collect();
         let expected = "a bearing of the catalogue, or no name and all its numbers";
         let mut fault = Fault::wrong(format!("\"{name}\""), &expected);
-        let names = names_help(name, &names, "bearings");
-        // a designation of the same length is another bearing, not a slip of the pen
-        let other = [3, 4].contains(&name.len()) && name.bytes().all(|digit| digit.is_ascii_digit());
-        let names = names.split_once("? ").filter(|_| other).map_or(&*names, |(_, list)| list);
-        let instead = format!("write its data sheet's numbers into [bearing] instead of a name: {}", GIVEN.join(", "));
-        fault.help = Some(format!("{names}; plummer init --list-bearings says their dimensions; or {instead}"));
+        let numbers = GIVEN.join(", ");
+        fault.help = Some(format!(
+            "{}; or write its data sheet's numbers into [bearing] instead of a name: {numbers}",
+            bearing_help(name)
+        ));
         let fault = fault.at(mark).under(Step::Key("name".to_owned()));
         return Err(fault.under(Step::Key("bearing".to_owned())));
     };
@@ -76,7 +82,38 @@ pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
     if !own_races {
         add("radial_play", Value::Float(UsualNumbers::of(bearing).play));
     }
+    let Value::Table(keys) = &mut root.value else { return Ok(()) };
+    if let Some(Value::Table(ring)) = keys.get_mut("ring").map(|ring| &mut ring.value) {
+        let list = || Node { mark, value: Value::List(vec![Node { mark, value: section(bearing, mark) }]) };
+        ring.entry("sections".to_owned()).or_insert_with(list);
+    }
     Ok(())
+}
+
+/// The outer ring of a bearing, as one of `ring.sections`.
+fn section(bearing: &CatalogueBearing, mark: Mark) -> Value {
+    let OuterRingSection { area, radius, inertia, axial_inertia } = OuterRingSection::of(bearing);
+    let numbers = [("area", area), ("radius", radius), ("inertia", inertia), ("axial_inertia", axial_inertia)];
+    let numbers = numbers.into_iter().map(|(key, number)| (key, Value::Float(number)));
+    let material = ("material", Value::Text("bearing steel".to_owned()));
+    Value::Table(numbers.chain([material]).map(|(key, value)| (key.to_owned(), Node { mark, value })).collect())
+}
+
+/// What to do about a designation that the catalogue does not have.
+pub(in crate::app) fn bearing_help(name: &str) -> String {
+    let names: Vec<&str> = CatalogueBearing::all().iter().map(|bearing| bearing.name).collect();
+    let help = names_help(name, &names, "bearings");
+    // a designation of the same length is another bearing, not a slip of the pen
+    let other = [3, 4].contains(&name.len()) && name.bytes().all(|digit| digit.is_ascii_digit());
+    let list = help.split_once("? ").map_or(&*help, |(_, list)| list);
+    let help = match CatalogueBearing::other_type(name) {
+        Some(kind) => format!(
+            "\"{name}\" is {kind} by the designations of DIN 623-1, and those of the catalogue are single-row deep groove ball bearings; {list}"
+        ),
+        None if other => list.to_owned(),
+        None => help,
+    };
+    format!("{help}; plummer init --list-bearings says their dimensions")
 }
 
 /// Lengths of [`GIVEN`], without the number of balls, about balls of a radius, m.
@@ -86,10 +123,40 @@ pub(super) fn lengths(bearing: &CatalogueBearing, ball_radius: f64) -> [f64; 5] 
     [ball_radius, pitch_radius - ball_radius, pitch_radius + ball_radius, inner, outer]
 }
 
+/// How far the outer diameter of a bearing may be from that of its bore, relative: the tie takes nodes that are so far off, a fit as tight
+/// as R7 of ISO 286 takes 0.1 %, and the next diameter of the catalogue differs by 3 %.
+pub(in crate::app) const FIT: f64 = 0.01;
+
+/// Whether a bearing is of another size than a bore (nearest and farthest node from the axis, m), which messages call `bore`; `unit`
+/// says the mesh's unit.
+pub(in crate::app) fn other_size(
+    bearing: &CatalogueBearing,
+    bore: &str,
+    [near, far]: [f64; 2],
+    unit: &str,
+) -> Option<Rule> {
+    let own = bearing.outer_diameter;
+    if (1.0 - FIT) * 2.0 * near <= own && own <= (1.0 + FIT) * 2.0 * far {
+        return None;
+    }
+    let bore_diameter = if near > 0.0 { near + far } else { 2.0 * far };
+    // what a mesh rounds is no digit of a diameter
+    let millimetres = |length: f64| short((1e7 * length).round() * 1e-4);
+    let nearest = CatalogueBearing::nearest(bore_diameter);
+    let nearest = nearest.iter().map(|(other, _)| format!("{} ({} mm)", other.name, millimetres(other.outer_diameter)));
+    let found = format!("the outer diameter of {}, {} mm", bearing.name, millimetres(own));
+    let expected = format!("that of {bore}, {} mm, within 1 %", millimetres(bore_diameter));
+    Some(Rule::found(found, &expected).with_help(format!(
+        "nearest of the catalogue: {}; is {unit} right? plummer init --list-bearings lists the catalogue",
+        nearest.collect::<Vec<_>>().join(", ")
+    )))
+}
+
 #[cfg(test)]
 mod tests {
     use crate::app::case::tests::{FULL, near, read};
     use crate::app::case::{Case, CaseError};
+    use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection};
 
     const RING: &str = "[ring]\nouter_radius = 40e-3\n\
         sections = [{ material = \"steel\", area = 4e-5, inertia = 8e-11, radius = 35e-3 }]\n";
@@ -139,6 +206,29 @@ mod tests {
     }
 
     #[test]
+    fn a_name_gives_the_ring_unless_the_case_has_it() {
+        let own = "tie = { group = \"bore\" }";
+        let mesh =
+            "[housing]\nmesh = \"a.msh\"\nlength_unit = \"mm\"\nparts = [{ group = \"a\", material = \"steel\" }]";
+        let text = format!("bearing = \"6204\"\n{mesh}\n[ring]\n{own}\n");
+        for (set, name) in [(vec![], "6204"), (vec!["bearing=6303"], "6303"), (vec!["bearing.name=6303"], "6303")] {
+            let ring = read(&text, &set).unwrap().ring.unwrap();
+            let [section] = &ring.sections[..] else { panic!("{ring:?}") };
+            let expected = OuterRingSection::of(CatalogueBearing::named(name).unwrap());
+            assert!(near(section.area, expected.area) && near(section.radius, expected.radius), "{name}");
+            assert!(near(section.inertia, expected.inertia), "{name}");
+            assert_eq!(section.material, "bearing steel");
+        }
+        let given = with("bearing = \"6204\"", &[]).unwrap().ring.unwrap();
+        assert!(near(given.sections[0].area, 4e-5));
+        let error = read(&text, &["bearing={balls=8}"]).unwrap_err().to_string();
+        assert!(
+            error.ends_with("`ring` lacks the required key `sections`") || error.contains("`bearing` lacks"),
+            "{error}"
+        );
+    }
+
+    #[test]
     fn keys_beside_a_name_go_before_it() {
         let case = with("bearing = \"6305\"", &["bearing.balls=8", "bearing.outer_race_radius=27.71e-3"]).unwrap();
         let bearing = case.bearing.unwrap();
@@ -167,6 +257,11 @@ mod tests {
         assert!(help.starts_with("did you mean `6204`? bearings here: 625, 626, "), "{help}");
         let help = with("bearing = 6400", &[]).unwrap_err().help().unwrap();
         assert!(help.starts_with("bearings here: 625, ") && help.ends_with("instead of a name: balls, ball_radius, inner_race_radius, outer_race_radius, inner_groove_radius, outer_groove_radius"), "{help}");
+        let help = with("bearing = \"NU204\"", &[]).unwrap_err().help().unwrap();
+        assert!(
+            help.starts_with("\"NU204\" is a cylindrical roller bearing by the designations of DIN 623-1, "),
+            "{help}"
+        );
         let error = with("bearing = 6204", &["bearing.name=9999"]).unwrap_err().to_string();
         assert!(error.starts_with("--set bearing.name=9999: `bearing.name`: found \"9999\""), "{error}");
         let error = with("[bearing]\nname = true", &[]).unwrap_err().to_string();

@@ -79,7 +79,17 @@ impl Case {
     fn needed<T>(&self, by: &str, table: &str, part: Option<T>) -> Result<T, CaseError> {
         part.ok_or_else(|| {
             let what = format!("{by} needs {table}, which the case file lacks");
-            let help = format!("add {table} to the case file");
+            let spot = if self.ring.is_some() { "ring_deg = 270" } else { "group = \"NAME\"" };
+            let lines = match table {
+                "[frf]" => format!(" with from = [{{ {spot}, direction = [0, 1, 0] }}]"),
+                "[[sensors]]" => format!(" with name = \"P1\", {spot} and direction = [0, 1, 0]"),
+                "[speed]" => " with profile = [{ time = 0, rpm = 1500 }]".to_owned(),
+                "[transient]" => " with end = 0.6 and output_hz = 51200".to_owned(),
+                "[shaft]" => " with mass, in kg".to_owned(),
+                _ if table.starts_with("[damping]") => ", for example modal = 0.02".to_owned(),
+                _ => String::new(),
+            };
+            let help = format!("add {table} to the case file{lines}");
             CaseError::at(self.source.path.display(), what).with_help(Some(help))
         })
     }

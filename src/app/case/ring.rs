@@ -11,11 +11,13 @@ use crate::fe::model::{Fit, SpringShare};
 /// The ring. Angles are counted from +x towards +y, the ring's first node stands at 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("required" = []))]
 pub struct Ring {
     /// Number of nodes and of elements, 8 to 2000.
     #[serde(default = "default_nodes")]
     pub nodes: usize,
-    /// The cross-sections of rings fitted into each other, in any order; at least one.
+    /// The cross-sections of rings fitted into each other, in any order; at least one. Beside `bearing.name` it may be absent: that
+    /// bearing's outer ring.
     pub sections: Vec<Section>,
     /// How several sections act together.
     #[serde(default)]

@@ -16,13 +16,18 @@ const EXAMPLES: &str = "for example: --set bearing.formulation=printed, or --set
 /// # Errors
 /// A [`Rule`] when the argument is malformed or leads through a value without parts.
 pub(super) fn apply(root: &mut Node, argument: &str, mark: Mark) -> Result<(), Rule> {
-    let (key, value) =
+    let (key, typed) =
         split_argument(argument).ok_or_else(|| Rule::found("no `=`", "KEY=VALUE").with_help(EXAMPLES))?;
     let steps = parse_path(key).ok_or_else(|| {
         let expected = "names joined by dots, e.g. `bearing.defects[0].depth`";
         Rule::found(format!("the key path `{key}`"), expected).with_help(EXAMPLES)
     })?;
-    let value = read_value(value, mark)?;
+    let mut value = read_value(typed, mark)?;
+    // a customer whose name is a numeral is called as it was typed
+    let named = matches!(&steps[..], [Step::Key(table), Step::Key(_)] if table == "report");
+    if named && !matches!(value.value, Value::Text(_) | Value::List(_) | Value::Table(_)) {
+        value.value = Value::Text(typed.to_owned());
+    }
     let mut node = root;
     for (depth, step) in steps.iter().enumerate() {
         if let (Value::Table(entries), Step::Key(key), true) = (&mut node.value, step, depth + 1 == steps.len())
@@ -174,6 +179,9 @@ mod tests {
             ("bearing.defects[1].depth=3", "bearing.defects[1].depth", "3"),
             ("bearing.defects.1.depth=3", "bearing.defects[1].depth", "3"),
             ("bearing.defects=[]", "bearing.defects", "an array of 0"),
+            ("report.customer=4711", "report.customer", "\"4711\""),
+            ("report.project=1.10", "report.project", "\"1.10\""),
+            ("report.project=2026-11-27", "report.project", "\"2026-11-27\""),
             ("a.b={c=[1,2]}", "a.b.c", "an array of 2"),
             ("materials.\"x=y\".young=1", "materials.\"x=y\".young", "1"),
         ] {

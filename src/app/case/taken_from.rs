@@ -38,12 +38,8 @@ impl Bearing {
                 quantity(play, "m")
             ));
         }
-        let suffix = self.name.as_ref()?.trim().trim_start_matches(bearing.name);
-        if !suffix.is_empty() {
-            guessed.push(format!(
-                "nothing is taken from \"{}\" behind its name",
-                suffix.trim_start_matches([' ', '-', '/'])
-            ));
+        if let Some(parts) = CatalogueBearing::left_out(self.name.as_ref()?) {
+            guessed.push(format!("nothing is taken from {parts} beside its number"));
         }
         let beside = match given.as_slice() {
             [] => String::new(),

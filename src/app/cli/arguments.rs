@@ -221,7 +221,7 @@ pub enum Command {
     /// Show what a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
     #[command(after_help = INSPECT_EXAMPLE)]
     Inspect {
-        /// Mesh file (gmsh MSH 4.1 or 2.2)
+        /// Mesh file (gmsh MSH 4.1 or 2.2), or a case file: its mesh
         mesh: PathBuf,
         /// Unit of the mesh's coordinates: m, cm, mm, um or in (the file does not say)
         #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]

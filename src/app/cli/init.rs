@@ -1,10 +1,10 @@
 //! `plummer init`: a case file from a mesh.
 
-use super::analyze::{bearing_names, catalogue_orders};
+use super::analyze::catalogue_orders;
 use super::inspect::verdict;
 use super::output::json;
 use super::{CliError, InitArguments, Options, Outcome, write_atomic};
-use crate::app::case::BUILT_IN_MATERIALS;
+use crate::app::case::{BUILT_IN_MATERIALS, bearing_help};
 use crate::app::commands::init::{
     BearingSummary, CatalogueResult, Draft, DraftRequest, DraftResult, MaterialSummary, MaterialsResult,
 };
@@ -32,7 +32,9 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     let title = case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let request =
         DraftRequest { mesh, mesh_in_case: &mesh_in_case, title: &title, length_unit: asked.length_unit, bearing };
-    let (draft, inspection) = Draft::of_mesh(request)?;
+    let (mut draft, inspection) = Draft::of_mesh(request)?;
+    let left_out = asked.bearing.as_deref().and_then(CatalogueBearing::left_out);
+    draft.findings.extend(left_out.map(|parts| format!("Nothing is taken from {parts} of --bearing.")));
     if let Err(error) = verdict(&inspection) {
         let what = format!("{}: {error}; no case file was written", mesh.display());
         return Err(CliError { help: error.help, ..CliError::input(what) });
@@ -55,7 +57,7 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
 fn named(name: &str) -> Result<&'static CatalogueBearing, CliError> {
     CatalogueBearing::named(name).ok_or_else(|| {
         CliError::input(format!("--bearing: found \"{name}\", expected a bearing of the catalogue"))
-            .with_help(format!("names: {}; plummer init --list-bearings says their dimensions", bearing_names()))
+            .with_help(bearing_help(name))
     })
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::earlier_results::result_of;
 use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder};
+use crate::app::case::Case;
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection};
 use crate::app::error::ComputeError;
@@ -16,7 +17,7 @@ use crate::report::{counted, mass_in_words, significant, size_in_words};
 /// Densities (kg/m^3) for which the mass is shown when none is asked for.
 const DENSITIES: [(f64, &str); 2] = [(2700.0, "of aluminium"), (7850.0, "of steel")];
 
-/// Inspects a mesh; writes `inspect.json` if a folder was named with `--out`.
+/// Inspects a mesh, or that of a case; writes `inspect.json` if a folder was named with `--out`.
 ///
 /// # Errors
 /// [`CliError`] when the mesh cannot be read or the result cannot be written.
@@ -27,6 +28,16 @@ pub(crate) fn inspect(
     options: &Options,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
+    // a case stands for its mesh
+    let case = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let case = case.then(|| Case::load(path, &[])).transpose()?;
+    let housing = case.as_ref().map(|case| {
+        let without = format!("{}: expected a case with `housing.mesh`, found none", path.display());
+        case.meshed_housing().ok_or_else(|| CliError::input(without))
+    });
+    let housing = housing.transpose()?;
+    let path = housing.map_or(path, |housing| &housing.mesh);
+    let unit = unit.or(housing.map(|housing| housing.length_unit));
     let found = Inspection::of_file(path, unit).map_err(ComputeError::from)?;
     let result = json(&InspectResult {
         plummer: VERSION,

@@ -3,7 +3,7 @@
 use super::housing::AssembledHousing;
 use super::places::{PlaceBodies, of_housing, of_ring};
 use super::ring::{Boundary, ring_and_tie};
-use crate::app::case::{Case, FixedInterfaceModes, Interface};
+use crate::app::case::{Case, FixedInterfaceModes, Interface, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{Bore, Mechanisms, rigid_motions, ring_motions};
@@ -14,6 +14,7 @@ use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, transpose_times_dense};
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 /// A condensed housing and what it was condensed from.
 #[derive(Debug, Clone)]
@@ -53,6 +54,14 @@ impl CondensedHousing {
         let Some(housing) = AssembledHousing::build(case, watch)? else {
             return Ok(None);
         };
+        let asked = case.frf.as_ref().and_then(|frf| frf.band_hz).map_or(0.0, |[_, high]| high);
+        // two digits of what is an estimate
+        let highest = format!("{:.1e}", highest_hz(&housing.matrices)).parse().unwrap_or(f64::INFINITY);
+        if asked > highest && choice.band_hz >= asked {
+            let limit = "at most what the mesh tells, half the frequency of a node while all others are held";
+            let rule = Rule::beyond(asked, limit, highest).with_help("end the band below it, or make the mesh finer");
+            return Err(case.broken(&rule.at("frf.band_hz[1]")).into());
+        }
         let boundary = match (&case.condense.interface, &case.ring) {
             (Interface::Ring, Some(asked)) => match ring_and_tie(case, asked, Some(&housing))? {
                 (ring, Some(tie)) => Boundary::Ring(Box::new((ring, tie))),
@@ -213,6 +222,17 @@ fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, Comp
 }
 
 /// The basis that a case asks for.
+/// Highest frequency of which a mesh tells something, Hz. A node alone vibrates as in a wave of two to three nodes, the shortest there
+/// is; at half of its frequency a wave has four to six, and 5 to 10 % of all modes lie below.
+fn highest_hz(matrices: &SystemMatrices) -> f64 {
+    let SystemMatrices { stiffness, mass, .. } = matrices;
+    let alone = |dof| Some(stiffness.get(dof, dof)? / mass.get(dof, dof).filter(|mass| **mass > 0.0)?);
+    let mut squares: Vec<f64> = (0..mass.rows()).filter_map(alone).collect();
+    squares.sort_unstable_by(f64::total_cmp);
+    let middle = squares.get(squares.len() / 2);
+    middle.map_or(f64::INFINITY, |square| 0.5 * square.sqrt() / TAU)
+}
+
 pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
     BasisChoice {
         size: match case.condense.fixed_interface_modes {

@@ -70,7 +70,7 @@ impl ImportedHousing {
             ));
         }
         if let Some(file) = record.outer_radius {
-            refuse_outside(case, asked, &format!("the bore in {}", path.display()), file)?;
+            refuse_outside(case, asked, &format!("the bore in {}", path.display()), [file; 2])?;
         }
         let in_space = record.interface.len() == 6 * asked.nodes;
         if !in_space {

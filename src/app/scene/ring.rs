@@ -1,8 +1,9 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
 use super::housing::{AssembledHousing, material};
-use crate::app::case::{self, Case, short};
+use crate::app::case::{self, Case, other_size, short};
 use crate::app::error::ComputeError;
+use crate::bearing::catalogue::CatalogueBearing;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{BeamSection, Bond, RingLayer};
 use crate::fe::mesh::Mesh;
@@ -29,7 +30,7 @@ pub(crate) fn ring_and_tie(
     let AssembledHousing { mesh, model, .. } = housing;
     let seat = Seat::of(mesh, model, tie)?;
     let tied = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
-    refuse_outside(case, asked, &format!("the bore \"{}\"", tie.group), seat.radii[1])?;
+    refuse_outside(case, asked, &format!("the bore \"{}\"", tie.group), seat.radii)?;
     Ok((ring, Some(tied)))
 }
 
@@ -84,12 +85,21 @@ pub(super) fn metres(length: f64) -> String {
     format!("{} m", short(digits.parse().unwrap_or(length)))
 }
 
-/// Refuses a ring or a race that is not inside a bore of which it is known how far its farthest node is from the axis (m); `bore` is
-/// as messages call it.
+/// Refuses a ring or a race that is not inside a bore whose nearest and farthest nodes are known (m from the axis), and a bearing by
+/// name that does not fit it; `bore` is as messages call it.
 ///
 /// # Errors
-/// [`ComputeError::Input`] with both radii and their keys.
-pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, farthest: f64) -> Result<(), ComputeError> {
+/// [`ComputeError`] with both radii or diameters and their keys.
+pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, radii: [f64; 2]) -> Result<(), ComputeError> {
+    let name = case.bearing.as_ref().and_then(|bearing| bearing.name.as_deref());
+    if let Some(bearing) = name.and_then(CatalogueBearing::named) {
+        // rings between bearing and bore are sections of their own
+        let nearest = if ring.sections.len() > 1 { 0.0 } else { radii[0] };
+        if let Some(rule) = other_size(bearing, bore, [nearest, radii[1]], "housing.length_unit") {
+            return Err(case.broken(&rule.at("bearing.name")).into());
+        }
+    }
+    let farthest = radii[1];
     let sections = ring.sections.iter().enumerate();
     let sections = sections.map(|(index, section)| (format!("ring.sections[{index}].radius"), section.radius));
     let race = case.bearing.iter().map(|bearing| ("bearing.outer_race_radius".to_owned(), bearing.outer_race_radius));

@@ -249,41 +249,6 @@ impl KaiserLowPass {
     }
 }
 
-/// Interpolation between samples: h(x) = sinc(x) I0(beta sqrt(1 - (x / 32)^2)) / I0(beta), |x| < 32, x in samples, beta for
-/// a transition from 0.4 to 0.6 of the sampling rate. What lies below 0.4 of it is interpolated within 1e-9 of its
-/// amplitude (Oppenheim & Schafer eq. (7.76): 192 dB).
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct KaiserInterpolation {
-    beta: f64,
-    scale: f64,
-}
-
-/// Samples to each side that an interpolated value is made of.
-const INTERPOLATION_REACH: usize = 32;
-
-impl KaiserInterpolation {
-    /// The kernel.
-    pub(crate) fn new() -> Self {
-        let beta = beta(attenuation_db(INTERPOLATION_REACH, 2.0 * PI * 0.2));
-        Self { beta, scale: 1.0 / bessel_i0(beta) }
-    }
-
-    /// Samples to each side that a value is made of.
-    pub(crate) fn reach(&self) -> f64 {
-        INTERPOLATION_REACH as f64
-    }
-
-    /// h at a distance in samples.
-    pub(crate) fn value(&self, distance: f64) -> f64 {
-        let part = distance / self.reach();
-        let inside = 1.0 - part * part;
-        if inside <= 0.0 {
-            return 0.0;
-        }
-        sinc(distance) * bessel_i0(self.beta * inside.sqrt()) * self.scale
-    }
-}
-
 /// Window parameter for an attenuation of at least 21 dB (Oppenheim & Schafer eq. (7.75)).
 pub(super) fn beta(attenuation_db: f64) -> f64 {
     if attenuation_db > 50.0 {
@@ -538,20 +503,6 @@ mod kaiser_tests {
         }
         assert!((gain(&filter, 0.42) - 0.5).abs() < 1e-3);
         assert!((gain(&filter, 0.0) - 1.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn interpolation_keeps_its_stated_error() {
-        let kernel = KaiserInterpolation::new();
-        for f in [0.0, 0.11, 0.25, 0.37, 0.4] {
-            let wave = |t: f64| (2.0 * PI * f * t + 0.3).cos();
-            for place in [0.0, 0.013, 0.5, 0.77] {
-                let taps = (-33..=33).map(f64::from);
-                let found: f64 = taps.map(|n| wave(n) * kernel.value(place - n)).sum();
-                assert!((found - wave(place)).abs() < 1e-9, "{f}, {place}: {found}");
-            }
-        }
-        assert!(kernel.value(-32.5).abs() <= 0.0);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 mod decimator;
 mod time_series;
 
+pub(crate) use decimator::KaiserLowPass;
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
-pub(crate) use decimator::{KaiserInterpolation, KaiserLowPass};
 pub(crate) use time_series::root_mean_square;
 pub use time_series::{SeriesError, TimeSeries, TimeWindow};

@@ -14,10 +14,9 @@ const PADDING: f64 = 8.0;
 /// The envelope is averaged over equal angles before it is transformed, so that a speed that changes in the window smears
 /// nothing: a run-up's lines are as sharp as those of a constant speed.
 ///
-/// Why no [`AngleSeries`](crate::signal::AngleSeries), whose [`OrderSpectrum`](crate::signal::OrderSpectrum) is for calibrated
-/// amplitudes of any signal: its filter reaches 32 / P of a turn to each side, in all a tenth of the shortest window that is judged
-/// (6.2 turns, P = 100), which is lost where a record ends with its window. And it takes 64 / P of a turn for every value, 11 600
-/// samples of an envelope at 400 kHz and 22 Hz, where an average takes each sample once.
+/// Why it is not interpolated at P samples a turn: the filter reaches 32 / P of a turn to each side, in all a tenth of the shortest
+/// window that is judged (6.2 turns, P = 100), which is lost where a record ends with its window. And it takes 64 / P of a turn for
+/// every value, 11 600 samples of an envelope at 400 kHz and 22 Hz, where an average takes each sample once.
 ///
 /// The price are images: of what is at P - q there is a part sinc((P - q) / P) at q, 0.50 at q = 0.4 P and 0.11 at 0.1 P. Those of
 /// the bursts of highest order (its harmonics from the 14th on; P is 22.5 times it) lie halfway between its lines, those of other

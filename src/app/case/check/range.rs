@@ -24,15 +24,13 @@ pub(super) const ZERO_TO_ONE: Range = Range("a number from 0 to 1", |x| (0.0..=1
 pub(super) const LOSS_FACTOR: Range = Range("a number from 0 to below 2", |x| (0.0..2.0).contains(&x));
 /// Cycles of a wavelet.
 pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=1000.0).contains(&x));
-/// Wide beyond all shafts: further out, squares leave the numbers.
-pub(super) const SPEED: Range = Range("a speed of at most 1e6 Hz (6e7 rpm) either way", |x| x.abs() <= 1e6);
 /// Further from 0, the shaft's angle loses digits that steps of a run need: 2e-9 s at 1e7 s.
 pub(super) const TIME: Range = Range("a time of at most 1e7 s from 0 (let the clock begin near 0)", |x| x.abs() <= 1e7);
-/// As [`SPEED`], of masses, kg.
+/// Of masses, kg. Wide beyond all shafts: further out, squares leave the numbers.
 pub(super) const MASS: Range = Range("a mass of at most 1e15 kg", |x| x <= 1e15);
-/// As [`SPEED`], of forces, accelerations and unbalances.
+/// As [`MASS`], of forces, accelerations and unbalances.
 pub(super) const LOAD: Range = Range("at most 1e15 either way", |x| x.abs() <= 1e15);
-/// As [`SPEED`], of springs.
+/// As [`MASS`], of springs.
 pub(super) const STIFFNESS: Range = Range("a stiffness of at most 1e20", |x| x <= 1e20);
 /// Beyond, an angle has lost digits or is a number of something else.
 pub(super) const DEGREES: Range = Range("an angle from -36000 to 36000 degrees", |x| x.abs() <= 36_000.0);

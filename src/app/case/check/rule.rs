@@ -18,12 +18,12 @@ impl Rule {
         Self { message: message.into(), help: None }
     }
 
-    pub(in super::super) fn found(found: impl Display, expected: &str) -> Self {
+    pub(crate) fn found(found: impl Display, expected: &str) -> Self {
         Self::new(format!("found {found}, expected {expected}"))
     }
 
     /// A value beyond another, which limits it; numbers in the key's unit.
-    pub(super) fn beyond(found: f64, limit: &str, other: f64) -> Self {
+    pub(crate) fn beyond(found: f64, limit: &str, other: f64) -> Self {
         Self::found(short(found), &format!("{limit} ({})", short(other)))
     }
 
@@ -33,12 +33,12 @@ impl Rule {
     }
 
     /// The same rule with what to do about it.
-    pub(in super::super) fn with_help(self, help: impl Into<String>) -> Self {
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
     /// Returns what to do about it, where the message does not say it all.
-    pub(in super::super) fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         self.help.clone()
     }
 

@@ -1,6 +1,7 @@
 //! Materials, housing and ring.
 
 use super::super as case;
+use super::super::other_size;
 use super::super::tree::quoted;
 use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
 use super::range::{
@@ -8,6 +9,7 @@ use super::range::{
     direction, each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
 };
 use super::rule::{BrokenRule, Rule};
+use crate::bearing::catalogue::CatalogueBearing;
 use crate::fe::material::{MaterialError, OrthotropicMaterial, RadiusRule};
 use crate::fe::model::{Connection, Fit, SpringStiffness};
 
@@ -154,6 +156,11 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         )?;
         SHARE.check(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
+            let name = case.bearing.as_ref().and_then(|bearing| bearing.name.as_deref());
+            let bearing = name.filter(|_| section.radius >= outer).and_then(CatalogueBearing::named);
+            if let Some(rule) = bearing.and_then(|own| other_size(own, "`ring.outer_radius`", [outer; 2], "it")) {
+                return Err(rule.at("bearing.name"));
+            }
             above("ring.outer_radius", outer, "the section's radius", section.radius)?;
         }
     }

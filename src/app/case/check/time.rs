@@ -58,8 +58,12 @@ pub(super) fn damping(damping: &Damping) -> Result<(), BrokenRule> {
 
 pub(super) fn speed(speed: &Speed) -> Result<(), BrokenRule> {
     for (index, point) in speed.profile.iter().enumerate() {
-        // `hz` or `rpm`
-        range::SPEED.check(format!("speed.profile[{index}]"), point.frequency_hz)?;
+        // `hz` or `rpm`; further out, squares leave the numbers
+        let speed = point.frequency_hz;
+        kept(speed.abs() <= 1e6, format!("speed.profile[{index}]"), || {
+            let found = format!("{} Hz ({} rpm)", short(speed), short(60.0 * speed));
+            Rule::found(found, "a speed of at most 1e6 Hz (6e7 rpm) either way")
+        })?;
         range::TIME.check(format!("speed.profile[{index}].time"), point.time)?;
     }
     increasing("speed.profile", speed.profile.iter().map(|point| point.time))
@@ -310,7 +314,10 @@ fn within_run(case: &Case, key: &str, [from, to]: [f64; 2]) -> Result<(), Broken
         return Ok(());
     };
     kept(from >= start && to <= end, key, || {
-        let [from, to, start, end] = [from, to, start, end].map(short);
+        // as much of the window as is simulated, else the second half of the simulation
+        let within = if from < end { from.max(start) } else { 0.5 * (start + end) };
+        let [from, to, start, end, within] = [from, to, start, end, within].map(short);
         Rule::found(format!("{from} to {to} s"), &format!("a window within the simulation ({start} to {end} s)"))
+            .with_help(format!("simulate it all, `transient.end` = {to}; or look at less, `{key}.from` = {within} and `{key}.to` = {end}"))
     })
 }

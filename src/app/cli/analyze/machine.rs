@@ -3,7 +3,7 @@
 //! Which bearing it is: how often its parts strike.
 
 use super::{AnalyzeArguments, GivenSpeed};
-use crate::app::case::Case;
+use crate::app::case::{Case, bearing_help};
 use crate::app::cli::{CliError, Options};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_geometry, bearing_setup};
@@ -70,7 +70,7 @@ impl Machine {
             setup: setup.map(|setup| (Box::new(setup), asked.geometry_error.unwrap_or(exact))),
             typed: asked.speed.clone(),
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
-            catalogue: catalogue.map(described),
+            catalogue: catalogue.zip(asked.bearing.as_deref()).map(|(bearing, name)| described(bearing, name)),
             own_first: false,
         })
     }
@@ -175,7 +175,7 @@ pub(super) fn named_bearing(asked: &AnalyzeArguments) -> Result<Option<Named<'_>
         return Ok(Some(Named::Case(path)));
     }
     Err(CliError::input(format!("--bearing: found \"{name}\", expected a case file or a bearing of the catalogue"))
-        .with_help(format!("bearings: {}", bearing_names())))
+        .with_help(bearing_help(&name)))
 }
 
 /// Orders with their relative error: what was typed goes before what a case says. `None` where nothing says them.
@@ -203,21 +203,18 @@ pub(super) fn orders(
     Ok(Some(FaultOrders::of(&row, error).map_err(ComputeError::from)?))
 }
 
-/// Every designation of the catalogue.
-pub(in crate::app::cli) fn bearing_names() -> String {
-    let names = CatalogueBearing::all().iter().map(|bearing| bearing.name);
-    names.collect::<Vec<_>>().join(", ")
-}
-
 /// Orders of a bearing of the catalogue, without a contact angle.
 pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, BearingError> {
     Ok(BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?.orders())
 }
 
-/// What is taken for granted of a bearing of the catalogue.
-pub(super) fn described(bearing: &CatalogueBearing) -> String {
+/// What is taken for granted of a bearing of the catalogue that was given by a name.
+fn described(bearing: &CatalogueBearing, name: &Path) -> String {
+    let left_out = CatalogueBearing::left_out(&name.to_string_lossy());
+    let left_out =
+        left_out.map_or_else(String::new, |parts| format!(" Nothing is taken from {parts} beside its number."));
     format!(
-        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm{} ({}).",
+        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm{} ({}).{left_out}",
         bearing.name,
         bearing.balls,
         1e3 * bearing.ball_diameter,

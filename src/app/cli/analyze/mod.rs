@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use arguments::AnalyzeArguments;
-pub(super) use machine::{bearing_names, catalogue_orders};
+pub(super) use machine::catalogue_orders;
 pub use orders::{GivenOrders, GivenSpeed};
 
 use super::earlier_results::result_of;

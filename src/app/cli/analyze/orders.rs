@@ -41,8 +41,9 @@ impl GivenOrders {
                 Some((place, factor * number(order)?))
             });
             let Some((place, order)) = found else {
+                let comma = if number(part).is_some() { "; the decimal mark is a point" } else { "" };
                 return Err(format!(
-                    "expected outer=, inner=, ball= or cage=, or BPFO=, BPFI=, BSF= (half of ball) or FTF=, and a number, found \"{part}\""
+                    "expected outer=, inner=, ball= or cage=, or BPFO=, BPFI=, BSF= (half of ball) or FTF=, and a number, found \"{part}\"{comma}"
                 ));
             };
             if orders[place].replace(order).is_some() {
@@ -155,6 +156,10 @@ impl GivenSpeed {
     /// What was found and what was expected: no number, another unit, speeds with and without a unit, times that do not increase.
     pub fn parse(text: &str) -> Result<Self, String> {
         let alone = !text.contains([',', ':']);
+        let pointed = text.replacen(',', ".", 1);
+        if !text.contains(':') && !alone && Point::read(None, &pointed).is_ok() {
+            return Err(format!("{EXPECTED}, found \"{text}\"; the decimal mark is a point: {pointed}"));
+        }
         let point = |part: &str| match part.split_once(':') {
             Some((time, speed)) => Point::read(Some(time), speed),
             None if alone => Point::read(None, part),
@@ -303,6 +308,7 @@ mod tests {
         for (text, message) in [
             ("outer=3.6,top=1", format!("{expected} \"top=1\"")),
             ("bpfo", format!("{expected} \"bpfo\"")),
+            ("bpfo=3,585", format!("{expected} \"585\"; the decimal mark is a point")),
             ("", format!("{expected} \"\"")),
             ("bsf=x", format!("{expected} \"bsf=x\"")),
             ("outer=3.6,BPFO=1", "outer (BPFO) is there twice".to_owned()),
@@ -369,6 +375,10 @@ mod speed_tests {
             assert!(message.starts_with(EXPECTED), "{text}: {message}");
         }
         for (text, message) in [
+            (
+                "29,95Hz",
+                "expected SPEED or T:SPEED,T:SPEED,... (T in s; SPEED in Hz, or 1797rpm, \"1797 1/min\", 29.95Hz), found \"29,95Hz\"; the decimal mark is a point: 29.95Hz",
+            ),
             ("2:10,1:5", "speed profile row 1: time 1 s must be later than 2 s in the row before"),
             ("0:600rpm,8:3000", "expected a unit behind every speed or behind none, found \"0:600rpm,8:3000\""),
         ] {

@@ -56,6 +56,18 @@ fn auto_reaches_the_target_and_no_more_than_it_needs() {
     }
 }
 
+/// The coarse ring has elements of about 1 mm, whose nodes alone vibrate at 1.5 MHz.
+#[test]
+fn a_band_beyond_what_the_mesh_tells_is_refused() {
+    let refused = case(format!("{HOUSING}{}", accuracy("1e-2")), &["frf.band_hz=[0,1e9]"]);
+    let error = compute_frf(&refused, &Unwatched).unwrap_err();
+    let told = error.to_string();
+    let start = "--set frf.band_hz=[0,1e9]: `frf.band_hz[1]`: found 1e9, expected at most what the mesh tells, half the frequency of a node while all others are held (";
+    let highest = told.strip_prefix(start).unwrap_or_else(|| panic!("{told}")).trim_end_matches(')');
+    assert!((2e5..2e6).contains(&highest.parse::<f64>().unwrap()), "{told}");
+    assert!(error.is_input() && error.help().is_some_and(|help| help.contains("make the mesh finer")));
+}
+
 /// A force downwards at the foot of a housing that is the same left and right moves its top in x by round-off alone.
 #[test]
 fn a_path_that_symmetry_closes_is_told_and_no_error() {

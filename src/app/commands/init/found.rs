@@ -6,11 +6,11 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::bore::{Candidate, Cylinders, Rim, TOLERANCE, cylinders};
+use super::bore::{Candidate, Cylinders, Rim, cylinders};
 use super::groups::{Groups, PartGuess, usable};
 use super::partly::PartlyHole;
 use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
-use crate::app::case::BUILT_IN_MATERIALS;
+use crate::app::case::{BUILT_IN_MATERIALS, FIT, other_size};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
@@ -202,30 +202,18 @@ pub(crate) fn fitting(
     let Some(bore) = bore else {
         return Ok((None, Vec::new()));
     };
-    let diameter = 2.0 * bore.radius_m;
-    let nearest = CatalogueBearing::nearest(diameter);
     if let Some(bearing) = request.bearing {
-        if (bearing.outer_diameter / diameter - 1.0).abs() <= TOLERANCE {
-            return Ok((Some(bearing), Vec::new()));
-        }
-        let named = |bearing: &CatalogueBearing| {
-            format!("{} ({} mm)", bearing.name, page::number(1e3 * bearing.outer_diameter, 6))
+        let named = format!("the bore {}", page::quoted(&bore.group));
+        return match other_size(bearing, &named, [bore.radius_m; 2], "--length-unit") {
+            None => Ok((Some(bearing), Vec::new())),
+            Some(rule) => Err(ComputeError::Input { what: format!("--bearing: {rule}"), help: rule.help() }),
         };
-        let nearest = nearest.iter().map(|(bearing, _)| named(bearing)).collect::<Vec<_>>().join(", ");
-        let what = format!(
-            "bearing {}: found an outer diameter of {:.4} mm, expected that of the bore \"{}\", {:.4} mm, within 1 %",
-            bearing.name,
-            1e3 * bearing.outer_diameter,
-            bore.group,
-            1e3 * diameter
-        );
-        let help = format!(
-            "nearest of the catalogue: {nearest}; is --length-unit right? plummer init --list-bearings lists the catalogue"
-        );
-        return Err(ComputeError::input(what, help));
     }
-    let fits: Vec<&CatalogueBearing> =
-        nearest.into_iter().filter(|(_, off)| off.abs() <= TOLERANCE).map(|(bearing, _)| bearing).collect();
+    let fits: Vec<&CatalogueBearing> = CatalogueBearing::nearest(2.0 * bore.radius_m)
+        .into_iter()
+        .filter(|(_, off)| off.abs() <= FIT)
+        .map(|(bearing, _)| bearing)
+        .collect();
     let common = |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
     let chosen = fits.iter().find(common).or(fits.first()).copied();
     Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))

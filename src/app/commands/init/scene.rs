@@ -1,7 +1,7 @@
 //! What no mesh says: numbers of bearing, ring, shaft and run from the catalogue, usual ones and guesses; the unit of length;
 //! where the bearing's angle 0 and its "up" point.
 
-use super::bore::TOLERANCE;
+use crate::app::case::FIT;
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection, UsualNumbers};
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
@@ -97,7 +97,7 @@ pub(crate) fn unit_of(
     if let (Some(radius), Some(bearing)) = (radius, bearing) {
         let fits = |unit: &LengthUnit| {
             let diameter = 2.0 * radius * unit.to_metres();
-            (bearing.outer_diameter / diameter - 1.0).abs() <= TOLERANCE
+            (bearing.outer_diameter / diameter - 1.0).abs() <= FIT
         };
         if let Some(unit) = LengthUnit::ALL.into_iter().find(fits) {
             return (unit, UnitFrom::Bearing);

@@ -109,7 +109,7 @@ fn what_is_beyond_all_measure_is_refused() {
         (
             "speed.profile=[{time=0,rpm=1e300}]",
             "speed.profile[0]",
-            "found 1.66666666667e298, expected a speed of at most 1e6 Hz (6e7 rpm) either way",
+            "found 1.66666666667e298 Hz (1e300 rpm), expected a speed of at most 1e6 Hz (6e7 rpm) either way",
         ),
     ] {
         breaks(FULL, &[argument], key, rule);

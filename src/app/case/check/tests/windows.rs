@@ -1,7 +1,7 @@
 //! Stretches of time that the analysis takes.
 
 use super::{breaks, full, holds};
-use crate::app::case::tests::FULL;
+use crate::app::case::tests::{FULL, read};
 
 #[test]
 fn windows_lie_within_the_simulation() {
@@ -11,6 +11,12 @@ fn windows_lie_within_the_simulation() {
         let rule = format!("found {from} to {to} s, expected a window within the simulation (0.5 to 2.8 s)");
         full(argument, &rule);
     }
+    let help = |set: &str| read(FULL, &[set]).unwrap_err().help().unwrap();
+    assert_eq!(
+        help("analysis.envelope[0]={from=2,to=2.9}"),
+        "simulate it all, `transient.end` = 2.9; or look at less, `analysis.envelope[0].from` = 2 and `analysis.envelope[0].to` = 2.8"
+    );
+    assert!(help("analysis.envelope[0]={from=3,to=4}").ends_with("from` = 1.65 and `analysis.envelope[0].to` = 2.8"));
     holds(FULL, &["analysis.envelope[0]={from=0.5,to=2.8}"]);
 }
 
