@@ -177,8 +177,9 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         let [rms, peak] = [window.rms, window.peak].map(|value| significant(value, 3));
-        lines.extend(verdict_lines(window, |diagnosis| not_shown(case, diagnosis)));
-        lines.push(format!("  rms {rms} m/s^2, peak {peak} m/s^2"));
+        let mut said = verdict_lines(window, |diagnosis| not_shown(case, diagnosis));
+        said.insert(1, format!("  rms {rms} m/s^2, peak {peak} m/s^2"));
+        lines.extend(said);
     }
     if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
         lines.push(format!("{} windows more: run.json and the report have them", more + 1));

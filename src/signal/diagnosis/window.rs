@@ -233,8 +233,9 @@ impl Diagnosis {
 
     /// The verdict in a line.
     pub fn sentence(&self) -> String {
-        let said = [Some(format!("{}. {}", self.headline(), self.reason())), self.speed_doubt(), self.speed_change()];
-        said.into_iter().flatten().collect::<Vec<_>>().join(" ")
+        let doubts = self.speed_doubt().into_iter().chain(self.speed_change());
+        let doubts: String = doubts.map(|doubt| format!(" Speed: {doubt}.")).collect();
+        format!("{}. {}{doubts}", self.headline(), self.reason())
     }
 }
 

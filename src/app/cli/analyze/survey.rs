@@ -379,11 +379,12 @@ mod terminal_tests {
             },
         ];
         let expected = "\
-file        channel  window s  speed Hz    RMS  kurtosis  indicated         not enough evidence
-a.csv       P1       0-10         29.95  0.123      3.00  outer race 22 dB  ball, of no part: 88.20 Hz (order 2.945) with 4 harmonics
-longer.csv  P1       0-10         29.95  0.123      3.00  no verdict        too short for a verdict on any part
-c.csv       P1       0-10         29.95  0.123      3.00  no verdict        two lines
-d .csv               not analysed: no such file";
+Verdicts
+  File        Channel  Window     Speed [Hz]      RMS  Kurtosis  Verdict                                Reason
+  a.csv       P1       0 to 10 s       29.95  0.123 g      3.00  fault indicated: outer race
+  longer.csv  P1       0 to 10 s       29.95  0.123 g      3.00  impacts at 88.20 Hz belong to no part  Check bearing and speed, and what else turns.
+  c.csv       P1       0 to 10 s       29.95  0.123 g      3.00  no verdict                             two lines
+  d .csv                                                         not analysed                           no such file";
         assert_eq!(verdicts_table(&rows).plain(), expected);
     }
 }

@@ -233,7 +233,7 @@ mod tests {
             no_signs: sound.map(|sound| (Fault::OuterRace, sound, "Known.".to_owned())).into_iter().collect(),
             ..AnalysisSettings::default()
         });
-        let [strong, weak] = [signal(20.0, 1), signal(0.5, 2)];
+        let [strong, weak] = [signal(80.0, 1), signal(2.0, 2)];
         let analysed = compute_analysis(std::slice::from_ref(&strong), &settings[0], &kinematics, &Unwatched);
         let mut window = analysed.unwrap().remove(0);
         let earlier = EarlierSignal {

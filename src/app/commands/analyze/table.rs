@@ -2,7 +2,7 @@
 //!
 //! Many analysed windows in a report: counts, one table, and the windows themselves where they are few.
 
-use super::report::window_section;
+use super::report::{capital, window_section};
 use super::window::WindowAnalysis;
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, pretty_unit, significant};
 use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Fault, UnexplainedImpacts};
@@ -40,7 +40,8 @@ impl AnalysisRow {
     pub(crate) fn reason(&self) -> String {
         match self.found.as_ref().map(|window| window.diagnosis.as_ref()) {
             Ok(Ok(found)) => {
-                let doubt = found.speed_doubt().or_else(|| found.speed_change());
+                let doubt =
+                    found.speed_doubt().or_else(|| found.speed_change()).map(|doubt| format!("{}.", capital(&doubt)));
                 std::iter::once(found.reason()).chain(doubt).collect::<Vec<_>>().join(" ")
             }
             Ok(Err(why)) | Err(why) => why.clone(),

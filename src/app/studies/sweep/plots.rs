@@ -56,7 +56,8 @@ pub(super) fn plots(result: &SweepResult) -> Vec<Plot> {
             let [least, most] = [known().fold(f64::INFINITY, f64::min), known().fold(0.0, f64::max)];
             let [least, most] = [least, most].map(|error| significant(100.0 * error, 2));
             let caption = plot.caption.get_or_insert_default();
-            *caption += &format!(" The estimated error of the points' signals is {least} to {most} % of their RMS.");
+            let range = if least == most { most } else { format!("{least} to {most}") };
+            *caption += &format!(" The estimated error of the points' signals is {range} % of their RMS.");
         }
     }
     plots
