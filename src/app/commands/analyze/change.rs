@@ -212,13 +212,19 @@ mod tests {
     use crate::numerics::Unwatched;
     use crate::signal::diagnosis::FaultOrders;
 
-    /// Four seconds at 25 Hz with impacts of the outer race of a strength, in noise of 0.05.
+    /// Four seconds at 25 Hz with impacts of the outer race of a strength, 1 % apart from even, in noise of 0.05.
     fn signal(strength: f64, mut seed: u64) -> MeasuredSignal {
+        let pass_s = 1.0 / (25.0 * 3.57);
+        let (mut begun, mut wait) = (0.0, pass_s);
         let value = |k: u32| {
             let t = f64::from(k) / 12e3;
-            let since = t % (1.0 / (25.0 * 3.57));
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let noise = (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+            if t - begun >= wait {
+                begun += wait;
+                wait = pass_s * (1.0 + 0.02 * noise);
+            }
+            let since = t - begun;
             strength * (-800.0 * since).exp() * (std::f64::consts::TAU * 3000.0 * since).sin() + 0.17 * noise
         };
         let series = TimeSeries::new(0.0, 1.0 / 12e3, "m/s^2", (0..48_000).map(value).collect()).unwrap();
@@ -233,7 +239,7 @@ mod tests {
             no_signs: sound.map(|sound| (Fault::OuterRace, sound, "Known.".to_owned())).into_iter().collect(),
             ..AnalysisSettings::default()
         });
-        let [strong, weak] = [signal(80.0, 1), signal(2.0, 2)];
+        let [strong, weak] = [signal(20.0, 1), signal(0.5, 2)];
         let analysed = compute_analysis(std::slice::from_ref(&strong), &settings[0], &kinematics, &Unwatched);
         let mut window = analysed.unwrap().remove(0);
         let earlier = EarlierSignal {
