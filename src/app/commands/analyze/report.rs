@@ -40,8 +40,8 @@ pub(crate) fn verdict_headlines(
 ) -> Report {
     for window in windows {
         let Ok(diagnosis) = &window.diagnosis else { continue };
-        let note = [truth(diagnosis).map(|missed| format!("{}.", capital(&missed))), Some(diagnosis.reason())];
-        let note = note.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        let missed = truth(diagnosis).map_or_else(String::new, |missed| format!("{}. ", capital(&missed)));
+        let note = missed + &diagnosis.reason();
         report = report.headline(place_and_time(window), diagnosis.headline(), Verdict::None).note(note);
     }
     report
@@ -61,12 +61,11 @@ pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&Diagnosis) 
         significant(diagnosis.spectrum.turns, 3),
         diagnosis.headline()
     )];
-    let doubts = diagnosis.speed_doubt().into_iter().chain(diagnosis.speed_change());
-    let doubts = doubts.map(|doubt| format!("warning: {doubt}"));
-    let said = std::iter::once(diagnosis.reason()).chain(truth(diagnosis)).chain(doubts);
+    let doubts = [diagnosis.speed_doubt(), diagnosis.speed_change()].map(|doubt| Some(format!("warning: {}", doubt?)));
+    let said = [Some(diagnosis.reason()), truth(diagnosis)].into_iter().chain(doubts).flatten();
     lines.extend(said.map(|text| format!("  {text}")));
-    let table = verdict_table(diagnosis, "Reason", |verdict| &verdict.reason);
-    lines.extend(table.plain().lines().skip(1).map(str::to_owned));
+    let table = verdict_table(diagnosis, "Reason", |verdict| &verdict.reason).plain();
+    lines.extend(table.lines().skip(1).map(str::to_owned));
     lines
 }
 

@@ -20,7 +20,6 @@ pub struct AnalysisRow {
 
 impl AnalysisRow {
     /// Row of an analysed window.
-    #[must_use]
     pub(crate) fn of(input: &str, window: WindowAnalysis) -> Self {
         let channel = window.sensor.clone();
         Self { input: input.to_owned(), channel, found: Ok(window.without_curves()) }
@@ -36,7 +35,6 @@ impl AnalysisRow {
     }
 
     /// What decided it, and what makes the speed doubtful.
-    #[must_use]
     pub(crate) fn reason(&self) -> String {
         match self.found.as_ref().map(|window| window.diagnosis.as_ref()) {
             Ok(Ok(found)) => {

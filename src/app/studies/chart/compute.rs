@@ -236,7 +236,7 @@ fn struck(scene: &Scene, reference: &Reference) -> Option<usize> {
     scene.setup.race_defects.first()?;
     let strikes = |of: &&StartReference| {
         let next = next_strike(scene, of.start.time_s);
-        next.is_some_and(|(until, inside)| inside || until < of.horizon_s)
+        next.is_some_and(|(until, left)| left.unwrap_or(until).min(until) < of.horizon_s)
     };
     Some(reference.starts.iter().filter(strikes).count())
 }

@@ -252,9 +252,9 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     }
 }
 
-/// In how many seconds from an instant (s) on the next ball comes to the edge of the first defect of a race, and whether one is in it
-/// already. `None` without such a defect, or where balls do not pass it.
-pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, bool)> {
+/// In how many seconds from an instant (s) on the next ball comes to the edge of the first defect of a race, and in how many one that is
+/// in it leaves it. `None` without such a defect, or where balls do not pass it.
+pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, Option<f64>)> {
     let setup = &scene.setup;
     let defect = setup.race_defects.first()?;
     let cage = setup.cage.motion(at);
@@ -266,7 +266,8 @@ pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, bool)> {
     let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
     let half = 1.5 * defect.contact_half_angle();
     let edge = (ahead - half).rem_euclid(setup.cage.spacing);
-    (passing != 0.0).then(|| (edge / passing.abs(), edge > setup.cage.spacing - 2.0 * half))
+    let left = Some(edge + 2.0 * half - setup.cage.spacing).filter(|left| *left > 0.0);
+    (passing != 0.0).then(|| (edge / passing.abs(), left.map(|left| left / passing.abs())))
 }
 
 #[cfg(test)]
