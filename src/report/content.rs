@@ -93,6 +93,9 @@ pub struct Headline {
     pub value: String,
     /// Whether it is as it should be.
     pub verdict: Verdict,
+    /// Its reason, in a sentence or two.
+    #[serde(default)]
+    pub note: Option<String>,
 }
 
 /// A numbered part of a report.
@@ -256,13 +259,21 @@ impl Report {
 
     /// The report with its result as a whole: what was judged, the outcome in a few words, and the verdict.
     pub fn judgement(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
-        self.judgement = Some(Headline { label: label.into(), value: value.into(), verdict });
+        self.judgement = Some(Headline { label: label.into(), value: value.into(), verdict, note: None });
         self
     }
 
     /// The report with a figure more on top.
     pub(crate) fn headline(mut self, label: impl Into<String>, value: impl Into<String>, verdict: Verdict) -> Self {
-        self.headlines.push(Headline { label: label.into(), value: value.into(), verdict });
+        self.headlines.push(Headline { label: label.into(), value: value.into(), verdict, note: None });
+        self
+    }
+
+    /// The report with the reason of its last headline.
+    pub(crate) fn note(mut self, note: impl Into<String>) -> Self {
+        if let Some(last) = self.headlines.last_mut() {
+            last.note = Some(note.into());
+        }
         self
     }
 

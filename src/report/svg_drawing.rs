@@ -153,7 +153,7 @@ fn draw_spring(out: &mut String, [x, y]: [f64; 2], towards_rad: f64) {
     svg::path(out, "class=\"ground\"", &ground.data, "");
 }
 
-/// The dent's arc on its race, and its label towards the centre.
+/// The dent's arc on its race.
 fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
     let race = dent.race;
     let least = DENT / view.scale;
@@ -164,13 +164,6 @@ fn draw_dent(out: &mut String, view: &View, dent: &Dent) {
         view.px(race.centre.polar(race.radius, angle))
     }));
     svg::path(out, DENTED, &arc.data, "");
-    let inside = |part: f64| view.px(race.centre.polar(part * race.radius, dent.angle_rad));
-    let ([x1, y1], [x2, y2]) = (inside(0.97), inside(0.22));
-    svg::line(out, "class=\"leader\"", [x1, y1, x2, y2]);
-    let is_below = dent.angle_rad.sin() < 0.0;
-    let label = [x2, y2 + if is_below { -6.0 } else { 14.0 }];
-    let look = "class=\"dent-label\" text-anchor=\"middle\"";
-    svg::text(out, look, label, &dent.label);
 }
 
 /// An arrow from the sensor's place in the direction in which it measures, with the name at its tip; a dot in a circle,
@@ -259,6 +252,10 @@ fn key(out: &mut String, drawing: &Drawing) {
         sign(out, [KEY + 14.0, y]);
         svg::text(out, "class=\"key\"", [KEY + 40.0, y + 4.0], text);
         y += 30.0;
+    }
+    // over the balls they would hide these
+    for (number, dent) in drawing.dents.iter().enumerate() {
+        svg::text(out, "class=\"dent-label\"", [KEY, y + 18.0 * number as f64], &dent.label);
     }
 }
 
@@ -397,8 +394,9 @@ mod tests {
             "7 balls",
             "36 support springs",
             "1 dent<",
+            // below the seven signs of the key
+            " x=\"690.0\" y=\"270.0\">dent &amp; rim<",
             "1 sensor<",
-            "dent &amp; rim",
             "Bearing &lt;1&gt;",
             ">5 mm<",
         ] {

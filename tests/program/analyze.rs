@@ -103,8 +103,8 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
         let why = &diagnosis.faults[0].why;
         assert!(why.contains(expected), "{name}: {why}");
         assert_eq!(diagnosis.by_signal_alone, [Fault::OuterRace], "{name}");
-        let sentence = diagnosis.sentence();
-        assert!(sentence.contains("outer race: its lines stand out"));
+        let headline = diagnosis.headline();
+        assert!(headline.starts_with("not enough evidence: outer race"), "{headline}");
     };
     let sound = "The case has no damage there, and the play is 2.5 µm";
     let hidden = "This cannot be told from damage: the play is 2.5 µm";
@@ -632,7 +632,6 @@ fn peaks_of_a_run_up_are_not_compared_with_lines() {
     let (steady, report, peaks) = at("0:25,1:25");
     assert_eq!(steady["envelope_peaks"][0]["nearest"], "outer race");
     assert!(steady["lines_smeared_above_order"].is_null());
-    assert!(steady["outer_race"][0]["found_hz"].is_number());
     assert!(!report.contains(why));
     assert_eq!(report.matches("\">outer race</option>").count(), 2);
     assert!(peaks.contains("1 x outer race"), "{peaks}");
@@ -644,7 +643,6 @@ fn peaks_of_a_run_up_are_not_compared_with_lines() {
     }
     let order = rise["lines_smeared_above_order"].as_f64().unwrap();
     assert!((order - 0.1).abs() < 1e-4, "{order}");
-    assert!(rise["outer_race"][0]["found_hz"].is_null());
     assert!(report.contains(why));
     // the order spectrum's cursors stay
     assert_eq!(report.matches("\">outer race</option>").count(), 1);

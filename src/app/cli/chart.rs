@@ -218,7 +218,8 @@ fn summary(result: &Chart) -> String {
     for (name, place, error) in
         [("the program's choice", result.chosen, chosen), ("the source's method", result.source, source)]
     {
-        lines.push(format!("{name}, error over all {starts} starts:"));
+        let struck = result.struck.map_or_else(String::new, |struck| format!(", {struck} of them with a strike"));
+        lines.push(format!("{name}, error over all {starts} starts{struck}:"));
         lines.push(shown(&Point { error: error.clone(), ..result.points[place].clone() }, result));
     }
     lines.extend(result.without().map(|text| format!("warning: {text}")));

@@ -5,13 +5,13 @@ use super::report::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
 use super::{CliError, Outcome, OutputFolder, failure, resuming};
 use crate::app::case::{Case, Method, Transient};
-use crate::app::commands::analyze::SHOWN_WINDOWS;
+use crate::app::commands::analyze::{SHOWN_WINDOWS, verdict_lines};
 use crate::app::commands::parts::{bearing_table, not_shown};
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::{given, quantity, signed_fixed, significant};
+use crate::report::{quantity, significant};
 use std::time::Duration;
 
 /// Folder of an unfinished run, in that of the results.
@@ -176,36 +176,10 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     ));
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
-        lines.push(format!(
-            "{} from {} to {} s (shaft {:.2} Hz, {} rpm): rms {} m/s^2, peak {} m/s^2",
-            window.sensor,
-            given(window.from),
-            given(window.to),
-            window.speed_hz,
-            significant(60.0 * window.speed_hz, 4),
-            significant(window.rms, 3),
-            significant(window.peak, 3)
-        ));
-        lines.push(match &window.diagnosis {
-            Ok(diagnosis) => format!("  {}", diagnosis.sentence()),
-            Err(reason) => format!("  no verdict: {reason}"),
-        });
-        let missed = window.diagnosis.as_ref().ok().and_then(|diagnosis| not_shown(case, diagnosis));
-        lines.extend(missed.map(|missed| format!("  {missed}")));
-        // a line that the speed smears over Hz is not looked for
-        let shown = !result.scene.outer_race_is_sound() && window.smeared_above.is_none();
-        for (harmonic, line) in (1..).zip(window.outer.iter().filter(|_| shown)) {
-            let expected = line.expected_hz;
-            lines.push(match line.found_hz.zip(line.amplitude) {
-                Some((hz, amplitude)) => format!(
-                    "  envelope near {harmonic} x outer race ({expected:.2} Hz): {hz:.2} Hz ({} %), {} {}",
-                    signed_fixed(100.0 * (hz / expected - 1.0), 2),
-                    significant(amplitude, 3),
-                    window.spectrum.unit
-                ),
-                None => format!("  envelope near {harmonic} x outer race ({expected:.2} Hz): no peak within 3 %"),
-            });
-        }
+        let [rms, peak] = [window.rms, window.peak].map(|value| significant(value, 3));
+        let mut said = verdict_lines(window, |diagnosis| not_shown(case, diagnosis));
+        said.insert(1, format!("  rms {rms} m/s^2, peak {peak} m/s^2"));
+        lines.extend(said);
     }
     if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
         lines.push(format!("{} windows more: run.json and the report have them", more + 1));

@@ -8,7 +8,7 @@ use super::start::starts_in_damage;
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
-use crate::bearing::{Race, RaceContacts};
+use crate::bearing::RaceContacts;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::{Method, State};
@@ -112,11 +112,5 @@ impl Scene {
     /// At rest in the equilibrium.
     pub(crate) fn at_rest(&self, system: &CoupledSystem) -> State {
         system.state_at(self.start, &self.equilibrium, &self.stage.modes)
-    }
-
-    /// Whether the outer race has no defect.
-    pub(crate) fn outer_race_is_sound(&self) -> bool {
-        let mut defects = self.setup.race_defects.iter();
-        !defects.any(|defect| defect.race() == Race::Outer)
     }
 }

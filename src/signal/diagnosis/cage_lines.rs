@@ -43,22 +43,23 @@ impl Search<'_> {
         for verdict in faults.iter_mut() {
             match verdict.fault {
                 Fault::Ball => {
-                    verdict.conclusion = Conclusion::Named;
-                    verdict.why = format!(
+                    verdict.why.clear();
+                    let reason = format!(
                         "{} harmonics of the cage's line stand out by {:.0} dB on the average; probability by chance {}. One ball differs from the others, by damage or size, unless something else of the machine turns or strikes at this order: a belt, another shaft, a rub. Its own lines need not show, since its axis of spin wanders.",
                         lines.harmonics_seen,
                         lines.strength_db,
                         probability(lines.false_alarm)
                     );
+                    verdict.revise(Conclusion::Named, reason);
                     verdict.false_alarm = Some(lines.false_alarm);
                     verdict.strength_db = Some(lines.strength_db);
                     verdict.cage_lines = Some(lines.clone());
                 }
                 Fault::Cage if verdict.conclusion != Conclusion::Named => {
-                    verdict.conclusion = Conclusion::NotEnough;
-                    verdict.why =
-                        "Its lines are there. A ball that differs from the others makes them too, and is likelier."
-                            .to_owned();
+                    verdict.why.clear();
+                    let reason =
+                        "Its lines are there. A ball that differs from the others makes them too, and is likelier.";
+                    verdict.revise(Conclusion::NotEnough, reason.to_owned());
                 }
                 Fault::OuterRace | Fault::InnerRace | Fault::Cage => {}
             }

@@ -34,7 +34,7 @@ impl Search<'_> {
         let fit = comb.fit;
         if let Some(parts) = self.divided(comb, known) {
             return Some(format!(
-                "lines as strong stand between its harmonics, at all multiples of {:.2} Hz, 1/{parts} of its frequency: something strikes that seldom, and it is no part of this bearing.",
+                "Lines as strong stand between its harmonics, at all multiples of {:.2} Hz, 1/{parts} of its frequency: something strikes that seldom, and it is no part of this bearing.",
                 hz(fit.order / f64::from(parts))
             ));
         }
@@ -43,7 +43,7 @@ impl Search<'_> {
         // lines beside the harmonics count in a sided comb, and these need not stand out
         if let Some(times) = (2..=MOST_MULTIPLE).filter(|_| fit.beside.is_none()).find(multiple) {
             return Some(format!(
-                "only harmonics of {:.2} Hz stand out, {times} times its frequency: something strikes that often, and it is no part of this bearing.",
+                "Only harmonics of {:.2} Hz stand out, {times} times its frequency: something strikes that often, and it is no part of this bearing.",
                 hz(fit.order * f64::from(times))
             ));
         }
@@ -57,7 +57,7 @@ impl Search<'_> {
         let outside = (wider.order - expected).abs() > reach + place;
         (outside && wider.score > fit.score).then(|| {
             format!(
-                "they fit better at {:.2} Hz, {:+.1} % from what is expected, which is beyond the error of orders and speed.",
+                "They fit better at {:.2} Hz, {:+.1} % from what is expected, which is beyond the error of orders and speed.",
                 hz(wider.order),
                 100.0 * (wider.order / expected - 1.0)
             )

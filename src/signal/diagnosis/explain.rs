@@ -126,10 +126,11 @@ impl Search<'_> {
             };
             let races = [Fault::OuterRace, Fault::InnerRace];
             if let Some(fault) = races.into_iter().find_map(hidden) {
-                verdict.take_back(&format!(
+                let reason = format!(
                     "They may be sidebands of the {}, whose own lines the shaft's hide in this window. A longer window decides.",
                     fault.name()
-                ));
+                );
+                verdict.revise(Conclusion::NotEnough, reason);
             }
         }
     }

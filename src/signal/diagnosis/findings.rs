@@ -36,7 +36,7 @@ impl Search<'_> {
             self.turns,
             turns_needed(expected)
         );
-        FaultVerdict { why, ..self.empty(fault, expected) }
+        FaultVerdict { reason: why.clone(), why, ..self.empty(fault, expected) }
     }
 
     /// A part whose lines cannot be told from others, or lie beyond the spectrum.
@@ -55,7 +55,7 @@ impl Search<'_> {
         } else {
             self.covered(fault, &harmonics, widest)
         };
-        FaultVerdict { why, harmonics, ..self.empty(fault, expected) }
+        FaultVerdict { reason: why.clone(), why, harmonics, ..self.empty(fault, expected) }
     }
 
     /// Which lines hide those of a part, and what window shows them; the table of harmonics has them all.
@@ -126,16 +126,18 @@ impl Search<'_> {
             side_lines,
             ..self.empty(fault, expected)
         };
-        (verdict.conclusion, verdict.why) = conclude(&verdict, &evidence, chance);
-        if verdict.conclusion == Conclusion::NotSeen
-            && let Some(reason) = self.beside_the_shafts(fault)
-        {
-            verdict.take_back(&reason);
+        (verdict.conclusion, verdict.why, verdict.reason) = conclude(&verdict, &evidence, chance);
+        let objection = match verdict.conclusion {
+            Conclusion::NotSeen => self.beside_the_shafts(fault),
+            Conclusion::Named => self.doubt(expected, candidate, known),
+            Conclusion::NotEnough => None,
+        };
+        if let Some(reason) = objection {
+            verdict.revise(Conclusion::NotEnough, reason);
         }
-        if verdict.conclusion == Conclusion::Named
-            && let Some(doubt) = self.doubt(expected, candidate, known)
-        {
-            verdict.take_back(&format!("But {doubt}"));
+        if verdict.conclusion == Conclusion::NotSeen {
+            // where chance puts its comb is no place of its lines
+            (verdict.order, verdict.frequency_hz) = (None, None);
         }
         verdict
     }

@@ -12,6 +12,9 @@ use serde::Serialize;
 /// A change counts as growth or decay where the 95 % interval lies beyond so many dB: another mounting of the sensor, another load or
 /// temperature change a level by as much.
 pub const LEAST_CHANGE_DB: f64 = 3.0;
+/// Growth of which the 95 % interval lies above so many dB, ten times the amplitude, is strong evidence of damage: practice calls twice the
+/// amplitude a change and ten times it serious (R. B. Randall, Vibration-based Condition Monitoring, 2011).
+pub const STRONG_CHANGE_DB: f64 = 20.0;
 /// Nothing changed where the 95 % interval lies within so many dB, a factor of two.
 pub const AS_BEFORE_WITHIN_DB: f64 = 6.0;
 

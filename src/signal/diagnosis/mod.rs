@@ -55,7 +55,9 @@ pub(crate) use change::line_changes;
 pub use compared_lines::ComparedSignal;
 pub use error::DiagnosisError;
 pub use fault::{Fault, FaultOrders, Kinematics};
-pub use line_change::{AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LevelChange, LineChange};
+pub use line_change::{
+    AS_BEFORE_WITHIN_DB, ChangeConclusion, LEAST_CHANGE_DB, LevelChange, LineChange, STRONG_CHANGE_DB,
+};
 pub(crate) use line_change::{change_words, level_changes};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
@@ -65,4 +67,3 @@ pub use verdict::{
     LEAST_STRENGTH_DB, NAMED_BELOW, SideLine, UNSEEN_ABOVE, UnexplainedImpacts,
 };
 pub use window::Diagnosis;
-pub(crate) use window::TAKEN_BACK;

@@ -54,8 +54,8 @@ pub(super) fn say_strictly_periodic(
         let Some(Tones { frequency_hz, harmonics, without_slip }) = comb(&tones, white, within_hz, line) else {
             continue;
         };
-        let tones = format!("But {harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself:");
-        verdict.take_back(&if without_slip {
+        let tones = format!("{harmonics} multiples of {frequency_hz:.2} Hz are tones of the signal itself:");
+        let reason = if without_slip {
             format!(
                 "{tones} strictly periodic, as in a computed signal without slip. A bearing usually slips; a gear, another shaft and the supply do not."
             )
@@ -63,7 +63,8 @@ pub(super) fn say_strictly_periodic(
             format!(
                 "{tones} this window is too short to show whether they slip, as a bearing's do, or not, as those of a gear. A longer window decides."
             )
-        });
+        };
+        verdict.revise(Conclusion::NotEnough, reason);
     }
 }
 

@@ -136,8 +136,10 @@ pub struct FaultVerdict {
     /// The lines of the cage, where it is by these that a ball is indicated: `false_alarm` and
     /// `strength_db` are theirs then.
     pub cage_lines: Option<CageLines>,
-    /// Why this, and why not more.
+    /// The evidence, and why not more.
     pub why: String,
+    /// What decided, in a sentence.
+    pub reason: String,
 }
 
 /// The lines of the cage, by which a ball shows that differs from the others.
@@ -160,10 +162,11 @@ pub struct CageLines {
 }
 
 impl FaultVerdict {
-    /// Takes an indication back, for a reason.
-    pub(super) fn take_back(&mut self, reason: &str) {
-        self.conclusion = Conclusion::NotEnough;
-        self.why = format!("{} {reason}", self.why);
+    /// Says something else of it, for a reason that is added to the evidence.
+    pub(crate) fn revise(&mut self, conclusion: Conclusion, reason: String) {
+        self.conclusion = conclusion;
+        self.why = format!("{} {reason}", self.why).trim_start().to_owned();
+        self.reason = reason;
     }
 }
 
@@ -263,14 +266,15 @@ pub(crate) fn probability(chance: f64) -> String {
     }
 }
 
-/// Conclusion and reason.
-pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64) -> (Conclusion, String) {
+/// Conclusion, evidence and reason.
+pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64) -> (Conclusion, String, String) {
     let (free, seen) = (evidence.free, evidence.seen);
     let strength = evidence.strength_db.unwrap_or(0.0);
     let mut found = format!("{seen} of {free} free harmonics stand out; probability by chance {}", probability(chance));
     if chance >= UNSEEN_ABOVE {
-        return (Conclusion::NotSeen, format!("{found}."));
+        return (Conclusion::NotSeen, format!("{found}."), "Chance makes such lines.".to_owned());
     }
+    let reason = format!("{seen} harmonics stand out, {strength:.0} dB above the floor on the average.");
     found.push_str(&format!("; {strength:.0} dB above the floor on the average"));
     if let Some([from, to]) = verdict.band_hz {
         found.push_str(&format!(", band {from:.0} to {to:.0} Hz"));
@@ -314,7 +318,7 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
         ),
     ];
     if let Some((_, text)) = objections.into_iter().find(|(holds, _)| *holds) {
-        return (Conclusion::NotEnough, format!("{found}. {text}"));
+        return (Conclusion::NotEnough, format!("{found}. {text}"), text.to_owned());
     }
     let beside = match verdict.fault {
         Fault::OuterRace => {
@@ -322,5 +326,5 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
         }
         _ => "",
     };
-    (Conclusion::Named, format!("{found}.{beside}"))
+    (Conclusion::Named, format!("{found}.{beside}"), reason)
 }

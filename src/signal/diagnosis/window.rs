@@ -53,6 +53,8 @@ pub struct Diagnosis {
     pub unexplained: Vec<UnexplainedImpacts>,
     /// Faults that the signal alone indicates and something else speaks against.
     pub by_signal_alone: Vec<Fault>,
+    /// What grew by 20 dB and more since an earlier signal, with the change in words; most first.
+    pub grew: Vec<String>,
 }
 
 fn turns_alone<S: Serializer>(spectrum: &EnvelopeOrderSpectrum, to: S) -> Result<S::Ok, S::Error> {
@@ -129,6 +131,7 @@ impl Diagnosis {
             faults: found.faults,
             unexplained: found.unexplained,
             by_signal_alone: Vec::new(),
+            grew: Vec::new(),
         })
     }
 
@@ -142,15 +145,9 @@ impl Diagnosis {
     pub(crate) fn doubt(&mut self, fault: Fault, reason: &str) {
         let indicated = |verdict: &&mut FaultVerdict| verdict.fault == fault && verdict.conclusion == Conclusion::Named;
         if let Some(verdict) = self.faults.iter_mut().find(indicated) {
-            verdict.take_back(reason);
+            verdict.revise(Conclusion::NotEnough, reason.to_owned());
             self.by_signal_alone.push(fault);
         }
-    }
-
-    /// Parts on which nothing can be said: the window is too short, or lines that have another reason hide theirs.
-    pub(crate) fn not_judged(&self) -> impl Iterator<Item = &FaultVerdict> {
-        let faults = self.faults.iter();
-        faults.filter(|verdict| verdict.false_alarm.is_none())
     }
 
     /// Whether any part was judged: the window is long enough, and lines are free.
@@ -198,36 +195,53 @@ impl Diagnosis {
         })
     }
 
+    /// The verdict in a few words: what is indicated, else what grew strongly, else what is said of most.
+    pub fn headline(&self) -> String {
+        match (self.decisive(), self.unexplained.first()) {
+            (Some((Conclusion::Named, parts)), _) => format!("{}: {}", Conclusion::Named.words(), names(&parts)),
+            _ if !self.grew.is_empty() => format!("strong growth: {}", self.grew.join(", ")),
+            (_, Some(impacts)) => {
+                format!("impacts at {:.2} Hz belong to no part", impacts.frequency_hz)
+            }
+            (Some((Conclusion::NotSeen, _)), None) => "no fault indicated".to_owned(),
+            (Some((conclusion, parts)), None) => format!("{}: {}", conclusion.words(), names(&parts)),
+            (None, None) => "no verdict".to_owned(),
+        }
+    }
+
+    /// What decided it, in a sentence or two.
+    pub fn reason(&self) -> String {
+        match (self.decisive(), self.unexplained.first()) {
+            (Some((conclusion, _)), _) if conclusion != Conclusion::Named && !self.grew.is_empty() => {
+                "Ten times the amplitude of the earlier signal is strong evidence of damage; which part it is, this signal alone does not prove.".to_owned()
+            }
+            (Some((Conclusion::Named, parts)), _) | (Some((_, parts)), None) => parts[0].reason.clone(),
+            (_, Some(_)) => "Check bearing and speed, and what else turns.".to_owned(),
+            (None, None) => self.faults.first().map_or_else(String::new, |verdict| verdict.reason.clone()),
+        }
+    }
+
+    /// The strongest thing that is said of any judged part, and of which parts.
+    fn decisive(&self) -> Option<(Conclusion, Vec<&FaultVerdict>)> {
+        let all = [Conclusion::Named, Conclusion::NotEnough, Conclusion::NotSeen];
+        all.into_iter().find_map(|conclusion| {
+            let judged = |verdict: &&FaultVerdict| verdict.conclusion == conclusion && verdict.false_alarm.is_some();
+            let parts: Vec<&FaultVerdict> = self.faults.iter().filter(judged).collect();
+            (!parts.is_empty()).then_some((conclusion, parts))
+        })
+    }
+
     /// The verdict in a line.
     pub fn sentence(&self) -> String {
-        let of = |conclusion: Conclusion| {
-            let of = self.faults.iter().filter(|verdict| verdict.conclusion == conclusion);
-            of.map(|verdict| verdict.fault.name()).collect::<Vec<_>>()
-        };
-        let parts = [Conclusion::Named, Conclusion::NotEnough, Conclusion::NotSeen];
-        let parts = parts.into_iter().map(|conclusion| (of(conclusion), conclusion.words()));
-        let parts = parts.filter(|(faults, _)| !faults.is_empty());
-        let mut parts: Vec<String> = parts.map(|(faults, word)| format!("{word}: {}", faults.join(", "))).collect();
-        let alone = self.by_signal_alone.iter().map(|fault| fault.name());
-        let alone: Vec<&str> = alone.collect();
-        if !alone.is_empty() {
-            parts.push(format!("{}: {TAKEN_BACK}", alone.join(", ")));
-        }
-        parts.extend(self.unexplained.iter().map(|impacts| {
-            format!(
-                "impacts at {:.2} Hz with {} harmonics belong to no part of this bearing",
-                impacts.frequency_hz, impacts.harmonics_seen
-            )
-        }));
-        parts.extend(self.speed_doubt());
-        parts.extend(self.speed_change());
-        parts.join("; ")
+        let doubts = self.speed_doubt().into_iter().chain(self.speed_change());
+        let doubts: String = doubts.map(|doubt| format!(" Speed: {doubt}.")).collect();
+        format!("{}. {}{doubts}", self.headline(), self.reason())
     }
 }
 
-/// What is said of parts whose lines stand out, and whose damage is nevertheless not indicated.
-pub(crate) const TAKEN_BACK: &str =
-    "its lines stand out, but what is known of the bearing explains them without damage";
+fn names(parts: &[&FaultVerdict]) -> String {
+    parts.iter().map(|verdict| verdict.fault.name()).collect::<Vec<_>>().join(", ")
+}
 
 /// A speed in both units that people use.
 fn both(speed_hz: f64) -> String {

@@ -86,9 +86,9 @@ impl Baseline {
                 signal: earlier,
                 window: self.window(source, earlier, window),
                 kinematics: &before,
+                settings: &self.source.settings,
             };
-            let within_hz = window.band.judged_hz(source.settings.band, source.settings.good_to_hz);
-            let compared = compare_window(window, within_hz, signal, &kinematics, &earlier);
+            let compared = compare_window(window, &source.settings, signal, &kinematics, &earlier);
             compared.map_err(|error| {
                 CliError::input(format!("--baseline {name}, channel \"{}\": {error}", earlier.signal.name))
                     .with_help("see --baseline-window and --baseline-speed for the part of it that counts")

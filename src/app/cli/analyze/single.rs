@@ -7,11 +7,10 @@ use super::source::{Source, Unnamed};
 use super::{AnalyzeArguments, claim, command, warn, write_results};
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
-    AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report,
+    AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report, verdict_lines,
 };
 use crate::app::commands::parts::{not_shown, with_details, with_entries};
-use crate::report::{given, significant};
-use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Diagnosis, change_words};
+use crate::signal::diagnosis::{ChangeConclusion, Diagnosis, change_words};
 
 /// Analyses an input into a folder.
 ///
@@ -101,22 +100,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
 fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&Diagnosis) -> Option<String>) -> String {
     let mut lines = Vec::new();
     for window in windows {
-        let place = format!("{} from {} to {} s", window.sensor, given(window.from), given(window.to));
-        match &window.diagnosis {
-            Err(reason) => lines.push(format!("{place}: no verdict: {reason}")),
-            Ok(diagnosis) => {
-                lines.push(format!(
-                    "{place} (shaft {} Hz, {} rpm, {} turns): {}",
-                    significant(diagnosis.speed_hz, 4),
-                    significant(60.0 * diagnosis.speed_hz, 4),
-                    significant(diagnosis.spectrum.turns, 3),
-                    diagnosis.sentence()
-                ));
-                let seen = diagnosis.faults.iter().filter(|verdict| verdict.conclusion != Conclusion::NotSeen);
-                lines.extend(seen.map(|verdict| format!("  {}: {}", verdict.fault.name(), verdict.why)));
-                lines.extend(truth(diagnosis).map(|missed| format!("  {missed}")));
-            }
-        }
+        lines.extend(verdict_lines(window, &truth));
         lines.extend(window.change.iter().flat_map(change_lines));
     }
     lines.join("\n")

@@ -14,7 +14,7 @@ use crate::app::error::ComputeError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::report::{Cell, Fact, Section, given, pretty_unit, quantity, significant};
+use crate::report::{Cell, Fact, Section, given, pretty_unit, quantity, shaft_speed, significant};
 use crate::signal::diagnosis::Kinematics;
 use std::path::Path;
 
@@ -137,11 +137,17 @@ impl Source {
 
     /// The signals, and what a case says of the machine, in words.
     pub(super) fn inputs(&self) -> Section {
-        let signals = self.signals.iter().map(|MeasuredSignal { name, series, .. }| {
+        let signals = self.signals.iter().map(|signal| {
+            let MeasuredSignal { name, series, .. } = signal;
             let unit =
                 if series.unit().is_empty() { String::new() } else { format!(" in {}", pretty_unit(series.unit())) };
             let length = given(series.values().len() as f64 * series.step_s());
-            Fact::new(format!("Signal {name}"), format!("{length} s at {}{unit}", quantity(series.rate_hz(), "Hz")))
+            let motion = self.machine.motion(signal).filter(|_| !self.is_run);
+            let speed = motion.map(|(kinematics, _)| kinematics.mean_speed_hz(series.span()));
+            let speed =
+                speed.map_or_else(String::new, |hz| format!("; mean shaft speed {}, as given", shaft_speed(hz, 4)));
+            let text = format!("{length} s at {}{unit}{speed}", quantity(series.rate_hz(), "Hz"));
+            Fact::new(format!("Signal {name}"), text)
         });
         Section::new("Inputs").facts(signals.chain(self.machine_facts()))
     }

@@ -1,8 +1,6 @@
 //! Many files and folders, analysed into one table.
 //!
 //! What could not be analysed among many files.
-//!
-//! The table of many windows on a terminal: a line a row.
 
 use super::baseline::{Baseline, analyse};
 use super::single::no_part_judged;
@@ -13,11 +11,10 @@ use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::commands::analyze::{
     AnalysisRow, FailureSummary, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput,
-    input_section, survey_report, survey_section, unexplained,
+    input_section, survey_report, survey_section, verdicts_table,
 };
 use crate::app::commands::parts::with_entries;
-use crate::report::{Cell, Column, Fact, Section, Table, significant};
-use crate::signal::diagnosis::{ChangeConclusion, Conclusion};
+use crate::report::{Cell, Fact, Section};
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -116,7 +113,7 @@ pub(super) fn survey(
         0 => verdict(&all.rows),
         failed => Err(failure(&all.failures, failed, inputs.len())),
     };
-    Ok(Outcome { summary: table(&all.rows), result, written, verdict })
+    Ok(Outcome { summary: verdicts_table(&all.rows).plain(), result, written, verdict })
 }
 
 impl Analysed {
@@ -188,7 +185,7 @@ fn verdict(rows: &[AnalysisRow]) -> Result<(), CliError> {
     let judged = |row: &AnalysisRow| row.found.as_ref().is_ok_and(WindowAnalysis::is_judged);
     match rows.iter().any(judged) {
         true => Ok(()),
-        false => Err(no_part_judged(&rows.first().map_or_else(|| "no windows".to_owned(), AnalysisRow::remark))),
+        false => Err(no_part_judged(&rows.first().map_or_else(|| "no windows".to_owned(), AnalysisRow::reason))),
     }
 }
 
@@ -259,79 +256,6 @@ pub(super) fn failure(failures: &[Failure], failed: usize, inputs: usize) -> Cli
     CliError { is_input, what, help: Some(helps.join("\n")).filter(|help| !help.is_empty()) }
 }
 
-/// The rows, aligned, under a head.
-pub(super) fn table(rows: &[AnalysisRow]) -> String {
-    let texts = ["file", "channel", "window s", "indicated", "not enough evidence"].map(Column::text);
-    let mut columns = texts.to_vec();
-    columns.splice(3..3, ["speed Hz", "RMS", "kurtosis"].map(|title| Column::number(title, "")));
-    let text = Table::new("", columns).rows(rows.iter().map(|row| cells(row).map(Cell::text))).plain();
-    let lines = text.lines().skip(1).map(|line| line.trim_start().to_owned());
-    lines.chain(rows.iter().filter_map(grown)).collect::<Vec<_>>().join("\n")
-}
-
-/// What grew since the baseline, in a line.
-fn grown(row: &AnalysisRow) -> Option<String> {
-    let change = row.found.as_ref().ok()?.change.as_ref()?;
-    let grew = change.with(ChangeConclusion::Grew).map(|line| format!("{} {}", line.name, line.words()));
-    let grew: Vec<String> = grew.collect();
-    (!grew.is_empty()).then(|| {
-        let text = format!("{} {}: grew since {}: {}", row.input, row.channel, change.baseline, grew.join(", "));
-        one_line(&text)
-    })
-}
-
-fn cells(row: &AnalysisRow) -> [String; 8] {
-    let [input, channel] = [&row.input, &row.channel].map(|text| one_line(text));
-    let window = match &row.found {
-        Ok(window) => window,
-        Err(why) => {
-            let none = String::new;
-            return [input, channel, none(), none(), none(), none(), row.indicated(), one_line(why)];
-        }
-    };
-    let not_enough = if window.is_judged() { unclear(window, &row.remark()) } else { one_line(&row.remark()) };
-    let speed_hz = window.diagnosis.as_ref().map_or(window.speed_hz, |found| found.speed_hz);
-    [
-        input,
-        channel,
-        format!("{}-{}", short(window.from), short(window.to)),
-        significant(speed_hz, 4),
-        significant(window.rms, 3),
-        window.kurtosis.map_or_else(String::new, |value| significant(value, 3)),
-        indicated(row, window),
-        not_enough,
-    ]
-}
-
-/// A time to the millisecond, without zeros that say nothing.
-fn short(time: f64) -> f64 {
-    (1e3 * time).round() / 1e3
-}
-
-/// Parts that are indicated, with the strength of their lines.
-fn indicated(row: &AnalysisRow, window: &WindowAnalysis) -> String {
-    let named = window.parts(Conclusion::Named).map(|verdict| {
-        let strength = verdict.strength_db.map(|db| format!(" {db:.0} dB"));
-        format!("{}{}", verdict.fault.name(), strength.unwrap_or_default())
-    });
-    let named: Vec<String> = named.collect();
-    if named.is_empty() { row.indicated() } else { named.join(", ") }
-}
-
-/// What is between, impacts that belong to no part, and a speed that nothing confirms.
-fn unclear(window: &WindowAnalysis, remark: &str) -> String {
-    let parts = window.parts(Conclusion::NotEnough).map(|verdict| verdict.fault.name().to_owned());
-    let impacts = unexplained(window).map(|text| format!("of no part: {text}"));
-    let remark = (!remark.is_empty()).then(|| one_line(remark));
-    let said = parts.chain(impacts).chain(remark);
-    said.collect::<Vec<_>>().join(", ")
-}
-
-/// A name or a message without what would break the line.
-fn one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
-}
-
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
@@ -361,7 +285,7 @@ mod terminal_tests {
     use crate::numerics::series::TimeWindow;
     use crate::report::{Abscissa, Curve};
     use crate::signal::diagnosis::{
-        Diagnosis, EnvelopeOrderSpectrum, Fault, FaultVerdict, SpeedSource, UnexplainedImpacts,
+        Conclusion, Diagnosis, EnvelopeOrderSpectrum, Fault, FaultVerdict, SpeedSource, UnexplainedImpacts,
     };
     use crate::signal::{AmplitudeSpectrum, EnvelopeSpectrum, WindowFunction};
 
@@ -388,6 +312,7 @@ mod terminal_tests {
             faults,
             unexplained: vec![impacts],
             by_signal_alone: Vec::new(),
+            grew: Vec::new(),
         }
     }
 
@@ -413,7 +338,6 @@ mod terminal_tests {
             peak: 1.0,
             kurtosis: Some(3.0),
             band: UsedBand::default(),
-            outer: Vec::new(),
             fault_lines: Vec::new(),
             smeared_above: None,
             peaks: Vec::new(),
@@ -455,11 +379,12 @@ mod terminal_tests {
             },
         ];
         let expected = "\
-file        channel  window s  speed Hz    RMS  kurtosis  indicated         not enough evidence
-a.csv       P1       0-10         29.95  0.123      3.00  outer race 22 dB  ball, of no part: 88.20 Hz (order 2.945) with 4 harmonics
-longer.csv  P1       0-10         29.95  0.123      3.00  no verdict        too short for a verdict on any part
-c.csv       P1       0-10         29.95  0.123      3.00  no verdict        two lines
-d .csv                                                    not analysed      no such file";
-        assert_eq!(table(&rows), expected);
+Verdicts
+  File        Channel  Window     Speed [Hz]      RMS  Kurtosis  Verdict                                Reason
+  a.csv       P1       0 to 10 s       29.95  0.123 g      3.00  fault indicated: outer race
+  longer.csv  P1       0 to 10 s       29.95  0.123 g      3.00  impacts at 88.20 Hz belong to no part  Check bearing and speed, and what else turns.
+  c.csv       P1       0 to 10 s       29.95  0.123 g      3.00  no verdict                             two lines
+  d .csv                                                         not analysed                           no such file";
+        assert_eq!(verdicts_table(&rows).plain(), expected);
     }
 }

@@ -1,13 +1,13 @@
 //! A window of a signal beside an earlier signal of the same machine: what grew.
 
-use super::window::{WindowAnalysis, WindowChange, stretch};
+use super::window::{AnalysisSettings, WindowAnalysis, WindowChange, stretch};
 use crate::app::error::ComputeError;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::shaft_speed;
 use crate::signal::diagnosis::{
     ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, Kinematics, LineChange,
-    level_changes, line_changes,
+    NAMED_BELOW, STRONG_CHANGE_DB, level_changes, line_changes,
 };
 
 /// Speeds that differ by more than this part excite resonances differently.
@@ -28,6 +28,8 @@ pub struct EarlierSignal<'a> {
     pub window: TimeWindow,
     /// Speed and orders.
     pub kinematics: &'a Kinematics<'a>,
+    /// How it is judged by itself.
+    pub settings: &'a AnalysisSettings,
 }
 
 impl WindowChange {
@@ -68,7 +70,7 @@ impl WindowChange {
 /// [`ComputeError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
 pub(crate) fn compare_window(
     window: &mut WindowAnalysis,
-    within_hz: Option<[f64; 2]>,
+    settings: &AnalysisSettings,
     signal: &MeasuredSignal,
     kinematics: &Kinematics<'_>,
     earlier: &EarlierSignal<'_>,
@@ -95,7 +97,8 @@ pub(crate) fn compare_window(
     if let Ok(diagnosis) = &window.diagnosis {
         let orders = earlier.kinematics.orders(earlier.window)?;
         let turns = |time| earlier.kinematics.turns(time);
-        match Diagnosis::of(&before, within_hz, earlier.window, turns, &orders) {
+        let within_hz = window.band.judged_hz(settings.band, earlier.settings.good_to_hz);
+        match earlier.settings.judge(&before, within_hz, earlier.window, turns, &orders) {
             Ok(found) => {
                 let turns_now = |time| kinematics.turns(time);
                 let orders_now = kinematics.orders(span)?;
@@ -122,6 +125,7 @@ pub(crate) fn compare_window(
         ));
     }
     let ratio = change.speed_hz / window.speed_hz;
+    let alike = (ratio - 1.0).abs() <= SAME_SPEED && whole_db.is_none_or(|db| db.abs() <= ANOTHER_SCALE_DB);
     if (ratio - 1.0).abs() > SAME_SPEED {
         change.warnings.push(format!(
             "The shaft turned at {} in the earlier signal and turns at {} in this one: resonances are excited differently, and levels change with that.",
@@ -131,6 +135,9 @@ pub(crate) fn compare_window(
     }
     if let Ok(diagnosis) = &mut window.diagnosis {
         explain(diagnosis, &change.lines);
+        if alike {
+            diagnosis.grew = strong_growth(diagnosis, &change.lines, settings);
+        }
     }
     window.change = Some(change);
     Ok(())
@@ -153,6 +160,20 @@ fn shown_band(diagnosis: &Diagnosis, lines: &[LineChange]) -> Option<[f64; 2]> {
         .or_else(|| compared().find(|line| line.conclusion == ChangeConclusion::Grew))
         .or_else(|| compared().next());
     line.and_then(|line| line.band_hz)
+}
+
+/// The parts whose lines chance does not make and that grew strongly, most first; not those of which a case says that they are sound.
+fn strong_growth(diagnosis: &Diagnosis, lines: &[LineChange], settings: &AnalysisSettings) -> Vec<String> {
+    let strong = lines.iter().filter_map(|line| {
+        let low_db = line.interval_db[0].filter(|db| *db >= STRONG_CHANGE_DB)?;
+        let mut faults = diagnosis.faults.iter();
+        let verdict = faults.find(|verdict| Some(verdict.fault) == line.fault)?;
+        let certain = verdict.false_alarm.is_some_and(|chance| chance < NAMED_BELOW);
+        (certain && !settings.is_sound(verdict.fault)).then_some((low_db, line))
+    });
+    let mut strong: Vec<(f64, &LineChange)> = strong.collect();
+    strong.sort_by(|a, b| b.0.total_cmp(&a.0));
+    strong.into_iter().map(|(_, line)| format!("{}, {}", line.name, line.words())).collect()
 }
 
 /// Adds to the evidence of each verdict what the comparison says of it. The conclusions stay.
@@ -180,5 +201,72 @@ fn explain(diagnosis: &mut Diagnosis, lines: &[LineChange]) {
             ChangeConclusion::NotCompared => continue,
         };
         verdict.why = format!("{} {text}", verdict.why);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::analyze::compute_analysis;
+    use crate::bearing::SpeedProfile;
+    use crate::numerics::Unwatched;
+    use crate::signal::diagnosis::FaultOrders;
+
+    /// Four seconds at 25 Hz with impacts of the outer race of a strength, 1 % apart from even, in noise of 0.05.
+    fn signal(strength: f64, mut seed: u64) -> MeasuredSignal {
+        let pass_s = 1.0 / (25.0 * 3.57);
+        let (mut begun, mut wait) = (0.0, pass_s);
+        let value = |k: u32| {
+            let t = f64::from(k) / 12e3;
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let noise = (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+            if t - begun >= wait {
+                begun += wait;
+                wait = pass_s * (1.0 + 0.02 * noise);
+            }
+            let since = t - begun;
+            strength * (-800.0 * since).exp() * (std::f64::consts::TAU * 3000.0 * since).sin() + 0.17 * noise
+        };
+        let series = TimeSeries::new(0.0, 1.0 / 12e3, "m/s^2", (0..48_000).map(value).collect()).unwrap();
+        MeasuredSignal { name: "P1".to_owned(), series, speed_hz: None, own_rate_hz: None, doubts: Vec::new() }
+    }
+
+    /// What is said of impacts beside weaker ones, each with what its case says of the outer race: sound or not, or nothing.
+    fn compared(now: [Option<bool>; 2]) -> (String, Vec<String>) {
+        let orders = FaultOrders::new([Some(3.57), Some(5.43), None, None], 0.01).unwrap();
+        let kinematics = Kinematics::Given { orders, speed: SpeedProfile::constant(25.0).unwrap() };
+        let settings = now.map(|sound| AnalysisSettings {
+            no_signs: sound.map(|sound| (Fault::OuterRace, sound, "Known.".to_owned())).into_iter().collect(),
+            ..AnalysisSettings::default()
+        });
+        let [strong, weak] = [signal(20.0, 1), signal(0.5, 2)];
+        let analysed = compute_analysis(std::slice::from_ref(&strong), &settings[0], &kinematics, &Unwatched);
+        let mut window = analysed.unwrap().remove(0);
+        let earlier = EarlierSignal {
+            name: "old",
+            signal: &weak,
+            window: weak.series.span(),
+            kinematics: &kinematics,
+            settings: &settings[1],
+        };
+        compare_window(&mut window, &settings[0], &strong, &kinematics, &earlier).unwrap();
+        (window.diagnosis.unwrap().headline(), window.change.unwrap().warnings)
+    }
+
+    #[test]
+    fn an_earlier_signal_is_judged_as_it_is_alone() {
+        let (_, warnings) = compared([None, None]);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].starts_with("The earlier signal indicates a fault by itself: outer race."), "{warnings:?}");
+        assert_eq!(compared([None, Some(true)]).1, [""; 0], "its case says that the race is sound");
+    }
+
+    #[test]
+    fn strong_growth_is_the_headline_where_the_signal_alone_proves_nothing() {
+        let headline = |sound| compared([sound, Some(true)]).0;
+        assert_eq!(headline(None), "fault indicated: outer race");
+        let strong = headline(Some(false));
+        assert!(strong.starts_with("strong growth: outer race, +32."), "{strong}");
+        assert_eq!(headline(Some(true)), "not enough evidence: outer race");
     }
 }

@@ -7,7 +7,7 @@ use crate::report::{
     Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Family, Marker, Plot, Report, Section, Table, Verdict, given,
     shaft_speed, signed_fixed, significant,
 };
-use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, NAMED_BELOW, SpeedSource, TAKEN_BACK};
+use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault, FaultVerdict, SpeedSource};
 
 /// Composes the report of signals from files; `source` is the file or folder, `inputs` says in words what was analysed, `truth` what is
 /// known to be there and not shown, `command` is the line that made it.
@@ -40,46 +40,33 @@ pub(crate) fn verdict_headlines(
 ) -> Report {
     for window in windows {
         let Ok(diagnosis) = &window.diagnosis else { continue };
-        // chance does not make their lines, and they are not indicated
-        let uncertain = window.parts(Conclusion::NotEnough);
-        let uncertain = uncertain.filter(|verdict| verdict.false_alarm.is_some_and(|p| p < NAMED_BELOW));
-        let [named, uncertain, not_judged, not_enough, alone] = [
-            names(diagnosis.named().map(|verdict| verdict.fault)),
-            names(uncertain.map(|verdict| verdict.fault)),
-            names(diagnosis.not_judged().map(|verdict| verdict.fault)),
-            names(window.parts(Conclusion::NotEnough).map(|verdict| verdict.fault)),
-            names(diagnosis.by_signal_alone.iter().copied()),
-        ];
-        let mut text = match (named.as_str(), diagnosis.unexplained.first(), uncertain.as_str()) {
-            ("", Some(impacts), _) => format!(
-                "impacts at {} Hz belong to no part: check bearing and speed",
-                significant(impacts.frequency_hz, 4)
-            ),
-            ("", ..) if !diagnosis.is_judged() => "too short for a verdict".to_owned(),
-            ("", _, "") if diagnosis.speed_doubt().is_some() => {
-                "no fault indicated at this speed, which is doubtful".to_owned()
-            }
-            ("", _, "") => "no fault indicated".to_owned(),
-            ("", _, parts) => format!("not enough evidence: {parts}"),
-            (named, ..) => format!("fault indicated: {named}"),
-        };
-        let open = if named.is_empty() { not_judged } else { not_enough };
-        if diagnosis.is_judged() && !open.is_empty() {
-            text += &format!("; not enough evidence: {open}");
-        }
-        if !alone.is_empty() {
-            text += &format!("; {alone}: {TAKEN_BACK}");
-        }
-        let missed = truth(diagnosis);
-        let verdict = if missed.is_some() { Verdict::Bad } else { Verdict::None };
-        text.extend(missed.map(|missed| format!("; {missed}")));
-        report = report.headline(place_and_time(window), text, verdict);
+        let missed = truth(diagnosis).map_or_else(String::new, |missed| format!("{}. ", capital(&missed)));
+        let note = missed + &diagnosis.reason();
+        report = report.headline(place_and_time(window), diagnosis.headline(), Verdict::None).note(note);
     }
     report
 }
 
-fn names(faults: impl Iterator<Item = Fault>) -> String {
-    faults.map(Fault::name).collect::<Vec<_>>().join(", ")
+/// The same on a terminal, with the table of the parts.
+pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&Diagnosis) -> Option<String>) -> Vec<String> {
+    let place = format!("{} from {} to {} s", window.sensor, given(window.from), given(window.to));
+    let diagnosis = match &window.diagnosis {
+        Ok(diagnosis) => diagnosis,
+        Err(reason) => return vec![format!("{place}: no verdict: {reason}")],
+    };
+    let mut lines = vec![format!(
+        "{place} (shaft {} Hz, {} rpm, {} turns): {}",
+        significant(diagnosis.speed_hz, 4),
+        significant(60.0 * diagnosis.speed_hz, 4),
+        significant(diagnosis.spectrum.turns, 3),
+        diagnosis.headline()
+    )];
+    let doubts = [diagnosis.speed_doubt(), diagnosis.speed_change()].map(|doubt| Some(format!("warning: {}", doubt?)));
+    let said = [Some(diagnosis.reason()), truth(diagnosis)].into_iter().chain(doubts).flatten();
+    lines.extend(said.map(|text| format!("  {text}")));
+    let table = verdict_table(diagnosis, "Reason", |verdict| &verdict.reason).plain();
+    lines.extend(table.lines().skip(1).map(str::to_owned));
+    lines
 }
 
 /// With a capital first letter.
@@ -98,7 +85,11 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
     let amount = |value: f64| format!("{} {}", significant(value, 3), window.unit);
     let diagnosis = window.diagnosis.as_ref();
     let mut section = Section::new(place_and_time(window));
-    section.blocks.extend(diagnosis.ok().map(|found| Block::Table(verdict_table(found))));
+    section.blocks.extend(
+        diagnosis
+            .ok()
+            .map(|found| Block::Table(verdict_table(found, "Evidence, and why not more", |verdict| &verdict.why))),
+    );
     section = change_section(section, window);
     section.blocks.extend(diagnosis.ok().map(|found| Block::Plot(Box::new(order_plot(window, found)))));
     let facts = [
@@ -206,29 +197,29 @@ fn families(diagnosis: &Diagnosis, scale: f64) -> Vec<Family> {
     std::iter::once(shaft).chain((1..).zip(&diagnosis.faults).map(of)).collect()
 }
 
-fn verdict_table(diagnosis: &Diagnosis) -> Table {
+/// A row a part; the last column, of this name, says why.
+fn verdict_table(diagnosis: &Diagnosis, last: &str, why: fn(&FaultVerdict) -> &String) -> Table {
     let columns = [
         Column::text("Part"),
         Column::text("Verdict"),
         Column::number("Probability by chance", ""),
+        Column::number("Strength", "dB"),
         Column::number("Order, expected", ""),
         Column::number("Order, found", ""),
         Column::number("Line", "Hz"),
-        Column::text("Evidence, and why not more"),
+        Column::text(last),
     ];
     let parts = diagnosis.faults.iter().map(|verdict| {
-        let judged = match verdict.conclusion {
-            Conclusion::Named => Verdict::Bad,
-            Conclusion::NotEnough | Conclusion::NotSeen => Verdict::None,
-        };
+        let judged = if verdict.conclusion == Conclusion::Named { Verdict::Bad } else { Verdict::None };
         [
             Cell::text(format!("{} ({})", verdict.fault.name(), verdict.fault.line())),
             Cell::text(verdict.conclusion.words()).judged(judged),
             Cell::number_or(verdict.false_alarm, 2, ""),
+            Cell::number_or(verdict.strength_db.filter(|_| verdict.order.is_some()), 2, ""),
             Cell::number(verdict.expected_order, 5),
             Cell::number_or(verdict.order, 5, ""),
             Cell::number_or(verdict.frequency_hz, 4, ""),
-            Cell::text(&verdict.why),
+            Cell::text(why(verdict)),
         ]
     });
     let unexplained = diagnosis.unexplained.iter().map(|impacts| {
@@ -236,6 +227,7 @@ fn verdict_table(diagnosis: &Diagnosis) -> Table {
             Cell::text("none of these"),
             Cell::text("impacts").judged(Verdict::Bad),
             Cell::number(impacts.false_alarm, 2),
+            Cell::number_or(impacts.strength_db, 2, ""),
             Cell::text(""),
             Cell::number(impacts.order, 5),
             Cell::number(impacts.frequency_hz, 4),
@@ -257,7 +249,8 @@ fn harmonic_table(diagnosis: &Diagnosis) -> Table {
         Column::number("Above the floor", "dB"),
         Column::text("Remark"),
     ];
-    let harmonics = diagnosis.faults.iter().flat_map(|verdict| {
+    let seen = diagnosis.faults.iter().filter(|verdict| verdict.conclusion != Conclusion::NotSeen);
+    let harmonics = seen.flat_map(|verdict| {
         let cage = verdict.cage_lines.iter();
         verdict.harmonics.iter().chain(cage.flat_map(|lines| &lines.harmonics))
     });

@@ -2,10 +2,10 @@
 //!
 //! Many analysed windows in a report: counts, one table, and the windows themselves where they are few.
 
-use super::report::window_section;
+use super::report::{capital, window_section};
 use super::window::WindowAnalysis;
-use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict};
-use crate::signal::diagnosis::{Conclusion, Fault, UnexplainedImpacts};
+use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, pretty_unit, significant};
+use crate::signal::diagnosis::{ChangeConclusion, Conclusion, Fault, UnexplainedImpacts};
 
 /// A row of the table.
 #[derive(Debug, Clone)]
@@ -20,46 +20,82 @@ pub struct AnalysisRow {
 
 impl AnalysisRow {
     /// Row of an analysed window.
-    #[must_use]
     pub(crate) fn of(input: &str, window: WindowAnalysis) -> Self {
         let channel = window.sensor.clone();
         Self { input: input.to_owned(), channel, found: Ok(window.without_curves()) }
     }
 
-    /// What is indicated: parts, `none`, `no verdict` or `not analysed`.
-    #[must_use]
-    pub(crate) fn indicated(&self) -> String {
-        let Ok(window) = &self.found else {
-            return "not analysed".to_owned();
-        };
-        let named: Vec<&str> = window.parts(Conclusion::Named).map(|verdict| verdict.fault.name()).collect();
-        match (named.is_empty(), window.is_judged()) {
-            (false, _) => named.join(", "),
-            (true, true) => "none".to_owned(),
-            (true, false) => "no verdict".to_owned(),
+    /// The verdict in a few words.
+    pub(crate) fn headline(&self) -> String {
+        match self.found.as_ref().map(|window| &window.diagnosis) {
+            Ok(Ok(diagnosis)) => diagnosis.headline(),
+            Ok(Err(_)) => "no verdict".to_owned(),
+            Err(_) => "not analysed".to_owned(),
         }
     }
 
-    /// Why there is no verdict, or none to rely on; empty where there is one.
-    #[must_use]
-    pub(crate) fn remark(&self) -> String {
-        let diagnosis = self.found.as_ref().map(|window| window.diagnosis.as_ref());
-        match diagnosis {
-            Ok(Ok(found)) if found.is_judged() => {
-                found.speed_doubt().or_else(|| found.speed_change()).unwrap_or_default()
+    /// What decided it, and what makes the speed doubtful.
+    pub(crate) fn reason(&self) -> String {
+        match self.found.as_ref().map(|window| window.diagnosis.as_ref()) {
+            Ok(Ok(found)) => {
+                let doubt =
+                    found.speed_doubt().or_else(|| found.speed_change()).map(|doubt| format!("{}.", capital(&doubt)));
+                std::iter::once(found.reason()).chain(doubt).collect::<Vec<_>>().join(" ")
             }
-            Ok(Ok(_)) => "too short for a verdict on any part".to_owned(),
             Ok(Err(why)) | Err(why) => why.clone(),
         }
     }
 }
 
 /// Impacts that belong to no part, in words.
-pub(crate) fn unexplained(window: &WindowAnalysis) -> impl Iterator<Item = String> {
+fn unexplained(window: &WindowAnalysis) -> impl Iterator<Item = String> {
     let impacts = window.diagnosis.iter().flat_map(|found| &found.unexplained);
     impacts.map(|UnexplainedImpacts { frequency_hz, order, harmonics_seen, .. }| {
         format!("{frequency_hz:.2} Hz (order {order:.3}) with {harmonics_seen} harmonics")
     })
+}
+
+/// The rows as a page and a terminal show them: narrow.
+pub(crate) fn verdicts_table(rows: &[AnalysisRow]) -> Table {
+    let change = |row: &AnalysisRow| row.found.as_ref().ok().and_then(|window| window.change.clone());
+    let compared = rows.iter().any(|row| change(row).is_some());
+    let columns = [
+        Column::text("File"),
+        Column::text("Channel"),
+        Column::text("Window"),
+        Column::number("Speed", "Hz"),
+        Column::number("RMS", ""),
+        Column::number("Kurtosis", ""),
+        Column::text("Verdict"),
+    ];
+    let grew = compared.then(|| Column::text("Grew since the baseline"));
+    let columns = columns.into_iter().chain(grew).chain([Column::text("Reason")]);
+    // a name or a message without what would break the line
+    let plain = |text: &str| Cell::text(text.replace(char::is_control, " "));
+    Table::new("Verdicts", columns).rows(rows.iter().map(|row| {
+        let window = row.found.as_ref().ok();
+        let diagnosis = window.and_then(|window| window.diagnosis.as_ref().ok());
+        let speed_hz = diagnosis.map(|found| found.speed_hz).or(window.map(|window| window.speed_hz));
+        let time = |time: f64| (1e3 * time).round() / 1e3;
+        let span = |window: &WindowAnalysis| format!("{} to {} s", time(window.from), time(window.to));
+        let rms = |window: &WindowAnalysis| format!("{} {}", significant(window.rms, 3), pretty_unit(&window.unit));
+        let mut cells = vec![
+            plain(&row.input),
+            plain(&row.channel),
+            Cell::text(window.map_or_else(String::new, span)),
+            Cell::number_or(speed_hz, 4, ""),
+            Cell::text(window.map_or_else(String::new, rms).trim_end()),
+            Cell::number_or(window.and_then(|window| window.kurtosis), 3, ""),
+            Cell::text(row.headline()),
+        ];
+        cells.extend(compared.then(|| {
+            let change = change(row);
+            let lines = change.iter().flat_map(|change| change.with(ChangeConclusion::Grew));
+            Cell::text(lines.map(|line| format!("{} {}", line.name, line.words())).collect::<Vec<_>>().join(", "))
+        }));
+        cells.push(plain(&row.reason()));
+        cells
+    }))
 }
 
 /// The table of the rows, in their order; numbers whole in files. Where any has a change, columns of changes follow the others.
@@ -73,7 +109,7 @@ pub(crate) fn analysis_table(rows: &[AnalysisRow]) -> Table {
         Column::number("RMS", ""),
         Column::text("Unit of the RMS"),
         Column::number("Kurtosis", ""),
-        Column::text("Indicated"),
+        Column::text("Verdict"),
     ];
     for fault in Fault::ALL {
         let name = fault.name();
@@ -82,7 +118,7 @@ pub(crate) fn analysis_table(rows: &[AnalysisRow]) -> Table {
         columns.push(Column::number(format!("{name}: strength"), "dB"));
     }
     columns.push(Column::text("Impacts that belong to no part"));
-    columns.push(Column::text("Remark"));
+    columns.push(Column::text("Reason"));
     let change = |row: &AnalysisRow| row.found.as_ref().is_ok_and(|found| found.change.is_some());
     let compared = rows.iter().any(change);
     if compared {
@@ -137,7 +173,7 @@ fn cells(row: &AnalysisRow) -> Vec<Cell> {
         Cell::number_or(window.map(|window| window.rms), 4, ""),
         Cell::text(window.map_or("", |window| &window.unit)),
         Cell::number_or(window.and_then(|window| window.kurtosis), 4, ""),
-        Cell::text(row.indicated()),
+        Cell::text(row.headline()),
     ];
     for fault in Fault::ALL {
         let mut verdicts = diagnosis.into_iter().flat_map(|found| &found.faults);
@@ -148,7 +184,7 @@ fn cells(row: &AnalysisRow) -> Vec<Cell> {
     }
     let unexplained = window.into_iter().flat_map(unexplained);
     cells.push(Cell::text(unexplained.collect::<Vec<_>>().join("; ")));
-    cells.push(Cell::text(row.remark()));
+    cells.push(Cell::text(row.reason()));
     cells
 }
 
@@ -196,7 +232,7 @@ pub(crate) fn survey_report(
     let verdicts = verdicts(rows, "Analyse a file alone to see its spectra.");
     report = counts(report, rows).section(input_section).section(verdicts);
     if failed > 0 {
-        report = report.warning(format!("{failed} rows have no window: their last column says why."));
+        report = report.warning(format!("Windows that are missing: {failed}. The table of verdicts says why."));
     }
     if windows(rows) <= SHOWN_WINDOWS {
         report.sections.extend(sections);
@@ -224,7 +260,7 @@ pub(crate) fn counts(report: Report, rows: &[AnalysisRow]) -> Report {
 
 /// All windows in one table; `instead` says how to see one of them where they are too many to be shown.
 pub(crate) fn verdicts(rows: &[AnalysisRow], instead: &str) -> Section {
-    let section = Section::new("Verdicts").table(analysis_table(rows));
+    let section = Section::new("Verdicts").table(verdicts_table(rows));
     match windows(rows) {
         ..=SHOWN_WINDOWS => section,
         windows => section.paragraph(format!(

@@ -16,8 +16,8 @@ use crate::signal::diagnosis::{
     LevelChange, LineChange,
 };
 use crate::signal::{
-    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, LINE_TOLERANCE, NamedLine, PeakSearch, band_limit,
-    envelope_peaks, squared, usual_high_pass_hz, whiten,
+    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, band_limit, envelope_peaks,
+    squared, usual_high_pass_hz, whiten,
 };
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -46,8 +46,8 @@ pub struct AnalysisSettings {
     pub windows: Vec<TimeWindow>,
     /// Frequency up to which a simulated signal is accurate, Hz; `None`: a measured one.
     pub good_to_hz: Option<f64>,
-    /// Parts of a simulated bearing of which a signal may not indicate a fault, and why.
-    pub no_signs: Vec<(Fault, String)>,
+    /// Parts of a simulated bearing of which a signal may not indicate a fault, whether they are sound, and why.
+    pub no_signs: Vec<(Fault, bool, String)>,
 }
 
 impl AnalysisSettings {
@@ -62,6 +62,28 @@ impl AnalysisSettings {
             good_to_hz: good_to_hz(case),
             no_signs: no_signs(case),
         }
+    }
+
+    /// Judges a window (s) of a signal by its envelopes within `within_hz`, and by what is known of the bearing beside.
+    ///
+    /// # Errors
+    /// As [`Diagnosis::of`].
+    pub(crate) fn judge(
+        &self,
+        signal: &TimeSeries,
+        within_hz: Option<[f64; 2]>,
+        window: TimeWindow,
+        turns: impl Fn(f64) -> f64,
+        orders: &FaultOrders,
+    ) -> Result<Diagnosis, DiagnosisError> {
+        let mut diagnosis = Diagnosis::of(signal, within_hz, window, turns, orders)?;
+        self.no_signs.iter().for_each(|(fault, _, reason)| diagnosis.doubt(*fault, reason));
+        Ok(diagnosis)
+    }
+
+    /// Whether a case says that the part is sound.
+    pub(crate) fn is_sound(&self, part: Fault) -> bool {
+        self.no_signs.iter().any(|(fault, sound, _)| *fault == part && *sound)
     }
 }
 
@@ -95,9 +117,6 @@ pub struct WindowAnalysis {
     /// Band that the envelope is of.
     #[serde(flatten)]
     pub band: UsedBand,
-    /// The outer race's line and its second harmonic; empty where its order is not known.
-    #[serde(rename = "outer_race")]
-    pub outer: Vec<OuterRaceLine>,
     /// The lines of every part in the envelope over the shaft's angle.
     pub fault_lines: Vec<FaultLine>,
     /// The order above which lines over Hz are smeared and not compared with peaks: the speed changes too much. `None`: none is.
@@ -124,33 +143,24 @@ pub struct WindowAnalysis {
     pub lines: Vec<NamedLine>,
 }
 
-/// A line of the outer race in an envelope spectrum.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
-pub struct OuterRaceLine {
-    /// Where it is expected, Hz.
-    pub expected_hz: f64,
-    /// Peak within three per cent, Hz; `None`: there is none, or the line is smeared.
-    pub found_hz: Option<f64>,
-    /// Its amplitude, in the spectrum's unit.
-    pub amplitude: Option<f64>,
-}
-
 /// A verdict, or why there is none.
 #[derive(Serialize, JsonSchema)]
 struct VerdictSummary<'a> {
-    /// In a sentence.
-    sentence: String,
+    /// In a few words.
+    headline: String,
+    /// What decided it, in a sentence or two.
+    reason: String,
     /// What it rests on; absent where there is no verdict.
     #[serde(flatten)]
     diagnosis: Option<&'a Diagnosis>,
 }
 
 fn verdict_summary<S: Serializer>(diagnosis: &Result<Diagnosis, String>, to: S) -> Result<S::Ok, S::Error> {
-    let sentence = match diagnosis {
-        Ok(diagnosis) => diagnosis.sentence(),
-        Err(reason) => format!("no verdict: {reason}"),
+    let (headline, reason) = match diagnosis {
+        Ok(diagnosis) => (diagnosis.headline(), diagnosis.reason()),
+        Err(reason) => ("no verdict".to_owned(), reason.clone()),
     };
-    VerdictSummary { sentence, diagnosis: diagnosis.as_ref().ok() }.serialize(to)
+    VerdictSummary { headline, reason, diagnosis: diagnosis.as_ref().ok() }.serialize(to)
 }
 
 impl WindowAnalysis {
@@ -222,28 +232,12 @@ pub fn analyse(
             let of_lines = whitened.as_ref().unwrap_or(&envelope);
             let spectrum = filter.window_of(of_lines, from, to)?;
             let turns = |time| kinematics.turns(time);
-            let mut diagnosis =
-                Diagnosis::of(&stretch, band.judged_hz(settings.band, settings.good_to_hz), window, turns, &orders);
-            if let Ok(diagnosis) = &mut diagnosis {
-                for (fault, reason) in &settings.no_signs {
-                    diagnosis.doubt(*fault, reason);
-                }
-            }
+            let within_hz = band.judged_hz(settings.band, settings.good_to_hz);
+            let diagnosis = settings.judge(&stretch, within_hz, window, turns, &orders);
             let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
             let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;
             let search = PeakSearch { to_hz: Some(HIGHEST_ORDER * speed_hz), ..PeakSearch::default() };
             let peaks = if speed_hz > 0.0 { envelope_peaks(&spectrum, &lines, &search) } else { Vec::new() };
-            let near = |harmonic: f64, order: f64| {
-                let expected = harmonic * order * speed_hz;
-                let found = spectrum.peak_near(expected, LINE_TOLERANCE);
-                let found = found.filter(|_| harmonic * order <= sharp);
-                OuterRaceLine {
-                    expected_hz: expected,
-                    found_hz: found.as_ref().map(|peak| peak.frequency_hz),
-                    amplitude: found.as_ref().map(|peak| peak.amplitude),
-                }
-            };
-            let outer = orders.order(Fault::OuterRace).into_iter();
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),
                 unit: stretch.unit().to_owned(),
@@ -255,8 +249,7 @@ pub fn analyse(
                 kurtosis: part.kurtosis(),
                 shown: [thinned(sensor, &part), thinned("envelope", &envelope.window(from, to)?)],
                 whitened: settings.whiten,
-                outer: outer.flat_map(|order| [near(1.0, order), near(2.0, order)]).collect(),
-                fault_lines: fault_lines(of_lines, window, turns, &orders, speed_hz),
+                fault_lines: fault_lines(of_lines, window, turns, &orders, speed_hz, diagnosis.as_ref().ok()),
                 band,
                 spectrum,
                 lines,
@@ -392,7 +385,7 @@ const STRIKING_LOAD: f64 = 7500.0;
 const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, or the load is too large to tell.
-pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
+pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, bool, String)> {
     let Some(bearing) = case.bearing.as_ref() else {
         return Vec::new();
     };
@@ -418,7 +411,7 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, String)> {
                 )
             }
         };
-        Some((fault, reason))
+        Some((fault, !damaged.contains(&fault), reason))
     });
     reasons.collect()
 }

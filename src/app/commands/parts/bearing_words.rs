@@ -245,6 +245,7 @@ mod tests {
             faults: vec![verdict],
             unexplained: Vec::new(),
             by_signal_alone: Vec::new(),
+            grew: Vec::new(),
         }
     }
 

@@ -8,7 +8,7 @@ use super::simulation::RunEnd;
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::table::{counts, verdicts};
-use crate::app::commands::analyze::{AnalysisRow, OuterRaceLine, SHOWN_WINDOWS};
+use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
@@ -101,19 +101,6 @@ fn headlines<R: Recording>(report: Report, result: &RunResult<R>) -> Report {
             format!("{} m/s^2", significant(window.peak, 3)),
             Verdict::None,
         );
-    }
-    // a window in which the speed smears no line over Hz
-    let mut windows = result.windows.iter();
-    if let Some(window) = windows.find(|window| window.smeared_above.is_none()) {
-        for (harmonic, &OuterRaceLine { expected_hz: expected, found_hz, .. }) in (1..).zip(&window.outer) {
-            if let (Some(hz), false) = (found_hz, result.scene.outer_race_is_sound()) {
-                report = report.headline(
-                    format!("Envelope line at {harmonic} x outer race ({} Hz)", significant(expected, 4)),
-                    format!("{} Hz", significant(hz, 4)),
-                    Verdict::of((hz / expected - 1.0).abs() <= 0.03),
-                );
-            }
-        }
     }
     report
 }

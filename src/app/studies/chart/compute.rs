@@ -8,10 +8,11 @@ use super::reference::models;
 use super::refining::{Found, refine};
 use super::starts::{Ready, Systems};
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
-use super::{Effort, Failure, FailureKind, Reference, Settings, Start, Starts};
+use super::{Effort, Failure, FailureKind, Reference, Settings, Start, StartReference, Starts};
 use crate::app::case::{self, Case, ModesKept, RunCase, StepLength};
 use crate::app::commands::analyze::AskedBand;
 use crate::app::commands::run::choice::ModelChoice;
+use crate::app::commands::run::choice::pilot::next_strike;
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::Watch;
@@ -31,6 +32,8 @@ pub struct Chart {
     pub unrefined: Vec<String>,
     /// What was simulated.
     pub scene: Scene,
+    /// Starts in which a ball strikes the first defect of a race within the horizon; `None` without such a defect.
+    pub struck: Option<usize>,
     /// What was compared.
     pub settings: Settings,
     /// Where the runs began.
@@ -203,11 +206,20 @@ pub(crate) fn compute_chart(
         left_out.push(format!("statistics over {} instead of {}", ms(statistics_s), ms(asked_s)));
     }
     let settings = shorter;
+    let struck = struck(&scene, &reference);
+    let mut scene = scene;
+    if struck == Some(0) {
+        scene.doubts.push(format!(
+            "in none of the {} starts does a ball strike the defect within its horizon: the errors say nothing about impacts; more of transient.ensemble.runs, or another transient.start, has some",
+            reference.starts.len()
+        ));
+    }
     Ok(Chart {
         budget_s: whole.seconds(),
         left_out,
         unrefined,
         scene,
+        struck,
         settings,
         starts,
         reference,
@@ -218,6 +230,15 @@ pub(crate) fn compute_chart(
         over_all_starts,
         statistics,
     })
+}
+
+fn struck(scene: &Scene, reference: &Reference) -> Option<usize> {
+    scene.setup.race_defects.first()?;
+    let strikes = |of: &&StartReference| {
+        let next = next_strike(scene, of.start.time_s);
+        next.is_some_and(|(until, left)| left.unwrap_or(until).min(until) < of.horizon_s)
+    };
+    Some(reference.starts.iter().filter(strikes).count())
 }
 
 fn ms(seconds: f64) -> String {

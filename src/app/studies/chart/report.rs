@@ -69,8 +69,15 @@ fn headlines(report: Report, chart: &Chart) -> Report {
         report = report.headline(
             "Error of the program's choice, all starts",
             significant(error.mean, 2),
-            Verdict::of(error.mean <= chart.settings.target),
+            match chart.struck {
+                Some(0) => Verdict::None,
+                _ => Verdict::of(error.mean <= chart.settings.target),
+            },
         );
+        if let Some(struck) = chart.struck {
+            let starts = chart.reference.starts.len();
+            report = report.note(format!("A ball strikes the defect in {struck} of {starts} starts."));
+        }
         if let Some((source, _)) = chart.points[chart.source].measured() {
             report =
                 report.headline("Times faster than the source's method", significant(source / wall, 3), Verdict::None);

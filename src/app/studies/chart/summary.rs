@@ -69,6 +69,8 @@ pub struct EnsembleSummary<'a> {
     pub starts_s: Vec<f64>,
     /// Time over which they are spread, s.
     pub spread_s: f64,
+    /// Those in which a ball strikes the first defect of a race within the horizon; `None` without such a defect.
+    pub struck: Option<usize>,
     /// Relative perturbation of a start.
     pub perturbation: f64,
     /// Seed of the perturbations.
@@ -222,6 +224,7 @@ impl Chart {
             ensemble: EnsembleSummary {
                 starts_s: starts.clone().map(|of| of.start.time_s).collect(),
                 spread_s: self.starts.spread_s,
+                struck: self.struck,
                 perturbation: settings.ensemble.perturbation,
                 seed: settings.ensemble.seed,
                 left_out: &self.starts.left_out,

@@ -9,6 +9,8 @@ const MOST_FREQUENCIES: usize = 20;
 
 /// Title of the table of what is not a signal or a mode.
 pub(super) const MODEL: &str = "Model";
+/// The figure of the signals' estimated error.
+pub(super) const ERROR: &str = "estimated_error";
 /// What the plots of the parts' lines show.
 pub(super) const LINES: &str = "Envelope amplitude";
 
@@ -45,7 +47,7 @@ pub struct PlotOf {
 /// The figures of a result: the content of `run.json` or `modes.json`.
 ///
 /// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `peak`, `kurtosis`, the amplitudes of the parts'
-/// lines in the envelope (`BPFO.1` to `FTF.3`) and `named` (the parts that are called damaged); the estimated error, the
+/// lines in the envelope (`BPFO.1` to `FTF.3`), `verdict` and `reason` as `plummer analyze` words them; the estimated error, the
 /// equilibrium's shaft position and largest force, times. Of modes: mass, frequencies `frequency.k`, and `loaded.k` where
 /// contacts are linearised.
 pub(super) fn outputs_of(plan: &Plan, result: &Value) -> Vec<Output> {
@@ -60,7 +62,7 @@ pub(super) fn outputs_of(plan: &Plan, result: &Value) -> Vec<Output> {
 }
 
 fn of_run(result: &Value, fixed: bool) -> Vec<Output> {
-    let mut outputs = Vec::new();
+    let (mut outputs, mut first) = (Vec::new(), None);
     let windows = list(&result["windows"]);
     let sensor = |window: &'_ Value| window["sensor"].as_str().unwrap_or_default().to_owned();
     for (place, window) in windows.iter().enumerate() {
@@ -70,6 +72,7 @@ fn of_run(result: &Value, fixed: bool) -> Vec<Output> {
             (Some(from), Some(to)) if fixed => format!("{sensor_name}, {from} to {to} s"),
             _ => format!("{sensor_name}, window {count}"),
         };
+        first.get_or_insert_with(|| title.clone());
         let part = plain(&sensor_name, |letter| letter.is_alphanumeric() || "_-".contains(letter));
         outputs.extend(of_window(window, &format!("{part}.{count}"), &title));
     }
@@ -81,10 +84,11 @@ fn of_run(result: &Value, fixed: bool) -> Vec<Output> {
         ("shaft_y", "shaft y", "m", &equilibrium["shaft_m"][1]),
         ("largest_static_force", "largest static force", "N", &largest),
         ("modes", "modes", "", &result["model"]["modes"]),
-        ("estimated_error", "estimated error", "", &result["estimated_error"]),
     ];
     let model = figures.map(|(name, label, unit, value)| Output::number(name, label, unit, value).in_table(MODEL));
     outputs.extend(model);
+    let error = Output::number(ERROR, "estimated error", "", &result["estimated_error"]);
+    outputs.push(error.in_table(first.as_deref().unwrap_or(MODEL)));
     let files_alone = [("stepping_s", "stepping"), ("estimate_held", "estimate held")]
         .map(|(name, label)| Output::number(name, label, "s", &result[name.trim_end_matches("_s").to_owned() + "_s"]));
     outputs.extend(files_alone);
@@ -103,8 +107,8 @@ fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
     ] {
         let plot = PlotOf { title: axis.to_owned(), axis, curve: title.to_owned() };
         let output = Output::number(format!("{name}.{key}"), label, unit, &window[key]);
-        // a table with the peak is too wide for a page
-        let table = (key != "peak").then(|| title.to_owned());
+        // a table with all of them is too wide for a page
+        let table = (key == "rms").then(|| title.to_owned());
         outputs.push(Output { plot: Some(plot), table, indicated: !named.is_empty(), ..output });
     }
     // that of a whitened signal has no unit
@@ -126,13 +130,10 @@ fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
         let output = Output::number(key, line, unit, &found["amplitude"]).in_table(title);
         outputs.push(Output { plot: Some(plot), indicated, ..output });
     }
-    let words = match (named.is_empty(), is_judged(verdict)) {
-        (false, _) => named.iter().map(|fault| fault.name()).collect::<Vec<_>>().join(", "),
-        (true, true) => "none".to_owned(),
-        (true, false) => "no verdict".to_owned(),
-    };
-    let named = Output::number(format!("{name}.named"), "indicated", "", &Value::Null).in_table(title);
-    outputs.push(Output { value: Value::String(words), ..named });
+    for (key, text) in [("verdict", &verdict["headline"]), ("reason", &verdict["reason"])] {
+        let output = Output::number(format!("{name}.{key}"), key, "", &Value::Null).in_table(title);
+        outputs.push(Output { value: Value::String(text.as_str().unwrap_or_default().to_owned()), ..output });
+    }
     outputs
 }
 
@@ -142,11 +143,6 @@ fn named(verdict: &Value) -> Vec<Fault> {
     let named = list(&verdict["faults"]).iter().filter(is_named);
     let fault = |verdict: &Value| Fault::ALL.into_iter().find(|fault| verdict["fault"] == fault.name());
     named.filter_map(fault).collect()
-}
-
-/// Whether anything can be said of any part.
-fn is_judged(verdict: &Value) -> bool {
-    list(&verdict["faults"]).iter().any(|fault| fault["false_alarm"].is_number())
 }
 
 fn of_modes(result: &Value) -> Vec<Output> {
@@ -188,7 +184,7 @@ pub(super) fn plain(name: &str, allowed: impl Fn(char) -> bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fault, Output, Value, of_modes, of_run};
+    use super::{Output, Value, of_modes, of_run};
     use serde_json::json;
 
     fn value(found: &[Output], name: &str) -> Option<Value> {
@@ -206,7 +202,7 @@ mod tests {
                     { "fault": "ball", "line": "2 x BSF", "harmonic": 2, "amplitude": 2.5 },
                     { "fault": "inner race", "line": "BPFI", "harmonic": 1, "amplitude": 0.5 },
                 ],
-                "verdict": { "faults": [
+                "verdict": { "headline": conclusion, "reason": "Since.", "faults": [
                     { "fault": "ball", "conclusion": conclusion, "false_alarm": 1e-4 },
                     { "fault": "cage", "conclusion": conclusion, "false_alarm": null },
                 ] },
@@ -223,8 +219,8 @@ mod tests {
         assert_eq!(value("P_1.1.rms"), Some(Value::from(1.0)));
         assert_eq!(value("P_1.2.rms"), Some(Value::from(4.0)));
         assert_eq!(value("top.1.rms"), Some(Value::from(5.0)));
-        assert_eq!(value("P_1.1.named"), text("ball, cage"));
-        assert_eq!(value("P_1.2.named"), text("none"));
+        assert_eq!([value("P_1.1.verdict"), value("P_1.2.verdict")], [text("named"), text("not seen")]);
+        assert_eq!(value("P_1.1.reason"), text("Since."));
         assert_eq!(value("P_1.1.2xBSF.1"), Some(Value::from(7.5)));
         assert_eq!(value("P_1.1.2xBSF.2"), Some(Value::from(2.5)));
         assert_eq!(value("largest_static_force"), Some(Value::from(3.0)));
@@ -235,16 +231,6 @@ mod tests {
         assert_eq!(output("top.1.rms").table.as_deref(), Some("top, 0.5 to 1.5 s"));
         let varied = of_run(&result, false);
         assert_eq!(varied[1].table.as_deref(), Some("P 1, window 1"));
-    }
-
-    #[test]
-    fn a_window_that_is_too_short_has_no_verdict() {
-        let faults =
-            Fault::ALL.map(|fault| json!({ "fault": fault, "conclusion": "not enough evidence", "false_alarm": null }));
-        for verdict in [json!({ "faults": faults }), json!({ "sentence": "no verdict: no noise" })] {
-            let found = of_run(&json!({ "windows": [{ "sensor": "P", "verdict": verdict }] }), true);
-            assert_eq!(value(&found, "P.1.named"), Some(Value::from("no verdict")));
-        }
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The figures of a sweep over what was varied.
 
 use super::SweepResult;
-use super::outputs::{LINES, PlotOf};
+use super::outputs::{ERROR, LINES, PlotOf};
 use super::result::{NamedColumn, Values};
 use super::tables::{Scaled, short_name};
 use crate::app::commands::analyze::report::capital;
-use crate::report::{Abscissa, Axis as PlotAxis, Curve, CurveStyle, Plot, Symbol};
+use crate::report::{Abscissa, Axis as PlotAxis, Curve, CurveStyle, Plot, Symbol, significant};
 
 /// Most curves of a plot: as many as can be told apart.
 const MOST_CURVES: usize = 12;
@@ -48,7 +48,19 @@ pub(super) fn plots(result: &SweepResult) -> Vec<Plot> {
         let families = families.filter(|family| family.points.iter().any(|point| point.y.is_finite()));
         draw(Plot::new(of.title.clone(), x.clone(), PlotAxis::new(of.axis, unit)), families.collect(), key)
     };
-    titles.into_iter().map(of_title).filter(|plot| !plot.curves.is_empty()).collect()
+    let mut plots: Vec<Plot> = titles.into_iter().map(of_title).filter(|plot| !plot.curves.is_empty()).collect();
+    let errors = figures.iter().find(|column| column.name == ERROR).map(|column| &column.values);
+    if let Some(Values::Numbers(errors)) = errors {
+        let known = || errors.iter().copied().filter(|error| error.is_finite());
+        for plot in plots.iter_mut().filter(|_| known().next().is_some()) {
+            let [least, most] = [known().fold(f64::INFINITY, f64::min), known().fold(0.0, f64::max)];
+            let [least, most] = [least, most].map(|error| significant(100.0 * error, 2));
+            let caption = plot.caption.get_or_insert_default();
+            let range = if least == most { most } else { format!("{least} to {most}") };
+            *caption += &format!(" The estimated error of the points' signals is {range} % of their RMS.");
+        }
+    }
+    plots
 }
 
 /// The points of a curve.
@@ -187,6 +199,8 @@ mod tests {
         let named = lines.curves.iter().filter(|curve| !curve.name.is_empty());
         let names: Vec<&str> = named.map(|curve| curve.name.as_str()).collect();
         assert_eq!(names, ["BPFO", "BPFI", "fault indicated"]);
+        let error = "The estimated error of the points' signals is 1.3 to 2.0 % of their RMS.";
+        assert!(lines.caption.as_ref().unwrap().ends_with(error), "{:?}", lines.caption);
         assert_eq!(lines.curves[0].y, [2.0, 20.0]);
         assert_eq!(lines.curves[1].labels, ["BPFO, 5 µm", "BPFO, 15 µm"]);
         let ring = lines.curves.last().unwrap();

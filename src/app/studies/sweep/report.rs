@@ -4,7 +4,7 @@ use super::plots::{in_words, plots};
 use super::result::{NamedColumn, Values};
 use super::tables::{Scaled, short_name};
 use super::{PointState, SweepResult, SweptCommand};
-use crate::app::case::Case;
+use crate::app::case::{Case, Source};
 use crate::app::commands::analyze::report::capital;
 use crate::app::commands::parts;
 use crate::report::{Cell, Column, Fact, Plot, Report, Section, Table, Verdict};
@@ -20,11 +20,14 @@ pub(crate) fn sweep_report(case: &Case, result: &SweepResult, command: &str) -> 
         SweptCommand::Run => "Simulated runs",
         SweptCommand::Modes => "Modes",
     };
-    let inputs = parts::inputs(case, result.plan.command.purpose(), None);
     let mut report = parts::signed_report(case, command, &format!("{what} at {all} points"))
         .headline("Points done", format!("{done} of {all}"), Verdict::of(done == all))
         .section(varied(result))
-        .section(Section::new("Inputs").paragraph("All points have these, but for what was varied.").facts(inputs));
+        .section(
+            Section::new("Inputs")
+                .paragraph("All points have these, but for what was varied.")
+                .facts(inputs(case, result)),
+        );
     let plots: Vec<Plot> = plots(result);
     if !plots.is_empty() {
         let section = Section::new("Figures over what was varied");
@@ -40,6 +43,28 @@ pub(crate) fn sweep_report(case: &Case, result: &SweepResult, command: &str) -> 
     report
         .assumption("Each point is computed by itself, in a process and a folder of its own: folders sweep/NUMBER beside this report hold its files.")
         .section(all_points(result))
+}
+
+/// What all points have, and where one differs from the next that it was varied.
+fn inputs(case: &Case, result: &SweepResult) -> Vec<Fact> {
+    let facts = |case: &Case| parts::inputs(case, result.plan.command.purpose(), None);
+    let mut all = facts(case);
+    for (column, axis) in result.axes().iter().zip(&result.plan.axes) {
+        let ends = [axis.values.first(), axis.values.last()].map(|value| {
+            let set = result.plan.set.iter().cloned().chain(value.map(|value| format!("{}={value}", axis.key)));
+            let source = Source { path: case.source.path.clone(), text: case.source.text.clone(), set: set.collect() };
+            Case::from_source(source).map(|case| facts(&case))
+        });
+        let ([Ok(first), Ok(last)], count) = (ends, result.points.len()) else { continue };
+        let differ = first.iter().filter(|fact| !last.contains(fact)).map(|fact| &fact.name);
+        let differ: Vec<&String> = differ.collect();
+        for fact in all.iter_mut().filter(|fact| differ.contains(&&fact.name)) {
+            let [from, to] = [0, count.saturating_sub(1)].map(|row| in_words(column, row));
+            fact.note = Some(format!("otherwise as {}", fact.value));
+            fact.value = format!("varied: {} from {from} to {to}", column.label);
+        }
+    }
+    all
 }
 
 fn varied(result: &SweepResult) -> Section {
@@ -125,9 +150,13 @@ mod tests {
         let titles: Vec<&str> = report.sections.iter().map(|section| section.title.as_str()).collect();
         assert_eq!(titles, ["What was varied", "Inputs", "Figures over what was varied", "All points"]);
         let html = report.to_html().unwrap();
-        for text in
-            ["<dt>Depth of the dent</dt><dd>5 µm, 15 µm", "Depth of the dent [µm]", "<dt>Bearing</dt>", "Checked by"]
-        {
+        for text in [
+            "<dt>Depth of the dent</dt><dd>5 µm, 15 µm",
+            "Depth of the dent [µm]",
+            "varied: depth of the dent from 5 µm to 15 µm",
+            "<dt>Bearing</dt>",
+            "Checked by",
+        ] {
             assert!(html.contains(text), "{text}");
         }
         assert!(!html.contains("wall time<") && !html.contains("stepping<"));

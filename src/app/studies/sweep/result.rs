@@ -390,12 +390,13 @@ pub(super) mod tests {
                 serde_json::json!({ "fault": fault, "line": line, "harmonic": 1, "amplitude": amplitude })
             };
             let conclusion = if deep { "named" } else { "not seen" };
-            let verdict = serde_json::json!({ "faults": [
+            let headline = if deep { "fault indicated: outer race" } else { "no fault indicated" };
+            let verdict = serde_json::json!({ "headline": headline, "reason": "", "faults": [
                 { "fault": "outer race", "conclusion": conclusion, "false_alarm": 1e-4 },
                 { "fault": "inner race", "conclusion": "not seen", "false_alarm": 0.5 },
             ] });
             let outer = if deep { 20.0 } else { 2.0 };
-            let result = serde_json::json!({ "windows": [{
+            let result = serde_json::json!({ "estimated_error": if deep { 0.02 } else { 0.013 }, "windows": [{
                 "sensor": "P1", "from": 2.3, "to": 2.4, "rms": 30.0, "verdict": verdict,
                 "fault_lines": [line("outer race", "BPFO", outer), line("inner race", "BPFI", 1.0)],
             }] });
@@ -412,7 +413,7 @@ pub(super) mod tests {
         let summary = serde_json::to_value(result.summary()).unwrap();
         assert_eq!(summary["axes"][0]["unit"], "m");
         assert_eq!(summary["points"][1]["figures"]["P1.1.BPFO.1"], 20.0);
-        assert_eq!(summary["points"][1]["figures"]["P1.1.named"], "outer race");
+        assert_eq!(summary["points"][1]["figures"]["P1.1.verdict"], "fault indicated: outer race");
         let names = summary["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap());
         let table = result.table();
         let heads: Vec<&str> = table.columns.iter().map(|column| column.title.as_str()).collect();

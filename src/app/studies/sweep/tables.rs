@@ -6,7 +6,7 @@ use super::result::{NamedColumn, Values};
 use crate::report::{Cell, Column, Table, display_unit, trimmed};
 
 /// Most figures in a table: more do not fit a page beside what was varied.
-const MOST_FIGURES: usize = 8;
+const MOST_FIGURES: usize = 9;
 /// Digits of a figure.
 const DIGITS: usize = 4;
 /// Most digits of what was typed.

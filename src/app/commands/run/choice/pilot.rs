@@ -246,26 +246,28 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
     let instants = (1..=SPEEDS).map(at);
     let fastest = instants.fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
-    let Some(defect) = setup.race_defects.first() else {
-        return fastest;
-    };
-    let (cage, shaft) = (setup.cage.motion(fastest), setup.cage.shaft());
-    let turned = match defect.race() {
-        Race::Outer => 0.0,
-        Race::Inner => shaft.angle(fastest),
-    };
-    // how fast and how far balls go from here to the edge
-    let passing = match defect.race() {
-        Race::Outer => cage.speed,
-        Race::Inner => cage.speed - cage.speed / setup.geometry.orders().cage,
-    };
-    if passing == 0.0 {
-        return fastest;
+    match next_strike(scene, fastest) {
+        Some((until, _)) if until <= spare - (fastest - asked.start) => fastest + until,
+        _ => fastest,
     }
+}
+
+/// In how many seconds from an instant (s) on the next ball comes to the edge of the first defect of a race, and in how many one that is
+/// in it leaves it. `None` without such a defect, or where balls do not pass it.
+pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, Option<f64>)> {
+    let setup = &scene.setup;
+    let defect = setup.race_defects.first()?;
+    let cage = setup.cage.motion(at);
+    // where the defect is, and how fast balls pass it
+    let (turned, passing) = match defect.race() {
+        Race::Outer => (0.0, cage.speed),
+        Race::Inner => (setup.cage.shaft().angle(at), cage.speed - cage.speed / setup.geometry.orders().cage),
+    };
     let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
-    let edge = (ahead - 1.5 * defect.contact_half_angle()).rem_euclid(setup.cage.spacing);
-    let until = edge / passing.abs();
-    if until <= spare - (fastest - asked.start) { fastest + until } else { fastest }
+    let half = 1.5 * defect.contact_half_angle();
+    let edge = (ahead - half).rem_euclid(setup.cage.spacing);
+    let left = Some(edge + 2.0 * half - setup.cage.spacing).filter(|left| *left > 0.0);
+    (passing != 0.0).then(|| (edge / passing.abs(), left.map(|left| left / passing.abs())))
 }
 
 #[cfg(test)]
