@@ -1,4 +1,4 @@
-//! Signals over the angle of a shaft: order spectra and averages over turns.
+//! Signals over the angle of a shaft: order spectra.
 
 use serde::Serialize;
 
@@ -34,21 +34,6 @@ pub struct OrderSpectrum {
     pub bin_orders: f64,
     /// What the spectrum separates: main lobe of the window function over the number of turns, orders.
     pub resolution_orders: f64,
-}
-
-/// Time-synchronous average: what comes back with the shaft.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SynchronousAverage {
-    /// Angles of the period, turns from its start.
-    pub angle_turns: Vec<f64>,
-    /// Mean over the periods, in `unit`.
-    pub average: Vec<f64>,
-    /// Standard error of each mean, scatter over the periods / sqrt(periods), in `unit`.
-    pub standard_error: Vec<f64>,
-    /// Periods averaged. What is not locked to the shaft is left with 1 / sqrt(periods) of its level.
-    pub periods: usize,
-    /// Unit.
-    pub unit: String,
 }
 
 impl AngleSeries {
@@ -143,41 +128,11 @@ impl AngleSeries {
             resolution_orders: spectrum.resolution_hz,
         })
     }
-
-    /// Mean over periods of `turns` whole turns each (1; more for what comes back after some, as the teeth of two gears
-    /// do), with its standard error. Source: S. Braun, "The synchronous (time domain) average revisited", Mechanical
-    /// Systems and Signal Processing 25 (2011) 1087-1102.
-    ///
-    /// # Errors
-    /// [`SignalError`] below two periods.
-    pub fn synchronous_average(&self, turns: usize) -> Result<SynchronousAverage, SignalError> {
-        let length = turns.saturating_mul(self.samples_per_turn);
-        let x = self.values();
-        let periods = x.len().checked_div(length).unwrap_or(0);
-        if periods < 2 {
-            return Err(SignalError::few_turns(self.samples.duration_s(), turns.max(1).saturating_mul(2)));
-        }
-        let at = |place: usize| x.iter().skip(place).step_by(length).take(periods);
-        let count = periods as f64;
-        let average: Vec<f64> = (0..length).map(|p| at(p).sum::<f64>() / count).collect();
-        let error = |place: usize| {
-            let squares: f64 = at(place).map(|v| (v - average[place]).powi(2)).sum();
-            (squares / (count - 1.0) / count).sqrt()
-        };
-        Ok(SynchronousAverage {
-            angle_turns: (0..length).map(|p| self.samples.step_s() * p as f64).collect(),
-            standard_error: (0..length).map(error).collect(),
-            average,
-            periods,
-            unit: self.samples.unit().to_owned(),
-        })
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::samples::gaussian;
     use crate::signal::{SpeedPoint, peak_near};
     use std::f64::consts::PI;
 
@@ -237,31 +192,6 @@ mod tests {
     }
 
     #[test]
-    fn the_average_keeps_what_is_locked_and_states_its_error() {
-        let noise = gaussian(20_000, 2);
-        let locked = over_angle(|turns| (2.0 * PI * 4.0 * turns).cos());
-        let values = locked.values().iter().zip(&noise).map(|(a, b)| a + b);
-        let series = locked.with_values(values.collect()).expect("a valid series");
-        let found = AngleSeries::resampled(&series, &run_up(), 32).expect("turns");
-        let average = found.synchronous_average(1).expect("turns");
-        assert!(average.periods >= 77);
-        let errors = average.average.iter().enumerate().map(|(p, a)| {
-            let turns = found.start_turns() + p as f64 / 32.0;
-            a - (2.0 * PI * 4.0 * turns).cos()
-        });
-        let squares: Vec<f64> = errors.map(|e| e * e).collect();
-        let found_error = (squares.iter().sum::<f64>() / 32.0).sqrt();
-        let stated = average.standard_error.iter().map(|e| e * e).sum::<f64>();
-        let stated = (stated / 32.0).sqrt();
-        // 32 values that hardly correlate: their scatter is known to 1 / sqrt(64)
-        assert!((found_error / stated - 1.0).abs() < 0.4, "{found_error} {stated}");
-        // noise below order 16 of 20 to 60 Hz, about a tenth of its power, over sqrt(77)
-        assert!(stated < 0.06, "{stated}");
-        let two = found.synchronous_average(2).expect("turns");
-        assert_eq!((two.average.len(), two.angle_turns.len()), (64, 64));
-    }
-
-    #[test]
     fn errors_fire_with_their_exact_messages() {
         let series = over_angle(|turns| turns);
         let message = |p| {
@@ -276,11 +206,5 @@ mod tests {
         let short = series.window(0.0, 0.02).expect("inside");
         let found = AngleSeries::resampled(&short, &run_up(), 64).expect_err("must fail");
         assert_eq!(found.to_string(), "0 turns are known, at least 1 needed");
-        let few = series.window(0.0, 0.3).expect("inside");
-        let few = AngleSeries::resampled(&few, &run_up(), 64).expect("turns");
-        let error = few.synchronous_average(9).expect_err("must fail").to_string();
-        assert!(error.ends_with("turns are known, at least 18 needed"), "{error}");
-        assert!(few.synchronous_average(0).is_err());
-        assert!(few.synchronous_average(usize::MAX).is_err());
     }
 }

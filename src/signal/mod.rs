@@ -6,8 +6,8 @@
 //! signals of two methods in the band that matters.
 //!
 //! Beside it: power spectra ([`Welch`]), amplitude over time and frequency ([`WaveletTransform`]), orders of a shaft
-//! ([`ShaftAngle`], [`AngleSeries`], [`SpeedSearch`]), and what is impulsive, when and in which band ([`moving_figures`],
-//! [`spectral_kurtosis()`], [`kurtogram()`]). [`whiten`] makes weak bands count as much as resonances.
+//! ([`ShaftAngle`], [`AngleSeries`], [`SpeedSearch`]), and what is impulsive in which band ([`spectral_kurtosis()`],
+//! [`kurtogram()`]). [`whiten`] makes weak bands count as much as resonances.
 //!
 //! Nothing here knows of simulations: a measured signal goes the same way.
 
@@ -20,7 +20,6 @@ mod error;
 mod fourier;
 mod kurtogram;
 mod lines;
-mod moving;
 #[cfg(test)]
 #[path = "samples_tests.rs"]
 pub(crate) mod samples;
@@ -33,7 +32,7 @@ mod welch;
 mod white_spectrum;
 mod whitening;
 
-pub use angle_series::{AngleSeries, OrderSpectrum, SynchronousAverage};
+pub use angle_series::{AngleSeries, OrderSpectrum};
 pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest, relative_difference};
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub(crate) use envelope::usual_high_pass_hz;
@@ -43,7 +42,6 @@ pub use fourier::WindowFunction;
 pub(crate) use fourier::{Forward, fast_length};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at, match_line};
-pub use moving::{MovingFigures, moving_figures};
 pub use scalogram::{FrequencyAxis, Scalogram, WaveletTransform};
 pub use shaft_angle::{ShaftAngle, SpeedPoint};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};

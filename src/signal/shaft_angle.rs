@@ -28,33 +28,6 @@ impl ShaftAngle {
     /// # Errors
     /// [`SignalError`] for instants too few or out of order, and for a speed that is not positive.
     pub fn from_points(points: Vec<SpeedPoint>) -> Result<Self, SignalError> {
-        Self::integrated(points, |from, to| 0.5 * (from.speed_hz + to.speed_hz))
-    }
-
-    /// Angle for a speed in Hz as a function of time in s over a window, taken every `step_s` at least and integrated by
-    /// Simpson's rule, an error of step^4 / 2880 of the speed's fourth derivative each second.
-    ///
-    /// # Errors
-    /// As [`from_points`](Self::from_points).
-    pub fn from_function(speed_hz: impl Fn(f64) -> f64, window: TimeWindow, step_s: f64) -> Result<Self, SignalError> {
-        let intervals = ((window.to - window.from) / step_s).ceil();
-        // what is no number of intervals gives no points, and is refused as such
-        let intervals = if intervals < 1e8 { intervals as usize } else { 0 };
-        let at = |k: usize| {
-            let time_s = window.from + (window.to - window.from) * k as f64 / intervals as f64;
-            SpeedPoint { time_s, speed_hz: speed_hz(time_s) }
-        };
-        let points = if intervals == 0 { Vec::new() } else { (0..=intervals).map(at).collect() };
-        Self::integrated(points, |from, to| {
-            let middle = speed_hz(0.5 * (from.time_s + to.time_s));
-            (from.speed_hz + 4.0 * middle + to.speed_hz) / 6.0
-        })
-    }
-
-    fn integrated(
-        points: Vec<SpeedPoint>,
-        mean_hz: impl Fn(&SpeedPoint, &SpeedPoint) -> f64,
-    ) -> Result<Self, SignalError> {
         let is_ordered = points.windows(2).all(|p| p[0].time_s < p[1].time_s);
         if points.len() < 2 || !is_ordered || points.iter().any(|p| !p.time_s.is_finite()) {
             let points = points.len();
@@ -73,7 +46,7 @@ impl ShaftAngle {
         let mut turns = vec![0.0];
         let mut angle = 0.0;
         for pair in points.windows(2) {
-            angle += mean_hz(&pair[0], &pair[1]) * (pair[1].time_s - pair[0].time_s);
+            angle += 0.5 * (pair[0].speed_hz + pair[1].speed_hz) * (pair[1].time_s - pair[0].time_s);
             turns.push(angle);
         }
         Ok(Self { points, turns })
@@ -168,21 +141,6 @@ mod tests {
     }
 
     #[test]
-    fn a_function_is_integrated_to_the_fourth_order() {
-        let window = TimeWindow { from: 0.0, to: 2.0 };
-        let exact = |t: f64| 30.0 * t + 5.0 * (1.0 - (2.0 * t).cos()) / 2.0;
-        let worst = |step_s: f64| {
-            let speed = |t: f64| 30.0 + 5.0 * (2.0 * t).sin();
-            let angle = ShaftAngle::from_function(speed, window, step_s).expect("a valid speed");
-            let times = (0..=200).map(|k| f64::from(k) * 0.01);
-            times.fold(0.0, |w: f64, t| w.max((angle.at(t).0 - exact(t)).abs()))
-        };
-        let order = (worst(0.1) / worst(0.05)).log2();
-        assert!((order - 4.0).abs() < 0.2, "{order}");
-        assert!(worst(1e-3) < 1e-11);
-    }
-
-    #[test]
     fn errors_fire_with_their_exact_messages() {
         let message = |pairs: &[(f64, f64)]| ShaftAngle::from_points(points(pairs)).expect_err("must fail").to_string();
         let order = "speed must be known at two instants at least, finite and in order of time";
@@ -193,9 +151,5 @@ mod tests {
             message(&[(0.0, 1.0), (2.0, 0.0)]),
             "shaft speed must be positive throughout, found 0 Hz at 2 s: take a stretch in which the shaft turns one way"
         );
-        let window = TimeWindow { from: 0.0, to: 1.0 };
-        for step_s in [0.0, f64::NAN, 1e-300] {
-            assert!(ShaftAngle::from_function(|_| 1.0, window, step_s).is_err());
-        }
     }
 }
