@@ -151,7 +151,8 @@ fn a_run_and_its_folder_have_the_same_verdict() {
     for name in ["report.html", "analysis-report.html", "analysis.json"] {
         assert!(folder.join("dent").join(name).is_file(), "{name}");
     }
-    // the same signal may be looked at otherwise, another one needs --force
+    // the same again loses nothing; another signal, or other values, need --force
+    assert_eq!(plummer(&folder, &["analyze", "dent"]).status.code(), Some(0));
     let words = ["analyze", "dent/signals.npz", "--bearing", &case, "--channel", "P1", "--window", "0.1:0.3"];
     let other = plummer(&folder, &[&words[..], &["--out", "dent"]].concat());
     assert_eq!(other.status.code(), Some(2));
@@ -162,6 +163,14 @@ fn a_run_and_its_folder_have_the_same_verdict() {
     );
     // a window that is too short for any part
     let words = ["analyze", "dent", "--window", "0.2:0.25"];
+    let other = plummer(&folder, &words);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        errors(&other).contains("analysis.json is the result of an earlier run of other values"),
+        "{}",
+        errors(&other)
+    );
+    let words = [&words[..], &["--force"]].concat();
     let brief = plummer(&folder, &words);
     assert_eq!(brief.status.code(), Some(1), "{}", errors(&brief));
     assert!(errors(&brief).contains("no part could be judged"), "{}", errors(&brief));

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::fs;
 
-use super::CliError;
+use super::{CliError, OutputFolder, report, run, typed};
 use crate::app::case::Case;
 use crate::app::scene::mesh_digests;
 use crate::app::shell_word::shell_word;
@@ -16,6 +17,20 @@ use crate::files::{self, FileDigest, FileError};
 pub(super) const ARRAYS: &str = "arrays";
 /// Where a result has the digest of its case, [`Case::digest`].
 pub(super) const CASE_DIGEST: &str = "case_digest";
+
+/// The results that commands write into a folder: of each the word W of W.json, what is there before it, and files beside its page,
+/// tables and figures.
+pub(super) const RESULTS: [(&str, &str, &[&str]); 9] = [
+    ("run", run::PARTIAL, &["signals.npz", "scalogram.npz"]),
+    ("modes", "", &["modes.npz"]),
+    ("condense", "", &["superelement.npz"]),
+    ("frf", "", &["frf.uff"]),
+    ("chart", "chart.csv.partial", &["chart.svg", "stability.svg", "resonance.svg"]),
+    ("stability", "", &["stability.svg", "resonance.svg"]),
+    ("analysis", "", &["analysis.csv"]),
+    ("sweep", "sweep/plan.json", &["sweep.csv", "sweep.npz"]),
+    ("verify", "", &[]),
+];
 
 /// What to do about damaged results.
 const AGAIN: &str = "compute the results again with --force";
@@ -120,6 +135,85 @@ pub(super) fn case_of_results(folder: &Path, wanted: Wanted, set: &[String]) -> 
 pub(super) fn result_of(command: &str, path: &Path) -> Value {
     let result = files::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
     result.filter(|result: &Value| result["command"] == command).unwrap_or_default()
+}
+
+/// Files in a folder that have names as the result W.json has them beside it.
+pub(super) fn with_names_of(folder: &OutputFolder, word: &str) -> Vec<String> {
+    let page = folder.report_name(word);
+    let mut names = vec![report::record_of(&page), page];
+    for (_, _, files) in RESULTS.iter().filter(|(other, ..)| *other == word) {
+        names.extend(files.iter().map(|file| (*file).to_owned()));
+    }
+    for of in [report::TABLES, report::FIGURES] {
+        let entries = fs::read_dir(folder.path.join(of)).into_iter().flatten().flatten();
+        let entries = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        names.extend(entries.filter(|name| belongs(name, word)).map(|name| format!("{of}/{name}")));
+    }
+    names
+}
+
+/// Whether a table or figure has the name of one of the result W.json.
+fn belongs(name: &str, word: &str) -> bool {
+    name.strip_prefix(word).is_some_and(|rest| rest.starts_with('-'))
+}
+
+/// Refuses files in a folder that no result there speaks of: no W.json, no content of a report, and nothing that a command leaves
+/// that did not come to its end.
+///
+/// # Errors
+/// [`CliError`] that names them.
+pub(super) fn refuse_foreign(folder: &OutputFolder, mut names: Vec<String>) -> Result<(), CliError> {
+    /// Files that are listed.
+    const LISTED: usize = 5;
+    names.retain(|name| folder.path.join(name).symlink_metadata().is_ok());
+    if names.is_empty() {
+        return Ok(());
+    }
+    let (mut pages, mut words) = (Vec::new(), Vec::new());
+    for (record, page) in report::records(&folder.path).unwrap_or_default() {
+        if let Ok((word, _)) = report::read(&record) {
+            pages.extend([report::record_of(&page), page]);
+            words.push(word);
+        }
+    }
+    for (word, begun, _) in RESULTS {
+        let result = files::read(&folder.path.join(format!("{word}.json"))).unwrap_or_default();
+        let result: Value = serde_json::from_slice(&result).unwrap_or_default();
+        let is_there = result["plummer"].is_string();
+        pages.extend(is_there.then(|| folder.report_name(word)));
+        let is_begun = !begun.is_empty() && folder.path.join(begun).exists();
+        words.extend((is_there || is_begun).then(|| word.to_owned()));
+    }
+    let of_word = |name: &str, word: &str| {
+        let of = RESULTS.iter().find(|(other, ..)| *other == word);
+        let inside = name.split_once('/').filter(|(of, _)| [report::TABLES, report::FIGURES].contains(of));
+        of.is_some_and(|(_, _, files)| files.contains(&name)) || inside.is_some_and(|(_, name)| belongs(name, word))
+    };
+    names.retain(|name| !pages.contains(name) && !words.iter().any(|word| of_word(name, word)));
+    names.sort();
+    let more = names.len().saturating_sub(LISTED);
+    names.truncate(LISTED);
+    names.extend((more > 0).then(|| format!("{more} more files")));
+    if names.is_empty() {
+        return Ok(());
+    }
+    let (at, names) = (folder.path.display(), names.join(", "));
+    Err(CliError::input(format!("{at} has {names} by the names of results, which no result there speaks of"))
+        .with_help("replace them with --force, or choose another folder with --out"))
+}
+
+/// What an interrupt leaves in a folder of the results of a command.
+pub(super) fn left_in(folder: &Path, word: &str, force: bool) -> impl Fn() -> CliError + Send + use<> {
+    let [result, so_far] = [format!("{word}.json"), format!("{word}.csv.partial")].map(|name| folder.join(name));
+    let again = format!("begin again with: {}{}", typed(), if force { " --force" } else { "" });
+    move || {
+        let what = match (so_far.exists(), result.exists()) {
+            (true, _) => format!("the points so far are in {}", so_far.display()),
+            (_, true) => format!("{} is an earlier result", result.display()),
+            _ => format!("there is no {} yet", result.display()),
+        };
+        CliError::failed(format!("interrupted; {what}")).with_help(&again)
+    }
 }
 
 /// What a result of a command is of, behind "an earlier run"; `None`: of this case and of the meshes that are there now, so that

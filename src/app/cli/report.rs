@@ -2,6 +2,7 @@
 //!
 //! A command's report with its tables and figures beside it.
 
+use super::earlier_results::{RESULTS, refuse_foreign};
 use super::output::{extend_new, json};
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
@@ -10,15 +11,13 @@ use crate::app::commands::result::VERSION;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
 use crate::files::{FileDigest, FileError};
-use crate::report::{MeshFile, Report};
+use crate::report::{MeshFile, Report, ReportError};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// The commands that write reports, by the names of their results.
-const WITH_REPORT: [&str; 9] = ["run", "modes", "condense", "frf", "chart", "stability", "analysis", "sweep", "verify"];
 /// What to do about a damaged report.
 const AGAIN: &str = "run the command again with --force";
 
@@ -57,9 +56,19 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         let (command, report) = read(&path)?;
         reports.push((page, command, report));
     }
-    folder.claim_files::<&str>(&[], true)?;
+    let names: Vec<String> = reports.iter().map(|(page, ..)| record_of(page)).collect();
+    let same = |path: &Path| fs::read(path).ok() == fs::read(from.join(path.file_name().unwrap_or_default())).ok();
+    folder.claim_unless(&names, options.force, |path| (!same(path)).then_some(""))?;
+    if !options.force {
+        let files = reports.iter().flat_map(|(page, command, report)| files_of(page, command, report));
+        refuse_foreign(&folder, files.collect())?;
+    }
     let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
     for (page, command, report) in reports {
+        if options.out.is_some() {
+            let record = from.join(record_of(&page));
+            folder.write(&record_of(&page), &fs::read(&record).map_err(|source| unreadable(&record, source))?)?;
+        }
         let files = ReportFiles::draw(&folder, &page, &command, &report)?;
         let version = &report.version;
         summary.push(format!("{command}: {}, computed by {version}", report.title));
@@ -81,7 +90,7 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
 }
 
 /// The contents of reports in a folder, in order of their names, each with the name of its page.
-fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
+pub(super) fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
     let failed = |source| unreadable(folder, source);
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
@@ -102,15 +111,18 @@ fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
 }
 
 /// The report that a file holds, and the command that it is of.
-fn read(path: &Path) -> Result<(String, Report), CliError> {
+pub(super) fn read(path: &Path) -> Result<(String, Report), CliError> {
     let bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
     let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
     let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
     // names of files are made of it: nothing is written beside the folder
     let command = report.table_files.as_ref().map(|files| files.prefix.clone()).unwrap_or_default();
-    match WITH_REPORT.contains(&command.as_str()) {
+    match RESULTS.iter().any(|(word, ..)| *word == command) {
         true => Ok((command, report)),
-        false => Err(wrong(&format!("a report of \"{command}\": expected one of {}", WITH_REPORT.join(", ")))),
+        false => {
+            let words = RESULTS.map(|(word, ..)| word).join(", ");
+            Err(wrong(&format!("a report of \"{command}\": expected one of {words}")))
+        }
     }
 }
 
@@ -120,8 +132,8 @@ fn unreadable(path: &Path, source: io::Error) -> CliError {
 }
 
 /// Folders of the tables and of the figures, in that of the results.
-const TABLES: &str = "tables";
-const FIGURES: &str = "figures";
+pub(super) const TABLES: &str = "tables";
+pub(super) const FIGURES: &str = "figures";
 
 /// Endings of a page and of its content.
 const PAGE: &str = ".html";
@@ -181,12 +193,12 @@ impl ReportFiles {
     /// [`CliError`] when its contents do not fit together or a file cannot be written.
     pub(super) fn draw(folder: &OutputFolder, page: &str, command: &str, report: &Report) -> Result<Self, CliError> {
         let html = report.to_html().map_err(ComputeError::from)?;
-        let figures = report.svg_files(command).map_err(ComputeError::from)?;
+        let figures = report.svg_files(command).map(|(name, plot)| Ok((format!("{FIGURES}/{name}"), plot.to_svg()?)));
+        let figures = figures.collect::<Result<_, _>>().map_err(|error: ReportError| ComputeError::from(error))?;
         let tables = report.csv_files();
         let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
-        let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
-        for (of, files) in [(TABLES, tables), (FIGURES, figures.collect())] {
+        for (of, files) in [(TABLES, tables), (FIGURES, figures)] {
             let path = folder.path.join(of);
             if !files.is_empty() {
                 folder.make_below(Path::new(of))?;
@@ -208,28 +220,31 @@ fn today() -> String {
     date_of(given.unwrap_or_else(now))
 }
 
-/// Year, month and day (ISO 8601) of so many seconds after 1970 began.
+/// Year, month and day (ISO 8601) of so many seconds after 1970 began, by H. Hinnant, "chrono-compatible low-level date algorithms"
+/// (2013): years begin in March, and 400 of them have 146 097 days.
 fn date_of(seconds: u64) -> String {
-    let mut day = seconds / 86_400;
-    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    // what repeats: 146 097 days are 400 years
-    let mut year = 1970 + 400 * (day / 146_097);
-    day %= 146_097;
-    while day >= 365 + u64::from(leap(year)) {
-        day -= 365 + u64::from(leap(year));
-        year += 1;
-    }
-    let months = [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
-    let mut month = 0;
-    while day >= months[month] {
-        day -= months[month];
-        month += 1;
-    }
-    format!("{year}-{:02}-{:02}", month + 1, day + 1)
+    let day = seconds / 86_400 + 719_468;
+    let (era, day) = (day / 146_097, day % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    format!("{}-{:02}-{day:02}", year + 400 * era + month / 10, (month + 2) % 12 + 1)
+}
+
+/// Names of the tables and figures of a report in the folder of the results.
+fn files_beside(command: &str, report: &Report) -> impl Iterator<Item = String> {
+    let figures = report.svg_files(command).map(|(name, _)| format!("{FIGURES}/{name}"));
+    report.csv_files().into_iter().map(|(name, _)| name).chain(figures)
+}
+
+/// Names of all files of a report in the folder of the results.
+pub(super) fn files_of(page: &str, command: &str, report: &Report) -> impl Iterator<Item = String> {
+    [page.to_owned(), record_of(page)].into_iter().chain(files_beside(command, report))
 }
 
 /// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
-fn record_of(page: &str) -> String {
+pub(super) fn record_of(page: &str) -> String {
     format!("{}{RECORD}", page.strip_suffix(PAGE).unwrap_or(page))
 }
 
@@ -266,12 +281,7 @@ fn remove_earlier(folder: &OutputFolder, record: &str, command: &str) -> Result<
             folder.make_below(Path::new(of))?;
         }
     }
-    let Some(earlier) = earlier else {
-        return Ok(());
-    };
-    let tables = earlier.csv_files().into_iter().map(|(name, _)| name);
-    let figures = earlier.svg_files(command).unwrap_or_default().into_iter();
-    for name in tables.chain(figures.map(|(name, _)| format!("{FIGURES}/{name}"))) {
+    for name in earlier.iter().flat_map(|earlier| files_beside(command, earlier)) {
         let path = folder.path.join(name);
         if path.is_file() {
             fs::remove_file(&path)
