@@ -29,14 +29,13 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 
 /// A message without the middle of what is as long as no message is: a value that was typed by mistake, or a file in its place.
 pub(crate) fn cut(text: &str) -> String {
-    // words; paths, by Linux' PATH_MAX; what is left at both ends of longer ones
+    // words; paths, by Linux' PATH_MAX
     const LONGEST: [usize; 2] = [300, 4096];
-    const LEFT: usize = 60;
     let word = |word: &str| match word.chars().count() {
         count if count <= LONGEST[usize::from(word.contains('/'))] => word.to_owned(),
         count => {
-            let part = |skip| word.chars().skip(skip).take(LEFT).collect::<String>();
-            format!("{}...({count} characters)...{}", part(0), part(count - LEFT))
+            let part = |skip| word.chars().skip(skip).take(60).collect::<String>();
+            format!("{}...({count} characters)...{}", part(0), part(count - 60))
         }
     };
     text.split(' ').map(word).collect::<Vec<_>>().join(" ")
