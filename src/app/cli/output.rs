@@ -1,7 +1,7 @@
 //! Where results go: what a command hands back, a folder that is not overwritten by accident and that one process at
 //! a time writes into, files that are whole or not there.
 
-use super::earlier_results::{RESULTS, refuse_foreign, with_names_of};
+use super::earlier_results::{refuse_foreign, with_names_of};
 use super::{CliError, Options};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
@@ -113,7 +113,7 @@ impl OutputFolder {
             return Ok(());
         }
         let words = names.iter().filter_map(|name| name.as_ref().to_str()?.strip_suffix(".json"));
-        refuse_foreign(self, words.flat_map(|word| with_names_of(self, word)).collect())
+        refuse_foreign(&self.path, words.flat_map(|word| with_names_of(&self.path, word)).collect())
     }
 
     /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
@@ -128,19 +128,6 @@ impl OutputFolder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
             Err(error) => Err(CliError::folder(&self.path, &error)),
         }
-    }
-
-    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command had its results first.
-    #[must_use]
-    pub(crate) fn report_name(&self, command: &str) -> String {
-        let own = format!("{command}-report.html");
-        let has = |name: &str| self.path.join(name).exists();
-        if has(&format!("{command}.json")) && has("report.html") && !has(&own) {
-            return "report.html".to_owned();
-        }
-        let others = |word: &str| word != command && (command, word) != ("chart", "stability");
-        let shared = RESULTS.iter().any(|(word, ..)| others(word) && has(&format!("{word}.json")));
-        if shared { own } else { "report.html".to_owned() }
     }
 
     /// Writes a result as JSON; gives its path, and what it says.

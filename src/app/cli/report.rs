@@ -2,7 +2,7 @@
 //!
 //! A command's report with its tables and figures beside it.
 
-use super::earlier_results::{RESULTS, refuse_foreign};
+use super::earlier_results::{FIGURES, TABLES, read, record_of, records, refuse_foreign, report_name, unreadable};
 use super::output::{extend_new, json};
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
@@ -10,16 +10,13 @@ use crate::app::commands::parts::with_details;
 use crate::app::commands::result::VERSION;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
-use crate::files::{FileDigest, FileError};
+use crate::files::FileDigest;
 use crate::report::{MeshFile, Report, ReportError};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
-use std::{fs, io};
-
-/// What to do about a damaged report.
-const AGAIN: &str = "run the command again with --force";
 
 /// The pages that were drawn.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -61,7 +58,7 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
     folder.claim_unless(&names, options.force, |path| (!same(path)).then_some(""))?;
     if !options.force {
         let files = reports.iter().flat_map(|(page, command, report)| files_of(page, command, report));
-        refuse_foreign(&folder, files.collect())?;
+        refuse_foreign(&folder.path, files.collect())?;
     }
     let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
     for (page, command, report) in reports {
@@ -88,56 +85,6 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         verdict: Ok(()),
     })
 }
-
-/// The contents of reports in a folder, in order of their names, each with the name of its page.
-pub(super) fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
-    let failed = |source| unreadable(folder, source);
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if let Some(page) = page_of(&entry.file_name().to_string_lossy()) {
-            found.push((entry.path(), page));
-        }
-    }
-    if found.is_empty() {
-        return Err(CliError::input(format!(
-            "{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page",
-            folder.display()
-        ))
-        .with_help("name the folder with the results of a command"));
-    }
-    found.sort();
-    Ok(found)
-}
-
-/// The report that a file holds, and the command that it is of.
-pub(super) fn read(path: &Path) -> Result<(String, Report), CliError> {
-    let bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
-    let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
-    let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
-    // names of files are made of it: nothing is written beside the folder
-    let command = report.table_files.as_ref().map(|files| files.prefix.clone()).unwrap_or_default();
-    match RESULTS.iter().any(|(word, ..)| *word == command) {
-        true => Ok((command, report)),
-        false => {
-            let words = RESULTS.map(|(word, ..)| word).join(", ");
-            Err(wrong(&format!("a report of \"{command}\": expected one of {words}")))
-        }
-    }
-}
-
-/// A folder that was named, or a file in it, cannot be read.
-fn unreadable(path: &Path, source: io::Error) -> CliError {
-    CliError::input(FileError::read(path)(source).to_string())
-}
-
-/// Folders of the tables and of the figures, in that of the results.
-pub(super) const TABLES: &str = "tables";
-pub(super) const FIGURES: &str = "figures";
-
-/// Endings of a page and of its content.
-const PAGE: &str = ".html";
-const RECORD: &str = ".cbor.gz";
 
 /// What was written of a report, and what it rests on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -178,7 +125,7 @@ impl ReportFiles {
     /// # Errors
     /// As [`ReportFiles::write`].
     pub(super) fn without_case(folder: &OutputFolder, command: &str, report: Report) -> Result<Self, CliError> {
-        let page = folder.report_name(command);
+        let page = report_name(&folder.path, command);
         let date = report.date.clone().unwrap_or_else(today);
         let report = report.date(date).tables_in(TABLES, command);
         let record = report.to_record().map_err(ComputeError::from)?;
@@ -243,17 +190,6 @@ pub(super) fn files_of(page: &str, command: &str, report: &Report) -> impl Itera
     [page.to_owned(), record_of(page)].into_iter().chain(files_beside(command, report))
 }
 
-/// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
-pub(super) fn record_of(page: &str) -> String {
-    format!("{}{RECORD}", page.strip_suffix(PAGE).unwrap_or(page))
-}
-
-/// Name of the page whose content a file has, if it is one.
-pub(super) fn page_of(record: &str) -> Option<String> {
-    let page = record.strip_suffix(RECORD)?;
-    (page == "report" || page.ends_with("-report")).then(|| format!("{page}{PAGE}"))
-}
-
 /// Checks that the meshes are still those that were read: the report names their content.
 ///
 /// # Errors
@@ -313,19 +249,9 @@ mod tests {
 
 #[cfg(test)]
 mod report_files_tests {
-    use super::{OutputFolder, ReportFiles, date_of, page_of, record_of, unchanged};
+    use super::{OutputFolder, ReportFiles, date_of, unchanged};
     use crate::files::FileDigest;
     use crate::report::{Cell, Column, Report, Section, Table};
-
-    #[test]
-    fn a_page_and_its_content_know_each_other() {
-        for page in ["report.html", "modes-report.html"] {
-            assert_eq!(page_of(&record_of(page)).as_deref(), Some(page));
-        }
-        for other in ["report.html", "notes.cbor.gz", "reports.cbor.gz", ".cbor.gz"] {
-            assert_eq!(page_of(other), None, "{other}");
-        }
-    }
 
     /// By `date -u -d @SECONDS +%F`.
     #[test]

@@ -1,6 +1,6 @@
 //! `plummer run`: the simulation in time.
 
-use super::earlier_results::left_in;
+use super::earlier_results::{PARTIAL, left_in};
 use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
@@ -15,9 +15,6 @@ use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::{given, quantity, signed_fixed, significant};
 use std::path::Path;
 use std::time::Duration;
-
-/// Folder of an unfinished run, in that of the results.
-pub(super) const PARTIAL: &str = ".run.partial";
 
 /// Checks that there is an unfinished run to go on with.
 ///

@@ -132,7 +132,7 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
         let names = fs::read_dir(&points).into_iter().flatten().flatten();
         let names = names.filter_map(|entry| Some(format!("{POINTS}/{}", entry.file_name().to_str()?)));
         // of a plan that was not written to its end
-        refuse_foreign(folder, names.filter(|name| !name.ends_with(".partial")).collect())?;
+        refuse_foreign(&folder.path, names.filter(|name| !name.ends_with(".partial")).collect())?;
     }
     if file.exists() {
         // a folder that has a plan is a sweep's own

@@ -9,6 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::super::earlier_results::PARTIAL;
 use super::super::output::is_taken;
 use super::super::{CliError, Options, write_atomic};
 use super::Share;
@@ -138,7 +139,7 @@ impl Workers {
         files::remove(&file).map_err(io(&file))?;
         let log = folder.join("log.txt");
         files::no_link(&log).map_err(io(&log))?;
-        let unfinished = UnfinishedRun::is_in(&folder.join(super::super::run::PARTIAL));
+        let unfinished = UnfinishedRun::is_in(&folder.join(PARTIAL));
         let resume = plan.command == SweptCommand::Run && unfinished;
         let mut status = self.attempt(plan, point, &folder, &log, if resume { "--resume" } else { "--force" })?;
         // one that cannot go on begins anew, and so does whatever else is there
