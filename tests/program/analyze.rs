@@ -212,8 +212,7 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let written = fs::read_to_string(folder.join("out/bench/analysis.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), found);
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    let command =
-        "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
+    let command = "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 25";
     assert!(report.contains(command), "the command line");
     assert!(report.contains("outer race"));
     // six harmonics of 89.6 Hz; the fourth is within 3 % of three times the ball's 117.8 Hz too
@@ -409,7 +408,7 @@ fn orders_have_the_names_of_catalogues_too() {
     assert_eq!(orders(&output), orders(&usual));
     assert_eq!(errors(&output), "");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    let command = "outer=3.585,inner=5.415,ball=4.714,cage=0.398";
+    let command = "BPFO=3.585,bpfi=5.415,Bsf=2.357,FTF=0.398";
     assert!(report.contains(command), "the command line");
     let spin = by("outer=3.585,inner=5.415,ball=2.357");
     assert!(errors(&spin).contains("write BSF=2.357 if the spin of a ball is meant"), "{}", errors(&spin));
