@@ -27,9 +27,35 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     if text.contains(control) { Cow::Owned(text.replace(control, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
+/// A message without the middle of what is as long as no message is: a value that was typed by mistake, or a file in its place.
+pub(crate) fn cut(text: &str) -> String {
+    // words; paths, by Linux' PATH_MAX
+    const LONGEST: [usize; 2] = [300, 4096];
+    let word = |word: &str| match word.chars().count() {
+        count if count <= LONGEST[usize::from(word.contains('/'))] => word.to_owned(),
+        count => {
+            let part = |skip| word.chars().skip(skip).take(60).collect::<String>();
+            format!("{}...({count} characters)...{}", part(0), part(count - 60))
+        }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::shell_word;
+    use super::{cut, shell_word};
+
+    #[test]
+    fn what_is_too_long_to_read_is_cut() {
+        let long = "x".repeat(100_000);
+        let message = format!("error: `a`: found \"{long}\", expected a number");
+        let begin = "x".repeat(59);
+        let expected = format!("error: `a`: found \"{begin}...(100003 characters)...{}\",", "x".repeat(58));
+        assert_eq!(cut(&message), expected + " expected a number");
+        for kept in ["short", &"/tmp".repeat(500), &format!("{}\n{}", "word ".repeat(400), "word ".repeat(400))] {
+            assert_eq!(cut(kept), kept);
+        }
+    }
 
     #[test]
     fn nothing_is_left_to_the_shell() {

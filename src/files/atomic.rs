@@ -28,10 +28,7 @@ impl AtomicFile {
         }
         let partial = Self::partial_of(path);
         // what an ended process left, or a link: neither is written through
-        match fs::remove_file(&partial) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+        super::remove(&partial)?;
         let file = File::create_new(&partial)?;
         Ok(Self { path: path.to_owned(), partial, file: Some(BufWriter::with_capacity(1 << 18, file)) })
     }

@@ -4,7 +4,7 @@
 //! Read with `numpy.fromfile(path)`, the last three with `.reshape(-1, balls)`.
 
 use std::fs::{File, OpenOptions};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -81,8 +81,13 @@ impl ColumnFiles {
             let path = path_of(folder, column);
             let failed = |source| FileError::Open { path: path.clone(), source };
             no_link(&path).map_err(failed)?;
-            let mut file = options.read(true).write(true).open(&path).map_err(failed)?;
             let expected = (rows * column.width(balls) * BYTES) as u64;
+            let mut file = match options.read(true).write(true).open(&path) {
+                Err(error) if rows > 0 && error.kind() == ErrorKind::NotFound => {
+                    return Err(FormatError::CutColumn { path, expected, found: 0 });
+                }
+                opened => opened.map_err(failed)?,
+            };
             let found = file.metadata().map_err(failed)?.len();
             if found < expected {
                 return Err(FormatError::CutColumn { path, expected, found });
@@ -268,6 +273,6 @@ mod tests {
         );
         std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
         let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
-        assert!(matches!(error, FormatError::File(FileError::Open { .. })), "{error}");
+        assert!(matches!(error, FormatError::CutColumn { found: 0, .. }), "{error}");
     }
 }

@@ -26,17 +26,13 @@ impl Plot {
 }
 
 impl Report {
-    /// Name and content ([`Plot::to_svg`]) of each plot's file, in the order of the page: `PREFIX-NUMBER-TITLE.svg`.
-    ///
-    /// # Errors
-    /// As [`Plot::to_svg`].
-    pub(crate) fn svg_files(&self, prefix: &str) -> Result<Vec<(String, String)>, ReportError> {
-        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
-        let file = |(number, plot): (usize, &Plot)| {
+    /// Name and plot of each plot's file, in the order of the page: `PREFIX-NUMBER-TITLE.svg`, to be drawn by [`Plot::to_svg`].
+    pub(crate) fn svg_files(&self, prefix: &str) -> impl Iterator<Item = (String, &Plot)> {
+        let plots = self.sections.iter().flat_map(|section| &section.blocks).filter_map(Block::plot);
+        (1..).zip(plots).map(move |(number, plot)| {
             let name = plain_name(&plot.title, "plot");
-            Ok((format!("{prefix}-{number}-{name}.svg"), plot.to_svg()?))
-        };
-        (1..).zip(blocks.filter_map(Block::plot)).map(file).collect()
+            (format!("{prefix}-{number}-{name}.svg"), plot)
+        })
     }
 }
 

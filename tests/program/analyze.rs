@@ -151,7 +151,8 @@ fn a_run_and_its_folder_have_the_same_verdict() {
     for name in ["report.html", "analysis-report.html", "analysis.json"] {
         assert!(folder.join("dent").join(name).is_file(), "{name}");
     }
-    // the same signal may be looked at otherwise, another one needs --force
+    // the same again loses nothing; another signal, or other values, need --force
+    assert_eq!(plummer(&folder, &["analyze", "dent"]).status.code(), Some(0));
     let words = ["analyze", "dent/signals.npz", "--bearing", &case, "--channel", "P1", "--window", "0.1:0.3"];
     let other = plummer(&folder, &[&words[..], &["--out", "dent"]].concat());
     assert_eq!(other.status.code(), Some(2));
@@ -162,6 +163,14 @@ fn a_run_and_its_folder_have_the_same_verdict() {
     );
     // a window that is too short for any part
     let words = ["analyze", "dent", "--window", "0.2:0.25"];
+    let other = plummer(&folder, &words);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        errors(&other).contains("analysis.json is the result of an earlier run of other values"),
+        "{}",
+        errors(&other)
+    );
+    let words = [&words[..], &["--force"]].concat();
     let brief = plummer(&folder, &words);
     assert_eq!(brief.status.code(), Some(1), "{}", errors(&brief));
     assert!(errors(&brief).contains("no part could be judged"), "{}", errors(&brief));
@@ -203,8 +212,7 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     let written = fs::read_to_string(folder.join("out/bench/analysis.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), found);
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    let command =
-        "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --contact-angle 0 --speed 25";
+    let command = "plummer analyze bench.csv --balls 9 --pitch-diameter 39.04 --ball-diameter 7.94 --speed 25";
     assert!(report.contains(command), "the command line");
     assert!(report.contains("outer race"));
     // six harmonics of 89.6 Hz; the fourth is within 3 % of three times the ball's 117.8 Hz too
@@ -399,7 +407,7 @@ fn orders_have_the_names_of_catalogues_too() {
     assert_eq!(orders(&output), orders(&usual));
     assert_eq!(errors(&output), "");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    let command = "outer=3.585,inner=5.415,ball=4.714,cage=0.398";
+    let command = "BPFO=3.585,bpfi=5.415,Bsf=2.357,FTF=0.398";
     assert!(report.contains(command), "the command line");
     let spin = by("outer=3.585,inner=5.415,ball=2.357");
     assert!(errors(&spin).contains("write BSF=2.357 if the spin of a ball is meant"), "{}", errors(&spin));

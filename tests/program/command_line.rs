@@ -111,6 +111,50 @@ fn the_same_case_replaces_its_own_result() {
     assert!(!folder.join("out/ring/modes-report.html").exists());
 }
 
+/// What has the name of a result, and no result in the folder speaks of it, is somebody's.
+#[test]
+fn files_of_others_are_not_replaced() {
+    let folder = super::common::scratch("foreign");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let case = root.join("examples/modal/ring.toml").display().to_string();
+    let modes = |more: &[&str]| {
+        let output = plummer(&folder, &[&["modes", &case, "--out", "o", "--quiet"], more].concat());
+        (output.status.code(), errors(&output))
+    };
+    for name in ["modes.npz", "report.html", "report.cbor.gz", "tables/modes-1-mine.csv", "figures/modes-2-mine.svg"] {
+        let path = folder.join("o").join(name);
+        let _ = fs::remove_dir_all(folder.join("o"));
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        let said = format!("error: o has {name} by the names of results, which no result there speaks of\n");
+        let help = "help: replace them with --force, or choose another folder with --out\n";
+        assert_eq!(modes(&[]), (Some(2), said + help));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+        assert!(!folder.join("o/modes.json").exists());
+        assert_eq!(modes(&["--force"]), (Some(0), String::new()));
+        // the program's own from then on, also after an end before the last file
+        for _ in 0..2 {
+            assert_eq!(modes(&[]), (Some(0), String::new()), "{name}");
+            fs::remove_file(folder.join("o/modes.json")).unwrap();
+        }
+    }
+    // of another command, and of a page drawn elsewhere
+    fs::write(folder.join("o/frf.uff"), "mine").unwrap();
+    assert_eq!(modes(&[]), (Some(0), String::new()));
+    fs::create_dir(folder.join("p")).unwrap();
+    fs::write(folder.join("p/report.html"), "mine").unwrap();
+    let drawn = |more: &[&str]| plummer(&folder, &[&["report", "o", "--out", "p"], more].concat()).status.code();
+    assert_eq!((drawn(&[]), drawn(&["--force"]), drawn(&[])), (Some(2), Some(0), Some(0)));
+    fs::create_dir(folder.join("m")).unwrap();
+    fs::write(folder.join("m/plummer-run.1"), "mine").unwrap();
+    assert_eq!(plummer(&folder, &["man", "--out", "m"]).status.code(), Some(2));
+    // a folder of points without a plan
+    fs::create_dir_all(folder.join("s/sweep/1")).unwrap();
+    let swept = plummer(&folder, &["sweep", &case, "--command", "modes", "--vary", "modes.count=4,5", "--out", "s"]);
+    assert_eq!(swept.status.code(), Some(2));
+    assert!(errors(&swept).starts_with("error: s has sweep/1 by the names"), "{}", errors(&swept));
+}
+
 #[test]
 fn a_closed_pipe_does_not_make_it_panic() {
     let folder = scratch("pipe");

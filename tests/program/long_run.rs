@@ -144,10 +144,35 @@ fn an_interrupted_run_says_how_to_go_on_and_refuses_anything_else() {
     let (code, text) = run.ended(&["--resume", "--force"]);
     assert_eq!(code, 2, "{text}");
     assert!(run.checkpoint().unwrap() == checkpoint);
+    // before stepping, while the model is built
+    for (signal, pause) in [("-INT", 100), ("-TERM", 300), ("-INT", 600)] {
+        let child = run.command(&["--resume"]).spawn().unwrap();
+        let id = child.id().to_string();
+        // from the first instant on at which a signal is caught
+        let catches = |signal: u64| {
+            let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap();
+            let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap().trim().to_owned();
+            u64::from_str_radix(&mask, 16).unwrap() >> (signal - 1) & 1 == 1
+        };
+        while !(catches(2) && catches(15)) {
+            sleep(Duration::from_millis(2));
+        }
+        sleep(Duration::from_millis(pause));
+        assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+        let (code, text) = told(child.wait_with_output().unwrap());
+        assert_eq!(code, 1, "{pause} ms: {text}");
+        assert!(text.starts_with("error: interrupted") && text.contains("\nhelp: go on with: plummer run "), "{text}");
+    }
+    let checkpoint = run.checkpoint().unwrap_or(checkpoint);
     // rows that the checkpoint counts are gone
     fs::write(run.partial().join("time_s.f64"), "").unwrap();
     let (code, text) = run.ended(&["--resume"]);
-    assert!(text.contains("time_s.f64 has 0 bytes") || code == 1, "{code} {text}");
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("time_s.f64 has 0 bytes"), "{text}");
+    fs::remove_file(run.partial().join("time_s.f64")).unwrap();
+    let (code, text) = run.ended(&["--resume"]);
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("time_s.f64") && text.ends_with("help: begin anew with --force\n"), "{text}");
     fs::write(run.partial().join("checkpoint"), &checkpoint[..checkpoint.len() - 1]).unwrap();
     let (code, text) = run.ended(&["--resume"]);
     assert_eq!(code, 2);

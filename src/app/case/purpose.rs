@@ -1,7 +1,7 @@
 //! What a command needs of a case, a case that has what a simulation needs, and what a result depends on.
 
 use super::error::CaseError;
-use super::{Bearing, Case, Defect, Interface, Linearise, Ring, Shaft, Speed, Transient};
+use super::{Bearing, Case, Defect, Ensemble, Interface, Linearise, Ring, Shaft, Speed, Transient};
 use crate::files::{self, FileDigest};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -170,11 +170,19 @@ impl Case {
                 *path = named.to_owned();
             }
         }
+        if let (Some(transient), false) = (&mut case.transient, command == "chart") {
+            transient.ensemble = Ensemble::default();
+        }
         let mut values = serde_json::to_value(&case).ok()?;
         let tables = values.as_object_mut()?;
         tables
             .retain(|table, _| !left_out.contains(&table.as_str()) && !self.unread(command).contains(&table.as_str()));
-        Some(values.to_string())
+        // of the materials those that something names
+        let mut materials = tables.remove("materials")?;
+        let rest = values.to_string();
+        let named = |name: &str| rest.contains(serde_json::Value::from(name).to_string().trim_matches('"'));
+        materials.as_object_mut()?.retain(|name, _| named(name));
+        Some(format!("{rest}{materials}"))
     }
 
     /// Files beside meshes that the result of a command depends on: measured profiles, and modes from elsewhere.
@@ -225,6 +233,8 @@ mod tests {
             ("ring.shear=false", unloaded, &all),
             ("materials.aluminium.density=2701", unloaded, &all),
             ("housing.length_unit=m", unloaded, &all),
+            ("materials.spare={young=1e9,poisson=0.3,density=1e3}", unloaded, &[]),
+            ("transient.ensemble.runs=7", unloaded, &["chart"]),
             ("title=other", unloaded, &[]),
             ("analysis.high_pass_hz=2000", unloaded, &[]),
         ] {

@@ -2,10 +2,10 @@
 //!
 //! The stability map of `plummer chart`: its files and its lines.
 
-use super::output::json;
+use super::output::{extend_new, json};
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
-use super::{ChartPart, CliError, Outcome, OutputFolder, Progress, word};
+use super::{ChartPart, CliError, Outcome, OutputFolder, Progress, typed};
 use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
@@ -14,8 +14,10 @@ use crate::app::studies::chart::{
     chart_report, compute_chart, compute_stability, model_name, resonance_plot, stability_map, stability_report,
     stability_section, work_precision,
 };
+use crate::files::{self, FileError};
 use crate::report::{duration, significant};
-use std::fs::{self, File};
+use std::collections::BTreeMap;
+use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
@@ -29,24 +31,13 @@ const QUICK: Duration = Duration::from_secs(45);
 pub(super) struct Asked {
     effort: Effort,
     budget: Option<Duration>,
-    /// Whether the budget was given, rather than that of a quick chart.
-    given: bool,
     only: Option<ChartPart>,
 }
 
 impl Asked {
     pub(super) fn new(quick: bool, budget: Option<Duration>, only: Option<ChartPart>) -> Self {
         let effort = if quick { Effort::Quick } else { Effort::Full };
-        Self { effort, budget: budget.or(quick.then_some(QUICK)), given: budget.is_some(), only }
-    }
-
-    /// The command line with what it computed.
-    fn command(self, line: &str) -> String {
-        let part = self.only.map_or(String::new(), |part| format!(" --only {}", word(part)));
-        let quick = if self.effort == Effort::Quick { " --quick" } else { "" };
-        let budget = self.budget.filter(|_| self.given);
-        let budget = budget.map_or(String::new(), |time| format!(" --budget {}s", time.as_secs_f64()));
-        format!("{line}{part}{quick}{budget}")
+        Self { effort, budget: budget.or(quick.then_some(QUICK)), only }
     }
 }
 
@@ -58,10 +49,9 @@ impl Asked {
 pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     let Job { case, progress, ref folder, .. } = *job;
     let Asked { effort, only, .. } = asked;
-    let command = asked.command(&job.command_line());
     let budget = Budget::new(job.started, asked.budget, only.is_none());
     if only == Some(ChartPart::Stability) {
-        return alone(job, effort, budget, &command);
+        return alone(job, effort, budget);
     }
     let run = case.for_chart().map_err(ComputeError::from)?;
     let so_far = SoFar::new(folder, progress);
@@ -77,7 +67,7 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     progress.stage("write");
     let svg = work_precision(&result).to_svg().map_err(ComputeError::from)?;
     let mut written = vec![folder.write("chart.svg", svg.as_bytes())?];
-    let mut report = chart_report(case, &result, &command);
+    let mut report = chart_report(case, &result, &typed());
     if let Some(stability) = &stability {
         // after inputs and the chart itself
         report.sections.insert(2, stability_section(stability));
@@ -108,12 +98,15 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
 struct SoFar<'a> {
     progress: &'a Progress,
     path: PathBuf,
-    file: Mutex<io::Result<Option<File>>>,
+    kept: Mutex<io::Result<()>>,
 }
 
 impl<'a> SoFar<'a> {
     fn new(folder: &OutputFolder, progress: &'a Progress) -> Self {
-        Self { progress, path: folder.path.join("chart.csv.partial"), file: Mutex::new(Ok(None)) }
+        let path = folder.path.join("chart.csv.partial");
+        // of an earlier chart
+        let kept = Mutex::new(files::remove(&path));
+        Self { progress, path, kept }
     }
 
     fn hear(&self, news: News<'_>) {
@@ -121,25 +114,23 @@ impl<'a> SoFar<'a> {
             News::Plan(Plan { points, seconds }) => {
                 self.progress.note(&format!("up to {points} points, about {}", duration(seconds)));
             }
-            News::Point(point) => {
-                self.progress.note(&line(point));
-                let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Ok(so_far) = &mut *file
-                    && let Err(error) = self.keep(so_far, point)
-                {
-                    *file = Err(error);
+            News::Point(point, floor) => {
+                // a point that failed is counted at the end, and the file says why
+                if point.error.is_ok() {
+                    self.progress.note(&line(point, floor));
+                }
+                let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+                if kept.is_ok() {
+                    *kept = self.keep(point);
                 }
             }
         }
     }
 
-    fn keep(&self, file: &mut Option<File>, point: &Point) -> io::Result<()> {
-        if file.is_none() {
-            let mut begun = File::create(&self.path)?;
-            begun.write_all(COLUMNS.as_bytes())?;
-            *file = Some(begun);
-        }
-        file.as_mut().map_or(Ok(()), |file| file.write_all(row(point).as_bytes()))
+    fn keep(&self, point: &Point) -> io::Result<()> {
+        let mut file = OpenOptions::new().create(true).append(true).open(&self.path)?;
+        let head = if file.metadata()?.len() == 0 { COLUMNS } else { "" };
+        file.write_all((head.to_owned() + &row(point)).as_bytes())
     }
 
     /// Takes the file away.
@@ -147,9 +138,8 @@ impl<'a> SoFar<'a> {
     /// # Errors
     /// [`CliError`] if it could not be written or cannot be removed.
     fn end(self) -> Result<(), CliError> {
-        let file = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let removed = file.and_then(|file| file.map_or(Ok(()), |_| fs::remove_file(&self.path)));
-        removed.map_err(|error| CliError::failed(format!("cannot write {}: {error}", self.path.display())))
+        let kept = self.kept.into_inner().unwrap_or_else(PoisonError::into_inner);
+        kept.and_then(|()| files::remove(&self.path)).map_err(|error| FileError::write(&self.path)(error).into())
     }
 }
 
@@ -182,7 +172,7 @@ fn verdict(result: &Chart) -> Result<(), CliError> {
         significant(result.settings.target, 2)
     ))
     .with_help(format!(
-        "points below that are not marked; {longer}a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
+        "errors below that say nothing; {longer}a larger accuracy.target, or a smaller transient.ensemble.perturbation where the horizon is overestimated"
     )))
 }
 
@@ -206,13 +196,16 @@ fn summary(result: &Chart) -> String {
             ms(result.settings.span_s),
         ),
         format!(
-            "{} points, {} omitted; front, by wall time a simulated second:",
+            "{} points, {} omitted{}",
             result.points.len(),
-            result.omissions().count()
+            result.omissions().count(),
+            if result.omissions().next().is_some() { "; chart.json says why of each" } else { "" }
         ),
     ];
+    lines.extend(omitted(result));
     lines.extend(warnings(&result.scene.doubts));
-    lines.extend(result.front.iter().map(|&place| shown(&result.points[place], result)));
+    lines.push("front, by wall time a simulated second:".to_owned());
+    lines.extend(result.front.iter().map(|&place| line(&result.points[place], reference.disagreement)));
     let [chosen, source] = &result.over_all_starts;
     let starts = reference.starts.len();
     for (name, place, error) in
@@ -220,25 +213,34 @@ fn summary(result: &Chart) -> String {
     {
         let struck = result.struck.map_or_else(String::new, |struck| format!(", {struck} of them with a strike"));
         lines.push(format!("{name}, error over all {starts} starts{struck}:"));
-        lines.push(shown(&Point { error: error.clone(), ..result.points[place].clone() }, result));
+        lines.push(line(&Point { error: error.clone(), ..result.points[place].clone() }, reference.disagreement));
     }
     lines.extend(result.without().map(|text| format!("warning: {text}")));
     lines.join("\n")
 }
 
-/// A point's line, with what is to be said of its error.
-fn shown(point: &Point, of: &Chart) -> String {
-    let floor = if of.below_floor(point) { "; below the floor: the reference is not finer" } else { "" };
-    format!("{}{floor}", line(point))
+/// A line for each method that has points without an error.
+fn omitted(result: &Chart) -> impl Iterator<Item = String> {
+    let mut methods: BTreeMap<&str, (usize, Vec<&str>)> = BTreeMap::new();
+    for (place, failure) in result.omissions() {
+        let (count, kinds) = methods.entry(result.points[place].model.method.name()).or_default();
+        *count += 1;
+        extend_new(kinds, [failure.kind.name()]);
+    }
+    methods.into_iter().map(|(method, (count, kinds))| format!("  {method}: {count} omitted ({})", kinds.join(", ")))
 }
 
-fn line(point: &Point) -> String {
+/// A point's line; an error below `floor` is not the point's own.
+fn line(point: &Point, floor: f64) -> String {
     let parameter = match Parameter::of(&point.model) {
         Parameter::StepS(step) => format!("step {} µs", significant(1e6 * step, 3)),
         Parameter::Tolerance(tolerance) => format!("tolerance {}", significant(tolerance, 3)),
     };
     let error = match &point.error {
-        Ok(error) => format!("error {} (± {})", significant(error.mean, 2), significant(error.deviation, 2)),
+        Ok(error) => {
+            let below = if error.mean < floor { ", below what the reference can tell" } else { "" };
+            format!("error {} (± {}){below}", significant(error.mean, 2), significant(error.deviation, 2))
+        }
         Err(failure) => failure.reason.clone(),
     };
     let wall = point.wall_s.map_or_else(String::new, |wall| format!("{} s/s  ", significant(wall, 3)));
@@ -249,7 +251,7 @@ fn line(point: &Point) -> String {
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
-pub(super) fn alone(job: &Job<'_>, effort: Effort, budget: Budget, command: &str) -> Result<Outcome, CliError> {
+pub(super) fn alone(job: &Job<'_>, effort: Effort, budget: Budget) -> Result<Outcome, CliError> {
     let Job { case, progress, ref folder, .. } = *job;
     let run = case.for_chart().map_err(ComputeError::from)?;
     let scene = Scene::with_all_modes(run, progress)?;
@@ -257,7 +259,7 @@ pub(super) fn alone(job: &Job<'_>, effort: Effort, budget: Budget, command: &str
     let conditions = Condition::all(case, effort);
     let stability = compute_stability(run, &scene, conditions, effort, until, progress)?;
     progress.stage("write");
-    let report = stability_report(case, &stability, command);
+    let report = stability_report(case, &stability, &typed());
     let files = ReportFiles::write(folder, "stability", case, report, progress)?;
     let record = job.record(&files.meshes, Some(&files.tables), &stability);
     let written = write_stability(folder, &stability, &record)?;
@@ -354,7 +356,7 @@ mod tests {
         let progress = Progress::new(false);
         let job = Job::new("chart", &case, &options, &progress);
         let only = Some(ChartPart::Accuracy);
-        let endless = Asked { effort: Effort::Quick, budget: None, given: false, only };
+        let endless = Asked { effort: Effort::Quick, budget: None, only };
         let outcome = chart(&job, endless).unwrap();
         let json = outcome.result;
         assert_eq!(json["scene"], "Preloaded bearing at constant speed");
@@ -395,6 +397,10 @@ mod tests {
         }
         for omitted in json["omissions"].as_array().unwrap() {
             assert_eq!(at(&omitted["point"])["reason"], omitted["reason"]);
+            // a line for each method, and the reasons here alone
+            let line = format!("\n  {}: ", omitted["method"].as_str().unwrap());
+            assert_eq!(outcome.summary.matches(&line).count(), 1, "{}", outcome.summary);
+            assert!(!outcome.summary.contains(omitted["reason"].as_str().unwrap()), "{}", outcome.summary);
         }
         let figures = &json["statistics"]["models"][0]["figures"];
         assert_eq!(figures[0]["name"], "root mean square");
@@ -436,7 +442,7 @@ mod tests {
         let mut expected = COLUMNS.to_owned();
         for (error, row) in rows {
             assert_eq!(path.exists(), expected.len() > COLUMNS.len());
-            so_far.hear(News::Point(&Point { model, wall_s: None, error }));
+            so_far.hear(News::Point(&Point { model, wall_s: None, error }, 0.0));
             expected.push_str(row);
             assert_eq!(fs::read_to_string(&path).unwrap(), expected);
         }
@@ -445,13 +451,10 @@ mod tests {
     }
 
     #[test]
-    fn a_command_says_its_budget_where_one_was_given() {
-        let asked = |quick, seconds: Option<u64>, only| Asked::new(quick, seconds.map(Duration::from_secs), only);
-        assert_eq!(asked(true, None, None).budget, Some(QUICK));
-        assert_eq!(asked(true, None, None).command("plummer chart a"), "plummer chart a --quick");
-        let accuracy = Some(ChartPart::Accuracy);
-        let line = asked(false, Some(120), accuracy).command("plummer chart a");
-        assert_eq!(line, "plummer chart a --only accuracy --budget 120s");
-        assert_eq!(asked(false, None, None).budget, None);
+    fn a_quick_chart_has_a_budget() {
+        let asked = |quick, seconds: Option<u64>| Asked::new(quick, seconds.map(Duration::from_secs), None).budget;
+        assert_eq!(asked(true, None), Some(QUICK));
+        assert_eq!(asked(true, Some(120)), Some(Duration::from_secs(120)));
+        assert_eq!(asked(false, None), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, typed};
 use crate::app::commands::condense::{
     Comparison, CondenseResult, Coordinates, compute_condense, condense_report, imported_report,
 };
@@ -27,11 +27,7 @@ pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, Cli
     }
     let result = compute_condense(case, comparison, progress)?;
     progress.stage("write");
-    let mut command = job.command_line();
-    if compare_full {
-        command.push_str(" --compare-full");
-    }
-    let report = condense_report(case, &result, &command);
+    let report = condense_report(case, &result, &typed());
     let files = ReportFiles::write(&job.folder, "condense", case, report, progress)?;
     let element = job.folder.path.join("superelement.npz");
     let reduction = result.interface.as_ref().map(|interface| &interface.reduction);
@@ -58,7 +54,7 @@ pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, Cli
 /// What is condensed already is checked, no more: `report.html` and, last, `condense.json`.
 fn check_imported(job: &Job<'_>, imported: &ImportedHousing) -> Result<Outcome, CliError> {
     job.progress.stage("write");
-    let report = imported_report(job.case, imported, &job.command_line());
+    let report = imported_report(job.case, imported, &typed());
     let files = ReportFiles::write(&job.folder, "condense", job.case, report, job.progress)?;
     let (path, json) = job.write_result(&files, &[], imported.summary())?;
     let mut lines = imported.notes.clone();

@@ -1,21 +1,23 @@
 //! Why a command did not end well: exit code, message, what to do.
 //!
 //! Signals: Ctrl-C and an end asked for by the system, the first of which asks a run to keep a checkpoint and stop, the second ends the
-//! program; memory and file sizes that run out, which are failures like any other.
+//! program, as does the first where nobody listens, not without saying what is on disk; memory and file sizes that run out, which are
+//! failures like any other.
 
 use crate::app::case::CaseError;
 use crate::app::commands::run::unfinished::StopRequest;
 use crate::app::error::ComputeError;
-use crate::app::shell_word::printable;
+use crate::app::shell_word::{cut, printable};
 use crate::files::FileError;
 use crate::formats::FormatError;
 use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
+use signal_hook::iterator::Signals;
 use std::io;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use thiserror::Error;
 
 /// Why a command did not end well: a message, what to do about it, and the exit code.
@@ -71,9 +73,9 @@ impl CliError {
     /// Writes the lines `error: ...` and, for each thing that can be done, `help: ...`. Nothing can be done about a failure
     /// to write them.
     pub(crate) fn report(&self, to: &mut impl Write) {
-        let _ = writeln!(to, "error: {}", printable(&self.what));
+        let _ = writeln!(to, "error: {}", cut(&printable(&self.what)));
         for line in self.help.iter().flat_map(|help| help.lines()) {
-            let _ = writeln!(to, "help: {}", printable(line));
+            let _ = writeln!(to, "help: {}", cut(&printable(line)));
         }
     }
 }
@@ -108,20 +110,62 @@ fn not_caught(error: io::Error) -> CliError {
     CliError::failed(format!("cannot catch interrupts: {error}"))
 }
 
-/// A request that the signals set. As long as nobody listens to it, a signal ends the program as if it were not caught.
+/// What the signals ask for; nobody listens yet.
+static STOP: LazyLock<StopRequest> = LazyLock::new(|| {
+    let stop = StopRequest::default();
+    stop.deaf.store(true, Ordering::SeqCst);
+    stop
+});
+
+/// What is on disk, and how to go on.
+type Left = Box<dyn Fn() -> CliError + Send>;
+static LEFT: Mutex<Option<Left>> = Mutex::new(None);
+
+/// The request that signals set. As long as nobody listens to it, a signal ends the program.
+pub(super) fn stop_request() -> StopRequest {
+    STOP.clone()
+}
+
+/// What the program says from now on when a signal ends it.
+pub(super) fn on_interrupt(left: impl Fn() -> CliError + Send + 'static) {
+    *LEFT.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(left));
+}
+
+/// Catches interrupts, in a thread of its own until the program ends.
 ///
 /// # Errors
 /// When the system does not let signals be caught.
-pub(super) fn stop_request() -> Result<StopRequest, CliError> {
-    let stop = StopRequest::default();
-    stop.deaf.store(true, Ordering::SeqCst);
-    for signal in [SIGINT, SIGTERM] {
-        // in this order: the first signal finds nobody deaf, and leaves everybody so
-        flag::register_conditional_default(signal, Arc::clone(&stop.deaf)).map_err(not_caught)?;
-        flag::register(signal, Arc::clone(&stop.asked)).map_err(not_caught)?;
-        flag::register(signal, Arc::clone(&stop.deaf)).map_err(not_caught)?;
+pub(super) fn catch_interrupts() -> Result<(), CliError> {
+    const ASKED: [i32; 2] = [SIGINT, SIGTERM];
+    let ending = Arc::new(AtomicBool::new(false));
+    for signal in ASKED {
+        // ends the program should standard error take no words
+        flag::register_conditional_default(signal, Arc::clone(&ending)).map_err(not_caught)?;
     }
-    Ok(stop)
+    let mut signals = Signals::new(ASKED).map_err(not_caught)?;
+    let listen = move || {
+        for _ in signals.forever() {
+            // the first signal leaves everybody deaf
+            if !STOP.deaf.swap(true, Ordering::SeqCst) {
+                STOP.asked.store(true, Ordering::SeqCst);
+                continue;
+            }
+            ending.store(true, Ordering::SeqCst);
+            let left = LEFT.lock().unwrap_or_else(PoisonError::into_inner);
+            let nothing =
+                || CliError::failed("interrupted before anything was written").with_help("give the command again");
+            let error = left.as_ref().map_or_else(nothing, |left| left());
+            let mut to = io::stderr().lock();
+            if to.is_terminal() {
+                // below the bar
+                let _ = writeln!(to);
+            }
+            error.report(&mut to);
+            signal_hook::low_level::exit(error.exit_code().into());
+        }
+    };
+    std::thread::Builder::new().name("signals".to_owned()).spawn(listen).map_err(not_caught)?;
+    Ok(())
 }
 
 /// Lets limits of the system end in exit code 1: an allocation that fails, which Rust answers by an abort after saying its size, and a

@@ -3,7 +3,7 @@
 use super::analyze::warn;
 use super::report::ReportFiles;
 use super::results::Job;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, typed};
 use crate::app::case::{Case, SensorSpot};
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
 use crate::app::error::ComputeError;
@@ -19,7 +19,7 @@ pub(super) fn frf(job: &Job<'_>) -> Result<Outcome, CliError> {
     let Job { case, progress, .. } = *job;
     let result = compute_frf(case, progress)?;
     progress.stage("write");
-    let report = frf_report(case, &result, &job.command_line())?;
+    let report = frf_report(case, &result, &typed())?;
     let files = ReportFiles::write(&job.folder, "frf", case, report, progress)?;
     let uff = job.folder.path.join("frf.uff");
     write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(ComputeError::from)?;

@@ -35,8 +35,8 @@ use clap::Parser;
 
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
-use arguments::{command_line, resuming, word};
-use earlier_results::{lost_with, result_of};
+use arguments::{typed, word};
+use earlier_results::{left_in, lost_with, result_of};
 pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
@@ -46,7 +46,7 @@ pub use sweep::{Share, SweepArguments};
 
 use crate::app::case::{Case, Purpose};
 use crate::app::scene::doubts_of_case;
-use crate::app::shell_word::printable;
+use crate::app::shell_word::{cut, printable};
 
 /// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
 const STACK: usize = 8 << 20;
@@ -81,11 +81,14 @@ fn on_arguments() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help or version to a pipe that was closed is no failure.
-            let _ = error.print();
+            let text = error.render().to_string();
+            let short = cut(&text);
+            let _ = if short == text { error.print() } else { writeln!(io::stderr(), "{short}") };
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    match failure::fail_at_limits().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
+    let caught = failure::fail_at_limits().and_then(|()| failure::catch_interrupts());
+    match caught.and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&mut io::stderr().lock());
@@ -164,6 +167,7 @@ fn compute(
             arguments.command.lost_with(&earlier).or_else(|| lost_with(&earlier, &case))
         })?,
     }
+    failure::on_interrupt(left_in(&job.folder.path, job.command, options.force));
     let outcome = work(&job);
     progress.finish();
     if outcome.as_ref().is_err_and(|error| !error.is_input) {

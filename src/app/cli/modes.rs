@@ -4,7 +4,7 @@
 
 use super::report::ReportFiles;
 use super::results::{Job, warnings, write_modes};
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, typed};
 use crate::app::commands::modes::{
     FileComparison, LoneMode, MeshConvergence, ModesResult, Reading, SequenceMesh, completeness, compute_modes,
     error_text, misses_text, mode_numbers, modes_report, plain,
@@ -18,7 +18,7 @@ use crate::report::{mass_in_words, signed, signed_fixed, significant};
 pub(super) fn modes(job: &Job<'_>) -> Result<Outcome, CliError> {
     let result = compute_modes(job.case, job.progress)?;
     job.progress.stage("write");
-    let report = modes_report(job.case, &result, &job.command_line())?;
+    let report = modes_report(job.case, &result, &typed())?;
     let files = ReportFiles::write(&job.folder, "modes", job.case, report, job.progress)?;
     let shapes = write_modes(&job.folder, &result)?;
     let (path, json) = job.write_result(&files, std::slice::from_ref(&shapes), result.summary())?;

@@ -1,6 +1,7 @@
 //! Where results go: what a command hands back, a folder that is not overwritten by accident and that one process at
 //! a time writes into, files that are whole or not there.
 
+use super::earlier_results::{refuse_foreign, with_names_of};
 use super::{CliError, Options};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
@@ -83,21 +84,14 @@ impl OutputFolder {
     /// Makes the folder, takes it for this process and checks that no earlier result of the command would be replaced without `force`.
     ///
     /// # Errors
-    /// [`CliError`]: a folder that cannot be made or that another process has, a result that is there.
+    /// [`CliError`]: a folder that cannot be made or that another process has, a result or a file of another program that is there.
     pub(crate) fn claim(&self, command: &str, force: bool) -> Result<(), CliError> {
-        self.claim_files(&[format!("{command}.json")], force)
-    }
-
-    /// Makes the folder, takes it for this process and checks that none of these files would be replaced without `force`.
-    ///
-    /// # Errors
-    /// As [`claim`](Self::claim).
-    pub(crate) fn claim_files<N: AsRef<Path>>(&self, names: &[N], force: bool) -> Result<(), CliError> {
-        self.claim_unless(names, force, |_| Some(""))
+        self.claim_unless(&[format!("{command}.json")], force, |_| Some(""))
     }
 
     /// Makes the folder, takes it for this process and checks that no earlier result would be lost without `force`:
     /// `lost` says of a file that is there what it is the result of, behind "an earlier run"; `None`: of what is computed now.
+    /// Files of another program that have the names of these results are refused too.
     ///
     /// # Errors
     /// As [`claim`](Self::claim).
@@ -111,11 +105,15 @@ impl OutputFolder {
         self.lock()?;
         let paths = names.iter().map(|name| self.path.join(name));
         let mut lost = paths.filter(|path| !force && path.exists()).filter_map(|path| lost(&path).map(|of| (path, of)));
-        match lost.next() {
-            Some((path, of)) => Err(CliError::input(format!("{} is the result of an earlier run{of}", path.display()))
-                .with_help("replace it with --force, or choose another folder with --out")),
-            None => Ok(()),
+        if let Some((path, of)) = lost.next() {
+            return Err(CliError::input(format!("{} is the result of an earlier run{of}", path.display()))
+                .with_help("replace it with --force, or choose another folder with --out"));
         }
+        if force {
+            return Ok(());
+        }
+        let words = names.iter().filter_map(|name| name.as_ref().to_str()?.strip_suffix(".json"));
+        refuse_foreign(&self.path, words.flat_map(|word| with_names_of(&self.path, word)).collect())
     }
 
     /// Takes the folder, if it is there, for this process until it ends: no other one may write into it meanwhile.
@@ -130,19 +128,6 @@ impl OutputFolder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
             Err(error) => Err(CliError::folder(&self.path, &error)),
         }
-    }
-
-    /// Name of a command's report: `report.html`, or `COMMAND-report.html` where another command had its results first.
-    #[must_use]
-    pub(crate) fn report_name(&self, command: &str) -> String {
-        let own = format!("{command}-report.html");
-        let has = |name: &str| self.path.join(name).exists();
-        if has(&format!("{command}.json")) && has("report.html") && !has(&own) {
-            return "report.html".to_owned();
-        }
-        let mut all = ["run", "modes", "condense", "frf", "chart", "analysis", "sweep", "verify"].into_iter();
-        let shared = all.any(|other| other != command && has(&format!("{other}.json")));
-        if shared { own } else { "report.html".to_owned() }
     }
 
     /// Writes a result as JSON; gives its path, and what it says.

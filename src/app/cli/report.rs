@@ -2,6 +2,7 @@
 //!
 //! A command's report with its tables and figures beside it.
 
+use super::earlier_results::{FIGURES, TABLES, read, record_of, records, refuse_foreign, report_name, unreadable};
 use super::output::{extend_new, json};
 use super::{CliError, Options, Outcome, OutputFolder, Progress};
 use crate::app::case::Case;
@@ -9,18 +10,13 @@ use crate::app::commands::parts::with_details;
 use crate::app::commands::result::VERSION;
 use crate::app::error::ComputeError;
 use crate::app::scene::mesh_digests;
-use crate::files::{FileDigest, FileError};
-use crate::report::{MeshFile, Report};
+use crate::files::FileDigest;
+use crate::report::{MeshFile, Report, ReportError};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
-use std::{fs, io};
-
-/// The commands that write reports, by the names of their results.
-const WITH_REPORT: [&str; 9] = ["run", "modes", "condense", "frf", "chart", "stability", "analysis", "sweep", "verify"];
-/// What to do about a damaged report.
-const AGAIN: &str = "run the command again with --force";
 
 /// The pages that were drawn.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -57,9 +53,19 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         let (command, report) = read(&path)?;
         reports.push((page, command, report));
     }
-    folder.claim_files::<&str>(&[], true)?;
+    let names: Vec<String> = reports.iter().map(|(page, ..)| record_of(page)).collect();
+    let same = |path: &Path| fs::read(path).ok() == fs::read(from.join(path.file_name().unwrap_or_default())).ok();
+    folder.claim_unless(&names, options.force, |path| (!same(path)).then_some(""))?;
+    if !options.force {
+        let files = reports.iter().flat_map(|(page, command, report)| files_of(page, command, report));
+        refuse_foreign(&folder.path, files.collect())?;
+    }
     let (mut written, mut summary, mut pages) = (Vec::new(), Vec::new(), Vec::new());
     for (page, command, report) in reports {
+        if options.out.is_some() {
+            let record = from.join(record_of(&page));
+            folder.write(&record_of(&page), &fs::read(&record).map_err(|source| unreadable(&record, source))?)?;
+        }
         let files = ReportFiles::draw(&folder, &page, &command, &report)?;
         let version = &report.version;
         summary.push(format!("{command}: {}, computed by {version}", report.title));
@@ -79,53 +85,6 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
         verdict: Ok(()),
     })
 }
-
-/// The contents of reports in a folder, in order of their names, each with the name of its page.
-fn records(folder: &Path) -> Result<Vec<(PathBuf, String)>, CliError> {
-    let failed = |source| unreadable(folder, source);
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if let Some(page) = page_of(&entry.file_name().to_string_lossy()) {
-            found.push((entry.path(), page));
-        }
-    }
-    if found.is_empty() {
-        return Err(CliError::input(format!(
-            "{} has no content of a report: expected report.cbor.gz or COMMAND-report.cbor.gz, as each command writes it beside its page",
-            folder.display()
-        ))
-        .with_help("name the folder with the results of a command"));
-    }
-    found.sort();
-    Ok(found)
-}
-
-/// The report that a file holds, and the command that it is of.
-fn read(path: &Path) -> Result<(String, Report), CliError> {
-    let bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
-    let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
-    let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
-    // names of files are made of it: nothing is written beside the folder
-    let command = report.table_files.as_ref().map(|files| files.prefix.clone()).unwrap_or_default();
-    match WITH_REPORT.contains(&command.as_str()) {
-        true => Ok((command, report)),
-        false => Err(wrong(&format!("a report of \"{command}\": expected one of {}", WITH_REPORT.join(", ")))),
-    }
-}
-
-/// A folder that was named, or a file in it, cannot be read.
-fn unreadable(path: &Path, source: io::Error) -> CliError {
-    CliError::input(FileError::read(path)(source).to_string())
-}
-
-/// Folders of the tables and of the figures, in that of the results.
-const TABLES: &str = "tables";
-const FIGURES: &str = "figures";
-
-/// Endings of a page and of its content.
-const PAGE: &str = ".html";
-const RECORD: &str = ".cbor.gz";
 
 /// What was written of a report, and what it rests on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -166,7 +125,7 @@ impl ReportFiles {
     /// # Errors
     /// As [`ReportFiles::write`].
     pub(super) fn without_case(folder: &OutputFolder, command: &str, report: Report) -> Result<Self, CliError> {
-        let page = folder.report_name(command);
+        let page = report_name(&folder.path, command);
         let date = report.date.clone().unwrap_or_else(today);
         let report = report.date(date).tables_in(TABLES, command);
         let record = report.to_record().map_err(ComputeError::from)?;
@@ -181,12 +140,12 @@ impl ReportFiles {
     /// [`CliError`] when its contents do not fit together or a file cannot be written.
     pub(super) fn draw(folder: &OutputFolder, page: &str, command: &str, report: &Report) -> Result<Self, CliError> {
         let html = report.to_html().map_err(ComputeError::from)?;
-        let figures = report.svg_files(command).map_err(ComputeError::from)?;
+        let figures = report.svg_files(command).map(|(name, plot)| Ok((format!("{FIGURES}/{name}"), plot.to_svg()?)));
+        let figures = figures.collect::<Result<_, _>>().map_err(|error: ReportError| ComputeError::from(error))?;
         let tables = report.csv_files();
         let named: Vec<String> = tables.iter().map(|(name, _)| name.clone()).collect();
-        let figures = figures.into_iter().map(|(name, text)| (format!("{FIGURES}/{name}"), text));
         let mut paths = Vec::new();
-        for (of, files) in [(TABLES, tables), (FIGURES, figures.collect())] {
+        for (of, files) in [(TABLES, tables), (FIGURES, figures)] {
             let path = folder.path.join(of);
             if !files.is_empty() {
                 folder.make_below(Path::new(of))?;
@@ -208,35 +167,27 @@ fn today() -> String {
     date_of(given.unwrap_or_else(now))
 }
 
-/// Year, month and day (ISO 8601) of so many seconds after 1970 began.
+/// Year, month and day (ISO 8601) of so many seconds after 1970 began, by H. Hinnant, "chrono-compatible low-level date algorithms"
+/// (2013): years begin in March, and 400 of them have 146 097 days.
 fn date_of(seconds: u64) -> String {
-    let mut day = seconds / 86_400;
-    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    // what repeats: 146 097 days are 400 years
-    let mut year = 1970 + 400 * (day / 146_097);
-    day %= 146_097;
-    while day >= 365 + u64::from(leap(year)) {
-        day -= 365 + u64::from(leap(year));
-        year += 1;
-    }
-    let months = [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
-    let mut month = 0;
-    while day >= months[month] {
-        day -= months[month];
-        month += 1;
-    }
-    format!("{year}-{:02}-{:02}", month + 1, day + 1)
+    let day = seconds / 86_400 + 719_468;
+    let (era, day) = (day / 146_097, day % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    format!("{}-{:02}-{day:02}", year + 400 * era + month / 10, (month + 2) % 12 + 1)
 }
 
-/// Name of the file with a page's content: `report.html` has `report.cbor.gz`.
-fn record_of(page: &str) -> String {
-    format!("{}{RECORD}", page.strip_suffix(PAGE).unwrap_or(page))
+/// Names of the tables and figures of a report in the folder of the results.
+fn files_beside(command: &str, report: &Report) -> impl Iterator<Item = String> {
+    let figures = report.svg_files(command).map(|(name, _)| format!("{FIGURES}/{name}"));
+    report.csv_files().into_iter().map(|(name, _)| name).chain(figures)
 }
 
-/// Name of the page whose content a file has, if it is one.
-pub(super) fn page_of(record: &str) -> Option<String> {
-    let page = record.strip_suffix(RECORD)?;
-    (page == "report" || page.ends_with("-report")).then(|| format!("{page}{PAGE}"))
+/// Names of all files of a report in the folder of the results.
+pub(super) fn files_of(page: &str, command: &str, report: &Report) -> impl Iterator<Item = String> {
+    [page.to_owned(), record_of(page)].into_iter().chain(files_beside(command, report))
 }
 
 /// Checks that the meshes are still those that were read: the report names their content.
@@ -266,12 +217,7 @@ fn remove_earlier(folder: &OutputFolder, record: &str, command: &str) -> Result<
             folder.make_below(Path::new(of))?;
         }
     }
-    let Some(earlier) = earlier else {
-        return Ok(());
-    };
-    let tables = earlier.csv_files().into_iter().map(|(name, _)| name);
-    let figures = earlier.svg_files(command).unwrap_or_default().into_iter();
-    for name in tables.chain(figures.map(|(name, _)| format!("{FIGURES}/{name}"))) {
+    for name in earlier.iter().flat_map(|earlier| files_beside(command, earlier)) {
         let path = folder.path.join(name);
         if path.is_file() {
             fs::remove_file(&path)
@@ -303,19 +249,9 @@ mod tests {
 
 #[cfg(test)]
 mod report_files_tests {
-    use super::{OutputFolder, ReportFiles, date_of, page_of, record_of, unchanged};
+    use super::{OutputFolder, ReportFiles, date_of, unchanged};
     use crate::files::FileDigest;
     use crate::report::{Cell, Column, Report, Section, Table};
-
-    #[test]
-    fn a_page_and_its_content_know_each_other() {
-        for page in ["report.html", "modes-report.html"] {
-            assert_eq!(page_of(&record_of(page)).as_deref(), Some(page));
-        }
-        for other in ["report.html", "notes.cbor.gz", "reports.cbor.gz", ".cbor.gz"] {
-            assert_eq!(page_of(other), None, "{other}");
-        }
-    }
 
     /// By `date -u -d @SECONDS +%F`.
     #[test]

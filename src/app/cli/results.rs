@@ -2,7 +2,7 @@
 
 use super::earlier_results::digests;
 use super::report::ReportFiles;
-use super::{CliError, Options, OutputFolder, Progress, command_line};
+use super::{CliError, Options, OutputFolder, Progress};
 use crate::app::case::Case;
 use crate::app::commands::modes::ModesResult;
 use crate::app::commands::result::{CaseResult, ResultHead, VERSION};
@@ -55,11 +55,6 @@ impl<'a> Job<'a> {
     pub(super) fn new(command: &'static str, case: &'a Case, options: &'a Options, progress: &'a Progress) -> Self {
         let folder = OutputFolder::of(case, options);
         Self { command, case, options, progress, folder, started: Instant::now() }
-    }
-
-    /// The command line that computes this again.
-    pub(super) fn command_line(&self) -> String {
-        command_line(self.command, self.case)
     }
 
     /// What was found, as the result of the case; it rests on these meshes and has these tables, if it has a report.

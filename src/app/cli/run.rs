@@ -1,9 +1,10 @@
 //! `plummer run`: the simulation in time.
 
+use super::earlier_results::{PARTIAL, left_in};
 use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings, write_scalograms, write_signals};
-use super::{CliError, Outcome, OutputFolder, failure, resuming};
+use super::{CliError, Outcome, OutputFolder, failure, typed};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::{SHOWN_WINDOWS, verdict_lines};
 use crate::app::commands::parts::{bearing_table, not_shown};
@@ -11,11 +12,9 @@ use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::{quantity, significant};
+use crate::report::{given, quantity, significant};
+use std::path::Path;
 use std::time::Duration;
-
-/// Folder of an unfinished run, in that of the results.
-pub(super) const PARTIAL: &str = ".run.partial";
 
 /// Checks that there is an unfinished run to go on with.
 ///
@@ -67,25 +66,28 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
             .with_help("go on with --resume, or give it up and begin anew with --force"));
     }
     let identity = RunIdentity::of(case, "run")?;
+    let nothing = left_in(&folder.path, job.command, job.options.force);
+    let (at, of) = (partial.clone(), identity.clone());
+    failure::on_interrupt(move || match UnfinishedRun::resume(&at, of.clone()) {
+        Ok(_) => interrupted("interrupted", "the signals up to the last checkpoint are", &at),
+        Err(_) => nothing(),
+    });
     let mut unfinished = match resume {
         true => UnfinishedRun::resume(&partial, identity)?,
         false => UnfinishedRun::begin(&partial, identity),
     };
-    (unfinished.every, unfinished.stop) = (pause, failure::stop_request()?);
+    (unfinished.every, unfinished.stop) = (pause, failure::stop_request());
     let result = compute_kept_run(case, progress, &mut unfinished);
     let result = result.map_err(|error| match error {
-        ComputeError::Interrupted { .. } => CliError::interrupted(
-            &error.to_string(),
-            "the signals so far and a checkpoint are",
-            &unfinished.folder,
-            &resuming(&job.command_line(), job.options),
-        ),
+        ComputeError::Interrupted { .. } => {
+            interrupted(&error.to_string(), "the signals so far and a checkpoint are", &unfinished.folder)
+        }
         error => error.into(),
     })?;
     progress.stage("write");
     let mut arrays = vec![write_signals(folder, &result)?];
     arrays.extend(write_scalograms(folder, &result.scalograms)?);
-    let report = run_report(case, &result, &job.command_line())?;
+    let report = run_report(case, &result, &typed())?;
     let files = ReportFiles::write(folder, "run", case, report, progress)?;
     let (path, json) = job.write_result(&files, &arrays, result.summary())?;
     unfinished.remove()?;
@@ -95,6 +97,10 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
         written: [arrays, vec![path], files.paths].concat(),
         verdict: verdict(&result, case.transient.as_ref()),
     })
+}
+
+fn interrupted(what: &str, kept: &str, at: &Path) -> CliError {
+    CliError::interrupted(what, kept, at, &format!("{} --resume", typed()))
 }
 
 fn verdict<R: Recording>(result: &RunResult<R>, asked: Option<&Transient>) -> Result<(), CliError> {
@@ -135,27 +141,21 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
             "{method}a smaller --set transient.tolerance, 1e-6 or below, says whether the steps are the cause"
         );
     }
-    let by_itself = "or leave it to the program with --set transient.step=auto";
-    if let Some(resonance) = blow_up.resonance {
-        return format!(
-            "the step is in resonance with a mode: stay below half its period with --set transient.step={:.1e}, {by_itself}",
-            0.4 / resonance.mode_hz
-        );
-    }
-    match (blow_up.limit, blow_up.beyond_the_limit()) {
-        (Some(limit), Some(true)) => format!(
-            "the step is beyond the method's limit: stay well below it with --set transient.step={:.1e}, {by_itself}",
-            0.5 * limit.step_s
+    let half = 0.5 * blow_up.step_s;
+    let (why, step_s) = match (blow_up.resonance, blow_up.limit, blow_up.beyond_the_limit()) {
+        (Some(resonance), ..) => {
+            ("the step is in resonance with a mode: stay below half its period with", 0.4 / resonance.mode_hz)
+        }
+        (_, Some(limit), Some(true)) => {
+            ("the step is beyond the method's limit: stay well below it with", 0.5 * limit.step_s)
+        }
+        (_, Some(_), _) => (
+            "the step was below the method's limit just before: see whether the steps are the cause with half of it,",
+            half,
         ),
-        (limit, _) => format!(
-            "{} the cause with half of it, --set transient.step={:.1e}, {by_itself}",
-            match limit {
-                Some(_) => "the step was below the method's limit just before: see whether the steps are",
-                None => "see whether the step is",
-            },
-            0.5 * blow_up.step_s
-        ),
-    }
+        _ => ("see whether the step is the cause with half of it,", half),
+    };
+    format!("{why} --set transient.step={step_s:.1e}, or leave it to the program with --set transient.step=auto")
 }
 
 fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> String {

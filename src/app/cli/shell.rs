@@ -30,18 +30,20 @@ pub(super) fn man(options: &Options, to: &mut impl Write) -> Result<(), CliError
         printed(Man::new(command).render(&mut page))?;
         return printed(to.write_all(&page).and_then(|()| to.flush()));
     };
-    let folder = OutputFolder::at(folder);
-    folder.claim_files::<&str>(&[], options.force)?;
     let mut command = command;
     // pages name the whole command line: "plummer run"
     command.build();
+    let mut pages = Vec::new();
     for part in command.get_subcommands().chain([&command]) {
         let name = part.get_bin_name().unwrap_or("plummer").replace(' ', "-");
         let mut page = Vec::new();
         printed(Man::new(part.clone().display_name(name.clone())).render(&mut page))?;
-        folder.write(&format!("{name}.1"), &page)?;
+        pages.push((format!("{name}.1"), page));
     }
-    Ok(())
+    let folder = OutputFolder::at(folder);
+    let names: Vec<&str> = pages.iter().map(|(name, _)| &**name).collect();
+    folder.claim_unless(&names, options.force, |_| Some(""))?;
+    pages.iter().try_for_each(|(name, page)| folder.write(name, page).map(drop))
 }
 
 #[cfg(test)]

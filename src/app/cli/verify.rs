@@ -1,9 +1,9 @@
 //! `plummer verify`: the built-in verification suite.
 
-use super::earlier_results::result_of;
+use super::earlier_results::{left_in, result_of};
 use super::report::ReportFiles;
 use super::results::result_head;
-use super::{CliError, Options, Outcome, OutputFolder, Progress};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, failure, typed};
 use crate::app::verification::{Check, SectionResult, VerifyResult, suite};
 use crate::report::Report;
 use std::path::Path;
@@ -23,6 +23,7 @@ pub(crate) fn verify(full: bool, options: &Options) -> Result<Outcome, CliError>
         let less = (earlier["full"] == true && !full).then_some(" with --full");
         if earlier.is_null() { Some("") } else { less }
     })?;
+    failure::on_interrupt(left_in(&folder.path, "verify", options.force));
     let progress = Progress::new(options.shows_progress());
     let started = std::time::Instant::now();
     let sections = suite(full, &progress).map_err(|error| CliError::failed(error.to_string()));
@@ -43,8 +44,7 @@ fn conclude(
     wall_s: f64,
 ) -> Result<Outcome, CliError> {
     progress.stage("write");
-    let command = if full { "plummer verify --full" } else { "plummer verify" };
-    let report = report(sections, command);
+    let report = report(sections, &typed());
     let files = ReportFiles::without_case(folder, "verify", report)?;
     let checks: Vec<&Check> = sections.iter().flat_map(|s| &s.checks).collect();
     let information = sections.iter().flat_map(|s| &s.information);

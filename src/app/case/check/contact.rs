@@ -21,6 +21,7 @@ pub(super) fn bearing(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> 
     room(bearing)?;
     DEGREES.check("bearing.first_ball_deg", bearing.first_ball_deg)?;
     ZERO_OR_MORE.check("bearing.contact_damping", bearing.contact_damping)?;
+    range::CONTACT_DAMPING.check("bearing.contact_damping", bearing.contact_damping)?;
     if bearing.balls_inertia == Some(BallsInertia::QuasiStatic) {
         let other = "bearing.balls_inertia = \"quasi-static\"";
         not_beside("bearing.contact_damping", other, bearing.contact_damping > 0.0)?;

@@ -24,6 +24,14 @@ pub(super) const ZERO_TO_ONE: Range = Range("a number from 0 to 1", |x| (0.0..=1
 pub(super) const LOSS_FACTOR: Range = Range("a number from 0 to below 2", |x| (0.0..2.0).contains(&x));
 /// Cycles of a wavelet.
 pub(super) const CYCLES: Range = Range("a number from 2 to 1000", |x| (2.0..=1000.0).contains(&x));
+/// Wide beyond all recorders, and so fast that sound passes 5 um of steel between two samples.
+pub(super) const RATE: Range = Range("a rate of at most 1e9 Hz", |x| x <= 1e9);
+/// Hunt-Crossley damping c: a slow impact at v keeps 1 - 2/3 c v of its speed (K. H. Hunt and F. R. E. Crossley, 1975), at most
+/// nothing already at 1.5 um/s.
+pub(super) const CONTACT_DAMPING: Range =
+    Range("at most 1e6 s/m, by which no ball rebounds from any impact", |x| x <= 1e6);
+/// Below, round-off is larger: the accelerations are differences of contact forces a thousand times and more as large.
+pub(super) const TARGET: Range = Range("at least 1e-9, which round-off allows", |x| x >= 1e-9);
 /// Further from 0, the shaft's angle loses digits that steps of a run need: 2e-9 s at 1e7 s.
 pub(super) const TIME: Range = Range("a time of at most 1e7 s from 0 (let the clock begin near 0)", |x| x.abs() <= 1e7);
 /// Of masses, kg. Wide beyond all shafts: further out, squares leave the numbers.

@@ -223,7 +223,8 @@ pub(super) fn frf(case: &Case, frf: &Frf) -> Result<(), BrokenRule> {
 
 pub(super) fn accuracy(accuracy: &Accuracy) -> Result<(), BrokenRule> {
     band_of("accuracy.band_hz", accuracy.band_hz)?;
-    FRACTION.check("accuracy.target", accuracy.target)
+    FRACTION.check("accuracy.target", accuracy.target)?;
+    range::TARGET.check("accuracy.target", accuracy.target)
 }
 
 pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), BrokenRule> {
@@ -252,6 +253,7 @@ pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), Broken
     range::count("transient.ensemble.runs", transient.ensemble.runs, 2..=10_000, "2 to 10000 runs")?;
     FRACTION.check("transient.ensemble.perturbation", transient.ensemble.perturbation)?;
     ABOVE_ZERO.check("transient.output_hz", transient.output_hz)?;
+    range::RATE.check("transient.output_hz", transient.output_hz)?;
     let Some(accuracy) = &case.accuracy else {
         return Ok(());
     };

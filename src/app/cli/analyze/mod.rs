@@ -16,18 +16,17 @@ pub use arguments::AnalyzeArguments;
 pub(super) use machine::catalogue_orders;
 pub use orders::{GivenOrders, GivenSpeed};
 
-use super::earlier_results::result_of;
+use super::earlier_results::{left_in, result_of};
 use super::report::ReportFiles;
 use super::results::result_head;
-use super::{CliError, Options, Outcome, OutputFolder, Progress, emit};
-use crate::app::case::EnvelopeBand;
+use super::{CliError, Options, Outcome, OutputFolder, Progress, emit, failure};
 use crate::app::commands::analyze::{AnalysisRow, analysis_table};
 use crate::app::commands::result::ResultHead;
-use crate::app::shell_word::shell_word;
-use crate::numerics::series::TimeWindow;
+use crate::files::{self, FileDigest};
 use crate::report::Report;
 use serde::Serialize;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 /// Result file and report belong to this word.
 const RESULT: &str = "analysis";
@@ -80,54 +79,35 @@ fn folder(asked: &AnalyzeArguments, options: &Options) -> OutputFolder {
     }
 }
 
-/// Takes the folder for these inputs; an analysis of others in it is lost only by `force`.
-fn claim(folder: &OutputFolder, inputs: &[PathBuf], force: bool) -> Result<(), CliError> {
-    folder.claim_unless(&[format!("{RESULT}.json")], force, |path| {
+/// Takes the folder for these inputs; an analysis in it of others, or by other values, is lost only by `force`. Gives the digest of
+/// what is asked for.
+fn claim(folder: &OutputFolder, asked: &AnalyzeArguments, options: &Options) -> Result<String, CliError> {
+    let digest = digest(asked, options);
+    folder.claim_unless(&[format!("{RESULT}.json")], options.force, |path| {
         let earlier = result_of("analyze", path);
         let several = earlier["inputs"].as_array().map(|all| all.iter().map(|one| &one["input"]).collect());
         let analysed: Vec<&Value> = several.unwrap_or_else(|| vec![&earlier["input"]]);
-        let same =
-            analysed.iter().map(|input| input.as_str().map(Path::new)).eq(inputs.iter().map(|input| Some(&**input)));
-        (!same).then_some(if earlier.is_null() { "" } else { " of another signal" })
-    })
+        let inputs = asked.inputs.iter().map(|input| Some(&**input));
+        let same = analysed.iter().map(|input| input.as_str().map(Path::new)).eq(inputs);
+        match (earlier.is_null(), same) {
+            (true, _) => Some(""),
+            (_, false) => Some(" of another signal"),
+            _ => (earlier["asked_digest"] != *digest).then_some(" of other values"),
+        }
+    })?;
+    failure::on_interrupt(left_in(&folder.path, RESULT, options.force));
+    Ok(digest)
 }
 
-/// The command line that analyses this again.
-fn command(asked: &AnalyzeArguments, given: &Options) -> String {
-    let file = |path: &PathBuf| shell_word(&path.to_string_lossy());
-    let number = |value: Option<f64>| value.map(|value| value.to_string());
-    let speed = |speed: &Option<GivenSpeed>| speed.as_ref().map(|speed| shell_word(&speed.text));
-    let window = |window: &TimeWindow| format!("{}:{}", window.from, window.to);
-    let band = asked.band.map(|band| match band {
-        EnvelopeBand::Between([from, to]) => format!("{from}:{to}"),
-        EnvelopeBand::Kurtogram => "kurtogram".to_owned(),
-    });
-    let channels = asked.channel.iter().map(|channel| ("channel", Some(shell_word(channel))));
-    let of_input = [
-        ("rate", number(asked.rate)),
-        ("balls", number(asked.balls.map(f64::from))),
-        ("pitch-diameter", number(asked.pitch_diameter)),
-        ("ball-diameter", number(asked.ball_diameter)),
-        ("contact-angle", number(asked.balls.map(|_| asked.contact_angle))),
-        ("high-pass", number(asked.high_pass)),
-        ("geometry-error", number(asked.geometry_error)),
-        ("bearing", asked.bearing.as_ref().map(file)),
-        ("orders", asked.orders.map(|given| given.to_string())),
-        ("speed", speed(&asked.speed)),
-        ("band", band),
-    ];
-    let windows = asked.window.iter().map(|asked| ("window", Some(window(asked))));
-    let of_baseline = [
-        ("baseline", asked.baseline.as_ref().map(file)),
-        ("baseline-speed", speed(&asked.baseline_speed)),
-        ("baseline-channel", asked.baseline_channel.as_deref().map(shell_word)),
-        ("baseline-rate", number(asked.baseline_rate)),
-        ("baseline-window", asked.baseline_window.as_ref().map(window)),
-    ];
-    let set = given.set.iter().map(|set| ("set", Some(shell_word(set))));
-    let options = channels.chain(of_input).chain(windows).chain(of_baseline).chain(set);
-    let options = options.filter_map(|(key, value)| Some(format!("--{key} {}", value?)));
-    let whiten = asked.whiten.then(|| "--whiten".to_owned());
-    let words = std::iter::once("plummer analyze".to_owned()).chain(asked.inputs.iter().map(file));
-    words.chain(options).chain(whiten).collect::<Vec<_>>().join(" ")
+/// SHA-256 of the options, without the head of the report, and of the content of all files.
+fn digest(asked: &AnalyzeArguments, given: &Options) -> String {
+    let head = |set: &str| ["title", "report"].iter().any(|table| set.trim_start().starts_with(table));
+    let set: Vec<&String> = given.set.iter().filter(|set| !head(set)).collect();
+    let mut text = format!("{asked:?} {set:?}");
+    for path in asked.inputs.iter().chain(&asked.bearing).chain(&asked.baseline) {
+        let file = if path.is_dir() { path.join(source::RUN.arrays) } else { path.clone() };
+        // one that cannot be read is named where it is needed, and the catalogue's bearings are no files
+        text.extend(FileDigest::of_file(&file).map(|file| file.sha256));
+    }
+    files::hex(Sha256::new_with_prefix(text))
 }

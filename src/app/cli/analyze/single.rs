@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::baseline::{Baseline, analyse};
 use super::source::{Source, Unnamed};
-use super::{AnalyzeArguments, claim, command, warn, write_results};
-use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
+use super::{AnalyzeArguments, claim, warn, write_results};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, typed};
 use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report, verdict_lines,
 };
@@ -30,7 +30,7 @@ pub(super) fn single(
     let mut doubts = source.doubts.clone();
     doubts.extend(baseline.iter().flat_map(Baseline::doubts));
     warn(&doubts, options);
-    claim(folder, &asked.inputs, options.force)?;
+    let asked_digest = claim(folder, asked, options)?;
     progress.stage("analyse");
     let mut windows = Vec::new();
     for signal in &source.signals {
@@ -39,7 +39,7 @@ pub(super) fn single(
     progress.stage("write");
     let name = input.display().to_string();
     let truth = |diagnosis: &_| source.simulated().and_then(|case| not_shown(case, diagnosis));
-    let report = analysis_report(&name, source.inputs(), &windows, truth, &command(asked, options));
+    let report = analysis_report(&title(input, asked, &source), source.inputs(), &windows, truth, &typed());
     let mut report = match &source.case {
         Some(case) => with_details(report, case),
         None => with_entries(report, source.details()),
@@ -57,9 +57,22 @@ pub(super) fn single(
             case: source.case.as_ref().map(|case| case.source.path.display().to_string()),
             input: name,
         },
+        asked_digest,
         windows: windows.clone(),
     })?;
     Ok(Outcome { summary: summary(&windows, truth), result, written, verdict: verdict(&windows) })
+}
+
+/// What was judged, in which file.
+fn title(input: &Path, asked: &AnalyzeArguments, source: &Source) -> String {
+    let file = input.canonicalize().unwrap_or_else(|_| input.to_owned());
+    let file = file.file_name().unwrap_or(input.as_os_str()).to_string_lossy();
+    let named = asked.bearing.as_ref().map_or("Bearing".to_owned(), |name| format!("Bearing {}", name.display()));
+    let judged = source.case.as_ref().map_or(named, |case| case.title.clone());
+    match source.signals.as_slice() {
+        [one] => format!("{judged}: {file}, channel {}", one.name),
+        all => format!("{judged}: {file}, {} channels", all.len()),
+    }
 }
 
 fn verdict(windows: &[&WindowAnalysis]) -> Result<(), CliError> {

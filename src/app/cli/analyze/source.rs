@@ -19,7 +19,7 @@ use crate::signal::diagnosis::Kinematics;
 use std::path::Path;
 
 /// The results that a run's signals are taken from.
-const RUN: Wanted = Wanted { command: "run", arrays: "signals.npz", instead: "a file of signals" };
+pub(super) const RUN: Wanted = Wanted { command: "run", arrays: "signals.npz", instead: "a file of signals" };
 
 /// Signals with all that an analysis needs.
 pub(super) struct Source {

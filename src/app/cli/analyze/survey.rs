@@ -5,10 +5,10 @@
 use super::baseline::{Baseline, analyse};
 use super::single::no_part_judged;
 use super::source::{Source, Unnamed};
-use super::{AnalyzeArguments, claim, command, warn, write_results};
+use super::{AnalyzeArguments, claim, warn, write_results};
 use crate::app::case::ReportDetails;
 use crate::app::cli::output::extend_new;
-use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress};
+use crate::app::cli::{CliError, Options, Outcome, OutputFolder, Progress, typed};
 use crate::app::commands::analyze::{
     AnalysisRow, FailureSummary, InputSummary, SHOWN_WINDOWS, SurveyResult, WindowAnalysis, WindowOfInput,
     input_section, survey_report, survey_section, verdicts_table,
@@ -59,7 +59,7 @@ pub(super) fn survey(
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
     let baseline = Baseline::open(asked, options)?;
-    claim(folder, inputs, options.force)?;
+    let asked_digest = claim(folder, asked, options)?;
     let progress = Progress::new(options.shows_progress());
     progress.stage("analyse");
     let (shown, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -92,8 +92,7 @@ pub(super) fn survey(
         progress.finish();
         return Err(failure(&all.failures, failed, inputs.len()));
     }
-    let mut report =
-        survey_report(inputs.len(), &all.rows, input_section, all.sections, &all.assumptions, &command(asked, options));
+    let mut report = survey_report(inputs.len(), &all.rows, input_section, all.sections, &all.assumptions, &typed());
     report = with_entries(report, same(&details).and_then(Option::as_ref));
     report.warnings.extend(asked.doubts());
     all.warnings.extend(baseline.iter().flat_map(Baseline::doubts));
@@ -106,6 +105,7 @@ pub(super) fn survey(
     let (result, written) = write_results(folder, &progress, started, report, &all.rows, |head| SurveyResult {
         head,
         inputs: of_inputs,
+        asked_digest,
         failures: all.failures.iter().map(Failure::summary).collect(),
         windows: windows.collect(),
     })?;

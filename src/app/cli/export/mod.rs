@@ -10,8 +10,9 @@ mod source;
 
 use std::path::{Path, PathBuf};
 
+use super::earlier_results::{left_in, result_of};
 use super::results::{Job, warnings};
-use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, word};
+use super::{CliError, ExportFormat, Options, Outcome, OutputFolder, Progress, failure, word};
 use crate::app::case::Case;
 use crate::app::scene::{doubts_of_case, mesh_digests};
 pub(super) use source::ExportSummary;
@@ -46,7 +47,11 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     // what `plummer modes` left in the folder is a source, not in the way
     let stays = |name: &&str| !(*name == "modes.npz" && source.folder.as_ref() == Some(&folder.path));
     let names: Vec<&str> = to.files(case).into_iter().filter(stays).collect();
-    folder.claim_unless(&names, options.force, |path| source::lost_with(path, case))?;
+    folder.claim_unless(&[&names[..], &["export.json"]].concat(), options.force, |path| {
+        let record = path.ends_with("export.json");
+        if record { result_of("export", path).is_null().then_some("") } else { source::lost_with(path, case) }
+    })?;
+    failure::on_interrupt(left_in(&folder.path, "export", options.force));
     let exported = match to {
         ExportFormat::Mtx => matrices::mtx(case, folder, &progress),
         ExportFormat::Npz => matrices::npz(&source, folder, &progress),

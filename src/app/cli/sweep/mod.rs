@@ -8,17 +8,16 @@ use std::path::Path;
 
 pub use arguments::{Share, SweepArguments};
 
-use super::earlier_results::result_of;
+use super::earlier_results::{refuse_foreign, result_of};
 use super::output::json;
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
-use super::{CliError, Options, Outcome, OutputFolder, Progress, command_line, failure, resuming, write_atomic};
+use super::{CliError, Options, Outcome, OutputFolder, Progress, failure, typed, write_atomic};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::shell_word::shell_word;
 use crate::app::studies::sweep::{
-    Axis, Plan, PointState, ScriptsSummary, SweepResult, SweptCommand, TaskSummary, slurm_scripts, sweep_report,
-    write_sweep_npz,
+    Axis, Plan, PointState, ScriptsSummary, SweepResult, TaskSummary, slurm_scripts, sweep_report, write_sweep_npz,
 };
 use points::Workers;
 
@@ -28,9 +27,6 @@ const POINTS: &str = "sweep";
 const PLAN: &str = "plan.json";
 /// Most tasks of a job array unless told otherwise: Slurm takes 1000 by default (`MaxArraySize`).
 const MOST_TASKS: usize = 1000;
-
-/// What an interrupted sweep leaves.
-const POINTS_KEPT: &str = "the points so far and checkpoints of the others are";
 
 /// Plans a sweep and computes its points, or writes job scripts for them, or does a task of such a job, or merges what is there.
 ///
@@ -63,7 +59,6 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
     let plan = Plan::new(&case, asked.command, axes.collect::<Result<_, _>>()?)?;
     check_points(&plan, &case)?;
     let folder = OutputFolder::of(&case, options);
-    let points = folder.path.join(POINTS);
     if asked.resume {
         if options.force {
             return Err(CliError::resume_anew());
@@ -71,7 +66,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         folder.lock()?;
         let changes = read_plan(&folder)?.changes(&plan);
         if !changes.is_empty() {
-            return Err(changed(&folder.path, &changes).into());
+            return Err(changed(&folder.path, &changes));
         }
     } else {
         begin(&plan, &folder, options.force)?;
@@ -80,15 +75,7 @@ fn whole(asked: &SweepArguments, options: &Options, progress: &Progress) -> Resu
         let tasks = tasks.map_or(MOST_TASKS, std::num::NonZeroUsize::get);
         return write_scripts(&plan, &folder, tasks.min(plan.count()), options);
     }
-    progress.stage("points");
-    let stop = failure::stop_request()?;
-    let workers = Workers::new(options, &folder.path, plan.count(), stop)?;
-    let stopped = workers.compute(&plan, &points, Share::WHOLE, &|done| progress.set(done))?;
-    if let Some(done) = stopped {
-        let what = format!("interrupted at {done} of {} points", plan.count());
-        let line = sweep_line(&case, asked.vary.iter().cloned(), asked.command);
-        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &resuming(&line, options)));
-    }
+    compute(&plan, &folder, Share::WHOLE, options, progress)?;
     merge(plan, &case, folder, options, progress)
 }
 
@@ -99,20 +86,10 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
     let case = Case::load(&plan.case, &plan.set)?;
     let changes = plan.changes(&Plan::new(&case, plan.command, plan.axes.clone())?);
     if !changes.is_empty() {
-        return Err(changed(&folder.path, &changes).into());
+        return Err(changed(&folder.path, &changes));
     }
+    compute(&plan, &folder, share, options, progress)?;
     let points = folder.path.join(POINTS);
-    progress.stage("points");
-    let stop = failure::stop_request()?;
-    let numbers: Vec<usize> = (1..=plan.count()).filter(|&number| share.has(number)).collect();
-    let workers = Workers::new(options, &folder.path, numbers.len(), stop)?;
-    let stopped = workers.compute(&plan, &points, share, &|done| progress.set(done))?;
-    if let Some(done) = stopped {
-        let what = format!("interrupted at {done} of {} points", numbers.len());
-        let from = shell_word(&from.to_string_lossy());
-        let again = format!("plummer sweep --task {}/{} {from}", share.number, share.of);
-        return Err(CliError::interrupted(&what, POINTS_KEPT, &points, &again));
-    }
     let result = SweepResult::collect(plan, &case, &points)?;
     let of_share = result.points.iter().filter(|point| share.has(point.point.number));
     let lines = of_share.map(|point| {
@@ -120,9 +97,10 @@ fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Re
         let line = format!("point {}: {} {message}", point.point.number, point.state.name());
         line.trim_end().to_owned()
     });
+    let points_of = (1..=result.plan.count()).filter(|&number| share.has(number)).collect();
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
-        result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: numbers })?,
+        result: json(&TaskSummary { command: "sweep", task: share.number, of: share.of, points: points_of })?,
         written: vec![points],
         verdict: Ok(()),
     })
@@ -146,9 +124,16 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     let points = folder.path.join(POINTS);
     let file = points.join(PLAN);
     if file.exists() && !force {
-        return Err(in_the_way(&folder.path).into());
+        return Err(CliError::input(format!("{} holds a sweep", folder.path.display()))
+            .with_help("go on with --resume, replace it with --force, or choose another folder with --out"));
     }
     folder.claim("sweep", force)?;
+    if !force && points.exists() {
+        let names = fs::read_dir(&points).into_iter().flatten().flatten();
+        let names = names.filter_map(|entry| Some(format!("{POINTS}/{}", entry.file_name().to_str()?)));
+        // of a plan that was not written to its end
+        refuse_foreign(&folder.path, names.filter(|name| !name.ends_with(".partial")).collect())?;
+    }
     if file.exists() {
         // a folder that has a plan is a sweep's own
         fs::remove_dir_all(&points).map_err(|error| CliError::folder(&points, &error))?;
@@ -158,39 +143,48 @@ fn begin(plan: &Plan, folder: &OutputFolder, force: bool) -> Result<(), CliError
     write_atomic(&file, format!("{text}\n").as_bytes())
 }
 
+/// Computes a share of the points; what a sweep leaves that is interrupted goes on by the same command.
+fn compute(
+    plan: &Plan,
+    folder: &OutputFolder,
+    share: Share,
+    options: &Options,
+    progress: &Progress,
+) -> Result<(), CliError> {
+    let points = folder.path.join(POINTS);
+    let again = typed() + if share == Share::WHOLE { " --resume" } else { "" };
+    let kept = "the points so far and checkpoints of the others are";
+    let at = points.clone();
+    let interrupted = move |what: &str| CliError::interrupted(what, kept, &at, &again);
+    let left = interrupted.clone();
+    failure::on_interrupt(move || left("interrupted"));
+    progress.stage("points");
+    let count = plan.points().filter(|point| share.has(point.number)).count();
+    let workers = Workers::new(options, &folder.path, count, failure::stop_request())?;
+    match workers.compute(plan, &points, share, &|done| progress.set(done))? {
+        Some(done) => Err(interrupted(&format!("interrupted at {done} of {count} points"))),
+        None => Ok(()),
+    }
+}
+
 fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
     let plan = folder.path.join(POINTS).join(PLAN);
     let text = fs::read(&plan).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => no_plan(&folder.path, &plan),
+        std::io::ErrorKind::NotFound => ComputeError::input(
+            format!("{} holds no sweep: there is no plan {}", folder.path.display(), plan.display()),
+            "name the folder that `plummer sweep CASE.toml --vary ...` wrote",
+        ),
         _ => ComputeError::io(&plan)(error),
     })?;
     serde_json::from_slice(&text)
         .map_err(|error| ComputeError::wrong(format!("{} is no plan of a sweep: {error}", plan.display())))
 }
 
-/// The error of a folder that holds a sweep already.
-fn in_the_way(folder: &Path) -> ComputeError {
-    ComputeError::input(
-        format!("{} holds a sweep", folder.display()),
-        "go on with --resume, replace it with --force, or choose another folder with --out",
-    )
-}
-
 /// The error of a folder whose sweep is another one.
-fn changed(folder: &Path, changes: &[String]) -> ComputeError {
+fn changed(folder: &Path, changes: &[String]) -> CliError {
     let changes = changes.join("; ");
-    ComputeError::input(
-        format!("the sweep in {} was begun with something else: {changes}", folder.display()),
-        "go on with what it was begun with, or begin anew with --force",
-    )
-}
-
-/// The error of a folder without a plan.
-fn no_plan(folder: &Path, plan: &Path) -> ComputeError {
-    ComputeError::input(
-        format!("{} holds no sweep: there is no plan {}", folder.display(), plan.display()),
-        "name the folder that `plummer sweep CASE.toml --vary ...` wrote",
-    )
+    CliError::input(format!("the sweep in {} was begun with something else: {changes}", folder.display()))
+        .with_help("go on with what it was begun with, or begin anew with --force")
 }
 
 /// Writes table, archive, report and, last, `sweep.json` from what is there of the points.
@@ -208,8 +202,7 @@ fn merge(
     let csv = folder.write("sweep.csv", result.table().to_csv().as_bytes())?;
     let npz = folder.path.join("sweep.npz");
     write_sweep_npz(&npz, &result).map_err(ComputeError::from)?;
-    let axes = result.plan.axes.iter().map(|axis| format!("{}={}", axis.key, axis.values.join(",")));
-    let report = sweep_report(case, &result, &sweep_line(case, axes, result.plan.command));
+    let report = sweep_report(case, &result, &typed());
     let files = ReportFiles::write(folder, "sweep", case, report, progress)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
@@ -291,53 +284,4 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
         written,
         verdict: Ok(()),
     })
-}
-
-/// The command line of a sweep over these keys and values.
-fn sweep_line(case: &Case, vary: impl IntoIterator<Item = String>, command: SweptCommand) -> String {
-    let mut line = command_line("sweep", case);
-    for vary in vary {
-        line.push_str(&format!(" --vary {}", shell_word(&vary)));
-    }
-    if command != SweptCommand::default() {
-        line.push_str(&format!(" --command {}", command.name()));
-    }
-    line
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{CliError, ComputeError, Path, changed, in_the_way, no_plan};
-
-    #[test]
-    fn each_error_has_its_exit_code_and_its_lines() {
-        let folder = Path::new("out/a");
-        for (error, code, lines) in [
-            (
-                in_the_way(folder),
-                2,
-                "error: out/a holds a sweep\n\
-                 help: go on with --resume, replace it with --force, or choose another folder with --out\n",
-            ),
-            (
-                changed(folder, &["other values in the case file".to_owned()]),
-                2,
-                "error: the sweep in out/a was begun with something else: other values in the case file\n\
-                 help: go on with what it was begun with, or begin anew with --force\n",
-            ),
-            (
-                no_plan(folder, Path::new("out/a/sweep/plan.json")),
-                2,
-                "error: out/a holds no sweep: there is no plan out/a/sweep/plan.json\n\
-                 help: name the folder that `plummer sweep CASE.toml --vary ...` wrote\n",
-            ),
-            (ComputeError::io(folder)(std::io::Error::other("full")), 1, "error: out/a: full\n"),
-        ] {
-            let error = CliError::from(error);
-            assert_eq!(error.exit_code(), code, "{error}");
-            let mut written = Vec::new();
-            error.report(&mut written);
-            assert_eq!(String::from_utf8(written).unwrap(), lines);
-        }
-    }
 }

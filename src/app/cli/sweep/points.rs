@@ -9,6 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::super::earlier_results::PARTIAL;
 use super::super::output::is_taken;
 use super::super::{CliError, Options, write_atomic};
 use super::Share;
@@ -134,29 +135,17 @@ impl Workers {
         let name = folder.strip_prefix(sweep).unwrap_or(&folder);
         files::make_below(sweep, name).map_err(io(&folder))?;
         // of an earlier try
-        if record.is_some() {
-            let file = PointRecord::file(&folder);
-            fs::remove_file(&file).map_err(io(&file))?;
-        }
+        let file = PointRecord::file(&folder);
+        files::remove(&file).map_err(io(&file))?;
         let log = folder.join("log.txt");
         files::no_link(&log).map_err(io(&log))?;
-        let file = File::create(&log).map_err(io(&log))?;
-        let mut command = Command::new(&self.program);
-        command
-            .arg(plan.command.name())
-            .arg(&plan.case)
-            .arg("--out")
-            .arg(&folder)
-            .args(["--quiet", "--threads", &self.threads.to_string()])
-            .args(point.set.iter().flat_map(|set| ["--set", set]))
-            .arg(self.beginning(plan.command, &folder))
-            .args(self.cache.iter().flat_map(|cache| [OsStr::new("--cache"), cache.as_os_str()]))
-            .args(self.cache.is_none().then_some("--no-cache"))
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::from(file));
-        let child = command.spawn().map_err(io(&self.program))?;
-        let status = self.wait(child).map_err(io(&self.program))?;
+        let unfinished = UnfinishedRun::is_in(&folder.join(PARTIAL));
+        let resume = plan.command == SweptCommand::Run && unfinished;
+        let mut status = self.attempt(plan, point, &folder, &log, if resume { "--resume" } else { "--force" })?;
+        // one that cannot go on begins anew, and so does whatever else is there
+        if resume && status.code() == Some(2) {
+            status = self.attempt(plan, point, &folder, &log, "--force")?;
+        }
         if self.stopping() && !result.exists() {
             return Ok(false);
         }
@@ -171,10 +160,33 @@ impl Workers {
         Ok(true)
     }
 
-    /// An unfinished run goes on; whatever else is there is replaced.
-    fn beginning(&self, command: SweptCommand, folder: &Path) -> &'static str {
-        let unfinished = UnfinishedRun::is_in(&folder.join(super::super::run::PARTIAL));
-        if command == SweptCommand::Run && unfinished { "--resume" } else { "--force" }
+    /// Computes a point by a process of its own, which says to `log` what it says.
+    fn attempt(
+        &self,
+        plan: &Plan,
+        point: &SweepPoint,
+        folder: &Path,
+        log: &Path,
+        beginning: &str,
+    ) -> Result<ExitStatus, ComputeError> {
+        let io = ComputeError::io;
+        let file = File::create(log).map_err(io(log))?;
+        let mut command = Command::new(&self.program);
+        command
+            .arg(plan.command.name())
+            .arg(&plan.case)
+            .arg("--out")
+            .arg(folder)
+            .args(["--quiet", "--threads", &self.threads.to_string()])
+            .args(point.set.iter().flat_map(|set| ["--set", set]))
+            .arg(beginning)
+            .args(self.cache.iter().flat_map(|cache| [OsStr::new("--cache"), cache.as_os_str()]))
+            .args(self.cache.is_none().then_some("--no-cache"))
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::from(file));
+        let child = command.spawn().map_err(io(&self.program))?;
+        self.wait(child).map_err(io(&self.program))
     }
 
     /// Waits for a process, and asks it to end when this one is asked to.

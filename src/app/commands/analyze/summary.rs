@@ -15,6 +15,8 @@ pub struct AnalysisResult<'a> {
     /// The input with its orders.
     #[serde(flatten)]
     pub input: InputSummary,
+    /// SHA-256 of the options and of the content of the files, 64 hexadecimal digits.
+    pub asked_digest: String,
     /// Its windows.
     pub windows: Vec<&'a WindowAnalysis>,
 }
@@ -27,6 +29,8 @@ pub struct SurveyResult<'a> {
     pub head: ResultHead,
     /// Inputs that could be read, with their orders.
     pub inputs: Vec<InputSummary>,
+    /// SHA-256 of the options and of the content of the files, 64 hexadecimal digits.
+    pub asked_digest: String,
     /// What could not be analysed.
     pub failures: Vec<FailureSummary>,
     /// Windows of all of them.

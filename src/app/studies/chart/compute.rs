@@ -101,8 +101,8 @@ fn cut_short(budget_s: f64, left_out: &[String], unrefined: usize) -> Option<Str
 pub(crate) enum News<'a> {
     /// What it is going to take.
     Plan(Plan),
-    /// A point, whose cost is not measured yet.
-    Point(&'a Point),
+    /// A point, whose cost is not measured yet, and the error below which the reference tells nothing.
+    Point(&'a Point, f64),
 }
 
 /// Computes the chart of a case within a budget; `told` hears of each point as it comes.
@@ -317,12 +317,12 @@ fn candidates(
     told: &(dyn Fn(News<'_>) + Sync),
     watch: &impl Watch,
 ) -> (Found, [usize; 2]) {
+    let told = |point: &Point| told(News::Point(point, on.reference.disagreement));
     let known = wanted.map(|model| {
         let known = on.point(&model);
-        told(News::Point(&known.0));
+        told(&known.0);
         known
     });
-    let told = |point: &Point| told(News::Point(point));
     let done = |ended: usize| watch.fraction(ended as f64 / families.len().max(1) as f64);
     let mut found = refine(families, &known, on, told, done);
     let places = known.map(|(point, taken)| {

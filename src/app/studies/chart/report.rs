@@ -335,7 +335,7 @@ fn omissions_section(chart: &Chart) -> Section {
 fn points_table(chart: &Chart) -> Table {
     point_table("Points", Column::text("Omitted")).rows(chart.points.iter().map(|point| {
         let omitted = match &point.error {
-            Ok(_) if chart.below_floor(point) => "below the floor",
+            Ok(_) if chart.below_floor(point) => "below what the reference can tell",
             Ok(_) => "",
             Err(failure) => failure.kind.name(),
         };

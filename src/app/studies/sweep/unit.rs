@@ -26,52 +26,24 @@ const NAMES: [(&str, &[&str]); 13] = [
 ];
 
 /// What a key of a name is, where its name does not say it.
+#[rustfmt::skip]
 const WHAT: [(&str, &str); 26] = [
-    ("alpha", "damping by mass"),
-    ("angle_deg", "angle"),
-    ("band_hz", "band"),
-    ("balls", "number of balls"),
-    ("beta", "damping by stiffness"),
-    ("count", "number"),
-    ("end", "end"),
-    ("first_ball_deg", "angle of the first ball"),
-    ("from", "begin"),
-    ("from_deg", "first angle"),
-    ("hz", "speed"),
-    ("inertia", "second moment of area"),
-    ("inner", "stiffness at the inner race"),
-    ("modal", "share of critical damping"),
-    ("nodes", "number of nodes"),
-    ("outer", "stiffness at the outer race"),
-    ("output_hz", "sampling rate"),
-    ("poisson", "Poisson's ratio"),
-    ("ring_deg", "angle on the ring"),
-    ("rpm", "speed"),
-    ("to", "end"),
-    ("to_deg", "last angle"),
-    ("torsion", "torsion constant"),
-    ("x", "stiffness along x"),
-    ("y", "stiffness along y"),
-    ("young", "Young's modulus"),
+    ("alpha", "damping by mass"), ("angle_deg", "angle"), ("band_hz", "band"), ("balls", "number of balls"),
+    ("beta", "damping by stiffness"), ("count", "number"), ("end", "end"),
+    ("first_ball_deg", "angle of the first ball"), ("from", "begin"), ("from_deg", "first angle"), ("hz", "speed"),
+    ("inertia", "second moment of area"), ("inner", "stiffness at the inner race"),
+    ("modal", "share of critical damping"), ("nodes", "number of nodes"), ("outer", "stiffness at the outer race"),
+    ("output_hz", "sampling rate"), ("poisson", "Poisson's ratio"), ("ring_deg", "angle on the ring"),
+    ("rpm", "speed"), ("to", "end"), ("to_deg", "last angle"), ("torsion", "torsion constant"),
+    ("x", "stiffness along x"), ("y", "stiffness along y"), ("young", "Young's modulus"),
 ];
 
 /// Tables and items of a case by other names, "" where the key says all without them.
+#[rustfmt::skip]
 const OF: [(&str, &str); 15] = [
-    ("accuracy", ""),
-    ("analysis", ""),
-    ("condense", "condensation"),
-    ("damping", ""),
-    ("envelope", "window"),
-    ("frf", "response"),
-    ("masses", "added mass"),
-    ("profile", "point"),
-    ("report", ""),
-    ("spring", ""),
-    ("spot", ""),
-    ("stiffness", ""),
-    ("transient", "run"),
-    ("unbalance", ""),
-    ("waviness", "wave"),
+    ("accuracy", ""), ("analysis", ""), ("condense", "condensation"), ("damping", ""), ("envelope", "window"),
+    ("frf", "response"), ("masses", "added mass"), ("profile", "point"), ("report", ""), ("spring", ""), ("spot", ""),
+    ("stiffness", ""), ("transient", "run"), ("unbalance", ""), ("waviness", "wave"),
 ];
 
 /// What a key of a case is, as `--set` names it: "length of the first dent".

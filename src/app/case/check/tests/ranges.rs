@@ -91,6 +91,13 @@ fn what_is_beyond_all_measure_is_refused() {
         ("bearing.ball_mass=1e300", "bearing.ball_mass", MASS),
         ("housing.masses[0].mass=1e300", "housing.masses[0].mass", MASS),
         ("shaft.unbalance=1e300", "shaft.unbalance", LOAD),
+        ("transient.output_hz=1e300", "transient.output_hz", "found 1e300, expected a rate of at most 1e9 Hz"),
+        ("accuracy.target=1e-300", "accuracy.target", "found 1e-300, expected at least 1e-9, which round-off allows"),
+        (
+            "bearing.contact_damping=1e300",
+            "bearing.contact_damping",
+            "found 1e300, expected at most 1e6 s/m, by which no ball rebounds from any impact",
+        ),
         ("shaft.gravity=[0,1e300]", "shaft.gravity", LOAD),
         ("shaft.loads=[{force=[1e300,0]}]", "shaft.loads[0]", LOAD),
         ("shaft.loads=[{profile=[{time=0,force=[0,1e300]}]}]", "shaft.loads[0].profile", LOAD),

@@ -101,9 +101,7 @@ impl UnfinishedRun {
     pub(crate) fn remove(&self) -> Result<(), ComputeError> {
         let folder = &self.folder;
         files::no_link(folder).map_err(of_folder(folder))?;
-        if Self::is_in(folder) {
-            fs::remove_file(folder.join(FILE)).map_err(of_folder(folder))?;
-        }
+        files::remove(&folder.join(FILE)).map_err(of_folder(folder))?;
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(of_folder(folder))?;
         }
@@ -123,9 +121,7 @@ impl Checkpoints for UnfinishedRun {
     type Record = ColumnFiles;
 
     fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
-        self.stop.deaf.store(false, Ordering::SeqCst);
-        self.last = Instant::now();
-        Ok(match self.resumed.take() {
+        let opened = match self.resumed.take() {
             None => {
                 self.remove()?;
                 fs::create_dir_all(&self.folder).map_err(of_folder(&self.folder))?;
@@ -139,7 +135,11 @@ impl Checkpoints for UnfinishedRun {
                 }
                 (record, Some(checkpoint.snapshot))
             }
-        })
+        };
+        // long columns take their time, in which an interrupt ends the program at once
+        self.stop.deaf.store(false, Ordering::SeqCst);
+        self.last = Instant::now();
+        Ok(opened)
     }
 
     fn request(&mut self) -> RunRequest {
