@@ -12,7 +12,7 @@ use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
 use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::{given, quantity, significant};
+use crate::report::{quantity, significant};
 use std::path::Path;
 use std::time::Duration;
 
