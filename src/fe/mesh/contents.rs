@@ -102,9 +102,18 @@ pub struct PhysicalGroup {
 /// Version of gmsh's MSH format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum MshVersion {
+    /// 2.0, whose groups may be named without a dimension.
+    #[serde(rename = "2.0")]
+    V20,
+    /// 2.1.
+    #[serde(rename = "2.1")]
+    V21,
     /// 2.2, which gmsh wrote until version 3 and many programs still write.
     #[serde(rename = "2.2")]
     V22,
+    /// 4.0, which gmsh 4.0 wrote.
+    #[serde(rename = "4.0")]
+    V40,
     /// 4.1, which gmsh has written since version 4.1.
     #[serde(rename = "4.1")]
     V41,
@@ -123,7 +132,10 @@ pub struct MshFormat {
 impl fmt::Display for MshVersion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::V20 => "2.0",
+            Self::V21 => "2.1",
             Self::V22 => "2.2",
+            Self::V40 => "4.0",
             Self::V41 => "4.1",
         })
     }

@@ -6,8 +6,8 @@
 //! the mesh's own lists; gmsh's tags are kept beside for messages and for export.
 //!
 //! # Limitations
-//! MSH 4.1 and 2.2 only (others are refused with gmsh's command for converting them); elements of first and
-//! second order without nodes inside faces and volumes, no pyramids; no partitioned meshes.
+//! MSH 2.0 to 2.2, 4.0 and 4.1 (others are refused with gmsh's command for converting them); elements of first and
+//! second order without nodes inside faces and volumes, no pyramids.
 
 mod contents;
 pub(crate) mod cylinder;

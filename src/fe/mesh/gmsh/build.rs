@@ -4,19 +4,32 @@
 use super::MshError;
 use super::entities::Physical;
 use crate::fe::mesh::{ElementBlock, ElementId, PhysicalGroup};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Name of a physical group.
+#[derive(Clone)]
 pub(super) struct Name {
-    pub(super) dimension: u8,
+    /// `None`: that of the elements with the tag.
+    pub(super) dimension: Option<usize>,
     pub(super) tag: i32,
     pub(super) name: String,
 }
 
-impl Name {
-    /// Dimension and tag.
-    pub(super) fn key(&self) -> (usize, i32) {
-        (usize::from(self.dimension), self.tag)
+/// The names by dimension and tag, sorted; one without a dimension has those in which elements carry its tag and that
+/// have no name.
+fn by_key(names: Vec<Name>, memberships: &[Membership]) -> BTreeMap<(usize, i32), String> {
+    let (given, others): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.dimension.is_some());
+    let mut found: BTreeMap<_, _> =
+        given.into_iter().map(|name| ((name.dimension.unwrap_or_default(), name.tag), name.name)).collect();
+    if !others.is_empty() {
+        let keys: BTreeSet<_> = memberships.iter().map(Membership::key).collect();
+        for Name { tag, name, .. } in others {
+            for dimension in (0..=3).filter(|&dimension| keys.contains(&(dimension, tag))) {
+                found.entry((dimension, tag)).or_insert_with(|| name.clone());
+            }
+        }
     }
+    found
 }
 
 /// The groups by dimension and tag: those that elements belong to and those that only have a name.
@@ -24,11 +37,11 @@ pub(super) fn groups(
     node_count: usize,
     blocks: &[ElementBlock],
     mut memberships: Vec<Membership>,
-    mut names: Vec<Name>,
+    names: Vec<Name>,
     allowance: &mut Allowance,
 ) -> Result<Vec<PhysicalGroup>, MshError> {
     memberships.sort_unstable_by_key(|own| (own.key(), own.block));
-    names.sort_unstable_by_key(|name| (name.dimension, name.tag));
+    let names = by_key(names, &memberships);
     let mut marks = Marks { round: vec![0; node_count], now: 0 };
     let together = |a: &Membership, b: &Membership| a.key() == b.key();
     // those with and without elements, counted twice where they have a name too
@@ -38,12 +51,12 @@ pub(super) fn groups(
     let mut names = names.into_iter().peekable();
     let mut unnamed = memberships.chunk_by(together).peekable();
     loop {
-        let name_key = names.peek().map(Name::key);
+        let name_key = names.peek().map(|(key, _)| *key);
         let own_key = unnamed.peek().map(|own| own[0].key());
         let Some((dimension, tag)) = name_key.into_iter().chain(own_key).min() else {
             break;
         };
-        let name = names.next_if(|name| name.key() == (dimension, tag));
+        let name = names.next_if(|(key, _)| *key == (dimension, tag));
         let own = unnamed.next_if(|own| own[0].key() == (dimension, tag));
         let own = own.unwrap_or_default();
         let count = own.iter().map(|own| own.len(blocks)).sum();
@@ -51,7 +64,7 @@ pub(super) fn groups(
         let mut elements = Vec::with_capacity(count);
         own.iter().for_each(|own| elements.extend(own.elements(blocks)));
         groups.push(PhysicalGroup {
-            name: name.map_or_else(|| tag.to_string(), |name| name.name),
+            name: name.map_or_else(|| tag.to_string(), |(_, name)| name),
             dimension,
             tag,
             nodes: marks.nodes(&elements, blocks, allowance)?,

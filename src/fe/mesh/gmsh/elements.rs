@@ -8,28 +8,38 @@
 
 use super::MshError;
 use super::cursor::Cursor;
-use super::nodes::{check_range, dimension, no_elements, not_as_announced, tag_range};
+use super::nodes::{check_range, entity, no_elements, not_as_announced, tag_range};
 use super::numbers::{Item, NodeIndex, TagSet};
-use crate::fe::mesh::{ElementBlock, ElementKind, Entity};
+use crate::fe::mesh::{ElementBlock, ElementKind, Entity, MshVersion};
 
-/// Elements of MSH 4.1.
-pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec<ElementBlock>, MshError> {
-    let block_count = cursor.count("the number of blocks", Item::new(3, 3, 0))?;
-    let announced = cursor.count("the number of elements", Item::new(2, 0, 0))?;
-    tag_range(cursor, ["the smallest element tag", "the largest element tag"])?;
+/// Elements of MSH 4.
+pub(super) fn read_blocks(
+    cursor: &mut Cursor<'_>,
+    version: MshVersion,
+    nodes: &NodeIndex,
+) -> Result<Vec<ElementBlock>, MshError> {
+    let is_41 = version == MshVersion::V41;
+    let item = |numbers: usize| if is_41 { Item::new(numbers, 0, 0) } else { Item::new(0, numbers, 0) };
+    let number = |cursor: &mut Cursor<'_>, what| match is_41 {
+        true => cursor.size(what),
+        false => cursor.unsigned_int(what, what),
+    };
+    let block_count = cursor.count("the number of blocks", Item::new(1, 3, 0))?;
+    let announced = cursor.count("the number of elements", item(2))?;
+    if is_41 {
+        tag_range(cursor, ["the smallest element tag", "the largest element tag"])?;
+    }
     let mut tags = TagSet::for_count(announced);
     let mut blocks = Vec::with_capacity(block_count);
     let mut listed = 0;
     for _ in 0..block_count {
-        let dimension = dimension(cursor)?;
-        let entity = Entity { dimension, tag: cursor.int("the tag of an entity")? };
+        let entity = entity(cursor, version)?;
         let kind = kind(cursor, Some(entity))?;
-        if kind.dimension() != dimension {
-            let expected = format!("elements of dimension {dimension} like their entity");
+        if kind.dimension() != entity.dimension {
+            let expected = format!("elements of dimension {} like their entity", entity.dimension);
             return Err(cursor.malformed(expected, kind.name().as_bytes()));
         }
-        let item = Item::new(1 + kind.nodes(), 0, 0);
-        let count = cursor.count("the number of elements of a block", item)?;
+        let count = cursor.count("the number of elements of a block", item(1 + kind.nodes()))?;
         let mut block = ElementBlock {
             kind,
             tags: Vec::with_capacity(count),
@@ -37,11 +47,11 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Vec
             entity,
         };
         for _ in 0..count {
-            let tag = cursor.size("an element tag")?;
+            let tag = number(cursor, "an element tag")?;
             check_tag(cursor, &mut tags, tag)?;
             block.tags.push(tag);
             for read in 0..kind.nodes() {
-                let node = cursor.size("the tag of a node of an element")?;
+                let node = number(cursor, "the tag of a node of an element")?;
                 let earlier = &block.connectivity[block.connectivity.len() - read..];
                 let index = node_index(cursor, nodes, [tag, node], |index| earlier.contains(&index))?;
                 block.connectivity.push(index);

@@ -1,12 +1,14 @@
-//! `$Entities` of MSH 4.1: which physical groups an entity belongs to.
+//! `$Entities` and `$PartitionedEntities` of MSH 4: which physical groups an entity belongs to, and which entity it is a
+//! part of.
 //!
-//! Every number is passed over first, which checks it and knows its place; mshio then reads the values,
-//! from small files made of a few entities each.
+//! Every number is walked over first, which checks it and knows its place; of MSH 4.1 mshio then reads the values, from
+//! small files made of a few entities each.
 
 use super::MshError;
 use super::cursor::{Cursor, Encoding};
+use super::nodes;
 use super::numbers::Item;
-use crate::fe::mesh::Entity;
+use crate::fe::mesh::{ElementBlock, Entity, MshVersion};
 
 /// Entities that belong to physical groups.
 #[derive(Default)]
@@ -14,6 +16,8 @@ pub(super) struct Physical {
     /// Entity and where its groups begin in `tags`, sorted by entity.
     entities: Vec<(Entity, usize, usize)>,
     tags: Vec<i32>,
+    /// Parts of a partitioned mesh and what they are cut from, sorted.
+    parents: Vec<(Entity, Entity)>,
 }
 
 impl Physical {
@@ -22,6 +26,26 @@ impl Physical {
         let start = self.entities.partition_point(|(other, ..)| *other < entity);
         let own = self.entities[start..].iter();
         own.take_while(move |(other, ..)| *other == entity).flat_map(|&(_, first, end)| &self.tags[first..end]).copied()
+    }
+
+    /// Takes the parts of a partitioned mesh in.
+    pub(super) fn add_parts(&mut self, parts: Vec<(Entity, Entity)>) {
+        self.parents.extend(parts);
+        self.parents.sort_unstable();
+    }
+
+    /// Gives the blocks of parts to the entity that was cut. Blocks between parts (a part of an entity of a higher dimension)
+    /// are no geometry of the body and go.
+    pub(super) fn join_parts(&self, blocks: &mut Vec<ElementBlock>) {
+        blocks.retain_mut(|block| {
+            let start = self.parents.partition_point(|(part, _)| *part < block.entity);
+            match self.parents.get(start).filter(|(part, _)| *part == block.entity) {
+                Some((part, parent)) if part.dimension != parent.dimension => return false,
+                Some((_, parent)) => block.entity = *parent,
+                None => {}
+            }
+            true
+        });
     }
 
     fn add(&mut self, dimension: usize, tag: i32, physical: &[i32]) {
@@ -61,28 +85,56 @@ impl Physical {
 /// How many entities mshio is given at once: it takes up to twenty times the length of a list.
 const PORTION: usize = 64;
 
-pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Physical, MshError> {
-    const COUNTS: [&str; 4] =
-        ["the number of points", "the number of curves", "the number of surfaces", "the number of volumes"];
-    let mut counts = [0; 4];
-    for (dimension, (count, what)) in counts.iter_mut().zip(COUNTS).enumerate() {
-        *count = cursor.count(what, smallest(dimension))?;
-    }
+pub(super) fn read(cursor: &mut Cursor<'_>, version: MshVersion) -> Result<Physical, MshError> {
+    let counts = counts(cursor, version)?;
     let mut found = Physical::default();
     for (dimension, mut left) in counts.into_iter().enumerate() {
-        while left > 0 {
+        while left > 0 && version == MshVersion::V41 {
             let portion = left.min(PORTION);
             let start = cursor.position;
             for _ in 0..portion {
-                walk(cursor, dimension)?;
+                walk(cursor, version, dimension, None)?;
             }
             let content = &cursor.bytes[start..cursor.position];
             found.parse(&alone(cursor.encoding, dimension, portion, content))?;
             left -= portion;
         }
+        for _ in 0..left {
+            let (tag, physical) = walk(cursor, version, dimension, None)?;
+            found.add(dimension, tag, &physical);
+        }
     }
     found.entities.sort_unstable();
     Ok(found)
+}
+
+/// Parts of a partitioned mesh, and what they are cut from.
+pub(super) fn read_partitioned(
+    cursor: &mut Cursor<'_>,
+    version: MshVersion,
+) -> Result<Vec<(Entity, Entity)>, MshError> {
+    cursor.size("the number of partitions")?;
+    for _ in 0..cursor.count("the number of ghost entities", Item::new(0, 2, 0))? {
+        cursor.int("the tag of a ghost entity")?;
+        cursor.int("its partition")?;
+    }
+    let mut parts = Vec::new();
+    for (dimension, count) in counts(cursor, version)?.into_iter().enumerate() {
+        for _ in 0..count {
+            walk(cursor, version, dimension, Some(&mut parts))?;
+        }
+    }
+    Ok(parts)
+}
+
+fn counts(cursor: &mut Cursor<'_>, version: MshVersion) -> Result<[usize; 4], MshError> {
+    const COUNTS: [&str; 4] =
+        ["the number of points", "the number of curves", "the number of surfaces", "the number of volumes"];
+    let mut counts = [0; 4];
+    for (dimension, (count, what)) in counts.iter_mut().zip(COUNTS).enumerate() {
+        *count = cursor.count(what, smallest(version, dimension))?;
+    }
+    Ok(counts)
 }
 
 /// A file of `$MeshFormat` and `$Entities` with some entities of one dimension.
@@ -130,30 +182,45 @@ fn reader_message(error: &mshio::MshParserError<&[u8]>) -> String {
     }
 }
 
-/// Passes over an entity with its box, its physical tags and its boundary.
-fn walk(cursor: &mut Cursor<'_>, dimension: usize) -> Result<(), MshError> {
-    cursor.int("the tag of an entity")?;
-    for _ in 0..smallest(dimension).floats {
-        if !cursor.float("a coordinate of an entity")?.is_finite() {
+/// Walks over an entity: with `parts` its parent, which is added there, and its partitions; then its box, its physical tags
+/// and its boundary. Returns its tag and the physical ones. An entity without points has an empty box, from the largest
+/// number to the smallest.
+fn walk(
+    cursor: &mut Cursor<'_>,
+    version: MshVersion,
+    dimension: usize,
+    parts: Option<&mut Vec<(Entity, Entity)>>,
+) -> Result<(i32, Vec<i32>), MshError> {
+    const TAG: &str = "the tag of an entity";
+    let tag = cursor.int(TAG)?;
+    if let Some(parts) = parts {
+        let parent = Entity { dimension: nodes::dimension(cursor)?, tag: cursor.int(TAG)? };
+        parts.push((Entity { dimension, tag }, parent));
+        list(cursor, "the number of partitions", "a partition")?;
+    }
+    for _ in 0..smallest(version, dimension).floats {
+        if cursor.float("a coordinate of an entity")?.is_nan() {
             let found = &cursor.bytes[cursor.mark..cursor.position];
-            return Err(cursor.malformed("a finite coordinate of an entity", found));
+            return Err(cursor.malformed("a coordinate of an entity", found));
         }
     }
-    for _ in 0..cursor.count("the number of physical tags", Item::new(0, 1, 0))? {
-        cursor.int("a physical tag")?;
-    }
+    let physical = list(cursor, "the number of physical tags", "a physical tag")?;
     if dimension > 0 {
-        for _ in 0..cursor.count("the number of bounding entities", Item::new(0, 1, 0))? {
-            cursor.int("the tag of a bounding entity")?;
-        }
+        list(cursor, "the number of bounding entities", "the tag of a bounding entity")?;
     }
-    Ok(())
+    Ok((tag, physical))
 }
 
-/// An entity without physical tags and boundary.
-fn smallest(dimension: usize) -> Item {
-    match dimension {
-        0 => Item::new(1, 1, 3),
+/// A list of tags after its length.
+fn list(cursor: &mut Cursor<'_>, length: &'static str, item: &'static str) -> Result<Vec<i32>, MshError> {
+    (0..cursor.count(length, Item::new(0, 1, 0))?).map(|_| cursor.int(item)).collect()
+}
+
+/// An entity without physical tags and boundary. MSH 4.0 gives points a box too.
+fn smallest(version: MshVersion, dimension: usize) -> Item {
+    match (dimension, version) {
+        (0, MshVersion::V41) => Item::new(1, 1, 3),
+        (0, _) => Item::new(1, 1, 6),
         _ => Item::new(2, 1, 6),
     }
 }

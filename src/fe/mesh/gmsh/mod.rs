@@ -1,4 +1,4 @@
-//! Reading gmsh's MSH 4.1 and 2.2, ASCII and binary.
+//! Reading gmsh's MSH 2.0 to 2.2, 4.0 and 4.1, ASCII and binary.
 //!
 //! One pass over the bytes reads the values and checks them where they stand; the line of what it objects to
 //! is counted when a message needs it. mshio reads the entities of MSH 4.1 (which physical groups each belongs to);

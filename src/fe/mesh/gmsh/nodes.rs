@@ -5,6 +5,7 @@
 use super::MshError;
 use super::cursor::Cursor;
 use super::numbers::{Item, NodeIndex};
+use crate::fe::mesh::{Entity, MshVersion};
 
 /// Nodes in the order of the file.
 pub(super) struct NodeTable {
@@ -65,31 +66,44 @@ pub(super) fn no_elements() -> MshError {
     MshError(format!("the mesh has no elements: expected at least one ({question})"))
 }
 
-/// Nodes of MSH 4.1; a file unit is so many metres.
-pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
+/// Nodes of MSH 4; a file unit is so many metres. Parameters on curves and surfaces are passed over.
+pub(super) fn read_blocks(cursor: &mut Cursor<'_>, version: MshVersion, metres: f64) -> Result<NodeTable, MshError> {
+    let is_41 = version == MshVersion::V41;
+    let item = if is_41 { Item::new(1, 0, 3) } else { Item::new(0, 1, 3) };
     let blocks = cursor.count("the number of blocks", Item::new(1, 3, 0))?;
-    let announced = cursor.count("the number of nodes", Item::new(1, 0, 3))?;
-    tag_range(cursor, ["the smallest node tag", "the largest node tag"])?;
+    let announced = cursor.count("the number of nodes", item)?;
+    if is_41 {
+        tag_range(cursor, ["the smallest node tag", "the largest node tag"])?;
+    }
     let mut nodes = NodeTable::for_count(announced);
     for _ in 0..blocks {
-        dimension(cursor)?;
-        cursor.int("the tag of an entity")?;
+        let entity = entity(cursor, version)?;
         let flag = "the flag for parametric coordinates, 0 or 1";
-        match cursor.int(flag)? {
-            0 => {}
-            1 => return Err(parametric(cursor)),
+        let parameters = match cursor.int(flag)? {
+            0 => 0,
+            1 => entity.dimension,
             found => return Err(cursor.malformed(flag, found.to_string().as_bytes())),
-        }
-        let count = cursor.count("the number of nodes of a block", Item::new(1, 0, 3))?;
+        };
+        let count = cursor.count("the number of nodes of a block", item)?;
         if count > announced - nodes.tags.len() {
             return Err(not_as_announced(cursor, "nodes", announced, nodes.tags.len() + count));
         }
-        for _ in 0..count {
-            let tag = cursor.size("a node tag")?;
-            nodes.add_tag(cursor, tag)?;
+        // 4.1 lists all tags, then all coordinates
+        if is_41 {
+            for _ in 0..count {
+                let tag = cursor.size("a node tag")?;
+                nodes.add_tag(cursor, tag)?;
+            }
         }
         for _ in 0..count {
+            if !is_41 {
+                let tag = cursor.unsigned_int("a node tag", "a node tag, greater than 0")?;
+                nodes.add_tag(cursor, tag)?;
+            }
             nodes.add_coordinates(cursor, metres)?;
+            for _ in 0..parameters {
+                cursor.float("a parameter of a node")?;
+            }
         }
     }
     if nodes.tags.len() != announced {
@@ -98,14 +112,23 @@ pub(super) fn read_v41(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable
     nodes.complete()
 }
 
-/// Nodes of MSH 2.2; a file unit is so many metres.
-pub(super) fn read_v22(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
+/// Nodes of MSH 2; a file unit is so many metres. `$ParametricNodes` has an entity and parameters behind each node's
+/// coordinates; they are passed over.
+pub(super) fn read_list(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
+    let parametric = cursor.section == "ParametricNodes";
+    if parametric && cursor.is_binary() {
+        let advice = "set Mesh.SaveParametric = 0 in gmsh and save again";
+        return Err(cursor.feature("binary parametric coordinates of MSH 2", advice));
+    }
     let count = cursor.text_count("the number of nodes", Item::new(0, 1, 3))?;
     let mut nodes = NodeTable::for_count(count);
     for _ in 0..count {
         let tag = cursor.unsigned_int("a node tag", "a node tag, greater than 0")?;
         nodes.add_tag(cursor, tag)?;
         nodes.add_coordinates(cursor, metres)?;
+        if parametric {
+            cursor.take_line();
+        }
     }
     nodes.complete()
 }
@@ -121,11 +144,6 @@ pub(super) fn check_range(cursor: &Cursor<'_>, what: &str, tag: u64) -> Result<(
     Err(cursor.malformed(expected, tag.to_string().as_bytes()))
 }
 
-/// Nodes with their parameters on curves and surfaces: of no use here.
-pub(super) fn parametric(cursor: &Cursor<'_>) -> MshError {
-    cursor.feature("parametric coordinates", "set Mesh.SaveParametric = 0 in gmsh and save again")
-}
-
 /// The smallest and the largest tag at the start of a section: read for their order alone.
 pub(super) fn tag_range(cursor: &mut Cursor<'_>, [smallest, largest]: [&'static str; 2]) -> Result<(), MshError> {
     let [low, high] = [cursor.size(smallest)?, cursor.size(largest)?];
@@ -135,7 +153,19 @@ pub(super) fn tag_range(cursor: &mut Cursor<'_>, [smallest, largest]: [&'static 
     Ok(())
 }
 
-/// Dimension of the entity of a block.
+/// The entity of a block: dimension and tag, in MSH 4.0 the other way round.
+pub(super) fn entity(cursor: &mut Cursor<'_>, version: MshVersion) -> Result<Entity, MshError> {
+    const TAG: &str = "the tag of an entity";
+    match version {
+        MshVersion::V40 => {
+            let tag = cursor.int(TAG)?;
+            Ok(Entity { dimension: dimension(cursor)?, tag })
+        }
+        _ => Ok(Entity { dimension: dimension(cursor)?, tag: cursor.int(TAG)? }),
+    }
+}
+
+/// Dimension of an entity.
 pub(super) fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, MshError> {
     let what = "the dimension of an entity, 0 to 3";
     let found = cursor.int(what)?;

@@ -12,10 +12,11 @@ use std::collections::HashSet;
 use std::path::Path;
 
 impl Mesh {
-    /// Reads a gmsh mesh, MSH 4.1 or 2.2, ASCII or binary; `unit` is that of its coordinates.
+    /// Reads a gmsh mesh, MSH 2.0 to 2.2, 4.0 or 4.1, ASCII or binary; `unit` is that of its coordinates.
     ///
     /// Sections that are not needed (`$Periodic`, `$NodeData`, comments, unknown ones) are passed over.
     /// An entity may belong to several physical groups; a group without a name is called by its tag.
+    /// Parts of a partitioned mesh become one mesh; what lies between them is left out.
     /// Elements that MSH 2.2 repeats for every group of their entity become one element of all of them.
     /// Groups of a plane mesh whose elements all run clockwise are turned.
     ///
@@ -53,8 +54,10 @@ struct Found {
 }
 
 enum Elements {
-    V41(Vec<ElementBlock>),
-    V22(Listed),
+    /// MSH 4.
+    Blocks(Vec<ElementBlock>),
+    /// MSH 2.
+    Listed(Listed),
 }
 
 impl Found {
@@ -81,26 +84,24 @@ impl Found {
 
     /// Reads a section up to its end; false if it is of no use.
     fn section(&mut self, cursor: &mut Cursor<'_>, metres: f64) -> Result<bool, MshError> {
-        use MshVersion::{V22, V41};
+        use MshVersion::{V40, V41};
         let version = self.format.version;
-        match (cursor.section.as_str(), version) {
-            ("PhysicalNames", _) => once(&mut self.names, cursor, names)?,
-            ("Entities", V41) => once(&mut self.entities, cursor, entities::read)?,
-            ("Nodes", V41) => once(&mut self.nodes, cursor, |c| nodes::read_v41(c, metres))?,
-            ("Nodes", V22) => once(&mut self.nodes, cursor, |c| nodes::read_v22(c, metres))?,
-            ("Elements", _) => {
-                let known = self.nodes.as_ref().ok_or_else(|| missing("Nodes", " before $Elements"))?;
-                once(&mut self.elements, cursor, |c| match version {
-                    V41 => elements::read_v41(c, &known.index).map(Elements::V41),
-                    V22 => elements::read(c, &known.index).map(Elements::V22),
-                })?;
+        let is_4 = matches!(version, V40 | V41);
+        match cursor.section.as_str() {
+            "PhysicalNames" => once(&mut self.names, cursor, names)?,
+            "Entities" if is_4 => once(&mut self.entities, cursor, |c| entities::read(c, version))?,
+            "PartitionedEntities" if is_4 => {
+                let parts = entities::read_partitioned(cursor, version)?;
+                self.entities.get_or_insert_default().add_parts(parts);
             }
-            ("ParametricNodes", V22) => return Err(nodes::parametric(cursor)),
-            ("PartitionedEntities", V41) => {
-                return Err(cursor.feature(
-                    "a partitioned mesh",
-                    "save it unpartitioned (Mesh.NbPartitions = 0, or UnpartitionMesh)",
-                ));
+            "Nodes" if is_4 => once(&mut self.nodes, cursor, |c| nodes::read_blocks(c, version, metres))?,
+            "Nodes" | "ParametricNodes" => once(&mut self.nodes, cursor, |c| nodes::read_list(c, metres))?,
+            "Elements" => {
+                let known = self.nodes.as_ref().ok_or_else(|| missing("Nodes", " before $Elements"))?;
+                once(&mut self.elements, cursor, |c| match is_4 {
+                    true => elements::read_blocks(c, version, &known.index).map(Elements::Blocks),
+                    false => elements::read(c, &known.index).map(Elements::Listed),
+                })?;
             }
             _ => return Ok(false),
         }
@@ -114,12 +115,13 @@ impl Found {
         drop(nodes.index);
         let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
         let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
-            Elements::V41(blocks) => {
+            Elements::Blocks(mut blocks) => {
                 let entities = self.entities.unwrap_or_default();
+                entities.join_parts(&mut blocks);
                 let memberships = by_entity(&blocks, &entities, &mut allowance)?;
                 (blocks, memberships)
             }
-            Elements::V22(listed) => collect_v22::blocks(listed, &mut allowance)?,
+            Elements::Listed(listed) => collect_v22::blocks(listed, &mut allowance)?,
         };
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
@@ -179,10 +181,10 @@ fn header(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
     let size_bytes = match version {
         MshVersion::V41 if flag(cursor, "the size of size_t, 4 or 8", [b"4", b"8"])? => 8,
         MshVersion::V41 => 4,
-        // 2.2 counts with int and gives the size of a double here
-        MshVersion::V22 => {
+        // the others give the size of a double here; 4.0 counts with long, 2 with int
+        other => {
             flag(cursor, "the size of a double, 8", [b"8", b"8"])?;
-            4
+            if other == MshVersion::V40 { 8 } else { 4 }
         }
     };
     cursor.take_line();
@@ -197,7 +199,11 @@ fn version(cursor: &mut Cursor<'_>) -> Result<MshVersion, MshError> {
     match cursor.take_word() {
         b"" => Err(cursor.truncated("the version")),
         b"4.1" => Ok(MshVersion::V41),
-        b"2.2" => Ok(MshVersion::V22),
+        b"4" | b"4.0" => Ok(MshVersion::V40),
+        b"2" | b"2.0" => Ok(MshVersion::V20),
+        b"2.1" => Ok(MshVersion::V21),
+        // some writers print all decimals
+        b"2.2" | b"2.20000" | b"2.200000" => Ok(MshVersion::V22),
         other if other.iter().all(|b| b.is_ascii_digit() || *b == b'.') => {
             Err(unknown_version(&String::from_utf8_lossy(&other[..other.len().min(20)])))
         }
@@ -207,7 +213,7 @@ fn version(cursor: &mut Cursor<'_>) -> Result<MshVersion, MshError> {
 
 fn unknown_version(found: &str) -> MshError {
     let command = "gmsh IN.msh -save -format msh41 -o OUT.msh";
-    MshError(format!("MSH version {found}: expected 4.1 or 2.2; convert it with: {command}"))
+    MshError(format!("MSH version {found}: expected 2.0 to 2.2, 4.0 or 4.1; convert it with: {command}"))
 }
 
 /// Byte order from the integer 1 that begins the binary data.
@@ -231,7 +237,8 @@ fn flag(cursor: &mut Cursor<'_>, what: &str, words: [&[u8]; 2]) -> Result<bool, 
     found.map(|index| index == 1).ok_or_else(|| cursor.malformed(what, word))
 }
 
-/// Reads the lines `dimension tag "name"` after their number; a name may hold blanks and quotes.
+/// Reads the lines `dimension tag "name"` after their number; a name may hold blanks and quotes. The first programs wrote no
+/// dimension or -1. What follows the name is passed over, and so are names of tags that are not above 0.
 fn names(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
     const COUNT: &str = "the number of physical names";
     const LINE: &str = "dimension, tag and \"name\" of a physical group";
@@ -242,7 +249,7 @@ fn names(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
     }
     let declared = std::str::from_utf8(line).ok();
     let declared = declared.and_then(|text| text.trim().parse().ok()).ok_or_else(|| cursor.malformed(COUNT, line))?;
-    const SHORTEST_LINE: &str = "0 1 \"\"\n";
+    const SHORTEST_LINE: &str = "1\"\"\n";
     let count = cursor.check_count(COUNT, declared, SHORTEST_LINE.len())?;
     let mut names = Vec::with_capacity(count);
     let mut seen = HashSet::with_capacity(count);
@@ -253,9 +260,12 @@ fn names(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
             return Err(cursor.truncated(LINE));
         }
         let name = name(line).ok_or_else(|| cursor.malformed(LINE, line))?;
+        if name.tag < 1 {
+            continue;
+        }
         if !seen.insert((name.dimension, name.tag)) {
-            let expected = format!("one name for group {} of dimension {}", name.tag, name.dimension);
-            return Err(cursor.malformed(expected, line));
+            let dimension = name.dimension.map_or(String::new(), |dimension| format!(" of dimension {dimension}"));
+            return Err(cursor.malformed(format!("one name for group {}{dimension}", name.tag), line));
         }
         names.push(name);
     }
@@ -265,12 +275,17 @@ fn names(cursor: &mut Cursor<'_>) -> Result<Vec<Name>, MshError> {
 fn name(line: &[u8]) -> Option<Name> {
     let text = std::str::from_utf8(line).ok()?;
     let (numbers, quoted) = text.split_once('"')?;
-    let name = quoted.strip_suffix('"')?;
-    let mut numbers = numbers.split_ascii_whitespace();
-    let dimension = numbers.next()?.parse().ok().filter(|&d: &u8| d <= 3)?;
-    let tag = numbers.next()?.parse().ok().filter(|&tag: &i32| tag > 0)?;
-    match numbers.next() {
-        None => Some(Name { dimension, tag, name: name.to_owned() }),
-        Some(_) => None,
-    }
+    let (name, _) = quoted.rsplit_once('"')?;
+    let numbers = numbers.split_ascii_whitespace().map(|number| number.parse().ok()).collect::<Option<Vec<i32>>>()?;
+    let (dimension, tag) = match numbers.as_slice() {
+        &[tag] => (-1, tag),
+        &[dimension, tag] => (dimension, tag),
+        _ => return None,
+    };
+    let dimension = match dimension {
+        -1 => None,
+        0..=3 => Some(dimension as usize),
+        _ => return None,
+    };
+    Some(Name { dimension, tag, name: name.to_owned() })
 }

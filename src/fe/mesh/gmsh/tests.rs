@@ -10,6 +10,7 @@ mod encode;
 mod mshio_agrees;
 mod repeats;
 mod rules;
+mod versions;
 
 /// Two quadrilaterals side by side, 2 x 1. Node tags are dense but not in order; the left edge is in two
 /// groups, one of them without a name; names hold blanks and quotes.
