@@ -5,7 +5,7 @@
 
 use super::pattern::{BlockMatrix, Coupling, Local, NodeGraph};
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::{mass_into, nodal_mass_into, spread, stiffness_into};
+use crate::fe::element::continuum::{nodal_mass_into, stiffness_into};
 use crate::fe::mesh::ElementKind;
 use crate::fe::model::{HousingElement, HousingModel, ModelError, NodalMatrix, RingTie};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, congruence, sparse_times_dense, transpose_times_dense};
@@ -150,28 +150,15 @@ fn stiffness<'g>(
     Ok(k)
 }
 
-/// `sum_e M_e` and the point masses. Only elements with incompatible modes couple different directions.
 fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelError> {
-    let (d, formulation) = (model.dimension, model.description.formulation);
-    if !model.elements.list.iter().any(|element| formulation.has_bubbles(element.kind)) {
-        let mut m = BlockMatrix::zeros(graph, d, Coupling::Same);
-        let compute = |element: &HousingElement, coordinates: &[[f64; 3]], out: &mut [f64]| {
-            nodal_mass_into(element.kind, coordinates, &model.properties[element.part], out)
-        };
-        in_batches(model, |kind| kind.nodes() * kind.nodes(), compute, |locals| m.add(locals))?;
-        m.add(&locals(&model.masses));
-        return Ok(m.into_matrix());
-    }
-    let mut m = BlockMatrix::zeros(graph, d, Coupling::Full);
-    let compute = |element: &HousingElement, coordinates: &[[f64; 3]], out: &mut [f64]| {
-        mass_into(element.kind, coordinates, &model.properties[element.part], formulation, out)
-    };
-    in_batches(model, |kind| kind.dof() * kind.dof(), compute, |locals| m.add(locals))?;
-    for NodalMatrix { nodes, matrix, .. } in &model.masses {
-        let mut full = vec![0.0; d * d * matrix.len()];
-        spread(matrix.as_slice(), d, &mut full);
-        m.add(&[Local { nodes, matrix: &full }]);
-    }
+    let mut m = BlockMatrix::zeros(graph, model.dimension, Coupling::Same);
+    in_batches(
+        model,
+        |kind| kind.nodes() * kind.nodes(),
+        |element, coordinates, out| nodal_mass_into(element.kind, coordinates, &model.properties[element.part], out),
+        |locals| m.add(locals),
+    )?;
+    m.add(&locals(&model.masses));
     Ok(m.into_matrix())
 }
 

@@ -2,12 +2,11 @@
 
 use nalgebra::DMatrix;
 
+use super::ContinuumProperties;
 use super::geometry::{Jacobian, Placed, diagnose};
-use super::incompatible;
 use super::kernel::mirror;
 use super::stiffness::{check_length, check_properties};
 use super::table::{Table, for_kind, tables};
-use super::{ContinuumProperties, Formulation, MAX_NODES};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
 
@@ -34,59 +33,20 @@ pub(crate) fn nodal_mass_into(
     check_properties(kind, properties)?;
     check_length(kind, kind.nodes(), out)?;
     let density = properties.density * properties.thickness;
-    for_kind!(kind, nodal(kind, coords, density, out))
+    for_kind!(kind, mass(kind, coords, density, out))
 }
 
-/// Consistent mass `M = rho int N^T N dV` (solid) or `rho t int N^T N dA` (plane), kg, into `out` (dof x dof, symmetric,
-/// column by column, both triangles; whatever it held is replaced).
-///
-/// N are the displacements of the stiffness, with the incompatible modes where the formulation has them. Elsewhere it is
-/// [`nodal_mass_into`] times the identity. A rigid motion meets the exact mass and moments of inertia. `coords` as for
-/// [`stiffness_into`](super::stiffness_into).
+/// `nodal_mass_into` a new matrix.
 ///
 /// # Errors
-/// As [`stiffness_into`](super::stiffness_into).
-pub(crate) fn mass_into(
+/// As `nodal_mass_into`.
+pub fn nodal_mass(
     kind: ElementKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
-    formulation: Formulation,
-    out: &mut [f64],
-) -> Result<(), ElementError> {
-    check_properties(kind, properties)?;
-    check_length(kind, kind.dof(), out)?;
-    if formulation.has_bubbles(kind) {
-        return incompatible::mass(kind, coords, properties, out);
-    }
-    let (n, d) = (kind.nodes(), kind.dimension());
-    let mut nodal = [0.0; MAX_NODES * MAX_NODES];
-    nodal_mass_into(kind, coords, properties, &mut nodal[..n * n])?;
-    spread(&nodal[..n * n], d, out);
-    Ok(())
-}
-
-/// Each entry of a nodal matrix times the identity over d displacements, into `out`, column by column.
-pub(crate) fn spread(nodal: &[f64], d: usize, out: &mut [f64]) {
-    let n = nodal.len().isqrt();
-    out.fill(0.0);
-    for (place, &number) in nodal.iter().enumerate() {
-        let (a, b) = (place % n, place / n);
-        (0..d).for_each(|i| out[(d * b + i) * d * n + d * a + i] = number);
-    }
-}
-
-/// `mass_into` a new matrix.
-///
-/// # Errors
-/// As `mass_into`.
-pub fn mass(
-    kind: ElementKind,
-    coords: &[[f64; 3]],
-    properties: &ContinuumProperties,
-    formulation: Formulation,
 ) -> Result<DMatrix<f64>, ElementError> {
-    let mut out = DMatrix::zeros(kind.dof(), kind.dof());
-    mass_into(kind, coords, properties, formulation, out.as_mut_slice())?;
+    let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
+    nodal_mass_into(kind, coords, properties, out.as_mut_slice())?;
     Ok(out)
 }
 
@@ -96,7 +56,7 @@ pub fn mass(
 /// As [`measure`].
 pub(crate) fn measure_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
-    for_kind!(kind, nodal(kind, coords, 1.0, out.as_mut_slice()))?;
+    for_kind!(kind, mass(kind, coords, 1.0, out.as_mut_slice()))?;
     Ok(out)
 }
 
@@ -111,7 +71,7 @@ pub fn measure(kind: ElementKind, coords: &[[f64; 3]]) -> Result<f64, ElementErr
     for_kind!(kind, size(kind, coords))
 }
 
-fn nodal<const N: usize, const D: usize>(
+fn mass<const N: usize, const D: usize>(
     kind: ElementKind,
     coords: &[[f64; 3]],
     density: f64,

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct Formulation {
     /// Stiffness of Tet10.
     pub integration: Integration,
-    /// Stiffness and mass of Quad4 and Hex8.
+    /// Stiffness of Quad4 and Hex8.
     pub linear: LinearFormulation,
 }
 
@@ -40,18 +40,10 @@ pub enum LinearFormulation {
     Plain,
 }
 
-impl Formulation {
-    /// The element has incompatible modes; its mass couples the displacements of different directions.
-    pub(crate) fn has_bubbles(self, kind: ElementKind) -> bool {
-        self.linear == LinearFormulation::Incompatible && matches!(kind, ElementKind::Quad4 | ElementKind::Hex8)
-    }
-}
-
 impl ElementKind {
     /// The rule that integrates the mass and the measure, exact for every geometry, curved ones too:
     /// `N_i N_j det J` is a polynomial of degree
-    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20). The bubbles of
-    /// Quad4 and Hex8 add 2 on parallelepipeds, whence three points a direction;
+    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20);
     /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
     pub(crate) fn mass_rule(self) -> QuadratureRule {
         self.rules()[1][0]
@@ -89,7 +81,7 @@ impl ElementKind {
             Self::Point | Self::Line2 | Self::Line3 => [[Rule::Line4; 2]; 2],
             Self::Tri3 => [[Rule::Triangle1; 2], [Rule::Triangle3; 2]],
             Self::Tri6 => [[Rule::Triangle6, Rule::Triangle3], [Rule::Triangle12; 2]],
-            Self::Quad4 => [[Rule::Square2; 2], [Rule::Square3; 2]],
+            Self::Quad4 => [[Rule::Square2; 2]; 2],
             Self::Quad8 => [[Rule::Square3; 2], [Rule::Square4; 2]],
             Self::Tet4 => [[Rule::Tetrahedron1; 2], [Rule::Tetrahedron4; 2]],
             Self::Tet10 => [[Rule::Tetrahedron24, Rule::Tetrahedron4], [Rule::Tetrahedron64; 2]],

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::quadrature::{conical_tetrahedron, conical_triangle, cube, product, square};
-use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass_into};
+use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::ElementKind;
 
@@ -139,15 +139,14 @@ pub(super) fn rigid_motions(kind: ElementKind, coords: &[[f64; 3]]) -> Vec<DVect
     (0..count).map(motion).collect()
 }
 
-/// The mass between the nodes, which is the same for every direction.
-pub(super) fn nodal_mass(
+/// The mass matrix of the degrees of freedom.
+pub(super) fn mass(
     kind: ElementKind,
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
 ) -> Result<DMatrix<f64>, ElementError> {
-    let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
-    nodal_mass_into(kind, coords, properties, out.as_mut_slice())?;
-    Ok(out)
+    let identity = DMatrix::identity(kind.dimension(), kind.dimension());
+    Ok(nodal_mass(kind, coords, properties)?.kronecker(&identity))
 }
 
 pub(super) fn message<T: std::fmt::Debug>(result: Result<T, ElementError>) -> String {

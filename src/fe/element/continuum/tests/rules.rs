@@ -3,12 +3,14 @@
 use nalgebra::DMatrix;
 
 use super::Outcome;
-use super::fixtures::{aluminium, distorted, nodal_mass, properties, very_fine};
+use super::fixtures::{aluminium, distorted, properties, very_fine};
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::table::for_kind;
-use crate::fe::element::continuum::{ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, stiffness};
+use crate::fe::element::continuum::{
+    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
+};
 use crate::fe::mesh::ElementKind;
 
 /// The stiffness by any points.
