@@ -128,4 +128,5 @@ fn content_that_means_harm_writes_nothing_beside_its_folder() {
     };
     assert_eq!(names(&folder), ["out", "ring.toml"]);
     assert_eq!(names(&folder.join("out")), ["report.cbor.gz", "report.html", "tables"]);
+    assert_eq!(names(&folder.join("out/tables")), ["modes-1-evil.csv"]);
 }

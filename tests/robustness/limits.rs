@@ -55,12 +55,10 @@ fn memory_that_does_not_suffice_for_a_matrix_is_an_error() {
 
 #[test]
 fn steps_beyond_measure_are_refused() {
-    for set in ["--set bearing.contact_damping=1e9", "--set transient.step=1e-14"] {
-        let output = limited("steps", "-v 4000000", set);
-        assert_eq!(output.status.code(), Some(2), "{set}: {:?}", output.status);
-        let text = errors(&output);
-        assert!(text.starts_with("error: step must be at least a millionth of the output interval"), "{set}: {text}");
-    }
+    let output = limited("steps", "-v 4000000", "--set transient.step=1e-14");
+    assert_eq!(output.status.code(), Some(2), "{:?}", output.status);
+    let text = errors(&output);
+    assert!(text.starts_with("error: step must be at least a millionth of the output interval"), "{text}");
 }
 
 #[test]

@@ -187,10 +187,13 @@ pub(super) fn read(path: &Path) -> Result<(String, Report), CliError> {
     let bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
     let wrong = |what: &str| CliError::input(format!("{}: {what}", path.display())).with_help(AGAIN);
     let report = Report::from_record(&bytes).map_err(|error| wrong(&error.to_string()))?;
-    // names of files are made of it: nothing is written beside the folder
+    // names of files are made of it: nothing is written beside the folder and its tables, whatever the content says
     let command = report.table_files.as_ref().map(|files| files.prefix.clone()).unwrap_or_default();
     match RESULTS.iter().any(|(word, ..)| *word == command) {
-        true => Ok((command, report)),
+        true => {
+            let report = report.tables_in(TABLES, &command);
+            Ok((command, report))
+        }
         false => {
             let words = RESULTS.map(|(word, ..)| word).join(", ");
             Err(wrong(&format!("a report of \"{command}\": expected one of {words}")))

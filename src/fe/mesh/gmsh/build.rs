@@ -4,10 +4,8 @@
 use super::MshError;
 use super::entities::Physical;
 use crate::fe::mesh::{ElementBlock, ElementId, PhysicalGroup};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Name of a physical group.
-#[derive(Clone)]
 pub(super) struct Name {
     /// `None`: that of the elements with the tag.
     pub(super) dimension: Option<usize>,
@@ -17,18 +15,26 @@ pub(super) struct Name {
 
 /// The names by dimension and tag, sorted; one without a dimension has those in which elements carry its tag and that
 /// have no name.
-fn by_key(names: Vec<Name>, memberships: &[Membership]) -> BTreeMap<(usize, i32), String> {
-    let (given, others): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.dimension.is_some());
-    let mut found: BTreeMap<_, _> =
-        given.into_iter().map(|name| ((name.dimension.unwrap_or_default(), name.tag), name.name)).collect();
-    if !others.is_empty() {
-        let keys: BTreeSet<_> = memberships.iter().map(Membership::key).collect();
-        for Name { tag, name, .. } in others {
-            for dimension in (0..=3).filter(|&dimension| keys.contains(&(dimension, tag))) {
-                found.entry((dimension, tag)).or_insert_with(|| name.clone());
+fn by_key(names: Vec<Name>, memberships: &[Membership]) -> Vec<((usize, i32), String)> {
+    let is_known = |names: &[Name], key: (usize, i32)| {
+        names.binary_search_by_key(&(Some(key.0), key.1), |name| (name.dimension, name.tag)).is_ok()
+    };
+    let mut names = names;
+    names.sort_unstable_by_key(|name| (name.dimension, name.tag));
+    let carried = |key: (usize, i32)| memberships.binary_search_by_key(&key, Membership::key).is_ok();
+    let without = names.partition_point(|name| name.dimension.is_none());
+    let mut found = Vec::with_capacity(names.len());
+    for name in &names[..without] {
+        for dimension in 0..=3 {
+            let key = (dimension, name.tag);
+            if carried(key) && !is_known(&names, key) {
+                found.push((key, name.name.clone()));
             }
         }
     }
+    let given = names.into_iter().filter_map(|name| Some(((name.dimension?, name.tag), name.name)));
+    found.extend(given);
+    found.sort_unstable();
     found
 }
 
