@@ -29,7 +29,9 @@ Examples: the dented bearing with a deeper dent, in a folder of its own; the sam
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper
   plummer run examples/tadina2011/outer-dent.toml --set 'bearing.defects[0].depth=2e-5' --out out/deeper --resume
 
-Ctrl-C keeps a checkpoint in DIR/.run.partial. With --resume the run goes on, to the same signals bit by bit.";
+Long runs: memory does not grow with the simulated time. Signals go to DIR/.run.partial, with a checkpoint every 10 s. Ctrl-C
+keeps a checkpoint and ends with exit code 1; a second Ctrl-C ends at once. With --resume the run goes on. With the same program,
+case, --set and meshes its signals are those of a run without a stop, bit by bit.";
 
 const INIT_EXAMPLE: &str = "\
 Examples: a case file beside a mesh, with the bearing that fits its bore; the bearings and the materials that the program knows
@@ -69,14 +71,27 @@ command does so: run, modes and frf keep the whole interface, export --to op4 an
 
 const FRF_EXAMPLE: &str = "\
 Example: responses of the sensors to a force on the raceway, compared with the full model at the peaks
-  plummer frf examples/transfer/pedestal.toml";
+  plummer frf examples/transfer/pedestal.toml
+
+Files:
+  frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path
+  frf.uff   the same for test software (universal file, dataset 58)";
 
 const CHART_EXAMPLE: &str = "\
 Examples: which method and step the dented bearing needs; a first look in a fraction of the time
   plummer chart examples/scenes/impact.toml
   plummer chart examples/scenes/smooth.toml --quick
+  plummer chart examples/scenes/impact.toml --budget 5min
   plummer chart examples/scenes/impact.toml --only stability
 
+Files:
+  chart.json      points, front, the program's choice, omissions with their reasons, horizon, statistics of the ensemble
+  chart.svg       error against wall time
+  stability.json  method x step x condition: stable, resonant or unstable, with predicted and measured limits
+  stability.svg   the same as a map; resonance.svg: a mode in resonance with the step
+  report.html     the same to zoom into, and tables
+
+Points are shown as they come, and are in chart.csv.partial until chart.json is there.
 Wall times are measured on one thread, one run at a time: run nothing else on the machine meanwhile.";
 
 const ANALYZE_EXAMPLE: &str = "\
@@ -97,7 +112,13 @@ cannot be analysed has a row that says why, the others are analysed, and the exi
 Verdicts: fault indicated, not enough evidence, not seen. Each has its evidence and the probability that noise alone looks like it;
 docs/diagnosis.md explains them. A window needs at least 16 events of a part: 7 shaft turns for most bearings.
 
-Results of a run go into its own folder, of one file into out/ and its name, of several files into out/analysis.";
+Results of a run go into its own folder, of one file into out/ and its name, of several files into out/analysis.
+
+Files:
+  analysis.json  windows with strongest peaks and verdicts
+  analysis.csv   a row for each window: RMS, kurtosis, verdict and reason; conclusion, probability and strength of each part
+  report.html    signal, envelope, spectrum over orders, verdicts with harmonics and reasons; of several files their table, and
+                 plots of up to 12 windows";
 
 const EXPORT_EXAMPLE: &str = "\
 Examples: matrices for SciPy; the mode shapes of an earlier `plummer modes` for ParaView, without solving again; the condensed
@@ -122,7 +143,13 @@ Examples: play and dent of the paper's bearing on all cores; the frequencies ove
 
 Points that fail are listed and do not stop the others: the exit code is 0 if any point has a result. Ctrl-C keeps checkpoints;
 the sweep goes on with --resume. Each point is a process with a folder of its own, DIR/sweep/NUMBER, as `plummer run` or
-`plummer modes` leaves it.";
+`plummer modes` leaves it.
+
+Files:
+  sweep.csv    a row for each point: values, state, wall time, figures of its result
+  sweep.npz    the same as arrays (numpy.load); shape: the lengths of the axes, for reshape
+  sweep.json   the axes; state, exit code and message of each point
+  report.html  plots over what was varied, points that are not done, the table";
 
 const COMPLETIONS_EXAMPLE: &str = "\
 Example: for bash, from the next shell on
@@ -143,7 +170,11 @@ report.cbor.gz (CBOR, packed by gzip).";
 const VERIFY_EXAMPLE: &str = "\
 Examples: the checks that take seconds; the orders of convergence too, which take half a minute
   plummer verify
-  plummer verify --full --out out/full";
+  plummer verify --full --out out/full
+
+Files, in out/verify unless --out names another folder:
+  verify.json   checks with computed value, reference, source, assumptions, error, limit and verdict
+  report.html   the same as tables; with --full the charts of orders";
 
 const SCHEMA_EXAMPLE: &str = "\
 Examples: a schema by which an editor with taplo or Even Better TOML completes and checks case files; that of modes.json

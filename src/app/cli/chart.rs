@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -99,14 +100,14 @@ struct SoFar<'a> {
     progress: &'a Progress,
     path: PathBuf,
     kept: Mutex<io::Result<()>>,
+    /// The file has points of this chart; those of an earlier one stay until its first.
+    is_begun: AtomicBool,
 }
 
 impl<'a> SoFar<'a> {
     fn new(folder: &OutputFolder, progress: &'a Progress) -> Self {
         let path = folder.path.join("chart.csv.partial");
-        // of an earlier chart
-        let kept = Mutex::new(files::remove(&path));
-        Self { progress, path, kept }
+        Self { progress, path, kept: Mutex::new(Ok(())), is_begun: AtomicBool::new(false) }
     }
 
     fn hear(&self, news: News<'_>) {
@@ -128,8 +129,12 @@ impl<'a> SoFar<'a> {
     }
 
     fn keep(&self, point: &Point) -> io::Result<()> {
+        let mut head = "";
+        if !self.is_begun.swap(true, Ordering::Relaxed) {
+            files::remove(&self.path)?;
+            head = COLUMNS;
+        }
         let mut file = OpenOptions::new().create(true).append(true).open(&self.path)?;
-        let head = if file.metadata()?.len() == 0 { COLUMNS } else { "" };
         file.write_all((head.to_owned() + &row(point)).as_bytes())
     }
 

@@ -12,6 +12,7 @@ use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::bearing::hertz::{ContactPatch, HertzStiffness};
 use crate::bearing::{Race, RaceContacts};
+use crate::fe::element::continuum::LinearFormulation;
 use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::pieces_at;
 use crate::fe::model::HousingModel;
@@ -125,15 +126,21 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
             flat.faces, flat.flatness, flat.tag
         )
     });
+    let is_plain = model.description.formulation.linear == LinearFormulation::Plain;
     let stiff = model.description.parts.iter().enumerate().flat_map(|(part, described)| {
         let of_kind = move |kind: ElementKind| {
             let own = model.elements().iter().filter(|element| element.part == part && element.kind == kind);
             (own.count(), kind)
         };
-        let counts = STIFF_IN_BENDING.into_iter().map(of_kind).filter(|(count, _)| *count > 0);
+        let plain = [ElementKind::Quad4, ElementKind::Hex8].into_iter().filter(|_| is_plain);
+        let counts = STIFF_IN_BENDING.into_iter().chain(plain).map(of_kind).filter(|(count, _)| *count > 0);
         counts.map(|(count, kind)| {
+            let [plain, way] = match STIFF_IN_BENDING.contains(&kind) {
+                true => ["", "mesh with second order (gmsh -order 2)"],
+                false => ["plain ", "leave housing.linear = \"plain\" out, or mesh with second order (gmsh -order 2)"],
+            };
             format!(
-                "part \"{}\" has {count} {} elements, which are far too stiff in bending: with one layer across a thickness, they lose 75 % of the deflection and more; mesh with second order (gmsh -order 2)",
+                "part \"{}\" has {count} {plain}{} elements, which are far too stiff in bending: with one layer across a thickness, they lose 75 % of the deflection and more; {way}",
                 described.group,
                 kind.name()
             )

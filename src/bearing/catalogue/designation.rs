@@ -9,6 +9,15 @@ const MAKERS: [&str; 17] = [
 /// What stands between maker, number and suffixes.
 pub(super) const SEPARATORS: [char; 4] = [' ', '-', '/', '_'];
 
+/// Suffixes that leave balls and raceways as they are: seals, shields, clearance, snap rings, cages of steel, brass and polyamide,
+/// accuracy, grease. Longer ones first. Others may be another inner design (E, A, B, X) or other balls (HC5).
+const SUFFIXES: [&str; 52] = [
+    "2RS1", "2RSR", "2RSH", "2RSL", "2NSE", "2HRS", "GJN", "LHT", "ZNR", "2RS", "2RZ", "2ZR", "RSR", "RS1", "RSH",
+    "RSL", "NSE", "ZZE", "DDU", "LLU", "LLB", "LLH", "TN9", "TNH", "TVH", "TVP", "W64", "2Z", "ZZ", "ZR", "RS", "RZ",
+    "DD", "VV", "LU", "LB", "C2", "C3", "C4", "C5", "CN", "CM", "P6", "P5", "P4", "NR", "ZN", "MA", "MB", "Z", "N",
+    "M",
+];
+
 /// Letters before the number, and what they are (DIN 623-1, DIN 5425-1).
 const BY_LETTERS: [(&[&str], &str); 4] = [
     (&["N", "NU", "NJ", "NUP", "NF", "NN", "NNU", "NCF", "RN", "RNU"], "a cylindrical roller bearing"),
@@ -65,7 +74,8 @@ impl<'n> Designation<'n> {
         }
         let shorter = digits.strip_suffix('2').filter(|_| suffix.starts_with(['R', 'r', 'Z', 'z']));
         let number = [Some(digits), shorter].into_iter().flatten().find(|number| is_known(number))?;
-        Some(self.number.split_at(number.len()))
+        let (number, suffixes) = self.number.split_at(number.len());
+        counts_for_nothing(suffixes).then_some((number, suffixes))
     }
 
     pub(super) fn other_type(&self) -> Option<&'static str> {
@@ -77,4 +87,11 @@ impl<'n> Designation<'n> {
         let is = |&&(first, count, _): &&(char, usize, &str)| digits.starts_with(first) && digits.len() == count;
         BY_DIGITS.iter().find(is).map(|&(.., kind)| kind)
     }
+}
+
+/// Only [`SUFFIXES`], with or without separators between them.
+fn counts_for_nothing(suffixes: &str) -> bool {
+    let rest = suffixes.trim_start_matches(SEPARATORS);
+    let known = |suffix: &&str| rest.get(..suffix.len()).is_some_and(|start| start.eq_ignore_ascii_case(suffix));
+    rest.is_empty() || SUFFIXES.into_iter().find(known).is_some_and(|suffix| counts_for_nothing(&rest[suffix.len()..]))
 }

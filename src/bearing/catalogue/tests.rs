@@ -18,6 +18,8 @@ fn makers_and_suffixes_count_for_nothing() {
         ("SKF6204", "6204", Some("\"SKF\"")),
         (" skf 6204-2Z ", "6204", Some("\"skf\" and \"2Z\"")),
         ("608/C3", "608", Some("\"C3\"")),
+        ("6205-2ZR-C3", "6205", Some("\"2ZR-C3\"")),
+        ("6205DDUCM", "6205", Some("\"DDUCM\"")),
     ] {
         assert_eq!(CatalogueBearing::named(written).map(|bearing| bearing.name), Some(name), "{written}");
         assert_eq!(CatalogueBearing::left_out(written).as_deref(), left_out, "{written}");
@@ -32,6 +34,10 @@ fn makers_and_suffixes_count_for_nothing() {
         ("30205", Some("a tapered roller bearing")),
         ("51105", Some("a thrust ball bearing")),
         ("6299", None),
+        ("6205 6305", None),
+        ("6205/30", None),
+        ("6205E", None),
+        ("6205-HC5C3", None),
         ("16005", None),
         ("no/6205", None),
         ("/6205", None),

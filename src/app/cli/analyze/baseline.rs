@@ -96,8 +96,16 @@ impl Baseline {
             let Some(change) = window.change.as_mut() else {
                 continue;
             };
+            if expected != found {
+                let (of, unit) =
+                    if found.is_empty() { (&name, expected) } else { (&input.display().to_string(), found) };
+                change.warnings.push(format!(
+                    "{of} states no unit and is compared as if it were in {unit}: in g or m/s^2, levels would be 19.8 dB apart."
+                ));
+            }
             let apart = change.to <= window.from || window.to <= change.from;
-            if self.is(input) && !apart {
+            let is_same = self.is(input) && earlier.signal.name == signal.name;
+            if is_same && !apart {
                 change.warnings.push(format!(
                     "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
                 ));

@@ -336,6 +336,7 @@ mod terminal_tests {
             speed_hz: 29.953,
             rms: 0.123_45,
             peak: 1.0,
+            rms_in_band: None,
             kurtosis: Some(3.0),
             band: UsedBand::default(),
             fault_lines: Vec::new(),

@@ -94,7 +94,10 @@ pub(crate) fn window_section(window: &WindowAnalysis) -> Section {
     section.blocks.extend(diagnosis.ok().map(|found| Block::Plot(Box::new(order_plot(window, found)))));
     let facts = [
         speed_fact(window),
-        Fact::new("RMS", amount(window.rms)),
+        match window.rms_in_band.and_then(|level| level.beside(window.rms, &window.unit)) {
+            Some(text) => Fact::new("RMS", amount(window.rms)).note(text),
+            None => Fact::new("RMS", amount(window.rms)),
+        },
         Fact::new("Peak", amount(window.peak)),
         Fact::new("Kurtosis", window.kurtosis.map_or_else(|| "none".to_owned(), |value| significant(value, 4)))
             .note("3 for a normal distribution"),

@@ -10,7 +10,7 @@ use crate::bearing::Race;
 use crate::formats::MeasuredSignal;
 use crate::numerics::Watch;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
-use crate::report::{Curve, Thinner, significant};
+use crate::report::{Curve, Thinner, quantity, significant};
 use crate::signal::diagnosis::{
     Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict, Kinematics,
     LevelChange, LineChange,
@@ -93,6 +93,33 @@ fn good_to_hz(case: &Case) -> Option<f64> {
     Some(case.band_hz()?[1].min(passed))
 }
 
+/// What of a signal lies in the band of its case.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct BandLevel {
+    /// End of the band, Hz.
+    pub to_hz: f64,
+    /// Root mean square up to there, in the unit of the signal.
+    pub rms: f64,
+}
+
+impl BandLevel {
+    /// Of a window, s; `None` for a signal shorter than the filter.
+    fn of(signal: &TimeSeries, [from, to]: [f64; 2], to_hz: f64) -> Option<Self> {
+        let limited = band_limit(signal, to_hz).ok()?;
+        Some(Self { to_hz, rms: limited.window(from, to).ok()?.rms() })
+    }
+
+    /// In words, where it is another level than that of the whole signal.
+    pub(crate) fn beside(self, rms: f64, unit: &str) -> Option<String> {
+        let [end, level] = [quantity(self.to_hz, "Hz"), significant(self.rms, 3)];
+        (self.rms < SAME_LEVEL * rms)
+            .then(|| format!("{level} {unit} of it up to {end}, the end of the band; no error is estimated above"))
+    }
+}
+
+/// A level in the band over that of the whole signal, above which nothing is said of it: 1 % of the power lies above.
+const SAME_LEVEL: f64 = 0.995;
+
 /// A window of the signal, analysed. JSON results hold all of it but the curves.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct WindowAnalysis {
@@ -110,6 +137,9 @@ pub struct WindowAnalysis {
     pub speed_hz: f64,
     /// Root mean square of the signal, in its unit.
     pub rms: f64,
+    /// The same of what lies in the case's band, in which the error is estimated; absent from measured signals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rms_in_band: Option<BandLevel>,
     /// Largest magnitude, in its unit.
     pub peak: f64,
     /// Kurtosis (3 for a normal distribution); `None` for a constant signal.
@@ -245,6 +275,7 @@ pub fn analyse(
                 to,
                 speed_hz,
                 rms: part.rms(),
+                rms_in_band: settings.good_to_hz.and_then(|hz| BandLevel::of(&stretch, [from, to], hz)),
                 peak: part.peak(),
                 kurtosis: part.kurtosis(),
                 shown: [thinned(sensor, &part), thinned("envelope", &envelope.window(from, to)?)],
@@ -286,13 +317,16 @@ fn lines(
         return Ok((Vec::new(), false));
     }
     let shaft_hz = diagnosis.map_or(speed_hz, |found| found.speed_hz);
-    // a part that is named has more harmonics, and its own order
+    // a part whose lines stand out has more harmonics, and its own order
+    let stands_out =
+        |verdict: &&FaultVerdict| verdict.conclusion != Conclusion::NotSeen && verdict.false_alarm.is_some();
     let known = [Fault::OuterRace, Fault::InnerRace, Fault::Ball].into_iter().filter_map(|fault| {
         let order = orders.order(fault)?;
-        let named = diagnosis.into_iter().flat_map(Diagnosis::named).find(|verdict| verdict.fault == fault);
-        let last = named.and_then(|verdict| verdict.harmonics.last());
+        let verdicts = diagnosis.into_iter().flat_map(|found| &found.faults);
+        let seen = verdicts.filter(stands_out).find(|verdict| verdict.fault == fault);
+        let last = seen.and_then(|verdict| verdict.harmonics.last());
         let harmonics = last.map_or(HARMONICS, |last| last.harmonic.max(HARMONICS));
-        let own = named.filter(|verdict| verdict.cage_lines.is_none()).and_then(|verdict| verdict.order);
+        let own = seen.filter(|verdict| verdict.cage_lines.is_none()).and_then(|verdict| verdict.order);
         Some((fault.name(), order, own.unwrap_or(order), harmonics))
     });
     let mut lines = Vec::new();
@@ -406,7 +440,7 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, bool, String)> {
             (true, play) => {
                 let (play, weights) = (play?, ball_weights(case).filter(|weights| *weights >= STRIKING_LOAD)?);
                 format!(
-                    "This cannot be told from damage: {play}, and shaft and loads weigh up to {} times a ball. Compare with a run without the damage (--baseline).",
+                    "Its lines cannot be told from those of play: {play}, and shaft and loads weigh up to {} times a ball. Only a comparison with a run without the damage tells (--baseline).",
                     significant(weights, 2)
                 )
             }

@@ -46,7 +46,7 @@ pub struct PlotOf {
 
 /// The figures of a result: the content of `run.json` or `modes.json`.
 ///
-/// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `peak`, `kurtosis`, the amplitudes of the parts'
+/// Of a run: for each sensor and window k (from 1) `SENSOR.k.speed_hz`, `rms`, `rms_in_band`, `peak`, `kurtosis`, the amplitudes of the parts'
 /// lines in the envelope (`BPFO.1` to `FTF.3`), `verdict` and `reason` as `plummer analyze` words them; the estimated error, the
 /// equilibrium's shaft position and largest force, times. Of modes: mass, frequencies `frequency.k`, and `loaded.k` where
 /// contacts are linearised.
@@ -95,6 +95,9 @@ fn of_run(result: &Value, fixed: bool) -> Vec<Output> {
     outputs
 }
 
+/// Level of a window up to the end of the case's band, in which the error is estimated.
+const IN_BAND: &str = "rms_in_band";
+
 fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
     let verdict = &window["verdict"];
     let named = named(verdict);
@@ -102,13 +105,15 @@ fn of_window(window: &Value, name: &str, title: &str) -> Vec<Output> {
     let mut outputs = vec![speed];
     for (key, label, unit, axis) in [
         ("rms", "RMS", "m/s^2", "Root mean square"),
+        (IN_BAND, "RMS in the band", "m/s^2", "Root mean square in the band"),
         ("peak", "peak", "m/s^2", "Peak"),
         ("kurtosis", "kurtosis", "", "Kurtosis"),
     ] {
         let plot = PlotOf { title: axis.to_owned(), axis, curve: title.to_owned() };
-        let output = Output::number(format!("{name}.{key}"), label, unit, &window[key]);
+        let value = if key == IN_BAND { &window[key]["rms"] } else { &window[key] };
+        let output = Output::number(format!("{name}.{key}"), label, unit, value);
         // a table with all of them is too wide for a page
-        let table = (key == "rms").then(|| title.to_owned());
+        let table = (key == IN_BAND).then(|| title.to_owned());
         outputs.push(Output { plot: Some(plot), table, indicated: !named.is_empty(), ..output });
     }
     // that of a whitened signal has no unit
@@ -228,7 +233,7 @@ mod tests {
         assert_eq!(value("estimated_error"), Some(Value::Null));
         let output = |name: &str| found.iter().find(|output| output.name == name).unwrap();
         assert!(output("P_1.1.2xBSF.1").indicated && !output("P_1.1.BPFI.1").indicated);
-        assert_eq!(output("top.1.rms").table.as_deref(), Some("top, 0.5 to 1.5 s"));
+        assert_eq!(output("top.1.rms_in_band").table.as_deref(), Some("top, 0.5 to 1.5 s"));
         let varied = of_run(&result, false);
         assert_eq!(varied[1].table.as_deref(), Some("P 1, window 1"));
     }

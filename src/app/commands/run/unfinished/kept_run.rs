@@ -94,7 +94,8 @@ impl UnfinishedRun {
         Ok(Self { resumed: Some(checkpoint), ..Self::begin(folder, identity) })
     }
 
-    /// Removes what the folder has, the checkpoint first: the run has ended and its results are written, or another begins.
+    /// Removes what a run keeps in the folder, the checkpoint first: it has ended and its results are written, or another begins.
+    /// Files of others stay, and the folder with them.
     ///
     /// # Errors
     /// [`ComputeError`] when the system refuses.
@@ -102,8 +103,20 @@ impl UnfinishedRun {
         let folder = &self.folder;
         files::no_link(folder).map_err(of_folder(folder))?;
         files::remove(&folder.join(FILE)).map_err(of_folder(folder))?;
-        if folder.exists() {
-            fs::remove_dir_all(folder).map_err(of_folder(folder))?;
+        let own = |path: &Path| {
+            path.is_file() && path.extension().is_some_and(|ending| ending == "f64" || ending == "partial")
+        };
+        let mut is_empty = true;
+        for entry in fs::read_dir(folder).into_iter().flatten() {
+            let path = entry.map_err(of_folder(folder))?.path();
+            if own(&path) {
+                fs::remove_file(&path).map_err(of_folder(folder))?;
+            } else {
+                is_empty = false;
+            }
+        }
+        if is_empty && folder.exists() {
+            fs::remove_dir(folder).map_err(of_folder(folder))?;
         }
         Ok(())
     }
