@@ -107,7 +107,7 @@ fn strikes_of_balls_that_enter_a_large_load_are_no_verdict() {
         assert!(headline.starts_with("not enough evidence: outer race"), "{headline}");
     };
     let sound = "The case has no damage there, and the play is 2.5 µm";
-    let hidden = "This cannot be told from damage: the play is 2.5 µm";
+    let hidden = "Its lines cannot be told from those of play: the play is 2.5 µm";
     told("healthy", &set, sound);
     told("outer-dent", &set, hidden);
     // a shaft that is as heavy itself is such a load
