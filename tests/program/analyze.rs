@@ -511,7 +511,9 @@ fn many_files_are_one_table() {
     assert!(report.contains("plummer analyze b.csv a.csv --orders"), "the command line");
     assert!(report.contains("a.csv: P1, 0 to 0.5 s"));
     let first = fs::read_to_string(out.join("tables/analysis-2-verdicts.csv")).unwrap();
-    assert_eq!(first, fs::read_to_string(out.join("analysis.csv")).unwrap());
+    let start = "File,Channel,Window,Speed [Hz],RMS,Kurtosis,Verdict,Reason\r\nb.csv,P1,0 to 0.5 s,25,0.213,";
+    assert!(first.starts_with(start), "{first}");
+    assert_eq!(first.lines().count(), 7, "{first}");
     // whatever the number of threads
     let same = |threads| {
         let output = analyze(&["b.csv", "a.csv", "b.csv"], &["--force", "--json", "--threads", threads]);

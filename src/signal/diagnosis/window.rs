@@ -221,24 +221,22 @@ impl Diagnosis {
         }
     }
 
-    /// The strongest thing that is said of any judged part, and of which parts. Sound parts decide only where races and balls
-    /// are all judged; the cage turns so slowly that most windows are too short for it.
+    /// The strongest thing that is said of any part, and of which parts; `None` where none could be judged. A race or ball that
+    /// could not be judged counts as not enough evidence; the cage turns so slowly that most windows are too short for it.
     fn decisive(&self) -> Option<(Conclusion, Vec<&FaultVerdict>)> {
         let is_judged = |verdict: &FaultVerdict| verdict.false_alarm.is_some();
-        let all = [Conclusion::Named, Conclusion::NotEnough, Conclusion::NotSeen];
-        let found = all.into_iter().find_map(|conclusion| {
-            let parts = self.faults.iter().filter(|verdict| verdict.conclusion == conclusion && is_judged(verdict));
-            let parts: Vec<&FaultVerdict> = parts.collect();
-            (!parts.is_empty()).then_some((conclusion, parts))
-        });
-        let open = |verdict: &&FaultVerdict| {
-            !is_judged(verdict) && verdict.conclusion == Conclusion::NotEnough && verdict.fault != Fault::Cage
-        };
-        let open: Vec<&FaultVerdict> = self.faults.iter().filter(open).collect();
-        match found {
-            Some((Conclusion::NotSeen, _)) if !open.is_empty() => Some((Conclusion::NotEnough, open)),
-            found => found,
+        if !self.faults.iter().any(is_judged) {
+            return None;
         }
+        let all = [Conclusion::Named, Conclusion::NotEnough, Conclusion::NotSeen];
+        all.into_iter().find_map(|conclusion| {
+            let counts = |verdict: &&FaultVerdict| {
+                let is_open = conclusion == Conclusion::NotEnough && verdict.fault != Fault::Cage;
+                verdict.conclusion == conclusion && (is_judged(verdict) || is_open)
+            };
+            let parts: Vec<&FaultVerdict> = self.faults.iter().filter(counts).collect();
+            (!parts.is_empty()).then_some((conclusion, parts))
+        })
     }
 
     /// The verdict in a line.

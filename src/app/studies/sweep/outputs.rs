@@ -235,7 +235,7 @@ mod tests {
         assert!(output("P_1.1.2xBSF.1").indicated && !output("P_1.1.BPFI.1").indicated);
         assert_eq!(output("top.1.rms_in_band").table.as_deref(), Some("top, 0.5 to 1.5 s"));
         let varied = of_run(&result, false);
-        assert_eq!(varied[1].table.as_deref(), Some("P 1, window 1"));
+        assert_eq!(varied[2].table.as_deref(), Some("P 1, window 1"));
     }
 
     #[test]
