@@ -277,9 +277,9 @@ fn name(line: &[u8]) -> Option<Name> {
     let (numbers, quoted) = text.split_once('"')?;
     let (name, _) = quoted.rsplit_once('"')?;
     let numbers = numbers.split_ascii_whitespace().map(|number| number.parse().ok()).collect::<Option<Vec<i32>>>()?;
-    let (dimension, tag) = match numbers.as_slice() {
-        &[tag] => (-1, tag),
-        &[dimension, tag] => (dimension, tag),
+    let (dimension, tag) = match *numbers.as_slice() {
+        [tag] => (-1, tag),
+        [dimension, tag] => (dimension, tag),
         _ => return None,
     };
     let dimension = match dimension {
