@@ -529,8 +529,13 @@ fn many_files_are_one_table() {
     assert_eq!(parts.status.code(), Some(2));
     assert!(errors(&parts).contains("\n  a.csv: expected a channel \"P2\", found \"P1\"\n"), "{}", errors(&parts));
     let found: Vec<String> = rows(&out).iter().map(|row| format!("{} {} {}", row[0], row[1], row[8])).collect();
-    let expected =
-        ["a.csv P2 not analysed", "a.csv P1 outer race", "b.csv P1 outer race", "b.csv P2 none", "a.xyz  not analysed"];
+    let expected = [
+        "a.csv P2 not analysed",
+        "a.csv P1 fault indicated: outer race",
+        "b.csv P1 fault indicated: outer race",
+        "b.csv P2 not enough evidence: inner race",
+        "a.xyz  not analysed",
+    ];
     assert_eq!(found, expected);
     // more than a report shows
     let many = analyze(&["a.csv"; 13], &["--force", "--window", "0:0.5"]);
