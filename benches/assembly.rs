@@ -78,6 +78,7 @@ fn tet_box(cells: usize) -> Mesh {
         nodes,
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("box of tetrahedra"),
+        remarks: Vec::new(),
     }
 }
 

@@ -122,6 +122,7 @@ impl Beam {
             groups: vec![group],
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: "cantilever".into(),
+            remarks: Vec::new(),
         }
     }
 

@@ -31,11 +31,17 @@ impl Grids {
         })
     }
 
-    /// Adds an element of gmsh's type `kind`, its nodes counted from 1.
+    /// Adds an element of gmsh's type `kind`, its nodes counted from 1; each group is one entity.
     pub fn element(&mut self, kind: usize, dimension: usize, name: &str, nodes: &[usize]) {
+        let entity = self.group(dimension, name);
+        self.element_on(entity, kind, dimension, name, nodes);
+    }
+
+    /// The same on an entity of this tag.
+    pub fn element_on(&mut self, entity: usize, kind: usize, dimension: usize, name: &str, nodes: &[usize]) {
         let group = self.group(dimension, name);
         let nodes: Vec<String> = nodes.iter().map(usize::to_string).collect();
-        self.elements.push(format!("{kind} 2 {group} {group} {}", nodes.join(" ")));
+        self.elements.push(format!("{kind} 2 {group} {entity} {}", nodes.join(" ")));
     }
 
     /// The node at a place, an old one if `merge` and there is one.

@@ -10,6 +10,7 @@ mod attacks;
 mod bodies;
 mod disk;
 mod doubled;
+mod folded;
 mod grids;
 mod impossible;
 mod kills;

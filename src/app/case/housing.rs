@@ -42,6 +42,9 @@ pub struct Housing {
     /// Whether bodies may lie in one another.
     #[serde(skip_serializing_if = "is_refused")]
     pub overlap: OverlapRule,
+    /// Whether folded elements of second order get straight edges.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub straighten: bool,
 }
 
 fn is_refused(rule: &OverlapRule) -> bool {
@@ -264,12 +267,13 @@ struct SourceForm {
     links: Option<Vec<Link>>,
     /// Whether bodies may lie in one another; refused unless "allow".
     overlap: Option<OverlapRule>,
+    /// Whether folded elements of second order get straight edges; they are refused unless true.
+    straighten: Option<bool>,
 }
 
 read_as!(HousingSource, SourceForm, |form| {
     if let Some(path) = form.superelement {
-        let of_mesh =
-            given!(form: mesh, length_unit, plane, integration, linear, parts, supports, masses, links, overlap);
+        let of_mesh = given!(form: mesh, length_unit, plane, integration, linear, parts, supports, masses, links, overlap, straighten);
         none_beside(&of_mesh, "`superelement`", "`superelement` alone, or `mesh` with its keys")?;
         return Ok(Self::Superelement(path));
     }
@@ -286,6 +290,7 @@ read_as!(HousingSource, SourceForm, |form| {
         masses: form.masses.unwrap_or_default(),
         links: form.links.unwrap_or_default(),
         overlap: form.overlap.unwrap_or_default(),
+        straighten: form.straighten.unwrap_or_default(),
     })))
 });
 

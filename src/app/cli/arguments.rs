@@ -229,6 +229,9 @@ pub enum Command {
         /// Density in kg/m^3 for the mass (default: those of aluminium and of steel)
         #[arg(long, allow_hyphen_values = true, value_name = "RHO", value_parser = density)]
         density: Option<f64>,
+        /// Give folded elements of second order straight edges, and say which
+        #[arg(long)]
+        straighten: bool,
     },
     /// Compute eigenfrequencies of housing, ring, or both coupled, and compare them with expected ones
     #[command(after_help = MODES_EXAMPLE)]
@@ -327,11 +330,14 @@ pub struct InitArguments {
     /// Deep groove ball bearing of the catalogue (default: one whose outer diameter is the bore's within 1 %)
     #[arg(long, value_name = "NAME")]
     pub bearing: Option<String>,
+    /// Give folded elements of second order straight edges, here and in the case
+    #[arg(long)]
+    pub straighten: bool,
     /// List the bearings of the catalogue with their dimensions and sources
-    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing"])]
+    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing", "straighten"])]
     pub list_bearings: bool,
     /// List the materials that a case may name, with their ranges and sources
-    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing", "list_bearings"])]
+    #[arg(long, conflicts_with_all = ["mesh", "length_unit", "bearing", "straighten", "list_bearings"])]
     pub list_materials: bool,
 }
 

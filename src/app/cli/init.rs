@@ -30,8 +30,14 @@ pub(crate) fn init(asked: &InitArguments, options: &Options) -> Result<Outcome, 
     let folder = folder.unwrap_or(Path::new("."));
     let mesh_in_case = path_from(folder, mesh);
     let title = case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let request =
-        DraftRequest { mesh, mesh_in_case: &mesh_in_case, title: &title, length_unit: asked.length_unit, bearing };
+    let request = DraftRequest {
+        mesh,
+        mesh_in_case: &mesh_in_case,
+        title: &title,
+        length_unit: asked.length_unit,
+        bearing,
+        straighten: asked.straighten,
+    };
     let (mut draft, inspection) = Draft::of_mesh(request)?;
     let left_out = asked.bearing.as_deref().and_then(CatalogueBearing::left_out);
     draft.findings.extend(left_out.map(|parts| format!("Nothing is taken from {parts} of --bearing.")));

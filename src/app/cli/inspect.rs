@@ -17,6 +17,9 @@ use crate::report::{counted, mass_in_words, significant, size_in_words};
 /// Densities (kg/m^3) for which the mass is shown when none is asked for.
 const DENSITIES: [(f64, &str); 2] = [(2700.0, "of aluminium"), (7850.0, "of steel")];
 
+/// What to do with a mesh of surfaces in space.
+pub(super) const SHELLS: &str = "mesh the volume (gmsh FILE.geo -3 -o FILE.msh), or draw a plane model in x and y";
+
 /// Inspects a mesh, or that of a case; writes `inspect.json` if a folder was named with `--out`.
 ///
 /// # Errors
@@ -25,6 +28,7 @@ pub(crate) fn inspect(
     path: &Path,
     unit: Option<LengthUnit>,
     density: Option<f64>,
+    straight: bool,
     options: &Options,
 ) -> Result<Outcome, CliError> {
     let started = std::time::Instant::now();
@@ -38,7 +42,8 @@ pub(crate) fn inspect(
     let housing = housing.transpose()?;
     let path = housing.map_or(path, |housing| &housing.mesh);
     let unit = unit.or(housing.map(|housing| housing.length_unit));
-    let found = Inspection::of_file(path, unit).map_err(ComputeError::from)?;
+    let straight = straight || housing.is_some_and(|housing| housing.straighten);
+    let found = Inspection::of_file(path, unit, straight).map_err(ComputeError::from)?;
     let result = json(&InspectResult {
         plummer: VERSION,
         command: "inspect",
@@ -58,8 +63,14 @@ pub(crate) fn inspect(
     Ok(Outcome { summary: summary(path, &found, density), result, written, verdict: verdict(&found) })
 }
 
-/// A mesh is good unless elements of it are folded or count twice.
+/// A mesh is good unless it is of shells, or elements of it are folded or count twice.
 pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
+    if found.shells {
+        return Err(CliError::input(
+            "the mesh is of surfaces that do not lie in a plane z = const, and shells are not modelled",
+        )
+        .with_help(SHELLS));
+    }
     let overlapping: Vec<String> = found.overlapping.iter().map(|overlap| overlap.sentence()).collect();
     let (what, help) = match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
         (None, None, None) if overlapping.is_empty() => return Ok(()),
@@ -80,7 +91,15 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
                 counted(found.invalid_elements, "element"),
                 first.tag
             ),
-            "mesh again, or look at them in gmsh (Tools, Visibility)",
+            match found.folded_elements {
+                0 => "mesh again, or look at them in gmsh (Tools, Visibility)",
+                count if count < found.invalid_elements => {
+                    "--straighten (housing.straighten = true in a case) gives some of them straight edges; mesh again for the others"
+                }
+                _ => {
+                    "--straighten (housing.straighten = true in a case) gives them straight edges; or mesh again, finer where the surface is curved"
+                }
+            },
         ),
     };
     Err(CliError::failed(what).with_help(help))
@@ -117,6 +136,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if let Some(told) = found.length_unit.and_then(|unit| size_doubt(extent, unit, "--length-unit")) {
         line("warning", told);
     }
+    found.remarks.iter().for_each(|remark| line("note", remark.clone()));
     if let Some(worst) = &found.worst {
         let [x, y, z] = worst.shape.position.map(|at| significant(at, 5));
         let shape = format!(

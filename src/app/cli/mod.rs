@@ -136,7 +136,9 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Verify { full } => verify::verify(*full, options),
         Command::Schema { results } => return emit(to, &format!("{:#}", schema::schema(*results))),
         Command::Init(asked) => init::init(asked, options),
-        Command::Inspect { mesh, length_unit, density } => inspect::inspect(mesh, *length_unit, *density, options),
+        Command::Inspect { mesh, length_unit, density, straighten } => {
+            inspect::inspect(mesh, *length_unit, *density, *straighten, options)
+        }
     }?;
     outcome.show(options, to)?;
     outcome.verdict

@@ -2,7 +2,7 @@
 
 use crate::fe::element::continuum::{ShapeQuality, measure, quality, surface_weights};
 use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
-use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching};
+use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, folds, straighten};
 use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -58,6 +58,8 @@ pub struct InspectResult<'a> {
 pub struct Inspection {
     /// Unit of the file's coordinates; `None`: not given, one unit was taken as 1 m.
     pub length_unit: Option<LengthUnit>,
+    /// What of the file was changed or left out, a sentence each.
+    pub remarks: Vec<String>,
     /// Counts, groups, extent, and what hangs in the air.
     #[serde(flatten)]
     pub inventory: Inventory,
@@ -69,8 +71,12 @@ pub struct Inspection {
     pub worst: Option<ElementShape>,
     /// Number of elements that are inverted, folded or without size.
     pub invalid_elements: usize,
-    /// The first of them.
+    /// Number of those that straight edges mend.
+    pub folded_elements: usize,
+    /// The first of the invalid elements.
     pub invalid: Vec<ElementShape>,
+    /// The elements are plane and do not lie in one plane z = const, which no command takes.
+    pub shells: bool,
     /// Elements of the highest dimension on the corners of another one.
     pub doubled: Option<Doubled>,
     /// Edges on which elements of the highest dimension do not have the same middle node.
@@ -84,12 +90,16 @@ pub struct Inspection {
 }
 
 impl Inspection {
-    /// Reads a mesh and looks at it; without a unit its coordinates are taken as metres.
+    /// Reads a mesh, straightens its folded elements where that is wanted, and looks at it; without a unit its coordinates
+    /// are taken as metres.
     ///
     /// # Errors
     /// [`MeshError`] if it cannot be read.
-    pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
-        let mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+    pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>, straight: bool) -> Result<Self, MeshError> {
+        let mut mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+        if straight {
+            straighten(&mut mesh);
+        }
         Ok(Self::of_mesh(&mesh, unit))
     }
 
@@ -114,7 +124,10 @@ impl Inspection {
             group_sizes: group_sizes.collect(),
             worst: None,
             invalid_elements: 0,
+            folded_elements: 0,
             invalid: Vec::new(),
+            shells: dimension == 2 && mesh.node_off_plane().is_some(),
+            remarks: mesh.remarks.clone(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
             crossing,
@@ -122,7 +135,9 @@ impl Inspection {
             touching,
             inventory,
         };
-        ids().for_each(|id| found.look_at(mesh, id));
+        if !found.shells {
+            ids().for_each(|id| found.look_at(mesh, id));
+        }
         found
     }
 
@@ -136,6 +151,7 @@ impl Inspection {
         let shape = ElementShape { tag: block.tags[id.index], kind, shape };
         if measure(kind, &coordinates(mesh, id)).is_err() {
             self.invalid_elements += 1;
+            self.folded_elements += usize::from(folds(mesh, id));
             if self.invalid.len() < LISTED {
                 self.invalid.push(shape.clone());
             }

@@ -6,7 +6,7 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare, straighten,
 };
 use crate::files::{self, FileDigest};
 use crate::numerics::Watch;
@@ -34,7 +34,7 @@ impl AssembledHousing {
             return Ok(None);
         };
         watch.stage("read");
-        let mesh = read_mesh(housing, watch)?;
+        let mesh = read_mesh(housing, &housing.mesh, watch)?;
         let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
         case.check_groups(&groups)?;
         watch.stage("assemble");
@@ -131,15 +131,18 @@ impl From<&FileDigest> for MeshFile {
     }
 }
 
-/// Reads the mesh of a housing and tells which content it had.
+/// Reads the mesh of a housing, or `path` in its place, as the housing asks for, and tells which content it had.
 ///
 /// # Errors
 /// [`ComputeError::Mesh`].
-pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
-    let path = &housing.mesh;
-    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
+pub(crate) fn read_mesh(housing: &Housing, path: &Path, watch: &impl Watch) -> Result<Mesh, ComputeError> {
+    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.to_owned(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
-    Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
+    let mut mesh = Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?;
+    if housing.straighten {
+        straighten(&mut mesh);
+    }
+    Ok(mesh)
 }
 
 /// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a

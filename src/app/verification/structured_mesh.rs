@@ -121,5 +121,6 @@ fn mesh(kind: ElementKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> Me
         nodes,
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: "structured grid".into(),
+        remarks: Vec::new(),
     }
 }

@@ -5,6 +5,7 @@
 use super::{ElementKind, MeshError};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -23,6 +24,8 @@ pub struct Mesh {
     pub format: MshFormat,
     /// The file that it was read from.
     pub source: PathBuf,
+    /// What of the file was changed or left out, a sentence each; results say it.
+    pub remarks: Vec<String>,
 }
 
 /// A geometrical entity of the CAD model behind the mesh.
@@ -213,34 +216,40 @@ impl Mesh {
 const PLANE: f64 = 1e-9;
 
 impl Mesh {
-    /// Turns the elements of each physical group of a plane mesh whose elements all run clockwise, and those of no group
-    /// if these all do: gmsh makes such surfaces where their curves were drawn clockwise or extruded backwards. A group
-    /// of both kinds stays as it is.
+    /// Turns the plane elements that run clockwise, as far as all elements that share their surface and their first
+    /// physical group do, and remarks it: gmsh makes such surfaces where their curves were drawn clockwise or extruded
+    /// backwards. Where elements of one surface run both ways, some are folded, and all stay as they are.
     pub(super) fn turn_clockwise(&mut self) {
         if self.dimension() != 2 || self.node_off_plane().is_some() {
             return;
         }
-        let (mut grouped, mut turned) = (self.for_each_element(false), self.for_each_element(false));
-        let mut turn = |ids: &[ElementId]| {
-            if ids.iter().all(|&id| self.signed_area(id) < 0.0) {
-                ids.iter().for_each(|id| turned[id.block][id.index] = true);
+        let mut first_group = self.for_each_element(None);
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| group.dimension == 2) {
+            for id in &group.elements {
+                first_group[id.block][id.index].get_or_insert(number);
             }
+        }
+        let together = |id: ElementId| (self.blocks[id.block].entity, first_group[id.block][id.index]);
+        let mut all_clockwise = BTreeMap::new();
+        for id in self.element_ids(2) {
+            *all_clockwise.entry(together(id)).or_insert(true) &= self.signed_area(id) < 0.0;
+        }
+        let turned: Vec<ElementId> = self.element_ids(2).filter(|&id| all_clockwise[&together(id)]).collect();
+        let Some(first) = turned.first().map(|id| self.blocks[id.block].tags[id.index]) else {
+            return;
         };
-        for group in self.groups.iter().filter(|group| group.dimension == 2) {
-            group.elements.iter().for_each(|id| grouped[id.block][id.index] = true);
-            turn(&group.elements);
+        for id in &turned {
+            let ElementBlock { kind, connectivity, .. } = &mut self.blocks[id.block];
+            let nodes = &mut connectivity[id.index * kind.nodes()..][..kind.nodes()];
+            // from the first corner on the other way round; a node in the middle of the face stays the last
+            let (corners, middles) = nodes.split_at_mut(kind.corners());
+            corners[1..].reverse();
+            middles[..kind.middle_edges().len()].reverse();
         }
-        let alone = self.element_ids(2).filter(|id| !grouped[id.block][id.index]);
-        turn(&alone.collect::<Vec<_>>());
-        for (block, turned) in self.blocks.iter_mut().zip(turned) {
-            let elements = block.connectivity.chunks_exact_mut(block.kind.nodes());
-            for (nodes, _) in elements.zip(turned).filter(|(_, turned)| *turned) {
-                // from the first corner on the other way round
-                let (corners, middles) = nodes.split_at_mut(block.kind.corners());
-                corners[1..].reverse();
-                middles.reverse();
-            }
-        }
+        self.remarks.push(format!(
+            "{} elements of the plane mesh ran clockwise and were turned round, the first is element {first}",
+            turned.len()
+        ));
     }
 
     /// The first node that is off the plane z = const of the others, if there is one.

@@ -36,6 +36,7 @@ impl Cells {
                 groups: Vec::new(),
                 format: MshFormat { version: MshVersion::V41, binary: false },
                 source: PathBuf::from("cells.msh"),
+                remarks: Vec::new(),
             },
         }
     }

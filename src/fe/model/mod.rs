@@ -13,6 +13,7 @@ mod ring;
 mod section_springs;
 mod solid_ring;
 mod spread;
+mod straighten;
 mod support;
 mod surface;
 mod tie;
@@ -25,6 +26,7 @@ pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, Overla
 pub use parts::{HousingElement, HousingElements, HousingPart};
 pub use ring::{RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};
 pub use solid_ring::{MeshedRing, SolidRing};
+pub(crate) use straighten::{folds, straighten};
 pub use support::{Connection, Constraint, HousingSupport, Link, PointMass, SpringStiffness, SupportShare};
 pub(crate) use support::{NodalMatrix, NodalSource};
 pub use tie::{Fit, HousingPartition, NodeInterface, RingTie};

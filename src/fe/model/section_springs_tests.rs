@@ -44,6 +44,7 @@ fn solid(dimension: usize, around: usize, frame: RingFrame) -> (MeshedRing, Hous
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("ring"),
+        remarks: Vec::new(),
     };
     let solid = SolidRing { radius: RADIUS, height: SIDES[0], width: SIDES[1], around, across: 2, along: 2 };
     let solid = solid.added_to(&nothing, &frame, dimension);

@@ -13,6 +13,7 @@ fn empty() -> Mesh {
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("ring"),
+        remarks: Vec::new(),
     }
 }
 

@@ -213,6 +213,7 @@ mod tests {
             groups: Vec::new(),
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: PathBuf::from("face"),
+            remarks: Vec::new(),
         }
     }
 

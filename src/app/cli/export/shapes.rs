@@ -140,7 +140,15 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
     let (node_tags, entity) = (tags.clone(), Entity { dimension: 1, tag: 1 });
     let line = ElementBlock { kind: ElementKind::Line2, tags, connectivity: ends.collect(), entity };
     let format = MshFormat { version: MshVersion::V41, binary: false };
-    Mesh { node_tags, blocks: vec![line], nodes, groups: Vec::new(), format, source: PathBuf::new() }
+    Mesh {
+        node_tags,
+        blocks: vec![line],
+        nodes,
+        groups: Vec::new(),
+        format,
+        source: PathBuf::new(),
+        remarks: Vec::new(),
+    }
 }
 
 /// Shapes at those nodes of a mesh that its elements use, with their labels.

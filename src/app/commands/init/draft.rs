@@ -14,6 +14,7 @@ use super::text::{case_text, findings};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
 use crate::fe::mesh::Mesh;
+use crate::fe::model::straighten;
 use crate::numerics::units::LengthUnit;
 
 /// A case file, and what it was made from.
@@ -44,7 +45,10 @@ impl Draft {
     /// # Errors
     /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
     pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
-        let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
+        let mut mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
+        if request.straighten {
+            straighten(&mut mesh);
+        }
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mesh, &inspection)?;
         let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
@@ -53,7 +57,8 @@ impl Draft {
             length_unit: found.unit,
             bearing: found.bearing.map(|numbers| numbers.bearing.name),
             parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
-            findings: findings(&found),
+            findings: [findings(&found), mesh.remarks.iter().map(|remark| format!("Mesh: {remark}.")).collect()]
+                .concat(),
             text,
             bore: found.bore,
             other_holes: found.holes,

@@ -31,6 +31,8 @@ pub struct DraftRequest<'a> {
     pub length_unit: Option<LengthUnit>,
     /// The bearing, if it is known.
     pub bearing: Option<&'static CatalogueBearing>,
+    /// Whether folded elements of second order get straight edges.
+    pub straighten: bool,
 }
 
 /// A group that lies on a cylinder, in m.
@@ -98,7 +100,7 @@ pub(crate) fn find<'a>(
     }
     let extent = inventory.bounding_box.extent();
     let plane = dimension == 2;
-    if plane && extent[2] > 1e-9 * inventory.bounding_box.diagonal() {
+    if inspection.shells {
         return Err(wrong(
             format!(
                 "found a mesh of surfaces that reach over {} units of length along z, expected one in a plane z = const, or volumes",

@@ -243,6 +243,7 @@ impl<W: Watch> Tied<'_, W> {
             groups: Vec::new(),
             format: self.housing.mesh.format,
             source: "solid ring".into(),
+            remarks: Vec::new(),
         };
         let meshed = body.ring.added_to(&nothing, frame, if in_space { 3 } else { 2 });
         let description = HousingDescription {

@@ -205,7 +205,7 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
         let (cause, remedy) = match D {
             2 => (
                 "its nodes run clockwise",
-                "reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)",
+                "turn it in gmsh (a surface of the mesh whose elements all run so is turned)",
             ),
             _ => ("its nodes are numbered inside out", "the mesh was mirrored or the node order is not gmsh's"),
         };
@@ -219,8 +219,12 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
         [xi, eta, _] if D == 2 => format!("({xi:.3}, {eta:.3})"),
         [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
     };
+    let way = match placed.straight {
+        true => "",
+        false => "; housing.straighten = true gives folded elements of second order straight edges",
+    };
     ElementError(format!(
-        "the {name} element is degenerate or folded: Jacobian determinant {} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere",
+        "the {name} element is degenerate or folded: Jacobian determinant {} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere{way}",
         Brief(low),
         place(low_at)
     ))

@@ -18,7 +18,7 @@ impl Mesh {
     /// An entity may belong to several physical groups; a group without a name is called by its tag.
     /// Parts of a partitioned mesh become one mesh; what lies between them is left out.
     /// Elements that MSH 2.2 repeats for every group of their entity become one element of all of them.
-    /// Groups of a plane mesh whose elements all run clockwise are turned.
+    /// Surfaces of a plane mesh whose elements all run clockwise are turned.
     ///
     /// # Errors
     /// [`MeshError::Read`] if the file cannot be read, [`MeshError::Gmsh`] with section, place, what was
@@ -126,7 +126,15 @@ impl Found {
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
         let source = path.to_path_buf();
-        Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format: self.format, source })
+        Ok(Mesh {
+            nodes: nodes.coordinates,
+            node_tags: nodes.tags,
+            blocks,
+            groups,
+            format: self.format,
+            source,
+            remarks: Vec::new(),
+        })
     }
 }
 

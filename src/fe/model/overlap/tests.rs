@@ -15,6 +15,7 @@ fn empty() -> Mesh {
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: "bodies.msh".into(),
+        remarks: Vec::new(),
     }
 }
 
