@@ -8,9 +8,11 @@
 
 use super::MshError;
 use super::cursor::Cursor;
+use super::entities::one_partition;
 use super::nodes::{check_range, entity, no_elements, not_as_announced, tag_range};
 use super::numbers::{Item, NodeIndex, TagSet};
 use crate::fe::mesh::{ElementBlock, ElementKind, Entity, MshVersion};
+use std::collections::BTreeSet;
 
 /// Elements of MSH 4.
 pub(super) fn read_blocks(
@@ -138,6 +140,8 @@ pub(super) struct Listed {
     pub(super) connectivity: Vec<u32>,
     /// What they are, in the same order.
     pub(super) pieces: Vec<Piece>,
+    /// Partitions that they belong to, as far as the file tells.
+    pub(super) partitions: BTreeSet<i32>,
 }
 
 /// Where an element belongs.
@@ -195,7 +199,12 @@ pub(super) fn read(cursor: &mut Cursor<'_>, nodes: &NodeIndex) -> Result<Listed,
         true => reader.binary(count)?,
         false => reader.ascii(count)?,
     }
-    (count > 0).then_some(reader.listed).ok_or_else(no_elements)
+    let (listed, cursor) = (reader.listed, reader.cursor);
+    let last = listed.partitions.last().copied().unwrap_or(0);
+    if (1..last).any(|partition| !listed.partitions.contains(&partition)) {
+        return Err(one_partition(cursor, &listed.partitions, format_args!("{last} or more")));
+    }
+    (count > 0).then_some(listed).ok_or_else(no_elements)
 }
 
 impl Reader<'_, '_> {
@@ -243,18 +252,22 @@ impl Reader<'_, '_> {
         self.cursor.check_count(what, count, number_bytes)
     }
 
-    /// Tags (group, entity, then partitions, which are of no use here) and nodes.
+    /// Tags (group, entity, number of partitions, the element's own partition) and nodes.
     fn rest_of_element(&mut self, tag: u64, kind: ElementKind, tag_count: usize) -> Result<(), MshError> {
-        let mut tags = [0; 2];
+        let mut tags = [0; 4];
         for position in 0..tag_count {
             let found = self.cursor.int("a tag of an element")?;
             if let Some(slot) = tags.get_mut(position) {
                 *slot = found;
             }
         }
-        let [physical, entity] = tags;
+        let [physical, entity, count, partition] = tags;
+        // MSH 2.0 and 2.1 have the partition alone
+        if tag_count > 3 && count > 0 {
+            self.listed.partitions.insert(partition);
+        }
         let label = Label { kind, entity, physical: physical.saturating_abs() };
-        let Listed { tags, connectivity, pieces } = &mut self.listed;
+        let Listed { tags, connectivity, pieces, .. } = &mut self.listed;
         match pieces.last_mut() {
             Some(piece) if piece.label == label => piece.count += 1,
             _ => pieces.push(Piece { label, first: tags.len(), first_node: connectivity.len(), count: 1 }),

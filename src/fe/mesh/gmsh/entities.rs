@@ -9,6 +9,8 @@ use super::cursor::{Cursor, Encoding};
 use super::nodes;
 use super::numbers::Item;
 use crate::fe::mesh::{ElementBlock, Entity, MshVersion};
+use std::collections::BTreeSet;
+use std::fmt;
 
 /// Entities that belong to physical groups.
 #[derive(Default)]
@@ -113,18 +115,52 @@ pub(super) fn read_partitioned(
     cursor: &mut Cursor<'_>,
     version: MshVersion,
 ) -> Result<Vec<(Entity, Entity)>, MshError> {
-    cursor.size("the number of partitions")?;
+    let partitions = cursor.size("the number of partitions")?;
     for _ in 0..cursor.count("the number of ghost entities", Item::new(0, 2, 0))? {
         cursor.int("the tag of a ghost entity")?;
         cursor.int("its partition")?;
     }
     let mut parts = Vec::new();
+    // partitions in which the highest dimension so far is cut
+    let mut own = BTreeSet::new();
     for (dimension, count) in counts(cursor, version)?.into_iter().enumerate() {
+        if count > 0 {
+            own.clear();
+        }
         for _ in 0..count {
-            walk(cursor, version, dimension, Some(&mut parts))?;
+            walk(cursor, version, dimension, Some((&mut parts, &mut own)))?;
         }
     }
+    if (own.len() as u64) < partitions {
+        return Err(one_partition(cursor, &own, format_args!("{partitions}")));
+    }
     Ok(parts)
+}
+
+/// A file of one partition, which is no whole body.
+pub(super) fn one_partition(cursor: &Cursor<'_>, own: &BTreeSet<i32>, all: fmt::Arguments<'_>) -> MshError {
+    let own: Vec<String> = own.iter().take(5).map(i32::to_string).collect();
+    cursor.fault(format_args!(
+        "the file holds partition {} of {all}, which is not the whole body: expected all of them in one file; save the mesh again with gmsh, without -part_split",
+        own.join(", ")
+    ))
+}
+
+/// Elements of other partitions that touch those of the file: in a file of all partitions each sees its neighbours.
+pub(super) fn read_ghosts(cursor: &mut Cursor<'_>) -> Result<(), MshError> {
+    let (mut owners, mut viewers) = (BTreeSet::new(), BTreeSet::new());
+    let partition = "the partition of a ghost element";
+    for _ in 0..cursor.count("the number of ghost elements", Item::new(2, 2, 0))? {
+        cursor.size("the tag of a ghost element")?;
+        owners.insert(cursor.int(partition)?);
+        for _ in 0..cursor.count("the number of partitions that see it", Item::new(0, 1, 0))? {
+            viewers.insert(cursor.int(partition)?);
+        }
+    }
+    match owners.is_subset(&viewers) {
+        true => Ok(()),
+        false => Err(one_partition(cursor, &viewers, format_args!("a mesh of several"))),
+    }
 }
 
 fn counts(cursor: &mut Cursor<'_>, version: MshVersion) -> Result<[usize; 4], MshError> {
@@ -189,14 +225,17 @@ fn walk(
     cursor: &mut Cursor<'_>,
     version: MshVersion,
     dimension: usize,
-    parts: Option<&mut Vec<(Entity, Entity)>>,
+    parts: Option<(&mut Vec<(Entity, Entity)>, &mut BTreeSet<i32>)>,
 ) -> Result<(i32, Vec<i32>), MshError> {
     const TAG: &str = "the tag of an entity";
     let tag = cursor.int(TAG)?;
-    if let Some(parts) = parts {
+    if let Some((parts, own)) = parts {
         let parent = Entity { dimension: nodes::dimension(cursor)?, tag: cursor.int(TAG)? };
         parts.push((Entity { dimension, tag }, parent));
-        list(cursor, "the number of partitions", "a partition")?;
+        let partitions = list(cursor, "the number of partitions", "a partition")?;
+        if parent.dimension == dimension {
+            own.extend(partitions);
+        }
     }
     for _ in 0..smallest(version, dimension).floats {
         if cursor.float("a coordinate of an entity")?.is_nan() {

@@ -94,6 +94,7 @@ impl Found {
                 let parts = entities::read_partitioned(cursor, version)?;
                 self.entities.get_or_insert_default().add_parts(parts);
             }
+            "GhostElements" if is_4 => entities::read_ghosts(cursor)?,
             "Nodes" if is_4 => once(&mut self.nodes, cursor, |c| nodes::read_blocks(c, version, metres))?,
             "Nodes" | "ParametricNodes" => once(&mut self.nodes, cursor, |c| nodes::read_list(c, metres))?,
             "Elements" => {
@@ -114,6 +115,7 @@ impl Found {
         let nodes = self.nodes.ok_or_else(|| missing("Nodes", hint))?;
         drop(nodes.index);
         let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
+        let mut remarks = Vec::new();
         let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
             Elements::Blocks(mut blocks) => {
                 let entities = self.entities.unwrap_or_default();
@@ -121,7 +123,14 @@ impl Found {
                 let memberships = by_entity(&blocks, &entities, &mut allowance)?;
                 (blocks, memberships)
             }
-            Elements::Listed(listed) => collect_v22::blocks(listed, &mut allowance)?,
+            Elements::Listed(listed) => {
+                if listed.partitions.iter().eq(&[1]) {
+                    remarks.push(
+                        "all elements are of partition 1 of a mesh: if it has others, in files of their own, the body is not whole".to_owned(),
+                    );
+                }
+                collect_v22::blocks(listed, &mut allowance)?
+            }
         };
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
@@ -133,7 +142,7 @@ impl Found {
             groups,
             format: self.format,
             source,
-            remarks: Vec::new(),
+            remarks,
         })
     }
 }

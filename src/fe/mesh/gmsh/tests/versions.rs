@@ -89,6 +89,34 @@ fn parts_of_a_partitioned_mesh_are_joined() -> Result<(), String> {
     Ok(())
 }
 
+/// One file a partition, with the elements of others that touch its own and without them.
+#[test]
+fn one_partition_of_several_is_no_body() -> Result<(), String> {
+    let entities =
+        "$PartitionedEntities\n2\n0\n0 0 1 0\n5 2 1 1 1 0 0 0 1 1 0 1 10 0\n$EndPartitionedEntities\n$Nodes\n";
+    let alone = SMALL.replacen("$Nodes\n", entities, 1).replace("2 1 3 2\n", "2 5 3 2\n");
+    let refused = |text: &str| read(text.as_bytes()).expect_err("half a body");
+    assert!(
+        refused(&alone).contains("the file holds partition 1 of 2, which is not the whole body"),
+        "{}",
+        refused(&alone)
+    );
+    assert!(read(alone.replace("Entities\n2\n0\n", "Entities\n1\n0\n").as_bytes()).is_ok());
+    let ghosts = |lines: &str| format!("{SMALL}$GhostElements\n{lines}$EndGhostElements\n");
+    assert!(read(ghosts("2\n3 1 1 2\n4 2 1 1\n").as_bytes()).is_ok());
+    assert!(refused(&ghosts("1\n4 2 1 1\n")).contains("partition 1 of a mesh of several"));
+    let old = |partition: u32| {
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n\
+             $Elements\n1\n1 3 4 10 1 1 {partition} 1 2 3 4\n$EndElements\n"
+        )
+    };
+    assert!(refused(&old(2)).contains("partition 2 of 2 or more"));
+    let first = read(old(1).as_bytes())?;
+    assert!(first.remarks[0].contains("partition 1 of a mesh"), "{:?}", first.remarks);
+    Ok(())
+}
+
 #[test]
 fn names_of_old_programs_are_read() -> Result<(), String> {
     for (from, to) in [
