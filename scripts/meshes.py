@@ -16,15 +16,16 @@ import tempfile
 
 # what a refusal may say, and what docs/limits.md calls it
 REASONS = {
-    r"MSH 1|\$NOD": "MSH 1.0",
-    r"version 3|MSH 3": "MSH 3",
-    r"\$MeshFormat|no gmsh mesh|not a gmsh": "not a gmsh mesh",
-    r"no \$Nodes|no \$Elements|is the file complete": "no nodes or no elements",
+    r"MSH version 1": "MSH 1.0",
+    r"MSH version 3": "MSH 3",
+    r"not a gmsh mesh": "not a gmsh mesh",
+    r"no \$Nodes|no \$Elements|has no elements": "no nodes or no elements",
+    r"which is not the whole body": "one partition of several",
     r"higher order or special purpose": "order 3 and higher, or a special element",
     r"shells are not modelled": "surfaces in space (shells)",
     r"inverted, folded or without size": "folded elements",
     r"lie on the corners|lie in one another|reaches? into|middle node|count twice": "material counted twice, or cracks",
-    r"occurs a second time|expected every tag once|does not exist|expected .* found": "damaged",
+    r"occurs a second time|does not exist|expected .* found|the file ends": "damaged",
 }
 
 

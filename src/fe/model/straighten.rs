@@ -11,6 +11,9 @@ use std::fmt::Write as _;
 /// Tags that are listed.
 const LISTED: usize = 10;
 
+/// Distance from the straight edge, over the longest edge, up to which a node lies on it: files have nine digits at least.
+const ON_EDGE: f64 = 1e-9;
+
 /// Puts the nodes between the corners of folded second-order elements on straight edges and plane faces, also those of
 /// neighbours that fold by this, until none is left that straight edges mend. What was changed is a remark of the mesh.
 ///
@@ -31,7 +34,7 @@ pub(crate) fn straighten(mesh: &mut Mesh) {
             for (&node, to) in nodes.iter().zip(straight).skip(mesh.blocks[id.block].kind.corners()) {
                 let share = distance(mesh.nodes[node], to) / length;
                 // a node that a neighbour has moved is there already
-                if share > 0.0 {
+                if share > ON_EDGE {
                     mesh.nodes[node] = to;
                     moved.entry(node).or_insert(share);
                 }
