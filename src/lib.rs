@@ -72,7 +72,7 @@
 //!
 //! # Limitations
 //!
-//! Linear elasticity, no shells and no pyramids; MSH 2 and 4; ring sections stay rigid in the bore; shaft, balls and defects in the
+//! Linear elasticity, no shells; MSH 2 and 4; ring sections stay rigid in the bore; shaft, balls and defects in the
 //! bearing's plane; slip prescribed; no lubricant film. All of them: `docs/limits.md`.
 
 pub mod app;

@@ -183,7 +183,7 @@ pub fn write_vtu(
 
 fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fields: &[Field]) -> io::Result<()> {
     let (points, cells) = (grid.nodes.len(), grid.elements.len());
-    let corners: usize = grid.elements.iter().map(|(_, nodes)| nodes.len()).sum();
+    let corners: usize = grid.elements.iter().map(|&(kind, _)| node_order(kind).len()).sum();
     let mut head = Head {
         text: format!(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
@@ -215,8 +215,8 @@ fn write_grid(to: &mut impl Write, grid: &Grid, point_fields: &[Field], cell_fie
     })?;
     array(to, 8 * cells, |to| {
         let mut end = 0;
-        grid.elements.iter().try_for_each(|(_, nodes)| {
-            end += nodes.len() as i64;
+        grid.elements.iter().try_for_each(|&(kind, _)| {
+            end += node_order(kind).len() as i64;
             to.write_all(&end.to_le_bytes())
         })
     })?;
@@ -244,12 +244,14 @@ fn array<W: Write>(
     encoder.finish().map(|_| ())
 }
 
-const SAME: [usize; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19];
+const SAME: [usize; 9] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
 const TET10: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8];
-const HEX20: [usize; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15];
-const WEDGE15: [usize; 15] = [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11];
+const HEX27: [usize; 27] =
+    [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26];
+const WEDGE18: [usize; 18] = [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16];
+const PYRAMID13: [usize; 13] = [0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12];
 
-/// VTK's number of a cell type (`vtkCellType.h`).
+/// VTK's number of a cell type (`vtkCellType.h`). It has no pyramid of 14 nodes: that of 13 leaves the centre of the base out.
 pub(super) fn cell_type(kind: ElementKind) -> u8 {
     match kind {
         ElementKind::Point => 1,
@@ -259,21 +261,28 @@ pub(super) fn cell_type(kind: ElementKind) -> u8 {
         ElementKind::Tri6 => 22,
         ElementKind::Quad4 => 9,
         ElementKind::Quad8 => 23,
+        ElementKind::Quad9 => 28,
         ElementKind::Tet4 => 10,
         ElementKind::Tet10 => 24,
         ElementKind::Hex8 => 12,
         ElementKind::Hex20 => 25,
+        ElementKind::Hex27 => 29,
         ElementKind::Wedge6 => 13,
         ElementKind::Wedge15 => 26,
+        ElementKind::Wedge18 => 32,
+        ElementKind::Pyramid5 => 14,
+        ElementKind::Pyramid13 | ElementKind::Pyramid14 => 27,
     }
 }
 
-/// For each place in VTK's order, the place in gmsh's.
+/// For each place in VTK's order, the place in gmsh's. Face centres are in the order of `vtkTriQuadraticHexahedron.cxx`:
+/// low and high x, then y, then z.
 pub(super) fn node_order(kind: ElementKind) -> &'static [usize] {
     match kind {
         ElementKind::Tet10 => &TET10,
-        ElementKind::Hex20 => &HEX20,
-        ElementKind::Wedge15 => &WEDGE15,
+        ElementKind::Hex20 | ElementKind::Hex27 => &HEX27[..kind.nodes()],
+        ElementKind::Wedge15 | ElementKind::Wedge18 => &WEDGE18[..kind.nodes()],
+        ElementKind::Pyramid13 | ElementKind::Pyramid14 => &PYRAMID13,
         other => &SAME[..other.nodes()],
     }
 }
@@ -288,25 +297,36 @@ mod cell_tests {
     const HEXAHEDRON: [[usize; 2]; 12] =
         [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
     const WEDGE: [[usize; 2]; 9] = [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];
+    const PYRAMID: [[usize; 2]; 8] = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
+    /// Faces in the order of their centres, by two opposite corners.
+    const HEXAHEDRON_CENTRES: [[usize; 2]; 7] = [[0, 7], [1, 6], [0, 5], [3, 6], [0, 2], [4, 6], [0, 6]];
+    const WEDGE_CENTRES: [[usize; 2]; 3] = [[0, 4], [1, 5], [2, 3]];
 
     #[allow(clippy::float_cmp)] // halves of small integers are exact
     #[test]
     fn middle_nodes_lie_between_the_corners_of_their_edge() {
-        let kinds: [(ElementKind, &[[usize; 2]]); 10] = [
-            (ElementKind::Tri3, &[]),
-            (ElementKind::Tri6, &TRIANGLE),
-            (ElementKind::Quad4, &[]),
-            (ElementKind::Quad8, &QUADRILATERAL),
-            (ElementKind::Tet4, &[]),
-            (ElementKind::Tet10, &TETRAHEDRON),
-            (ElementKind::Hex8, &[]),
-            (ElementKind::Hex20, &HEXAHEDRON),
-            (ElementKind::Wedge6, &[]),
-            (ElementKind::Wedge15, &WEDGE),
+        let kinds: [(ElementKind, &[[usize; 2]], &[[usize; 2]]); 16] = [
+            (ElementKind::Tri3, &[], &[]),
+            (ElementKind::Tri6, &TRIANGLE, &[]),
+            (ElementKind::Quad4, &[], &[]),
+            (ElementKind::Quad8, &QUADRILATERAL, &[]),
+            (ElementKind::Quad9, &QUADRILATERAL, &[[0, 2]]),
+            (ElementKind::Tet4, &[], &[]),
+            (ElementKind::Tet10, &TETRAHEDRON, &[]),
+            (ElementKind::Hex8, &[], &[]),
+            (ElementKind::Hex20, &HEXAHEDRON, &[]),
+            (ElementKind::Hex27, &HEXAHEDRON, &HEXAHEDRON_CENTRES),
+            (ElementKind::Wedge6, &[], &[]),
+            (ElementKind::Wedge15, &WEDGE, &[]),
+            (ElementKind::Wedge18, &WEDGE, &WEDGE_CENTRES),
+            (ElementKind::Pyramid5, &[], &[]),
+            (ElementKind::Pyramid13, &PYRAMID, &[]),
+            (ElementKind::Pyramid14, &PYRAMID, &[]), // without its last node
         ];
-        for (kind, edges) in kinds {
+        for (kind, edges, centres) in kinds {
             let place = |vtk: usize| kind.natural_nodes()[node_order(kind)[vtk]];
-            let corners = kind.nodes() - edges.len();
+            let edges = [edges, centres].concat();
+            let corners = node_order(kind).len() - edges.len();
             assert_eq!(node_order(kind)[..corners], SAME[..corners], "{kind:?}");
             for (index, &[from, to]) in edges.iter().enumerate() {
                 let (found, from, to) = (place(corners + index), place(from), place(to));

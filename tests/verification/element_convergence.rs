@@ -71,9 +71,10 @@ fn manufactured(x: [f64; 3], dimension: usize) -> ([f64; 3], [f64; 3]) {
 fn fine_rule(kind: ElementKind) -> QuadratureRule {
     match kind {
         ElementKind::Tri3 | ElementKind::Tri6 => QuadratureRule::Triangle12,
-        ElementKind::Quad4 | ElementKind::Quad8 => QuadratureRule::Square4,
+        ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9 => QuadratureRule::Square4,
         ElementKind::Tet4 | ElementKind::Tet10 => QuadratureRule::Tetrahedron64,
-        ElementKind::Hex8 | ElementKind::Hex20 => QuadratureRule::Cube4,
+        ElementKind::Pyramid5 | ElementKind::Pyramid13 | ElementKind::Pyramid14 => QuadratureRule::Pyramid5x4,
+        ElementKind::Hex8 | ElementKind::Hex20 | ElementKind::Hex27 => QuadratureRule::Cube4,
         _ => QuadratureRule::Wedge12x4,
     }
 }
@@ -224,6 +225,17 @@ displacement_orders! {
     wedge15_curved: Wedge15, PLAIN, false, [2, 4, 6];
     hex20_straight: Hex20, PLAIN, true, [2, 4, 6];
     hex20_curved: Hex20, PLAIN, false, [2, 4, 6];
+    quad9_straight: Quad9, PLAIN, true, [6, 12, 24];
+    quad9_curved: Quad9, PLAIN, false, [6, 12, 24];
+    hex27_straight: Hex27, PLAIN, true, [2, 4, 6];
+    hex27_curved: Hex27, PLAIN, false, [2, 4, 6];
+    wedge18_straight: Wedge18, PLAIN, true, [2, 4, 6];
+    wedge18_curved: Wedge18, PLAIN, false, [2, 4, 6];
+    pyramid5: Pyramid5, PLAIN, true, [2, 4, 6];
+    pyramid13_straight: Pyramid13, PLAIN, true, [2, 3, 4];
+    pyramid13_curved: Pyramid13, PLAIN, false, [2, 3, 4];
+    pyramid14_straight: Pyramid14, PLAIN, true, [2, 3, 4];
+    pyramid14_curved: Pyramid14, PLAIN, false, [2, 3, 4];
 }
 
 /// Quad8 on trapezoids that keep their shape: order 2, not 3.

@@ -42,7 +42,8 @@ const GAP: f64 = 0.5;
 const WIDTH: f64 = 2.0;
 
 /// Elements of constant strain across their thickness, which lock in bending (docs/elements.md).
-const STIFF_IN_BENDING: [ElementKind; 3] = [ElementKind::Tri3, ElementKind::Tet4, ElementKind::Wedge6];
+const STIFF_IN_BENDING: [ElementKind; 4] =
+    [ElementKind::Tri3, ElementKind::Tet4, ElementKind::Wedge6, ElementKind::Pyramid5];
 
 /// The doubts about a case: of its housing, of how the ring sits in it, and of the bearing under the load at rest.
 ///
@@ -140,8 +141,9 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
                 true => ["", "mesh with second order (gmsh -order 2)"],
                 false => ["plain ", "leave housing.linear = \"plain\" out, or mesh with second order (gmsh -order 2)"],
             };
+            let lost = if kind == ElementKind::Pyramid5 { "48 %" } else { "75 %" };
             format!(
-                "part \"{}\" has {count} {plain}{} elements, which are far too stiff in bending: with one layer across a thickness, they lose 75 % of the deflection and more; {way}",
+                "part \"{}\" has {count} {plain}{} elements, which are far too stiff in bending: with one layer across a thickness, they lose {lost} of the deflection and more; {way}",
                 described.group,
                 kind.name()
             )

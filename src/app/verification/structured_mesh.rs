@@ -1,20 +1,21 @@
 //! Structured meshes of the unit square and cube, of every continuum element, made in code.
 
 use crate::fe::mesh::ElementKind;
-use crate::fe::mesh::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use crate::fe::mesh::{ElementBlock, ElementId, Entity, Face, Mesh, MshFormat, MshVersion, PhysicalGroup};
 
 /// The group of all elements.
 pub const BODY: &str = "body";
 
-/// A grid of cells, each one hexahedron, two wedges or six tetrahedra (in the plane one quadrilateral or two
-/// triangles), with a node at every half step; those that the kind does not use hang on nothing.
+/// A grid of cells, each one hexahedron, two wedges, six tetrahedra or six pyramids about its centre (in the plane one
+/// quadrilateral or two triangles), with a node at every half step, of pyramids at every quarter; those that the kind does
+/// not use hang on nothing.
 #[derive(Debug, Clone)]
 pub struct StructuredMesh {
     /// Nodes row by row along x, then y, then z, m; one block of elements, all in the group [`BODY`].
     pub mesh: Mesh,
     kind: ElementKind,
-    /// Half steps along each axis; the third is 0 in the plane.
-    half_steps: [usize; 3],
+    /// Steps along each axis; the third is 0 in the plane.
+    steps: [usize; 3],
 }
 
 impl StructuredMesh {
@@ -22,9 +23,10 @@ impl StructuredMesh {
     /// body, m. Every node, middle ones too, is placed by it, so that edges curve as the map does.
     pub fn new(kind: ElementKind, cells: [usize; 3], place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         let plane = kind.dimension() == 2;
-        let half_steps = [2 * cells[0], 2 * cells[1], if plane { 0 } else { 2 * cells[2] }];
-        let [a, b, c] = half_steps.map(|n| n + 1);
-        let unit = |i: usize, axis: usize| i as f64 / half_steps[axis].max(1) as f64;
+        let side = steps_of_a_cell(kind);
+        let steps = [side * cells[0], side * cells[1], if plane { 0 } else { side * cells[2] }];
+        let [a, b, c] = steps.map(|n| n + 1);
+        let unit = |i: usize, axis: usize| i as f64 / steps[axis].max(1) as f64;
         let nodes: Vec<[f64; 3]> =
             (0..a * b * c).map(|n| place([unit(n % a, 0), unit(n / a % b, 1), unit(n / a / b, 2)])).collect();
         let layers = if plane { 1 } else { cells[2] };
@@ -32,40 +34,46 @@ impl StructuredMesh {
         for cell in 0..cells[0] * cells[1] * layers {
             let [i, j, k] = [cell % cells[0], cell / cells[0] % cells[1], cell / cells[0] / cells[1]];
             for element in elements_of_a_cell(kind) {
-                connectivity.extend(element.map(|[x, y, z]| 2 * i + x + a * (2 * j + y + b * (2 * k + z))));
+                connectivity.extend(element.map(|[x, y, z]| side * i + x + a * (side * j + y + b * (side * k + z))));
             }
         }
-        Self { mesh: mesh(kind, nodes, connectivity), kind, half_steps }
-    }
-
-    /// Half steps of a node from the origin, along each axis.
-    pub(crate) fn steps(&self, node: usize) -> [usize; 3] {
-        let [a, b, _] = self.half_steps.map(|n| n + 1);
-        [node % a, node / a % b, node / a / b]
+        Self { mesh: mesh(kind, nodes, connectivity), kind, steps }
     }
 
     /// Whether a node lies on one of the two faces across an axis.
     #[must_use]
     pub fn is_on_face(&self, node: usize, axis: usize) -> bool {
-        let step = self.steps(node)[axis];
-        step == 0 || step == self.half_steps[axis]
+        let [a, b, _] = self.steps.map(|n| n + 1);
+        let step = [node % a, node / a % b, node / a / b][axis];
+        step == 0 || step == self.steps[axis]
     }
 
-    /// Puts the middle nodes on the straight line between the corners.
+    /// Puts the middle nodes on the straight line between the corners, and those of centres in the mean of theirs.
     pub fn straighten(&mut self) {
         let (block, nodes) = (&self.mesh.blocks[0], &mut self.mesh.nodes);
         let kind = self.kind;
         for element in block.elements() {
-            for (&[a, b], &middle) in kind.middle_edges().iter().zip(&element[kind.corners()..]) {
-                let ends = [nodes[element[a]], nodes[element[b]]];
-                nodes[middle] = [0, 1, 2].map(|i| f64::midpoint(ends[0][i], ends[1][i]));
+            for (around, &middle) in kind.beyond_corners().zip(&element[kind.corners()..]) {
+                let mean = |i: usize| around.iter().map(|&at| nodes[element[at]][i]).sum::<f64>() / around.len() as f64;
+                nodes[middle] = [0, 1, 2].map(mean);
             }
         }
     }
 }
 
-/// Nodes of the elements of a cell, in half steps from its lowest corner.
+/// Steps between the nodes of a cell along an edge of it: the edges of pyramids end in its centre.
+fn steps_of_a_cell(kind: ElementKind) -> usize {
+    if kind.dimension() == 3 && kind.corners() == 5 { 4 } else { 2 }
+}
+
+/// Nodes of the elements of a cell, in steps from its lowest corner.
 fn elements_of_a_cell(kind: ElementKind) -> Vec<impl Iterator<Item = [usize; 3]> + use<>> {
+    let whole = |shape: ElementKind| -> Vec<[usize; 3]> {
+        let far = steps_of_a_cell(kind);
+        let steps = |&x: &f64| if x > 0.0 { far } else { 0 };
+        // -1 and 1 to the ends; the third coordinate of a quadrilateral is 0
+        shape.natural_nodes()[..shape.corners()].iter().map(|x| [0, 1, 2].map(|i| steps(&x[i]))).collect()
+    };
     let corners: Vec<Vec<[usize; 3]>> = match kind.corners() {
         // both triangles and both wedges have the diagonal from the second to the fourth corner
         3 => vec![vec![[0, 0, 0], [2, 0, 0], [0, 2, 0]], vec![[2, 2, 0], [0, 2, 0], [2, 0, 0]]],
@@ -73,16 +81,18 @@ fn elements_of_a_cell(kind: ElementKind) -> Vec<impl Iterator<Item = [usize; 3]>
             .map(|base| [0, 2].map(|z| base.map(|[x, y]| [x, y, z])).concat())
             .to_vec(),
         4 if kind.dimension() == 3 => tetrahedra(),
-        _ => {
-            let steps = |&x: &f64| if x > 0.0 { 2 } else { 0 };
-            let natural = kind.natural_nodes()[..kind.corners()].iter();
-            // -1 and 1 to 0 and 2; the third coordinate of a quadrilateral is 0
-            vec![natural.map(|x| [steps(&x[0]), steps(&x[1]), steps(&x[2])]).collect()]
+        5 => {
+            let cell = whole(ElementKind::Hex8);
+            // each face as seen from the centre, which is the apex
+            let base = |face: &Face| face.nodes.iter().rev().map(|&corner| cell[corner]).chain([[2; 3]]).collect();
+            ElementKind::Hex8.faces().iter().map(base).collect()
         }
+        _ => vec![whole(kind)],
     };
     let with_middles = move |corners: Vec<[usize; 3]>| {
-        let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]));
-        let middles: Vec<_> = kind.middle_edges().iter().map(|&edge| middle(edge)).collect();
+        let mean =
+            |around: &[usize]| [0, 1, 2].map(|i| around.iter().map(|&at| corners[at][i]).sum::<usize>() / around.len());
+        let middles: Vec<_> = kind.beyond_corners().map(mean).collect();
         corners.into_iter().chain(middles)
     };
     corners.into_iter().map(with_middles).collect()

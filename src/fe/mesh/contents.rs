@@ -282,6 +282,33 @@ impl Mesh {
 mod tests {
     use super::*;
 
+    /// Seen from behind, every kind has its measure again, the nodes behind the corners in their places.
+    #[test]
+    fn clockwise_elements_are_turned() {
+        for kind in ElementKind::all().filter(|kind| kind.dimension() == 2) {
+            let nodes: Vec<[f64; 3]> = kind.natural_nodes().iter().map(|&[x, y, _]| [-x, y, 0.0]).collect();
+            let block = ElementBlock {
+                kind,
+                tags: vec![1],
+                connectivity: (0..kind.nodes()).collect(),
+                entity: Entity { dimension: 2, tag: 1 },
+            };
+            let mut mesh = Mesh {
+                node_tags: (1..=nodes.len() as u64).collect(),
+                nodes,
+                blocks: vec![block],
+                groups: Vec::new(),
+                format: MshFormat { version: MshVersion::V41, binary: false },
+                source: PathBuf::from("behind.msh"),
+                remarks: Vec::new(),
+            };
+            mesh.turn_clockwise();
+            let coords: Vec<[f64; 3]> = mesh.blocks[0].connectivity.iter().map(|&node| mesh.nodes[node]).collect();
+            let quality = crate::fe::element::continuum::quality(kind, &coords).unwrap();
+            assert!((quality.scaled_jacobian - 1.0).abs() < 1e-12, "{kind:?}: {quality:?}");
+        }
+    }
+
     #[test]
     fn formats_are_named_as_gmsh_names_them() {
         let format = MshFormat { version: MshVersion::V22, binary: true };

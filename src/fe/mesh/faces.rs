@@ -28,10 +28,60 @@ pub(crate) fn sorted_corners<const N: usize>(corners: impl Iterator<Item = usize
     sorted
 }
 
-macro_rules! faces {
-    ($($kind:ident $nodes:expr),* $(,)?) => {
-        &[$(Face { kind: ElementKind::$kind, nodes: &$nodes }),*]
-    };
+/// Faces of the complete element of second order of each shape: corners, middles of the edges, centre. A kind with fewer
+/// nodes has the first ones of each, see [`faces_of`].
+type Complete<const N: usize> = [&'static [usize]; N];
+
+const LINE: Complete<2> = [&[0], &[1]];
+const TRIANGLE: Complete<3> = [&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]];
+const QUADRILATERAL: Complete<4> = [&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]];
+const TETRAHEDRON: Complete<4> = [&[0, 2, 1, 6, 5, 4], &[0, 1, 3, 4, 9, 7], &[0, 3, 2, 7, 8, 6], &[1, 2, 3, 5, 8, 9]];
+const HEXAHEDRON: Complete<6> = [
+    &[0, 3, 2, 1, 9, 13, 11, 8, 20],
+    &[0, 1, 5, 4, 8, 12, 16, 10, 21],
+    &[0, 4, 7, 3, 10, 17, 15, 9, 22],
+    &[1, 2, 6, 5, 11, 14, 18, 12, 23],
+    &[2, 3, 7, 6, 13, 15, 19, 14, 24],
+    &[4, 5, 6, 7, 16, 18, 19, 17, 25],
+];
+const WEDGE: Complete<5> = [
+    &[0, 2, 1, 7, 9, 6],
+    &[3, 4, 5, 12, 14, 13],
+    &[0, 1, 4, 3, 6, 10, 12, 8, 15],
+    &[0, 3, 5, 2, 8, 13, 11, 7, 16],
+    &[1, 2, 5, 4, 9, 11, 14, 10, 17],
+];
+const PYRAMID: Complete<5> = [
+    &[0, 3, 2, 1, 6, 10, 8, 5, 13],
+    &[0, 1, 4, 5, 9, 7],
+    &[1, 2, 4, 8, 11, 9],
+    &[2, 3, 4, 10, 12, 11],
+    &[3, 0, 4, 6, 7, 12],
+];
+
+/// The faces of a kind: of each complete face the nodes that the kind has, which come first.
+const fn faces_of<const N: usize>(kind: ElementKind, complete: Complete<N>) -> [Face; N] {
+    let mut faces = [Face { kind: ElementKind::Point, nodes: &[] }; N];
+    let mut i = 0;
+    while i < N {
+        let mut count = 0;
+        while count < complete[i].len() && complete[i][count] < kind.nodes() {
+            count += 1;
+        }
+        let of_face = match (complete[i].len(), count) {
+            (3, 2) => ElementKind::Line2,
+            (3, _) => ElementKind::Line3,
+            (6, 3) => ElementKind::Tri3,
+            (6, _) => ElementKind::Tri6,
+            (9, 4) => ElementKind::Quad4,
+            (9, 8) => ElementKind::Quad8,
+            (9, _) => ElementKind::Quad9,
+            _ => ElementKind::Point,
+        };
+        faces[i] = Face { kind: of_face, nodes: complete[i].split_at(count).0 };
+        i += 1;
+    }
+    faces
 }
 
 impl ElementKind {
@@ -39,48 +89,24 @@ impl ElementKind {
     pub fn faces(self) -> &'static [Face] {
         match self {
             Self::Point => &[],
-            Self::Line2 | Self::Line3 => faces![Point[0], Point[1]],
-            Self::Tri3 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 0]],
-            Self::Tri6 => faces![Line3 [0, 1, 3], Line3 [1, 2, 4], Line3 [2, 0, 5]],
-            Self::Quad4 => faces![Line2 [0, 1], Line2 [1, 2], Line2 [2, 3], Line2 [3, 0]],
-            Self::Quad8 => faces![Line3 [0, 1, 4], Line3 [1, 2, 5], Line3 [2, 3, 6], Line3 [3, 0, 7]],
-            Self::Tet4 => faces![Tri3 [0, 2, 1], Tri3 [0, 1, 3], Tri3 [0, 3, 2], Tri3 [1, 2, 3]],
-            Self::Tet10 => faces![
-                Tri6 [0, 2, 1, 6, 5, 4],
-                Tri6 [0, 1, 3, 4, 9, 7],
-                Tri6 [0, 3, 2, 7, 8, 6],
-                Tri6 [1, 2, 3, 5, 8, 9],
-            ],
-            Self::Hex8 => faces![
-                Quad4 [0, 3, 2, 1],
-                Quad4 [0, 1, 5, 4],
-                Quad4 [0, 4, 7, 3],
-                Quad4 [1, 2, 6, 5],
-                Quad4 [2, 3, 7, 6],
-                Quad4 [4, 5, 6, 7],
-            ],
-            Self::Hex20 => faces![
-                Quad8 [0, 3, 2, 1, 9, 13, 11, 8],
-                Quad8 [0, 1, 5, 4, 8, 12, 16, 10],
-                Quad8 [0, 4, 7, 3, 10, 17, 15, 9],
-                Quad8 [1, 2, 6, 5, 11, 14, 18, 12],
-                Quad8 [2, 3, 7, 6, 13, 15, 19, 14],
-                Quad8 [4, 5, 6, 7, 16, 18, 19, 17],
-            ],
-            Self::Wedge6 => faces![
-                Tri3 [0, 2, 1],
-                Tri3 [3, 4, 5],
-                Quad4 [0, 1, 4, 3],
-                Quad4 [0, 3, 5, 2],
-                Quad4 [1, 2, 5, 4],
-            ],
-            Self::Wedge15 => faces![
-                Tri6 [0, 2, 1, 7, 9, 6],
-                Tri6 [3, 4, 5, 12, 14, 13],
-                Quad8 [0, 1, 4, 3, 6, 10, 12, 8],
-                Quad8 [0, 3, 5, 2, 8, 13, 11, 7],
-                Quad8 [1, 2, 5, 4, 9, 11, 14, 10],
-            ],
+            Self::Line2 => const { &faces_of(Self::Line2, LINE) },
+            Self::Line3 => const { &faces_of(Self::Line3, LINE) },
+            Self::Tri3 => const { &faces_of(Self::Tri3, TRIANGLE) },
+            Self::Tri6 => const { &faces_of(Self::Tri6, TRIANGLE) },
+            Self::Quad4 => const { &faces_of(Self::Quad4, QUADRILATERAL) },
+            Self::Quad8 => const { &faces_of(Self::Quad8, QUADRILATERAL) },
+            Self::Quad9 => const { &faces_of(Self::Quad9, QUADRILATERAL) },
+            Self::Tet4 => const { &faces_of(Self::Tet4, TETRAHEDRON) },
+            Self::Tet10 => const { &faces_of(Self::Tet10, TETRAHEDRON) },
+            Self::Hex8 => const { &faces_of(Self::Hex8, HEXAHEDRON) },
+            Self::Hex20 => const { &faces_of(Self::Hex20, HEXAHEDRON) },
+            Self::Hex27 => const { &faces_of(Self::Hex27, HEXAHEDRON) },
+            Self::Wedge6 => const { &faces_of(Self::Wedge6, WEDGE) },
+            Self::Wedge15 => const { &faces_of(Self::Wedge15, WEDGE) },
+            Self::Wedge18 => const { &faces_of(Self::Wedge18, WEDGE) },
+            Self::Pyramid5 => const { &faces_of(Self::Pyramid5, PYRAMID) },
+            Self::Pyramid13 => const { &faces_of(Self::Pyramid13, PYRAMID) },
+            Self::Pyramid14 => const { &faces_of(Self::Pyramid14, PYRAMID) },
         }
     }
 
@@ -91,18 +117,48 @@ impl ElementKind {
             Self::Point => &[],
             Self::Line2 | Self::Line3 => &[[0, 1]],
             Self::Tri3 | Self::Tri6 => &[[0, 1], [1, 2], [2, 0]],
-            Self::Quad4 | Self::Quad8 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            Self::Quad4 | Self::Quad8 | Self::Quad9 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
             Self::Tet4 | Self::Tet10 => &[[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]],
-            Self::Hex8 | Self::Hex20 => {
+            Self::Hex8 | Self::Hex20 | Self::Hex27 => {
                 &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]]
             }
-            Self::Wedge6 | Self::Wedge15 => &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]],
+            Self::Wedge6 | Self::Wedge15 | Self::Wedge18 => {
+                &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]]
+            }
+            Self::Pyramid5 | Self::Pyramid13 | Self::Pyramid14 => {
+                &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 4], [2, 3], [2, 4], [3, 4]]
+            }
         }
     }
 
     /// The edges with a middle node, as their two corners; edge i carries node `corners() + i`. Empty for the linear elements.
     pub const fn middle_edges(self) -> &'static [[usize; 2]] {
         if self.order() == 2 { self.corner_edges() } else { &[] }
+    }
+
+    /// The corners round each node in the centre of a face or of the element, in the order of these nodes, which are the
+    /// last of the element. On a straight element a node is in the mean of them.
+    pub(crate) const fn centres(self) -> &'static [&'static [usize]] {
+        match self {
+            Self::Quad9 => &[&[0, 1, 2, 3]],
+            Self::Hex27 => &[
+                &[0, 3, 2, 1],
+                &[0, 1, 5, 4],
+                &[0, 4, 7, 3],
+                &[1, 2, 6, 5],
+                &[2, 3, 7, 6],
+                &[4, 5, 6, 7],
+                &[0, 1, 2, 3, 4, 5, 6, 7],
+            ],
+            Self::Wedge18 => &[&[0, 1, 4, 3], &[0, 3, 5, 2], &[1, 2, 5, 4]],
+            Self::Pyramid14 => &[&[0, 3, 2, 1]],
+            _ => &[],
+        }
+    }
+
+    /// The corners round each node behind the corners, in the order of these nodes: the two of an edge, those of a face, all.
+    pub(crate) fn beyond_corners(self) -> impl Iterator<Item = &'static [usize]> {
+        self.middle_edges().iter().map(<[usize; 2]>::as_slice).chain(self.centres().iter().copied())
     }
 }
 
@@ -176,12 +232,13 @@ mod tests {
         match kind {
             K::Line3 => &[[0, 1]],
             K::Tri6 => &[[0, 1], [1, 2], [2, 0]],
-            K::Quad8 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            K::Quad8 | K::Quad9 => &[[0, 1], [1, 2], [2, 3], [3, 0]],
             K::Tet10 => &[[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]],
-            K::Hex20 => {
+            K::Hex20 | K::Hex27 => {
                 &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]]
             }
-            K::Wedge15 => &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]],
+            K::Wedge15 | K::Wedge18 => &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [3, 5], [4, 5]],
+            K::Pyramid13 | K::Pyramid14 => &[[0, 1], [0, 3], [0, 4], [1, 2], [1, 4], [2, 3], [2, 4], [3, 4]],
             _ => &[],
         }
     }
@@ -190,7 +247,7 @@ mod tests {
     #[test]
     fn middle_nodes_of_faces_are_those_of_the_element() {
         for kind in ElementKind::all() {
-            assert_eq!(kind.corners() + edges(kind).len(), kind.nodes(), "{kind:?}");
+            assert_eq!(kind.corners() + edges(kind).len() + kind.centres().len(), kind.nodes(), "{kind:?}");
             for face in kind.faces() {
                 assert_eq!(face.kind.dimension() + 1, kind.dimension());
                 assert_eq!(face.nodes.len(), face.kind.nodes());
@@ -201,6 +258,15 @@ mod tests {
                     ends.sort_unstable();
                     expected.sort_unstable();
                     assert_eq!(ends, expected, "{kind:?}, face {:?}", face.nodes);
+                }
+                for centre in &face.nodes[corners + edges(face.kind).len()..] {
+                    let of_element = kind.centres()[centre - kind.corners() - edges(kind).len()];
+                    let [own, around] = [&face.nodes[..corners], of_element].map(|nodes| {
+                        let mut sorted = nodes.to_vec();
+                        sorted.sort_unstable();
+                        sorted
+                    });
+                    assert_eq!(own, around, "{kind:?}, face {:?}", face.nodes);
                 }
             }
         }

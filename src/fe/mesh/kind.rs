@@ -22,6 +22,8 @@ pub enum ElementKind {
     Quad4,
     /// Second-order quadrilateral without a centre node: four corners, four edge middles.
     Quad8,
+    /// Second-order quadrilateral: four corners, four edge middles, centre.
+    Quad9,
     /// Tetrahedron, four nodes.
     Tet4,
     /// Second-order tetrahedron: four corners, six edge middles.
@@ -30,10 +32,20 @@ pub enum ElementKind {
     Hex8,
     /// Second-order hexahedron without nodes on faces and inside: eight corners, twelve edge middles.
     Hex20,
+    /// Second-order hexahedron: eight corners, twelve edge middles, six face centres, centre.
+    Hex27,
     /// Wedge, six nodes; gmsh's word is prism.
     Wedge6,
     /// Second-order wedge without nodes on faces: six corners, nine edge middles; gmsh's word is prism.
     Wedge15,
+    /// Second-order wedge: six corners, nine edge middles, three centres of the quadrilateral faces.
+    Wedge18,
+    /// Pyramid, five nodes: the quadrilateral base, then the apex.
+    Pyramid5,
+    /// Second-order pyramid without a node on its base: five corners, eight edge middles.
+    Pyramid13,
+    /// Second-order pyramid: five corners, eight edge middles, centre of the base.
+    Pyramid14,
 }
 
 /// One row of the table: gmsh's element type number, name, dimension, order, nodes, corners.
@@ -61,17 +73,23 @@ static TABLE: [Row; ElementKind::COUNT] = [
     row(ElementKind::Tri6, 9, "Tri6", [2, 2, 6, 3]),
     row(ElementKind::Quad4, 3, "Quad4", [2, 1, 4, 4]),
     row(ElementKind::Quad8, 16, "Quad8", [2, 2, 8, 4]),
+    row(ElementKind::Quad9, 10, "Quad9", [2, 2, 9, 4]),
     row(ElementKind::Tet4, 4, "Tet4", [3, 1, 4, 4]),
     row(ElementKind::Tet10, 11, "Tet10", [3, 2, 10, 4]),
     row(ElementKind::Hex8, 5, "Hex8", [3, 1, 8, 8]),
     row(ElementKind::Hex20, 17, "Hex20", [3, 2, 20, 8]),
+    row(ElementKind::Hex27, 12, "Hex27", [3, 2, 27, 8]),
     row(ElementKind::Wedge6, 6, "Wedge6", [3, 1, 6, 6]),
     row(ElementKind::Wedge15, 18, "Wedge15", [3, 2, 15, 6]),
+    row(ElementKind::Wedge18, 13, "Wedge18", [3, 2, 18, 6]),
+    row(ElementKind::Pyramid5, 7, "Pyramid5", [3, 1, 5, 5]),
+    row(ElementKind::Pyramid13, 19, "Pyramid13", [3, 2, 13, 5]),
+    row(ElementKind::Pyramid14, 14, "Pyramid14", [3, 2, 14, 5]),
 ];
 
 impl ElementKind {
     /// Number of kinds.
-    pub(crate) const COUNT: usize = 13;
+    pub(crate) const COUNT: usize = 19;
 
     const fn row(self) -> &'static Row {
         &TABLE[self as usize]
@@ -129,6 +147,6 @@ mod tests {
             assert_eq!(ElementKind::from_gmsh_type(kind.gmsh_type()), Some(kind));
             assert_eq!(kind.name(), format!("{kind:?}"));
         }
-        assert_eq!(ElementKind::from_gmsh_type(10), None);
+        assert_eq!(ElementKind::from_gmsh_type(21), None);
     }
 }

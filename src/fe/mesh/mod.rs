@@ -7,7 +7,7 @@
 //!
 //! # Limitations
 //! MSH 2.0 to 2.2, 4.0 and 4.1 (others are refused with gmsh's command for converting them); elements of first and
-//! second order without nodes inside faces and volumes, no pyramids.
+//! second order.
 
 mod contents;
 pub(crate) mod cylinder;

@@ -3,8 +3,8 @@
 //! A mesher that bends edges onto the CAD surface can fold an element that is thinner than the surface is curved. With the
 //! nodes between its corners where the straight element has them, such an element is valid.
 
-use crate::fe::element::continuum::{measure, shape_values};
-use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Mesh};
+use crate::fe::element::continuum::measure;
+use crate::fe::mesh::{ElementBlock, ElementId, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
@@ -58,21 +58,15 @@ fn places(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
     mesh.blocks[id.block].nodes_of(id.index).iter().map(|&node| mesh.nodes[node]).collect()
 }
 
-/// Where the nodes of an element lie if its edges are straight: the linear element of the same corners.
+/// Where the nodes of an element lie if its edges are straight.
 fn straight(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {
     let kind = mesh.blocks[id.block].kind;
-    let same = |linear: &ElementKind| {
-        linear.order() == 1 && (linear.dimension(), linear.corners()) == (kind.dimension(), kind.corners())
-    };
-    let linear = ElementKind::all().find(same).unwrap_or(kind);
-    let corners = &places(mesh, id)[..kind.corners()];
-    let at = |natural: &[f64; 3]| {
-        let values = shape_values(linear, *natural);
-        let weighted = |d: usize| corners.iter().zip(values).map(|(corner, value)| value * corner[d]).sum();
-        [weighted(0), weighted(1), weighted(2)]
-    };
-    let middles = kind.natural_nodes()[kind.corners()..].iter().map(at);
-    corners.iter().copied().chain(middles).collect()
+    let mut at = places(mesh, id);
+    for (node, corners) in (kind.corners()..).zip(kind.beyond_corners()) {
+        let sum = |d: usize| corners.iter().map(|&corner| at[corner][d]).sum::<f64>();
+        at[node] = [0, 1, 2].map(|d| sum(d) / corners.len() as f64);
+    }
+    at
 }
 
 fn longest_edge(mesh: &Mesh, id: ElementId) -> f64 {
@@ -108,7 +102,7 @@ fn sentence(mesh: &Mesh, mended: &BTreeSet<ElementId>, moved: &BTreeMap<usize, f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::mesh::{Entity, MshFormat, MshVersion};
+    use crate::fe::mesh::{ElementKind, Entity, MshFormat, MshVersion};
     use std::path::PathBuf;
 
     /// Two Tet10 on one face; the middle of an edge of it lies beyond the body, so that both fold.

@@ -188,19 +188,26 @@ pub(super) struct Descriptor {
 
 const SAME: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 
-/// The descriptor of a surface or solid element; none for points and lines.
+/// The descriptor of a surface or solid element; none for points and lines. The dataset has no nodes in centres, which are
+/// left out, and no pyramids, which are bricks whose upper face is the apex.
 pub(super) fn descriptor(kind: ElementKind) -> Option<Descriptor> {
     let (id, order): (u32, &[usize]) = match kind {
         ElementKind::Point | ElementKind::Line2 | ElementKind::Line3 => return None,
         ElementKind::Tri3 => (91, &SAME[..3]),
         ElementKind::Tri6 => (92, &[0, 3, 1, 4, 2, 5]),
         ElementKind::Quad4 => (94, &SAME[..4]),
-        ElementKind::Quad8 => (95, &[0, 4, 1, 5, 2, 6, 3, 7]),
+        ElementKind::Quad8 | ElementKind::Quad9 => (95, &[0, 4, 1, 5, 2, 6, 3, 7]),
         ElementKind::Tet4 => (111, &SAME[..4]),
         ElementKind::Wedge6 => (112, &SAME[..6]),
-        ElementKind::Wedge15 => (113, &[0, 6, 1, 9, 2, 7, 8, 10, 11, 3, 12, 4, 14, 5, 13]),
+        ElementKind::Wedge15 | ElementKind::Wedge18 => (113, &[0, 6, 1, 9, 2, 7, 8, 10, 11, 3, 12, 4, 14, 5, 13]),
         ElementKind::Hex8 => (115, &SAME),
-        ElementKind::Hex20 => (116, &[0, 8, 1, 11, 2, 13, 3, 9, 10, 12, 14, 15, 4, 16, 5, 18, 6, 19, 7, 17]),
+        ElementKind::Pyramid5 => (115, &[0, 1, 2, 3, 4, 4, 4, 4]),
+        ElementKind::Hex20 | ElementKind::Hex27 => {
+            (116, &[0, 8, 1, 11, 2, 13, 3, 9, 10, 12, 14, 15, 4, 16, 5, 18, 6, 19, 7, 17])
+        }
+        ElementKind::Pyramid13 | ElementKind::Pyramid14 => {
+            (116, &[0, 5, 1, 8, 2, 10, 3, 6, 7, 9, 11, 12, 4, 4, 4, 4, 4, 4, 4, 4])
+        }
         ElementKind::Tet10 => (118, &[0, 4, 1, 5, 2, 6, 7, 9, 8, 3]),
     };
     Some(Descriptor { id, order })
@@ -234,12 +241,18 @@ mod tests {
             (ElementKind::Tet10, [ring(0, 3), tet10].concat()),
             (ElementKind::Hex20, [ring(0, 4), between(8, 4), ring(12, 4)].concat()),
             (ElementKind::Wedge15, [ring(0, 3), between(6, 3), ring(9, 3)].concat()),
+            (ElementKind::Quad9, ring(0, 4)),
+            (ElementKind::Hex27, [ring(0, 4), between(8, 4), ring(12, 4)].concat()),
+            (ElementKind::Wedge18, [ring(0, 3), between(6, 3), ring(9, 3)].concat()),
+            (ElementKind::Pyramid13, [ring(0, 4), between(8, 4)].concat()),
+            (ElementKind::Pyramid14, [ring(0, 4), between(8, 4)].concat()),
         ];
         for (kind, middles) in kinds {
             let order = descriptor(kind).unwrap().order;
             let mut sorted = order.to_vec();
             sorted.sort_unstable();
-            assert_eq!(sorted, (0..kind.nodes()).collect::<Vec<_>>(), "{kind:?}");
+            sorted.dedup();
+            assert_eq!(sorted, (0..kind.corners() + middles.len()).collect::<Vec<_>>(), "{kind:?}");
             assert_eq!(middles.len(), kind.middle_edges().len(), "{kind:?}");
             for [middle, from, to] in middles {
                 let place = |own: usize| kind.natural_nodes()[order[own]];

@@ -98,11 +98,16 @@ const HALF_WAVES: usize = 9;
 /// An element, how its stiffness is formed, how often each mesh divides the coarsest, and the limit of the order.
 type Row = (ElementKind, LinearFormulation, &'static [usize], f64);
 
-const ROWS: [Row; 4] = [
+const ROWS: [Row; 9] = [
     (ElementKind::Hex8, LinearFormulation::Plain, &[1, 2, 4], 0.05),
     (ElementKind::Hex8, LinearFormulation::Incompatible, &[1, 2, 4], 0.05),
     (ElementKind::Hex20, LinearFormulation::Plain, &[1, 2, 3], 0.025),
     (ElementKind::Tet10, LinearFormulation::Plain, &[1, 2, 3], 0.075),
+    (ElementKind::Hex27, LinearFormulation::Plain, &[1, 2, 3], 0.025),
+    (ElementKind::Wedge18, LinearFormulation::Plain, &[1, 2, 3], 0.075),
+    (ElementKind::Pyramid5, LinearFormulation::Plain, &[1, 2, 3], 0.075),
+    (ElementKind::Pyramid13, LinearFormulation::Plain, &[1, 2], 0.075),
+    (ElementKind::Pyramid14, LinearFormulation::Plain, &[1, 2], 0.075),
 ];
 
 /// What a size is, and its unit.
@@ -253,7 +258,7 @@ mod tests {
             println!("{}", check.line());
             assert!(check.ok, "{}", check.line());
         }
-        assert_eq!(section.checks.len(), 4 * 4 + 3 + 5);
+        assert_eq!(section.checks.len(), 9 * 4 + 3 + 5);
         // conforming elements are too stiff, and on boxes the incompatible one is too
         let series = section.orders.unwrap();
         for series in series.iter().filter(|series| series.unit == "m") {

@@ -16,7 +16,7 @@ const SMALLEST_DETERMINANT: f64 = 1e-12;
 /// Largest size accepted, m: its cube and all that is made from it are far from overflow.
 const LARGEST_SIZE: f64 = 1e60;
 
-/// How far a middle node may lie from the middle of its edge on a straight element, as a part of the size: the
+/// How far a middle node may lie from the middle of its edge (face, volume) on a straight element, as a part of the size: the
 /// matrices of the straight rule are then right to a few times this number.
 const STRAIGHT: f64 = 1e-13;
 
@@ -27,7 +27,8 @@ pub(super) struct Placed<const N: usize> {
     pub(super) coords: [[f64; 3]; N],
     /// Largest distance from the first node along an axis, m.
     pub(super) size: f64,
-    /// Every middle node, if there are any, lies in the middle of its straight edge.
+    /// Every node behind the corners, if there are any, lies in the middle of its straight edge, or in the mean of the
+    /// corners of its face or of the element: the geometry is that of the linear element.
     pub(super) straight: bool,
 }
 
@@ -59,9 +60,9 @@ impl<const N: usize> Placed<N> {
         let allowed = STRAIGHT * size + 2.0 * f64::EPSILON * distance;
         let corners = kind.corners();
         let mut straight = true;
-        for (&[a, b], middle) in kind.middle_edges().iter().zip(&relative[corners..]) {
+        for (around, middle) in kind.beyond_corners().zip(&relative[corners..]) {
             for i in 0..3 {
-                let expected = 0.5 * (relative[a][i] + relative[b][i]);
+                let expected = around.iter().map(|&corner| relative[corner][i]).sum::<f64>() / around.len() as f64;
                 straight &= (middle[i] - expected).abs() <= allowed;
             }
         }
@@ -234,7 +235,7 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ShapeQuality {
     /// Jacobian ratio: smallest determinant over largest magnitude, in [-1, 1]. 1: constant (every straight
-    /// triangle and tetrahedron, every parallelogram and parallelepiped, however thin); small: strongly
+    /// triangle and tetrahedron, every parallelogram and parallelepiped, every pyramid on a parallelogram, however thin); small: strongly
     /// tapered, warped or curved; 0 or below: no valid element. An element without size has 0.
     pub scaled_jacobian: f64,
     /// Smallest determinant, m^2 (plane) or m^3 (solid); negative where the element is inverted.

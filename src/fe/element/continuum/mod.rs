@@ -1,4 +1,4 @@
-//! Plane and solid continua: stiffness and consistent mass of ten elements.
+//! Plane and solid continua: stiffness and consistent mass of sixteen elements.
 //!
 //! `K = int B^T D B dV`, `M = rho int N^T N dV`; a plane element lies in the xy plane and has its thickness t
 //! before both. Degrees of freedom node by node: (u_x, u_y, u_z) of node 0, of node 1, ...; without u_z in the
@@ -15,7 +15,7 @@
 //! by default ([`LinearFormulation`]), which bend without locking; their frequencies may come from below.
 //!
 //! # Limitations
-//! Tri3, Tet4 and Wedge6 lock in bending, and so do the plain Quad4 and Hex8. All elements lock as
+//! Tri3, Tet4, Wedge6 and Pyramid5 lock in bending, and so do the plain Quad4 and Hex8. All elements lock as
 //! Poisson's ratio comes near 1/2, except in plane stress.
 
 mod geometry;

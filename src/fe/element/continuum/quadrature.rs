@@ -15,7 +15,8 @@ use std::sync::OnceLock;
 /// Mech. Eng. 55 (1986) 339, 24 points, degree 6. Squares, cubes: products of Gauss-Legendre rules, n
 /// points are exact to degree 2 n - 1 in each direction. Conical products (Stroud, Approximate
 /// Calculation of Multiple Integrals (1971), section 2.5) of Gauss-Jacobi rules: n points a direction are
-/// exact to degree 2 n - 1. Wedges: triangle times line.
+/// exact to degree 2 n - 1. Wedges: triangle times line. Pyramids: conical products too, whose degrees are those in
+/// `xi = x / (1 - z)`, `eta = y / (1 - z)` and z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum QuadratureRule {
     /// Line, 4 points, degree 7.
@@ -60,10 +61,20 @@ pub enum QuadratureRule {
     Wedge12x4,
     /// Wedge, 25 triangle (conical) x 5 line points, degree 9 and 9.
     Wedge25x5,
+    /// Pyramid, 2 x 2 points across, 1 along z, degree 3 and 1.
+    Pyramid2x1,
+    /// Pyramid, 2 x 2 points across, 2 along z, degree 3 and 3.
+    Pyramid2x2,
+    /// Pyramid, 3 x 3 points across, 2 along z, degree 5 and 3.
+    Pyramid3x2,
+    /// Pyramid, 3 x 3 points across, 3 along z, degree 5 and 5.
+    Pyramid3x3,
+    /// Pyramid, 5 x 5 points across, 4 along z, degree 9 and 7.
+    Pyramid5x4,
 }
 
 /// Number of rules: one more than the last.
-const RULES: usize = QuadratureRule::Wedge25x5 as usize + 1;
+const RULES: usize = QuadratureRule::Pyramid5x4 as usize + 1;
 
 static POINTS: [OnceLock<Vec<QuadraturePoint>>; RULES] = [const { OnceLock::new() }; RULES];
 
@@ -96,6 +107,11 @@ impl QuadratureRule {
             Self::Wedge6x3 => product(&triangle_6(), 3, 2),
             Self::Wedge12x4 => product(&triangle_12(), 4, 2),
             Self::Wedge25x5 => product(&conical_triangle(5), 5, 2),
+            Self::Pyramid2x1 => conical_pyramid(2, 1),
+            Self::Pyramid2x2 => conical_pyramid(2, 2),
+            Self::Pyramid3x2 => conical_pyramid(3, 2),
+            Self::Pyramid3x3 => conical_pyramid(3, 3),
+            Self::Pyramid5x4 => conical_pyramid(5, 4),
         }
     }
 }
@@ -139,7 +155,7 @@ pub struct QuadraturePoint {
     /// Natural coordinates (xi, eta, zeta); zeros beyond the rule's dimension.
     pub natural: [f64; 3],
     /// Weight; the weights of a rule sum to the natural size: 2 (line), 1/2 (triangle), 4 (square),
-    /// 1/6 (tetrahedron), 8 (cube), 1 (wedge).
+    /// 1/6 (tetrahedron), 8 (cube), 1 (wedge), 4/3 (pyramid).
     pub weight: f64,
 }
 
@@ -319,6 +335,17 @@ pub(in crate::fe::element::continuum) fn conical_tetrahedron(n: usize) -> Vec<Qu
         }
     }
     points
+}
+
+/// n x n points across, m along the axis: `x = (1 - z) xi, y = (1 - z) eta` takes the cube to the pyramid, with the
+/// Jacobian `(1 - z)^2`. Exact where the integrand is of degree 2 n - 1 in xi and in eta and of 2 m - 1 in z.
+pub(in crate::fe::element::continuum) fn conical_pyramid(n: usize, m: usize) -> Vec<QuadraturePoint> {
+    let along = unit_interval(m, 2);
+    let at = |across: &QuadraturePoint, g: &Gauss| {
+        let [xi, eta, _] = across.natural;
+        point([(1.0 - g.at) * xi, (1.0 - g.at) * eta, g.at], across.weight * g.weight)
+    };
+    square(n).iter().flat_map(|across| along.iter().map(move |g| at(across, g))).collect()
 }
 
 #[cfg(test)]

@@ -43,8 +43,9 @@ pub enum LinearFormulation {
 impl ElementKind {
     /// The rule that integrates the mass and the measure, exact for every geometry, curved ones too:
     /// `N_i N_j det J` is a polynomial of degree
-    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8), 4 (Hex8), 9 (Hex20);
-    /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15).
+    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8, Quad9), 4 (Hex8), 9 (Hex20, Hex27);
+    /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15, Wedge18). For pyramids it is one in xi, eta and s of
+    /// their shape functions: of degree 3, 3 and 2 (Pyramid5), 9, 9 and 7 (Pyramid13, Pyramid14).
     pub(crate) fn mass_rule(self) -> QuadratureRule {
         self.rules()[1][0]
     }
@@ -52,10 +53,12 @@ impl ElementKind {
     /// Rules of the stiffness and of the mass: that for any edges, and that which is exact if all edges are straight with
     /// their nodes in the middle. For the stiffness the latter is of degree 2 for Tri6 and Tet10, whose Jacobian is then
     /// constant. For the mass the Jacobian has the degree of the linear element's, which leaves 6 in each direction
-    /// (Hex20), 5 in the triangle and 6 along zeta (Wedge15).
+    /// (Hex20, Hex27), 5 in the triangle and 6 along zeta (Wedge15, Wedge18), 5, 5 and 4 (Pyramid13, Pyramid14).
     ///
-    /// The rule of the stiffness is exact for straight-edged triangles and tetrahedra and for parallelograms, parallelepipeds and straight
-    /// prisms; curved and distorted elements have rational integrands, for which no rule is exact.
+    /// The rule of the stiffness is exact for straight-edged triangles and tetrahedra, and for parallelograms, parallelepipeds, straight
+    /// prisms and pyramids on parallelograms. Gradients in a Pyramid5 do not depend on s: one point along it is exact for any
+    /// shape. In a Pyramid13 or Pyramid14 their products have the degrees 4, 4 and 2. `int dN/dx dV`, on which the patch test
+    /// rests, has 5, 5 and 3 on any curved pyramid and is exact. Other curved and distorted elements have rational integrands, for which no rule is exact.
     /// Straight Tri6 and Tet10 take a cheaper one.
     ///
     /// Tri6 takes six points although three are exact for straight sides: on an annulus of 576 curved Tri6 the
@@ -74,7 +77,8 @@ impl ElementKind {
     ///
     /// 27 points of a conical product (degree 5) are no better than 14. An element with a radial edge of 0.3 of
     /// the arc has 9.1e-7 at 10 degrees and 1.2e-4 at 20 with 24 points. Of the others, at 10 degrees: Tri6
-    /// 3.1e-6, Quad8 2.9e-4, Hex20 2.6e-4, Wedge15 9.4e-5.
+    /// 3.1e-6, Quad8 2.9e-4, Quad9 9.1e-4, Hex20 2.6e-4, Hex27 9.5e-4, Wedge15 9.4e-5, Wedge18 4.1e-4, Pyramid13 1.3e-4, Pyramid14
+    /// 4.7e-4.
     pub(super) fn rules(self) -> [[QuadratureRule; 2]; 2] {
         use QuadratureRule as Rule;
         match self {
@@ -82,13 +86,15 @@ impl ElementKind {
             Self::Tri3 => [[Rule::Triangle1; 2], [Rule::Triangle3; 2]],
             Self::Tri6 => [[Rule::Triangle6, Rule::Triangle3], [Rule::Triangle12; 2]],
             Self::Quad4 => [[Rule::Square2; 2]; 2],
-            Self::Quad8 => [[Rule::Square3; 2], [Rule::Square4; 2]],
+            Self::Quad8 | Self::Quad9 => [[Rule::Square3; 2], [Rule::Square4; 2]],
             Self::Tet4 => [[Rule::Tetrahedron1; 2], [Rule::Tetrahedron4; 2]],
             Self::Tet10 => [[Rule::Tetrahedron24, Rule::Tetrahedron4], [Rule::Tetrahedron64; 2]],
             Self::Hex8 => [[Rule::Cube2; 2], [Rule::Cube3; 2]],
-            Self::Hex20 => [[Rule::Cube3; 2], [Rule::Cube5, Rule::Cube4]],
+            Self::Hex20 | Self::Hex27 => [[Rule::Cube3; 2], [Rule::Cube5, Rule::Cube4]],
             Self::Wedge6 => [[Rule::Wedge3x2; 2], [Rule::Wedge6x3; 2]],
-            Self::Wedge15 => [[Rule::Wedge6x3; 2], [Rule::Wedge25x5, Rule::Wedge12x4]],
+            Self::Wedge15 | Self::Wedge18 => [[Rule::Wedge6x3; 2], [Rule::Wedge25x5, Rule::Wedge12x4]],
+            Self::Pyramid5 => [[Rule::Pyramid2x1; 2], [Rule::Pyramid2x2; 2]],
+            Self::Pyramid13 | Self::Pyramid14 => [[Rule::Pyramid3x2; 2], [Rule::Pyramid5x4, Rule::Pyramid3x3]],
         }
     }
 }

@@ -18,12 +18,18 @@ macro_rules! for_kind {
             Kind::Tri6 => $function::<6, 2>($($argument),*),
             Kind::Quad4 => $function::<4, 2>($($argument),*),
             Kind::Quad8 => $function::<8, 2>($($argument),*),
+            Kind::Quad9 => $function::<9, 2>($($argument),*),
             Kind::Tet4 => $function::<4, 3>($($argument),*),
             Kind::Tet10 => $function::<10, 3>($($argument),*),
             Kind::Hex8 => $function::<8, 3>($($argument),*),
             Kind::Hex20 => $function::<20, 3>($($argument),*),
+            Kind::Hex27 => $function::<27, 3>($($argument),*),
             Kind::Wedge6 => $function::<6, 3>($($argument),*),
             Kind::Wedge15 => $function::<15, 3>($($argument),*),
+            Kind::Wedge18 => $function::<18, 3>($($argument),*),
+            Kind::Pyramid5 => $function::<5, 3>($($argument),*),
+            Kind::Pyramid13 => $function::<13, 3>($($argument),*),
+            Kind::Pyramid14 => $function::<14, 3>($($argument),*),
             Kind::Point | Kind::Line2 | Kind::Line3 => Err($crate::fe::element::continuum::table::no_continuum($kind)),
         }
     }};

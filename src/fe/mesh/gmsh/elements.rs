@@ -116,21 +116,19 @@ const LAST_GMSH_TYPE: i32 = 140;
 
 /// Name of a gmsh element type that the program does not read, and what to do about it.
 fn unsupported(gmsh_type: i32) -> (&'static str, &'static str) {
-    let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
-    let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
-                   Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
-    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
     match gmsh_type {
-        7 => ("Pyramid5", pyramid),
-        10 => ("Quad9", complete),
-        12 => ("Hex27", complete),
-        13 => ("Wedge18", complete),
-        14 => ("Pyramid14", pyramid),
-        19 => ("Pyramid13", pyramid),
-        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", order),
+        21 => ("Tri10", OTHER_ORDER),
+        26 => ("Line4", OTHER_ORDER),
+        29 => ("Tet20", OTHER_ORDER),
+        36 => ("Quad16", OTHER_ORDER),
+        92 => ("Hex64", OTHER_ORDER),
+        1..=LAST_GMSH_TYPE => ("of higher order or special purpose", OTHER_ORDER),
         _ => ("unknown to gmsh", "is the file damaged?"),
     }
 }
+
+/// What to do about elements of third order and beyond.
+const OTHER_ORDER: &str = "mesh again with second order (gmsh part.geo -3 -order 2)";
 
 /// Elements in the order of the file.
 #[derive(Default)]

@@ -1,8 +1,8 @@
 //! Elements that stand on the corners of another one, and elements of first order beside those of second order on the same
-//! edges, which come apart between the corners.
+//! edges, which come apart between the corners, and elements with a centre node beside those without on the same face.
 
 use super::bodies::{Bodies, Solid, at, both, counted};
-use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup};
+use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup, sorted_corners};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -37,16 +37,18 @@ impl Doubled {
 /// No middle node of an edge. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
 const NO_NODE: u32 = u32::MAX;
 
-/// Edges on which elements do not have the same middle node.
+/// Edges on which elements do not have the same middle node, or else faces on which they do not have the same centre node.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MixedOrders {
-    /// How many, > 0.
+    /// How many edges.
     pub edges: usize,
-    /// Tags of two elements with the first of these edges.
+    /// How many faces, > 0 if there are no such edges.
+    pub faces: usize,
+    /// Tags of two elements with the first of them.
     pub tags: [u64; 2],
     /// Names of the parts of these two.
     pub parts: [String; 2],
-    /// Centre of that edge, m.
+    /// Mean of its corners, m.
     pub place: [f64; 3],
 }
 
@@ -54,9 +56,12 @@ impl MixedOrders {
     /// What they are, in words.
     pub fn sentence(&self) -> String {
         let [first, second] = self.tags;
+        let what = match self.edges {
+            0 => counted(self.faces, "face is without a centre", "faces are without a centre"),
+            edges => counted(edges, "edge is without a middle", "edges are without a middle"),
+        };
         format!(
-            "{} without a middle node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
-            counted(self.edges, "edge is", "edges are"),
+            "{what} node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
             both(&self.parts),
             at(self.place)
         )
@@ -68,6 +73,15 @@ fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
     (kind.corners()..).zip(kind.corner_edges()).map(|(middle, ends)| {
         let [a, b] = ends.map(|local| nodes[local] as u32);
         [a.min(b), a.max(b), nodes.get(middle).map_or(NO_NODE, |&node| node as u32)]
+    })
+}
+
+/// Quadrilateral faces of a solid: the corners in order, and the centre node.
+fn faces(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 5]> {
+    let of_solid = if kind.dimension() == 3 { kind.faces() } else { &[] };
+    of_solid.iter().filter(|face| face.kind.corners() == 4).map(|face| {
+        let [a, b, c, d] = sorted_corners(face.nodes[..4].iter().map(|&local| nodes[local]));
+        [a, b, c, d, face.nodes.get(8).map_or(NO_NODE, |&local| nodes[local] as u32)]
     })
 }
 
@@ -109,27 +123,44 @@ impl Bodies<'_> {
         self.solids.iter().any(|solid| solid.kind.order() == 2)
     }
 
-    /// The edges on which elements do not have the same middle node; `None` if there are none.
+    /// The edges on which elements do not have the same middle node, or else the faces with different centres; `None` if
+    /// there are none.
     pub(crate) fn mixed_orders(&self) -> Option<MixedOrders> {
         if !self.has_middle_nodes() {
             return None;
         }
+        let mixed = |[edges, faces]: [usize; 2], pair: [u32; 2], corners: &[u32]| {
+            let mut pair = pair.map(|index| &self.solids[index as usize]);
+            pair.sort_unstable_by_key(|solid| solid.tag);
+            let corners: Vec<usize> = corners.iter().map(|&node| node as usize).collect();
+            let (tags, parts) = (pair.map(|solid| solid.tag), self.names(pair.map(|solid| solid.part)));
+            MixedOrders { edges, faces, tags, parts, place: self.mean(&corners) }
+        };
+        if let Some((count, place, pair)) = self.differing(edges) {
+            return Some(mixed([count, 0], pair, &place[..2]));
+        }
+        if self.solids.iter().all(|solid| solid.kind.centres().is_empty()) {
+            return None;
+        }
+        self.differing(faces).map(|(count, place, pair)| mixed([0, count], pair, &place[..4]))
+    }
+
+    /// The edges or faces, given by their corners and the node between these, on which elements have different nodes: how
+    /// many, the first, and two elements with it.
+    fn differing<'s, const N: usize, I: Iterator<Item = [u32; N]> + 's>(
+        &'s self,
+        of_solid: impl Fn(ElementKind, &'s [usize]) -> I + Sync,
+    ) -> Option<(usize, [u32; N], [u32; 2])> {
         let solids = self.solids.par_iter().enumerate();
-        let mut all: Vec<([u32; 3], u32)> = solids
-            .flat_map_iter(|(index, solid)| edges(solid.kind, solid.nodes).map(move |edge| (edge, index as u32)))
+        let mut all: Vec<([u32; N], u32)> = solids
+            .flat_map_iter(|(index, solid)| of_solid(solid.kind, solid.nodes).map(move |edge| (edge, index as u32)))
             .collect();
         all.par_sort_unstable();
-        let apart = all.chunk_by(|a, b| a.0[..2] == b.0[..2]).filter(|same| same[0].0[2] != same[same.len() - 1].0[2]);
+        let apart = all
+            .chunk_by(|a, b| a.0[..N - 1] == b.0[..N - 1])
+            .filter(|same| same[0].0[N - 1] != same[same.len() - 1].0[N - 1]);
         let same = apart.clone().next()?;
-        let pair = [same[0].1, same[same.len() - 1].1];
-        let mut pair = pair.map(|index| &self.solids[index as usize]);
-        pair.sort_unstable_by_key(|solid| solid.tag);
-        Some(MixedOrders {
-            edges: apart.count(),
-            tags: pair.map(|solid| solid.tag),
-            parts: self.names(pair.map(|solid| solid.part)),
-            place: self.mean(&[same[0].0[0] as usize, same[0].0[1] as usize]),
-        })
+        Some((apart.count(), same[0].0, [same[0].1, same[same.len() - 1].1]))
     }
 
     /// The edges of a group of curves or faces that lack the middle node of the elements there; the first tag is that of the
@@ -161,6 +192,7 @@ impl Bodies<'_> {
         let (ends, (tag, solid)) = found.first_key_value()?;
         Some(MixedOrders {
             edges: found.len(),
+            faces: 0,
             tags: [*tag, solid.tag],
             parts: self.names([solid.part; 2]),
             place: self.mean(&ends.map(|node| node as usize)),

@@ -176,6 +176,39 @@ fn kinds_and_order_do_not_hide_a_double() {
 }
 
 /// A cube as a Hex8 and as five Tet4 on its nodes: no corners are the same, no faces either.
+/// Two cubes on each other that share the nodes of their common face; the centre of that face is in one of them alone.
+#[test]
+fn faces_with_and_without_a_centre_come_apart() {
+    use ElementKind::{Hex20, Hex27, Pyramid13, Pyramid14};
+    let found = |lower: ElementKind, upper: ElementKind| {
+        let mut mesh = empty();
+        for (name, kind, up) in [("lower", lower, 0.0), ("upper", upper, 2.0)] {
+            // a pyramid stands on the lower cube's upper face
+            let up = if kind.corners() == 5 { 1.0 } else { up };
+            let nodes: Vec<_> = kind.natural_nodes().iter().map(|&[x, y, z]| [x, y, z + up]).collect();
+            add(&mut mesh, name, kind, &nodes, &[(0..kind.nodes()).collect()]);
+        }
+        let points = mesh.nodes.clone();
+        let same = |a: [f64; 3], b: [f64; 3]| (0..3).all(|d| (a[d] - b[d]).abs() < 1e-12);
+        for node in &mut mesh.blocks[1].connectivity {
+            *node = points.iter().position(|&point| same(point, points[*node])).unwrap();
+        }
+        Bodies::of_mesh(&mesh).mixed_orders().map(|mixed| mixed.sentence())
+    };
+    for [lower, upper] in [[Hex27, Hex27], [Hex20, Hex20], [Hex27, Pyramid14], [Hex20, Pyramid13]] {
+        assert_eq!(found(lower, upper), None, "{lower:?} {upper:?}");
+    }
+    for [lower, upper] in [[Hex27, Hex20], [Hex20, Hex27], [Hex27, Pyramid13], [Hex20, Pyramid14]] {
+        assert_eq!(
+            found(lower, upper).as_deref(),
+            Some(
+                "1 face is without a centre node that all elements there have in common, the first is that of elements 1 and 2 of \"lower\" and \"upper\" at (0.000000, 0.000000, 1.000000) m"
+            ),
+            "{lower:?} {upper:?}"
+        );
+    }
+}
+
 #[test]
 fn other_elements_on_the_same_nodes_overlap() {
     let mut mesh = empty();

@@ -121,6 +121,38 @@ fn wedge_rules_are_exact_to_their_degrees() {
     }
 }
 
+/// In `xi = x / (1 - z)`, `eta` and z, with `int (1 - z)^2 z^k dz = 2 k! / (k + 3)!`.
+#[test]
+fn pyramid_rules_are_exact_to_their_degrees_and_no_further() {
+    let rules = [
+        (QuadratureRule::Pyramid2x1, 3, 1),
+        (QuadratureRule::Pyramid2x2, 3, 3),
+        (QuadratureRule::Pyramid3x2, 5, 3),
+        (QuadratureRule::Pyramid3x3, 5, 5),
+        (QuadratureRule::Pyramid5x4, 9, 7),
+    ];
+    for (rule, across, along) in rules {
+        let points: Vec<QuadraturePoint> = rule
+            .points()
+            .iter()
+            .map(|&QuadraturePoint { natural: [x, y, z], weight }| point([x / (1.0 - z), y / (1.0 - z), z], weight))
+            .collect();
+        let off = |[i, j, k]: [i32; 3]| {
+            let exact = line_moment(i) * line_moment(j) * 2.0 * simplex_moment([k, 0, 0], 3);
+            error(&points, [i, j, k], exact)
+        };
+        for i in 0..=across {
+            for j in 0..=across {
+                for k in 0..=along {
+                    let found = off([i, j, k]);
+                    assert!(found < 1e-14, "{rule:?} ({i}, {j}, {k}): {found:e}");
+                }
+            }
+        }
+        assert!(off([across + 1, 0, 0]) > 1e-4 && off([0, 0, along + 1]) > 1e-6, "{rule:?}");
+    }
+}
+
 /// No point on the boundary or outside, no negative weight: a valid element stays valid.
 #[test]
 fn points_are_inside_and_weights_positive() {

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::quadrature::{conical_tetrahedron, conical_triangle, cube, product, square};
+use crate::fe::element::continuum::quadrature::{
+    conical_pyramid, conical_tetrahedron, conical_triangle, cube, product, square,
+};
 use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::ElementKind;
@@ -70,7 +72,7 @@ pub(super) fn straight(kind: ElementKind) -> Vec<[f64; 3]> {
     kind.natural_nodes().iter().map(place).collect()
 }
 
-/// Corners moved by up to 0.12, middle nodes in the middle of their straight edges.
+/// Corners moved by up to 0.12, middle nodes in the middle of their straight edges, others in the mean of their corners.
 pub(super) fn distorted(kind: ElementKind) -> Vec<[f64; 3]> {
     let mut coords = straight(kind);
     for (i, node) in coords[..kind.corners()].iter_mut().enumerate() {
@@ -78,10 +80,15 @@ pub(super) fn distorted(kind: ElementKind) -> Vec<[f64; 3]> {
             *value += 0.12 * (7.0 * i as f64 + 3.0 * d as f64 + 1.0).sin();
         }
     }
-    for (&[a, b], i) in kind.middle_edges().iter().zip(kind.corners()..) {
-        coords[i] = [0, 1, 2].map(|d| 0.5 * (coords[a][d] + coords[b][d]));
+    for (around, i) in kind.beyond_corners().zip(kind.corners()..) {
+        coords[i] = mean(around.iter().map(|&corner| coords[corner]));
     }
     coords
+}
+
+/// The mean of some points.
+pub(super) fn mean(points: impl ExactSizeIterator<Item = [f64; 3]> + Clone) -> [f64; 3] {
+    [0, 1, 2].map(|d| points.clone().map(|x| x[d]).sum::<f64>() / points.len() as f64)
 }
 
 /// The distorted element with its middle nodes, if there are any, moved by up to 0.04.
@@ -106,14 +113,13 @@ pub(super) fn elements(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
 
 /// A rule far beyond every degree that occurs: 12 points a direction.
 pub(super) fn very_fine(kind: ElementKind) -> Vec<QuadraturePoint> {
-    use ElementKind::{Hex8, Hex20, Quad4, Quad8, Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
-    match kind {
-        Tri3 | Tri6 => conical_triangle(12),
-        Quad4 | Quad8 => square(12),
-        Tet4 | Tet10 => conical_tetrahedron(12),
-        Hex8 | Hex20 => cube(12),
-        Wedge6 | Wedge15 => product(&conical_triangle(12), 12, 2),
-        _ => Vec::new(),
+    match (kind.dimension(), kind.corners()) {
+        (2, 3) => conical_triangle(12),
+        (2, _) => square(12),
+        (_, 4) => conical_tetrahedron(12),
+        (_, 5) => conical_pyramid(12, 12),
+        (_, 6) => product(&conical_triangle(12), 12, 2),
+        _ => cube(12),
     }
 }
 

@@ -40,12 +40,18 @@ harness! {
     quad4: Quad4, Formulation::default();
     quad4_plain: Quad4, PLAIN;
     quad8: Quad8, Formulation::default();
+    quad9: Quad9, Formulation::default();
     tet4: Tet4, Formulation::default();
     tet10: Tet10, Formulation::default();
     tet10_four_point: Tet10, FOUR_POINT;
     hex8: Hex8, Formulation::default();
     hex8_plain: Hex8, PLAIN;
     hex20: Hex20, Formulation::default();
+    hex27: Hex27, Formulation::default();
     wedge6: Wedge6, Formulation::default();
     wedge15: Wedge15, Formulation::default();
+    wedge18: Wedge18, Formulation::default();
+    pyramid5: Pyramid5, Formulation::default();
+    pyramid13: Pyramid13, Formulation::default();
+    pyramid14: Pyramid14, Formulation::default();
 }

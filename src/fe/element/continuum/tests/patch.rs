@@ -3,7 +3,8 @@
 //!
 //! Plane: five quadrilaterals or ten triangles. Solid: MacNeal and Harder's cube in a cube (Finite Elem. Anal.
 //! Des. 1 (1985) 3), seven hexahedra, each cut into twelve tetrahedra about its centre; twenty wedges on the
-//! plane patch of triangles in two layers. Curved inner edges pass as well: the condition is that
+//! plane patch of triangles in two layers; each hexahedron cut into six pyramids about its centre. A mixed patch has pyramids
+//! round the inner hexahedron, two tetrahedra in the place of each outermost pyramid, and hexahedra. Curved inner edges pass as well: the condition is that
 //! `int dN/dx dV`, a polynomial, is integrated exactly, which every full rule does. The four points of Tet10 do
 //! not.
 
@@ -11,23 +12,61 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fixtures::{all_properties, field};
-use super::{FOUR_POINT, Outcome};
+use super::fixtures::{all_properties, field, mean};
+use super::{FOUR_POINT, Outcome, PLAIN};
 use crate::fe::element::continuum::{ContinuumProperties, Formulation, stiffness};
 use crate::fe::mesh::ElementKind;
 
 /// Nodes, elements, and which nodes are on the boundary.
 struct Patch {
     nodes: Vec<[f64; 3]>,
-    elements: Vec<Vec<usize>>,
+    elements: Vec<(ElementKind, Vec<usize>)>,
     outer: Vec<bool>,
 }
 
+/// An element by its corners.
+type Cell = (ElementKind, Vec<usize>);
+
 pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
-    let straight = build(kind, 0.0);
-    // small enough that nothing folds: tetrahedra have the shortest edges
-    let bulge = if kind == ElementKind::Tet10 { 0.01 } else { 0.02 };
-    let curved = build(kind, bulge);
+    // small enough that nothing folds: tetrahedra and pyramids have the shortest edges, Hex27 the most nodes that move
+    let short = kind.dimension() == 3 && (matches!(kind.corners(), 4 | 5) || kind == ElementKind::Hex27);
+    let (nodes, cells) = match (kind.dimension(), kind.corners()) {
+        (2, _) => plane_cells(kind),
+        (_, 4) => tetrahedron_cells(),
+        (_, 5) => pyramid_cells(),
+        (_, 6) => wedge_cells(),
+        _ => hexahedron_cells(),
+    };
+    let cells: Vec<Cell> = cells.into_iter().map(|cell| (kind, cell)).collect();
+    passes(kind, formulation, (&nodes, &cells), if short { 0.01 } else { 0.02 })
+}
+
+/// Hexahedra, pyramids and tetrahedra of each family conform.
+#[test]
+fn mixed_patches() -> Outcome {
+    use ElementKind::{Hex8, Hex20, Hex27, Pyramid5, Pyramid13, Pyramid14, Tet4, Tet10};
+    let families = [[Hex8, Pyramid5, Tet4], [Hex20, Pyramid13, Tet10], [Hex27, Pyramid14, Tet10]];
+    for [hexahedron, pyramid, tetrahedron] in families {
+        let (nodes, cells) = mixed_cells();
+        let of_corners = |corners: usize| match corners {
+            4 => tetrahedron,
+            5 => pyramid,
+            _ => hexahedron,
+        };
+        let cells: Vec<Cell> = cells.into_iter().map(|cell| (of_corners(cell.len()), cell)).collect();
+        for kind in [hexahedron, pyramid, tetrahedron] {
+            assert!(cells.iter().filter(|cell| cell.0 == kind).count() >= 3, "{kind:?}");
+        }
+        for formulation in [Formulation::default(), PLAIN] {
+            passes(hexahedron, formulation, (&nodes, &cells), 0.01)?;
+        }
+    }
+    Ok(())
+}
+
+/// The patch test, straight and curved.
+fn passes(kind: ElementKind, formulation: Formulation, (nodes, cells): (&[[f64; 3]], &[Cell]), bulge: f64) -> Outcome {
+    let (straight, curved) = (build(nodes, cells, 0.0), build(nodes, cells, bulge));
     for p in all_properties(kind)? {
         let error = error(kind, &p, formulation, &straight)?;
         assert!(error < 1e-12, "{kind:?}: {error:e}");
@@ -133,30 +172,58 @@ fn tetrahedron_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
     (nodes, cells)
 }
 
-/// The patch of a kind, with the middle nodes of inner edges moved by `bulge`.
-fn build(kind: ElementKind, bulge: f64) -> Patch {
-    let (mut nodes, cells) = match kind.corners() {
-        3 => plane_cells(kind),
-        4 if kind.dimension() == 2 => plane_cells(kind),
-        4 => tetrahedron_cells(),
-        6 => wedge_cells(),
-        _ => hexahedron_cells(),
-    };
+/// Each hexahedron about its centre.
+fn pyramid_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let (mut nodes, hexahedra) = hexahedron_cells();
+    let cells = hexahedra.iter().flat_map(|hexahedron| about_centre(&mut nodes, hexahedron)).collect();
+    (nodes, cells)
+}
+
+/// Six pyramids on the faces of a hexahedron, in the order of these.
+fn about_centre(nodes: &mut Vec<[f64; 3]>, hexahedron: &[usize]) -> Vec<Vec<usize>> {
+    let centre = nodes.len();
+    nodes.push(mean(hexahedron.iter().map(|&corner| nodes[corner])));
+    // as seen from the centre
+    FACES
+        .map(|[a, b, c, d]| [d, c, b, a].map(|corner| hexahedron[corner]).into_iter().chain([centre]).collect())
+        .to_vec()
+}
+
+/// The inner hexahedron and two outer ones; of the other four five pyramids, and two tetrahedra on the outer face, which
+/// is their first one.
+fn mixed_cells() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let (mut nodes, hexahedra) = hexahedron_cells();
+    let mut cells = hexahedra[..3].to_vec();
+    for hexahedron in &hexahedra[3..] {
+        let mut pyramids = about_centre(&mut nodes, hexahedron);
+        let outermost = pyramids.remove(0);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|corner| outermost[corner]);
+        cells.extend([vec![a, b, c, outermost[4]], vec![a, c, d, outermost[4]]]);
+        cells.extend(pyramids);
+    }
+    (nodes, cells)
+}
+
+/// The patch of some cells, with the nodes between the corners moved by `bulge` where they are inside.
+fn build(corners: &[[f64; 3]], cells: &[Cell], bulge: f64) -> Patch {
+    let mut nodes = corners.to_vec();
+    let dimension = cells[0].0.dimension();
     let high = nodes.iter().fold([0.0_f64; 3], |m, n| [0, 1, 2].map(|d| m[d].max(n[d])));
     let sides = |node: &[f64; 3]| {
         let on = |d: usize| node[d].abs() < 1e-9 || (node[d] - high[d]).abs() < 1e-9;
-        (0..kind.dimension()).any(on)
+        (0..dimension).any(on)
     };
     let mut middles = HashMap::new();
     let mut elements = Vec::new();
-    for cell in cells {
+    for (kind, cell) in cells {
         let mut element = cell.clone();
-        for &[a, b] in kind.middle_edges() {
-            let (a, b) = (cell[a].min(cell[b]), cell[a].max(cell[b]));
-            element.push(*middles.entry((a, b)).or_insert_with(|| {
-                let mut middle = [0, 1, 2].map(|d| 0.5 * (nodes[a][d] + nodes[b][d]));
+        for around in kind.beyond_corners() {
+            let mut around: Vec<usize> = around.iter().map(|&corner| cell[corner]).collect();
+            around.sort_unstable();
+            element.push(*middles.entry(around.clone()).or_insert_with(|| {
+                let mut middle = mean(around.iter().map(|&corner| nodes[corner]));
                 if !sides(&middle) {
-                    for (d, value) in middle[..kind.dimension()].iter_mut().enumerate() {
+                    for (d, value) in middle[..dimension].iter_mut().enumerate() {
                         *value += bulge * (4.0 * nodes.len() as f64 + 2.0 * d as f64).sin();
                     }
                 }
@@ -164,7 +231,7 @@ fn build(kind: ElementKind, bulge: f64) -> Patch {
                 nodes.len() - 1
             }));
         }
-        elements.push(element);
+        elements.push((*kind, element));
     }
     let outer = nodes.iter().map(sides).collect();
     Patch { nodes, elements, outer }
@@ -180,9 +247,9 @@ fn error(
     let n = kind.dimension();
     let dof = n * patch.nodes.len();
     let mut k = DMatrix::zeros(dof, dof);
-    for element in &patch.elements {
+    for (kind, element) in &patch.elements {
         let coords: Vec<[f64; 3]> = element.iter().map(|&n| patch.nodes[n]).collect();
-        let local = stiffness(kind, &coords, p, formulation)?;
+        let local = stiffness(*kind, &coords, p, formulation)?;
         for (i, &a) in element.iter().enumerate() {
             for (j, &b) in element.iter().enumerate() {
                 let mut target = k.view_mut((n * a, n * b), (n, n));

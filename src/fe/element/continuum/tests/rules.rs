@@ -9,7 +9,7 @@ use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::{
-    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, stiffness,
+    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, shape_values, stiffness,
 };
 use crate::fe::mesh::ElementKind;
 
@@ -82,12 +82,13 @@ fn straightness_has_no_step() -> Outcome {
 fn on_a_bore(kind: ElementKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
     let arc = degrees.to_radians();
     let simplex = kind.is_simplex();
-    let wedge = kind == ElementKind::Wedge15;
+    let wedge = kind.corners() == 6;
+    let pyramid = kind.corners() == 5;
     let unit = |value: f64, is_unit: bool| if is_unit { value } else { 0.5 * (value + 1.0) };
     let place = |&[xi, eta, zeta]: &[f64; 3]| {
         let radius = 1.0 + height * arc * unit(xi, simplex || wedge);
         let angle = arc * unit(eta, simplex || wedge);
-        let along = if kind.dimension() == 3 { arc * unit(zeta, simplex) } else { 0.0 };
+        let along = if kind.dimension() == 3 { arc * unit(zeta, simplex || pyramid) } else { 0.0 };
         [radius * angle.cos(), radius * angle.sin(), along]
     };
     let corners = &kind.natural_nodes()[..kind.corners()];
@@ -100,6 +101,18 @@ fn on_a_bore(kind: ElementKind, degrees: f64, height: f64) -> Vec<[f64; 3]> {
             middle = [middle[0] / radius, middle[1] / radius, middle[2]];
         }
         coords.push(middle);
+    }
+    // centres where the element without them has that point, as gmsh places them
+    let without = match kind {
+        ElementKind::Quad9 => ElementKind::Quad8,
+        ElementKind::Hex27 => ElementKind::Hex20,
+        ElementKind::Wedge18 => ElementKind::Wedge15,
+        ElementKind::Pyramid14 => ElementKind::Pyramid13,
+        complete => complete,
+    };
+    for &natural in &kind.natural_nodes()[without.nodes()..] {
+        let values = shape_values(without, natural);
+        coords.push([0, 1, 2].map(|d| coords[..without.nodes()].iter().zip(values).map(|(x, n)| n * x[d]).sum()));
     }
     coords
 }
@@ -139,8 +152,20 @@ fn curved_tet10_is_converged() -> Outcome {
 /// Tri6 and the rules of the others likewise; a coarser rule would be seen.
 #[test]
 fn other_curved_elements_are_as_documented() -> Outcome {
-    use ElementKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
-    for (kind, expected) in [(Tet10, 2.3e-9), (Tri6, 3.1e-6), (Quad8, 2.9e-4), (Hex20, 2.6e-4), (Wedge15, 9.4e-5)] {
+    use ElementKind::{Hex20, Hex27, Pyramid13, Pyramid14, Quad8, Quad9, Tet10, Tri6, Wedge15, Wedge18};
+    let documented = [
+        (Tet10, 2.3e-9),
+        (Tri6, 3.1e-6),
+        (Quad8, 2.9e-4),
+        (Quad9, 9.1e-4),
+        (Hex20, 2.6e-4),
+        (Hex27, 9.5e-4),
+        (Wedge15, 9.4e-5),
+        (Wedge18, 4.1e-4),
+        (Pyramid13, 1.3e-4),
+        (Pyramid14, 4.7e-4),
+    ];
+    for (kind, expected) in documented {
         let found = rule_error(kind, (10.0, 1.0), kind.rules()[0][0])?;
         let near = (found / expected - 1.0).abs() < 0.1;
         assert!(near, "{kind:?}: {found:.1e} documented {expected:.1e}");

@@ -1,6 +1,6 @@
 //! Shape functions: partition of unity, nodal property, derivatives.
 
-use crate::fe::element::continuum::{shape_derivatives, shape_values};
+use crate::fe::element::continuum::{shape, shape_derivatives, shape_values};
 use crate::fe::mesh::ElementKind;
 
 pub(super) fn check(kind: ElementKind) {
@@ -8,6 +8,8 @@ pub(super) fn check(kind: ElementKind) {
     partition_of_unity(kind);
     nodal_property(kind);
     derivatives_against_differences(kind);
+    complete_to_its_order(kind);
+    faces_are_those_of_their_kind(kind);
 }
 
 fn counts(kind: ElementKind) {
@@ -23,8 +25,22 @@ fn counts(kind: ElementKind) {
 /// otherwise.
 #[test]
 fn middle_nodes_are_in_gmshs_order() {
-    use ElementKind::{Hex20, Quad8, Tet10, Tri6, Wedge15};
-    let cases: [(ElementKind, usize, [f64; 3]); 14] = [
+    use ElementKind::{Hex20, Hex27, Pyramid13, Pyramid14, Quad8, Quad9, Tet10, Tri6, Wedge15, Wedge18};
+    let cases: [(ElementKind, usize, [f64; 3]); 28] = [
+        (Quad9, 8, [0.0, 0.0, 0.0]),
+        (Hex27, 17, [-1.0, 0.0, 1.0]),
+        (Hex27, 20, [0.0, 0.0, -1.0]),
+        (Hex27, 21, [0.0, -1.0, 0.0]),
+        (Hex27, 22, [-1.0, 0.0, 0.0]),
+        (Hex27, 24, [0.0, 1.0, 0.0]),
+        (Hex27, 26, [0.0, 0.0, 0.0]),
+        (Wedge18, 15, [0.5, 0.0, 0.0]),
+        (Wedge18, 16, [0.0, 0.5, 0.0]),
+        (Wedge18, 17, [0.5, 0.5, 0.0]),
+        (Pyramid13, 6, [-1.0, 0.0, 0.0]),
+        (Pyramid13, 9, [0.5, -0.5, 0.5]),
+        (Pyramid14, 11, [0.5, 0.5, 0.5]),
+        (Pyramid14, 13, [0.0, 0.0, 0.0]),
         (Tri6, 5, [0.0, 0.5, 0.0]),
         (Quad8, 7, [-1.0, 0.0, 0.0]),
         (Tet10, 6, [0.0, 0.5, 0.0]),
@@ -85,21 +101,73 @@ fn nodal_property(kind: ElementKind) {
     }
 }
 
-/// Central differences of quadratic (in one direction) functions are exact but for rounding, 1e-16 / h.
+/// Fifth-order central differences: the error is `h^4 / 30` times the fifth derivative, at most 720 / s^3 of the pyramids'
+/// functions, whose h is as small as their width s; rounding is 1e-16 / h.
 fn derivatives_against_differences(kind: ElementKind) {
-    let h = 1e-5;
     for point in samples(kind) {
+        let h = if kind.corners() == 5 { 1e-3 * (1.0 - point[2]) } else { 1e-3 };
         let exact = shape_derivatives(kind, point);
         for d in 0..3 {
-            let (mut plus, mut minus) = (point, point);
-            plus[d] += h;
-            minus[d] -= h;
-            let (plus, minus) = (shape_values(kind, plus), shape_values(kind, minus));
+            let at = |steps: f64| {
+                let mut moved = point;
+                moved[d] += steps * h;
+                shape_values(kind, moved)
+            };
+            let [far_minus, minus, plus, far_plus] = [-2.0, -1.0, 1.0, 2.0].map(at);
             for i in 0..kind.nodes() {
-                let difference = (plus[i] - minus[i]) / (2.0 * h);
+                let difference = (far_minus[i] - far_plus[i] + 8.0 * (plus[i] - minus[i])) / (12.0 * h);
                 let expected = if d < kind.dimension() { difference } else { 0.0 };
                 let error = (expected - exact[i][d]).abs();
                 assert!(error < 1e-10, "{kind:?} node {i} direction {d}: {error}");
+            }
+        }
+    }
+}
+
+/// Every monomial up to the order is met, value and gradient, also at the apex of a pyramid and near it.
+fn complete_to_its_order(kind: ElementKind) {
+    let mut points = samples(kind);
+    points.extend(kind.natural_nodes());
+    if kind.corners() == 5 {
+        points.extend([[0.0, 0.0, 1.0 - 1e-9], [4e-10, -9e-10, 1.0 - 1e-9]]);
+    }
+    let order = kind.order() as i32;
+    let powers =
+        |n: i32| (0..=n).flat_map(move |i| (0..=n - i).flat_map(move |j| (0..=n - i - j).map(move |k| [i, j, k])));
+    for p in powers(order).filter(|p| kind.dimension() == 3 || p[2] == 0) {
+        let field = |x: [f64; 3]| (0..3).map(|d| x[d].powi(p[d])).product::<f64>();
+        let slope = |x: [f64; 3], d: usize| {
+            let of = |i: usize| if i == d { f64::from(p[i]) * x[i].powi((p[i] - 1).max(0)) } else { x[i].powi(p[i]) };
+            (0..3).map(of).product::<f64>()
+        };
+        for &point in &points {
+            let (values, derivatives) = shape(kind, point);
+            let nodes = kind.natural_nodes();
+            let error = nodes.iter().zip(values).map(|(&x, n)| n * field(x)).sum::<f64>() - field(point);
+            assert!(error.abs() < 1e-14, "{kind:?} {p:?} at {point:?}: {error:e}");
+            for d in 0..kind.dimension() {
+                let found: f64 = nodes.iter().zip(derivatives).map(|(&x, n)| n[d] * field(x)).sum();
+                let error = found - slope(point, d);
+                assert!(error.abs() < 1e-14, "{kind:?} {p:?} direction {d} at {point:?}: {error:e}");
+            }
+        }
+    }
+}
+
+/// On a face the element's functions are those of the face's kind, so that neighbours of any kind conform there.
+fn faces_are_those_of_their_kind(kind: ElementKind) {
+    for face in kind.faces() {
+        for at in samples(face.kind) {
+            let on_face = shape_values(face.kind, at);
+            let mut point = [0.0; 3];
+            for (&node, value) in face.nodes.iter().zip(on_face) {
+                (0..3).for_each(|d| point[d] += value * kind.natural_nodes()[node][d]);
+            }
+            let values = shape_values(kind, point);
+            for (node, value) in values[..kind.nodes()].iter().enumerate() {
+                let own = face.nodes.iter().position(|&of_face| of_face == node);
+                let expected = own.map_or(0.0, |local| on_face[local]);
+                assert!((value - expected).abs() < 1e-14, "{kind:?} N_{node} on {face:?}: {value} {expected}");
             }
         }
     }

@@ -16,10 +16,12 @@ fn flat_surfaces_have_the_textbook_weights() -> Outcome {
             ElementKind::Tri3 | ElementKind::Tri6 => {
                 ElementKind::Tri6.natural_nodes().iter().map(|n| [n[0], n[1]]).collect()
             }
-            _ => ElementKind::Quad8.natural_nodes().iter().map(|n| [n[0], n[1]]).collect(),
+            _ => ElementKind::Quad9.natural_nodes().iter().map(|n| [n[0], n[1]]).collect(),
         }
     };
-    let cases: [(ElementKind, f64, &[f64]); 6] = [
+    let (corner, side, middle) = (1.0 / 36.0, 4.0 / 36.0, 16.0 / 36.0);
+    let cases: [(ElementKind, f64, &[f64]); 7] = [
+        (ElementKind::Quad9, 16.0, &[corner, corner, corner, corner, side, side, side, side, middle]),
         (ElementKind::Line2, 4.0, &[0.5; 2]),
         (ElementKind::Line3, 4.0, &[1.0 / 6.0, 1.0 / 6.0, 4.0 / 6.0]),
         (ElementKind::Tri3, 2.0, &[1.0 / 3.0; 3]),
@@ -59,7 +61,7 @@ fn derivatives_against_differences() {
             plus[d] += h;
             minus[d] -= h;
             let (plus, minus) = (shape(kind, [plus[0], plus[1], 0.0]).0, shape(kind, [minus[0], minus[1], 0.0]).0);
-            for i in 0..8 {
+            for i in 0..9 {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
                 assert!((difference - derivatives[i][d]).abs() < 1e-10, "{kind:?} {i} {d}");
             }
@@ -140,7 +142,7 @@ fn consistent_shares_are_positive() -> Outcome {
                 vec![[0.0; 3], [3.0, 0.0, 0.0], [1.5, 0.0, 0.0]]
             }
             ElementKind::Tri3 | ElementKind::Tri6 => ElementKind::Tri6.natural_nodes().to_vec(),
-            _ => ElementKind::Quad8.natural_nodes().to_vec(),
+            _ => ElementKind::Quad9.natural_nodes().to_vec(),
         };
         let coords = &flat[..kind.nodes()];
         let (matrix, weights) = (surface_matrix(kind, coords)?, surface_weights(kind, coords)?);
