@@ -300,12 +300,15 @@ mod cell_tests {
     const PYRAMID: [[usize; 2]; 8] = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
     /// Faces in the order of their centres, by two opposite corners.
     const HEXAHEDRON_CENTRES: [[usize; 2]; 7] = [[0, 7], [1, 6], [0, 5], [3, 6], [0, 2], [4, 6], [0, 6]];
+    /// A kind, the edges of its middle nodes, the faces of its centres.
+    type Case = (ElementKind, &'static [[usize; 2]], &'static [[usize; 2]]);
+
     const WEDGE_CENTRES: [[usize; 2]; 3] = [[0, 4], [1, 5], [2, 3]];
 
     #[allow(clippy::float_cmp)] // halves of small integers are exact
     #[test]
     fn middle_nodes_lie_between_the_corners_of_their_edge() {
-        let kinds: [(ElementKind, &[[usize; 2]], &[[usize; 2]]); 16] = [
+        let kinds: [Case; 16] = [
             (ElementKind::Tri3, &[], &[]),
             (ElementKind::Tri6, &TRIANGLE, &[]),
             (ElementKind::Quad4, &[], &[]),

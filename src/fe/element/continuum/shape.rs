@@ -343,9 +343,7 @@ fn on_pyramid(kind: ElementKind, [x, y, z]: [f64; 3]) -> (ShapeValues, ShapeDeri
         for (i, at_centre) in [(0, -0.25), (1, -0.25), (2, -0.25), (3, -0.25), (5, 0.5), (6, 0.5), (8, 0.5), (10, 0.5)]
         {
             values[i] -= at_centre * values[13];
-            for d in 0..3 {
-                derivatives[i][d] -= at_centre * derivatives[13][d];
-            }
+            derivatives[i] = [0, 1, 2].map(|d| derivatives[i][d] - at_centre * derivatives[13][d]);
         }
     }
     (values, derivatives)
