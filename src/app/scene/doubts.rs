@@ -54,7 +54,8 @@ pub(crate) fn doubts(
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
 ) -> Result<Vec<String>, ComputeError> {
     let mut found = plausible::materials(case);
-    if let Some((_, model)) = housing {
+    if let Some((mesh, model)) = housing {
+        found.extend(mesh.left_out_sentences().into_iter().map(|told| format!("{}: {told}", mesh.source.display())));
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(model));
     }
@@ -81,7 +82,7 @@ pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
     let Some(housing) = case.meshed_housing() else {
         return doubts(case, None, None);
     };
-    let mesh = read_mesh(housing, &Unwatched)?;
+    let mesh = read_mesh(case, housing, &Unwatched)?;
     let model = HousingModel::new(&mesh, description(case, housing)?)?;
     doubts(case, Some((&mesh, &model)), None)
 }

@@ -34,9 +34,7 @@ impl AssembledHousing {
             return Ok(None);
         };
         watch.stage("read");
-        let mesh = read_mesh(housing, watch)?;
-        let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
-        case.check_groups(&groups)?;
+        let mesh = read_mesh(case, housing, watch)?;
         watch.stage("assemble");
         let model = HousingModel::new(&mesh, description(case, housing)?)?;
         let matrices = SystemMatrices::assemble(&model)?;
@@ -131,15 +129,18 @@ impl From<&FileDigest> for MeshFile {
     }
 }
 
-/// Reads the mesh of a housing and tells which content it had.
+/// Reads the mesh of a case's housing, tells which content it had, and gives it the groups of CAD entities that the case names.
 ///
 /// # Errors
-/// [`ComputeError::Mesh`].
-pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
+/// [`ComputeError::Mesh`]; [`ComputeError::Case`] for a group that the mesh lacks.
+pub(crate) fn read_mesh(case: &Case, housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
     let path = &housing.mesh;
     let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
-    Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
+    let mut mesh = Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?;
+    mesh.add_entity_groups(case.groups().into_iter().map(|(_, name)| name));
+    case.check_groups(&mesh.names())?;
+    Ok(mesh)
 }
 
 /// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a

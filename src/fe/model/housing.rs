@@ -216,6 +216,11 @@ impl HousingModel {
         if !group.nodes.iter().any(|&node| self.used[node]) {
             return Err(not_on_housing(path, name, purpose));
         }
+        if let Some(tag) = mesh.left_out_of(group) {
+            return Err(ModelError::Refused(format!(
+                "group \"{name}\" in {path}: its element {tag} has a node twice; {purpose} needs whole faces: expected different nodes; mesh again, or take the element out of the group"
+            )));
+        }
         let Some(MixedOrders { edges, tags: [own, other], place: [x, y, z], .. }) =
             self.bodies().without_middle_nodes(mesh, group)
         else {

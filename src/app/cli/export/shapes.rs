@@ -102,9 +102,8 @@ fn part_numbers(case: &Case, mesh: &Mesh, elements: &[ElementId]) -> (Vec<i64>, 
     let mut names = Vec::new();
     for (number, part) in (1..).zip(parts) {
         names.push(format!("{number} {}", part.group));
-        for group in mesh.groups.iter().filter(|group| group.name == part.group) {
-            let own = group.elements.iter().map(|&id| (id, number));
-            numbers.extend(own);
+        if let Ok(group) = mesh.body(&part.group) {
+            numbers.extend(group.elements.iter().map(|&id| (id, number)));
         }
     }
     let number = |id: &ElementId| numbers.get(id).copied().unwrap_or(0);
@@ -140,7 +139,15 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
     let (node_tags, entity) = (tags.clone(), Entity { dimension: 1, tag: 1 });
     let line = ElementBlock { kind: ElementKind::Line2, tags, connectivity: ends.collect(), entity };
     let format = MshFormat { version: MshVersion::V41, binary: false };
-    Mesh { node_tags, blocks: vec![line], nodes, groups: Vec::new(), format, source: PathBuf::new() }
+    Mesh {
+        node_tags,
+        blocks: vec![line],
+        nodes,
+        groups: Vec::new(),
+        left_out: Vec::new(),
+        format,
+        source: PathBuf::new(),
+    }
 }
 
 /// Shapes at those nodes of a mesh that its elements use, with their labels.

@@ -7,11 +7,12 @@ use crate::app::case::Case;
 use crate::app::cli::earlier_results::{self, Wanted, case_of_results, other_file, result_of};
 use crate::app::cli::{Options, Progress};
 use crate::app::commands::modes::compute_mode_shapes;
-use crate::app::error::ComputeError;
+use crate::app::scene::housing::read_mesh;
 use crate::app::scene::mesh_digests;
 use crate::fe::mesh::Mesh;
 use crate::files::{FileDigest, FileError};
 use crate::formats::{ModeShapes, read_modes_npz};
+use crate::numerics::Unwatched;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -74,10 +75,7 @@ impl Source {
         let shapes =
             read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();
-        let mesh = housing
-            .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
-            .transpose()
-            .map_err(ComputeError::from)?;
+        let mesh = housing.map(|housing| read_mesh(&self.case, housing, &Unwatched)).transpose()?;
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))

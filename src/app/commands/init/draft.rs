@@ -1,6 +1,7 @@
 //! `plummer init`: from a mesh to a case file that is ready to be edited.
 //!
-//! The bore is the group that lies on a cylinder with the housing outside of it. Parts and supports go by dimension and name. The
+//! The bore is the group that lies on a cylinder with the housing outside of it. Parts and supports go by dimension and name.
+//! CAD entities stand in for groups that the mesh lacks. The
 //! rest is from the catalogue, usual values and guesses. The file says of every value which of these it is. What could not be told
 //! is there as a template, commented out. The same mesh gives the same file.
 //!
@@ -44,9 +45,9 @@ impl Draft {
     /// # Errors
     /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
     pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
-        let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
+        let mut mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
         let inspection = Inspection::of_mesh(&mesh, None);
-        let found = find(request, &mesh, &inspection)?;
+        let found = find(request, &mut mesh, &inspection)?;
         let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
         let parts = found.groups.parts.iter();
         let draft = Self {

@@ -192,7 +192,7 @@ fn bulging(deep: f64) -> Mesh {
 fn a_straight_side_is_no_round_surface() {
     let outside = |deep: f64| {
         let mesh = bulging(deep);
-        let rim = super::bore::Rim::of(&mesh, 2);
+        let rim = crate::fe::mesh::Rim::of(&mesh, 2);
         let found = super::bore::cylinders(&mesh, 2, &rim, |_| true);
         assert_eq!(found.bore, None);
         found.outside.len()

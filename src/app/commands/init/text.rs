@@ -6,6 +6,7 @@ use super::pit::Pit;
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use crate::app::scene::size_doubt;
+use crate::fe::mesh::entity_name;
 use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
@@ -78,6 +79,14 @@ fn bore_sentence(found: &Found<'_>) -> String {
             }
         ),
     };
+    if found.bore.is_none() && found.surfaces > 0 {
+        sentence.push_str(&format!(
+            " Nor is one of the {} CAD {} such a hole all round. A case may name some together, group = \"{}\"; plummer inspect lists them.",
+            found.surfaces,
+            if found.plane { "curves" } else { "surfaces" },
+            entity_name(if found.plane { 1 } else { 2 }, &[12, 13])
+        ));
+    }
     for (hole, share, shoulder) in &found.partly {
         sentence.push_str(&format!(
             " {} % of the {} of group {} is {}; the rest {}: name the round part alone in gmsh, Physical {}(\"bore\").",
@@ -124,6 +133,9 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     lines.push(match (supports, at_bore) {
         ([], []) => "Nothing is held: no group is named like a support.".to_owned(),
         ([], _) => "Nothing is held.".to_owned(),
+        _ if found.groups.flat => {
+            format!("Held, a guess: {}, the largest flat outside that shares no nodes with the bore.", all(supports))
+        }
         _ => format!("Held, by their names: {}.", all(supports)),
     });
     if !at_bore.is_empty() {
@@ -151,8 +163,12 @@ fn others(found: &Found<'_>) -> Vec<String> {
         let mut round = found.holes.iter().chain(&found.outside);
         let round = round.find(|cylinder| cylinder.group == other.group);
         let round = round.map(|cylinder| describe(cylinder, found.plane));
-        let notes = round.into_iter().chain(other.note.map(str::to_owned));
-        let words = std::iter::once(format!("{kind} {}", quoted(&other.group))).chain(notes);
+        let flat = found.flat.contains(&other.group).then(|| "flat, with the body behind it".to_owned());
+        let notes = round.into_iter().chain(flat).chain(other.note.map(str::to_owned));
+        // the name of an entity says its kind
+        let entity = other.group.starts_with(&format!("{kind} ")) || other.group.starts_with(&format!("{kind}s "));
+        let kind = if entity { String::new() } else { format!("{kind} ") };
+        let words = std::iter::once(format!("{kind}{}", quoted(&other.group))).chain(notes);
         words.collect::<Vec<_>>().join(": ")
     });
     others.collect()
