@@ -67,9 +67,10 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
             overlapping.join("; "),
             "cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are",
         ),
-        (None, None, Some(mixed)) => {
-            (mixed.sentence(), "set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order")
-        }
+        (None, None, Some(mixed)) => (
+            mixed.sentence(),
+            "all elements of a body are of one order: gmsh IN.msh -3 -order 2 -o OUT.msh makes them second order",
+        ),
         (None, Some(doubled), _) => (
             doubled.sentence(),
             "keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
@@ -189,7 +190,9 @@ fn surfaces(found: &Inspection, unit: &str) -> String {
     let (what, power) = if found.inventory.dimension == 3 { ("surfaces", "^2") } else { ("curves", "") };
     // writing to a String cannot fail
     let _ = write!(text, "\nCAD {what} in no group, which a case names by kind and tag");
-    let vector = |vector: [f64; 3]| vector.map(|part| significant(part, 3)).join(", ");
+    // the fit's round-off is no direction
+    let plain = |part: f64| if part.abs() < 1e-9 { 0.0 } else { part };
+    let vector = |vector: [f64; 3]| vector.map(|part| significant(plain(part), 3)).join(", ");
     for surface in surfaces.iter().take(SURFACES) {
         let kind = match surface.kind {
             SurfaceKind::Cylinder { diameter, axis, hole, turn } => format!(

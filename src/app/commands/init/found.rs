@@ -99,7 +99,7 @@ pub(crate) fn find<'a>(
     if dimension < 2 {
         return Err(wrong(
             "found a mesh of curves or points, expected surfaces or volumes".to_owned(),
-            "mesh the volume in gmsh (Mesh 3;) and save it again".to_owned(),
+            "mesh the volume: gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
         ));
     }
     let extent = inventory.bounding_box.extent();
@@ -110,7 +110,7 @@ pub(crate) fn find<'a>(
                 "found a mesh of surfaces that reach over {} units of length along z, expected one in a plane z = const, or volumes",
                 page::number(extent[2], 4)
             ),
-            "shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned(),
+            "shells are not modelled: mesh the volume, gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
         ));
     }
     let rim = Rim::of(mesh, dimension);

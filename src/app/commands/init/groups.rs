@@ -123,7 +123,7 @@ impl Groups {
             if group.elements.is_empty() {
                 leave(Some("has no elements"));
             } else if !usable(mesh, group) {
-                leave(Some("another group has this name too and is the one that a case means"));
+                leave(Some("another group has this name too: give each its own in gmsh"));
             } else if group.dimension < dimension && says(name, &SUPPORTS) {
                 if !whole {
                     leave(Some("looks like a support, but lies on no part"));

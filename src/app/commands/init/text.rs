@@ -6,7 +6,6 @@ use super::pit::Pit;
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use crate::app::scene::size_doubt;
-use crate::fe::mesh::entity_name;
 use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
@@ -72,7 +71,7 @@ fn bore_sentence(found: &Found<'_>) -> String {
         None => format!(
             "No group is a {} hole within 1 % of its radius: no bore is known.{}",
             if found.plane { "round" } else { "cylindrical" },
-            match (found.partly.is_empty(), found.plane) {
+            match (found.partly.is_empty() && found.surfaces == 0, found.plane) {
                 (false, _) => "",
                 (true, true) => " If there is one, name it in gmsh: Physical Curve(\"bore\").",
                 (true, false) => " If there is one, name it in gmsh: Physical Surface(\"bore\").",
@@ -80,11 +79,10 @@ fn bore_sentence(found: &Found<'_>) -> String {
         ),
     };
     if found.bore.is_none() && found.surfaces > 0 {
+        let what = if found.plane { "curves" } else { "surfaces" };
         sentence.push_str(&format!(
-            " Nor is one of the {} CAD {} such a hole all round. A case may name some together, group = \"{}\"; plummer inspect lists them.",
-            found.surfaces,
-            if found.plane { "curves" } else { "surfaces" },
-            entity_name(if found.plane { 1 } else { 2 }, &[12, 13])
+            " Nor is one of the {} CAD {what} such a hole all round. A case may name some together, group = \"{what} 12, 13\"; plummer inspect lists them.",
+            found.surfaces
         ));
     }
     for (hole, share, shoulder) in &found.partly {

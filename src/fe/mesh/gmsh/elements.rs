@@ -140,7 +140,7 @@ fn unsupported(gmsh_type: i32) -> (&'static str, &'static str) {
     let complete = "set Mesh.SecondOrderIncomplete = 1 in gmsh and mesh again";
     let pyramid = "pyramids join hexahedra to tetrahedra: mesh volumes that touch with one of the two (without \
                    Recombine for tetrahedra, with Mesh.SubdivisionAlgorithm = 2 as well for hexahedra)";
-    let order = "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again";
+    let order = "make it one of second order with: gmsh IN.msh -3 -order 2 -o OUT.msh (-2 for a plane mesh)";
     match gmsh_type {
         7 => ("Pyramid5", pyramid),
         10 => ("Quad9", complete),

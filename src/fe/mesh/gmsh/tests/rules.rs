@@ -220,6 +220,10 @@ fn elements() {
         after("4 2 3 4 5\n$", "4 2 3 2 5\n$"),
         "$Elements, line 43: element 4 has the node 2 twice: expected different nodes"
     );
+    // a curve's element beside a body is left out
+    let mesh = read(SMALL.replace("\n2 6 1\n", "\n2 6 6\n").as_bytes()).unwrap();
+    let left = crate::fe::mesh::LeftOut { tag: 2, dimension: 1, entity: 1, physical: 0 };
+    assert_eq!((mesh.left_out.as_slice(), mesh.element_ids(1).count()), ([left].as_slice(), 0));
     assert_eq!(
         after("2 1 3 2\n", "1 1 3 2\n"),
         "$Elements, line 41: expected elements of dimension 1 like their entity, found \"Quad4\""
@@ -251,7 +255,11 @@ fn unsupported_elements_are_named() {
         (13, "Wedge18", complete),
         (7, "Pyramid5", pyramid),
         (14, "Pyramid14", pyramid),
-        (36, "of higher order or special purpose", "set Mesh.ElementOrder = 1 or 2 in gmsh and mesh again"),
+        (
+            36,
+            "of higher order or special purpose",
+            "make it one of second order with: gmsh IN.msh -3 -order 2 -o OUT.msh (-2 for a plane mesh)",
+        ),
     ];
     for (number, name, advice) in cases {
         assert_eq!(
