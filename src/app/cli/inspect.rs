@@ -69,7 +69,7 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
         ),
         (None, None, Some(mixed)) => (
             mixed.sentence(),
-            "all elements of a body are of one order: gmsh IN.msh -3 -order 2 -o OUT.msh makes them second order",
+            "all elements of a body are of one order: mesh the geometry again, gmsh PART.step -3 -order 2 -o PART.msh",
         ),
         (None, Some(doubled), _) => (
             doubled.sentence(),

@@ -227,7 +227,7 @@ impl HousingModel {
             return Ok(group);
         };
         Err(ModelError::Refused(format!(
-            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; make all second order with: gmsh IN.msh -3 -order 2 -o OUT.msh"
+            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh"
         )))
     }
 }
@@ -255,7 +255,7 @@ fn accepted_overlaps(
     if let Some(mixed) = bodies.mixed_orders() {
         return refused(
             mixed.sentence(),
-            "the body would come apart between the corners: expected all its elements in one order; make all second order with: gmsh IN.msh -3 -order 2 -o OUT.msh, or tie bodies with nodes of their own by a link",
+            "the body would come apart between the corners: expected all its elements in one order; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh, or tie bodies with nodes of their own by a link",
         );
     }
     let overlaps = bodies.overlaps();
