@@ -79,6 +79,7 @@ fn tet_box(cells: usize) -> Mesh {
         format: MshFormat { version: MshVersion::V41, binary: false },
         source: PathBuf::from("box of tetrahedra"),
         remarks: Vec::new(),
+        left_out: Vec::new(),
     }
 }
 

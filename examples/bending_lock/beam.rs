@@ -123,6 +123,7 @@ impl Beam {
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: "cantilever".into(),
             remarks: Vec::new(),
+            left_out: Vec::new(),
         }
     }
 

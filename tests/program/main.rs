@@ -8,6 +8,7 @@ mod condense_scenes;
 mod estimates;
 mod examples;
 mod export;
+mod groups;
 mod init;
 mod long_run;
 mod modes;

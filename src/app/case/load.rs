@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::check::{BrokenRule, groups_of, known_isotropic, known_material, report};
+use super::check::{BrokenRule, known_isotropic, known_material, report};
 use super::document::{Document, Source};
 use super::error::{CaseError, names_help, one_of};
 use super::{BUILT_IN_MATERIALS, Case, Defect, HousingSource, IsotropicMaterial, Material, ReportDetails};
@@ -173,7 +173,7 @@ impl Case {
     /// [`CaseError`] with the first that it lacks and the nearest that it has.
     pub fn check_groups(&self, groups: &[String]) -> Result<(), CaseError> {
         let missing = |(_, name): &(String, &str)| !groups.iter().any(|group| group == name);
-        match groups_of(self).into_iter().find(missing) {
+        match self.groups().into_iter().find(missing) {
             None => Ok(()),
             Some((key, found)) => {
                 let valid: Vec<&str> = groups.iter().map(String::as_str).collect();

@@ -8,7 +8,7 @@ use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::case::Case;
 use crate::app::commands::result::VERSION;
-use crate::app::commands::{InspectResult, Inspection};
+use crate::app::commands::{InspectResult, Inspection, SurfaceKind};
 use crate::app::error::ComputeError;
 use crate::app::scene::size_doubt;
 use crate::numerics::units::LengthUnit;
@@ -78,9 +78,10 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
             overlapping.join("; "),
             "cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are",
         ),
-        (None, None, Some(mixed)) => {
-            (mixed.sentence(), "set Mesh.ElementOrder in gmsh and mesh again: all elements of a body are of one order")
-        }
+        (None, None, Some(mixed)) => (
+            mixed.sentence(),
+            "all elements of a body are of one order: mesh the geometry again, gmsh PART.step -3 -order 2 -o PART.msh",
+        ),
         (None, Some(doubled), _) => (
             doubled.sentence(),
             "keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
@@ -184,11 +185,50 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
             let _ = write!(text, "  {} {unit}{power}", significant(size.size, 5));
         }
     }
+    text += &surfaces(found, unit);
     if found.length_unit.is_none() {
         let _ = write!(
             text,
             "\nThe file does not say its unit of length; give --length-unit mm (m, cm, um, in) for sizes in metres."
         );
+    }
+    text
+}
+
+/// Surfaces that the summary lists.
+const SURFACES: usize = 24;
+
+/// The CAD surfaces that are in no group, largest first.
+fn surfaces(found: &Inspection, unit: &str) -> String {
+    let mut text = String::new();
+    let mut surfaces: Vec<_> = found.surfaces.iter().collect();
+    if surfaces.is_empty() {
+        return text;
+    }
+    surfaces.sort_by(|a, b| b.size.total_cmp(&a.size));
+    let (what, power) = if found.inventory.dimension == 3 { ("surfaces", "^2") } else { ("curves", "") };
+    // writing to a String cannot fail
+    let _ = write!(text, "\nCAD {what} in no group, which a case names by kind and tag");
+    // the fit's round-off is no direction
+    let plain = |part: f64| if part.abs() < 1e-9 { 0.0 } else { part };
+    let vector = |vector: [f64; 3]| vector.map(|part| significant(plain(part), 3)).join(", ");
+    for surface in surfaces.iter().take(SURFACES) {
+        let kind = match surface.kind {
+            SurfaceKind::Cylinder { diameter, axis, hole, turn } => format!(
+                "{} of diameter {} {unit} along ({}), {} % of the turn",
+                if hole == Some(true) { "hole" } else { "cylinder" },
+                significant(diameter, 5),
+                vector(axis),
+                significant(100.0 * turn, 3)
+            ),
+            SurfaceKind::Plane { normal } => format!("plane, normal ({})", vector(normal)),
+            SurfaceKind::Other => "neither cylinder nor plane".to_owned(),
+        };
+        let (name, size) = (format!("\"{}\"", surface.name), significant(surface.size, 5));
+        let _ = write!(text, "\n  {name:<22}{kind}, {size} {unit}{power}, {}", counted(surface.elements, "element"));
+    }
+    if surfaces.len() > SURFACES {
+        let _ = write!(text, "\n  and {} smaller ones, which --json lists", surfaces.len() - SURFACES);
     }
     text
 }

@@ -1,7 +1,9 @@
 //! `plummer inspect`: what a mesh contains, how large it is and how well its elements are shaped.
 
 use crate::fe::element::continuum::{ShapeQuality, measure, quality, surface_weights};
-use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError};
+use crate::fe::mesh::cylinder::Cylinder;
+use crate::fe::mesh::surfaces::{CadSurface, SurfaceShape};
+use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError, Rim, entity_name};
 use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, folds, straighten};
 use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
@@ -33,6 +35,46 @@ pub struct GroupSize {
     pub dimension: usize,
     /// Sum over its valid elements.
     pub size: f64,
+}
+
+/// What a CAD surface is, or a curve of a plane mesh. Lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "shape")]
+pub enum SurfaceKind {
+    /// A cylinder; a circle about z in a plane mesh.
+    Cylinder {
+        /// Diameter.
+        diameter: f64,
+        /// Unit vector along its axis.
+        axis: [f64; 3],
+        /// Whether the body is outside of it; `None`: it bounds no body.
+        hole: Option<bool>,
+        /// Share of the full turn that it covers, 0 to 1.
+        turn: f64,
+    },
+    /// A plane; a straight line in a plane mesh.
+    Plane {
+        /// Unit normal, away from the body that it bounds.
+        normal: [f64; 3],
+    },
+    /// Neither.
+    Other,
+}
+
+/// A CAD surface that is in no group, or a curve of a plane mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct SurfaceSummary {
+    /// What a case calls it, as "surface 7".
+    pub name: String,
+    /// gmsh's tag of the entity.
+    pub tag: i32,
+    /// What it is.
+    #[serde(flatten)]
+    pub kind: SurfaceKind,
+    /// Area, m^2; length of a curve, m.
+    pub size: f64,
+    /// Number of elements.
+    pub elements: usize,
 }
 
 /// The result of `plummer inspect`.
@@ -67,6 +109,8 @@ pub struct Inspection {
     pub size: f64,
     /// The same for every group.
     pub group_sizes: Vec<GroupSize>,
+    /// CAD surfaces (curves of a plane mesh) that are in no group, in the order of their tags: a case may name them.
+    pub surfaces: Vec<SurfaceSummary>,
     /// The element with the smallest scaled Jacobian among those of the highest dimension.
     pub worst: Option<ElementShape>,
     /// Number of elements that are inverted, folded or without size.
@@ -122,12 +166,13 @@ impl Inspection {
             length_unit: unit,
             size: size(mesh, ids()),
             group_sizes: group_sizes.collect(),
+            surfaces: surfaces(mesh, dimension),
             worst: None,
             invalid_elements: 0,
             folded_elements: 0,
             invalid: Vec::new(),
             shells: dimension == 2 && mesh.node_off_plane().is_some(),
-            remarks: mesh.remarks.clone(),
+            remarks: mesh.told(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
             crossing,
@@ -161,6 +206,29 @@ impl Inspection {
             self.worst = Some(shape);
         }
     }
+}
+
+/// The CAD surfaces of a body that are in no group.
+fn surfaces(mesh: &Mesh, dimension: usize) -> Vec<SurfaceSummary> {
+    let tags = if dimension < 2 { Vec::new() } else { mesh.entities_without_group(dimension - 1) };
+    if tags.is_empty() {
+        return Vec::new();
+    }
+    let found = CadSurface::all(mesh, &Rim::of(mesh, dimension), &tags);
+    let summary = found.into_iter().zip(tags).map(|(own, tag)| SurfaceSummary {
+        name: entity_name(dimension - 1, &[tag]),
+        tag,
+        kind: match own.shape {
+            SurfaceShape::Cylinder(Cylinder { radius, axis, hole, turn, .. }) => {
+                SurfaceKind::Cylinder { diameter: 2.0 * radius, axis, hole, turn }
+            }
+            SurfaceShape::Plane(normal, _) => SurfaceKind::Plane { normal: normal.into() },
+            SurfaceShape::Other => SurfaceKind::Other,
+        },
+        size: size(mesh, own.elements.iter().copied()),
+        elements: own.elements.len(),
+    });
+    summary.collect()
 }
 
 fn coordinates(mesh: &Mesh, id: ElementId) -> Vec<[f64; 3]> {

@@ -10,4 +10,4 @@ pub mod parts;
 pub mod result;
 pub mod run;
 
-pub use inspect::{ElementShape, GroupSize, InspectResult, Inspection};
+pub use inspect::{ElementShape, GroupSize, InspectResult, Inspection, SurfaceKind, SurfaceSummary};

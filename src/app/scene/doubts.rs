@@ -56,7 +56,7 @@ pub(crate) fn doubts(
 ) -> Result<Vec<String>, ComputeError> {
     let mut found = plausible::materials(case);
     if let Some((mesh, model)) = housing {
-        found.extend(mesh.remarks.iter().cloned());
+        found.extend(mesh.told().into_iter().map(|told| format!("{}: {told}", mesh.source.display())));
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(model));
     }
@@ -83,7 +83,7 @@ pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
     let Some(housing) = case.meshed_housing() else {
         return doubts(case, None, None);
     };
-    let mesh = read_mesh(housing, &housing.mesh, &Unwatched)?;
+    let mesh = read_mesh(case, housing, &Unwatched)?;
     let model = HousingModel::new(&mesh, description(case, housing)?)?;
     doubts(case, Some((&mesh, &model)), None)
 }
@@ -95,9 +95,9 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let touching = model.touching.iter().map(|touching| {
         let [a, b] = &touching.parts;
         let help = match a == b {
-            true => "where they are one body, merge their nodes in gmsh (Coherence Mesh)".to_owned(),
+            true => "where they are one body, merge their nodes in gmsh (a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";)".to_owned(),
             false => format!(
-                "nothing holds them together there; where they are one body, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
+                "nothing holds them together there; where they are one body, merge their nodes in gmsh (BooleanFragments, or a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";) or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
             ),
         };
         format!("{}; {help}", touching.sentence())
@@ -138,8 +138,8 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         let counts = STIFF_IN_BENDING.into_iter().chain(plain).map(of_kind).filter(|(count, _)| *count > 0);
         counts.map(|(count, kind)| {
             let [plain, way] = match STIFF_IN_BENDING.contains(&kind) {
-                true => ["", "mesh with second order (gmsh -order 2)"],
-                false => ["plain ", "leave housing.linear = \"plain\" out, or mesh with second order (gmsh -order 2)"],
+                true => ["", "mesh with second order (gmsh IN.msh -3 -order 2 -o OUT.msh)"],
+                false => ["plain ", "leave housing.linear = \"plain\" out, or mesh with second order (gmsh IN.msh -3 -order 2 -o OUT.msh)"],
             };
             let lost = if kind == ElementKind::Pyramid5 { "48 %" } else { "75 %" };
             format!(
@@ -263,7 +263,7 @@ fn bore_in_pieces(mesh: &Mesh, model: &HousingModel, bore: &str) -> Result<Optio
     }
     let named: Vec<String> = pieces.iter().map(|parts| format!("\"{}\"", parts.join("\", \""))).collect();
     Ok(Some(format!(
-        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or Coherence Mesh) or add a link to housing.links",
+        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";) or add a link to housing.links",
         pieces.len(),
         named.join(" and ")
     )))

@@ -34,9 +34,7 @@ impl AssembledHousing {
             return Ok(None);
         };
         watch.stage("read");
-        let mesh = read_mesh(housing, &housing.mesh, watch)?;
-        let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
-        case.check_groups(&groups)?;
+        let mesh = read_mesh(case, housing, watch)?;
         watch.stage("assemble");
         let model = HousingModel::new(&mesh, description(case, housing)?)?;
         let matrices = SystemMatrices::assemble(&model)?;
@@ -131,17 +129,21 @@ impl From<&FileDigest> for MeshFile {
     }
 }
 
-/// Reads the mesh of a housing, or `path` in its place, as the housing asks for, and tells which content it had.
+/// Reads the mesh of a case's housing as the housing asks for, tells which content it had, and gives it the groups of CAD
+/// entities that the case names.
 ///
 /// # Errors
-/// [`ComputeError::Mesh`].
-pub(crate) fn read_mesh(housing: &Housing, path: &Path, watch: &impl Watch) -> Result<Mesh, ComputeError> {
-    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.to_owned(), cause })?;
+/// [`ComputeError::Mesh`]; [`ComputeError::Case`] for a group that the mesh lacks.
+pub(crate) fn read_mesh(case: &Case, housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
+    let path = &housing.mesh;
+    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
     let mut mesh = Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?;
     if housing.straighten {
         straighten(&mut mesh);
     }
+    mesh.add_entity_groups(case.groups().into_iter().map(|(_, name)| name));
+    case.check_groups(&mesh.names())?;
     Ok(mesh)
 }
 

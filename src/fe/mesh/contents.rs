@@ -20,6 +20,8 @@ pub struct Mesh {
     pub blocks: Vec<ElementBlock>,
     /// Physical groups, by dimension, then by tag.
     pub groups: Vec<PhysicalGroup>,
+    /// Elements below the body's dimension that the reader left out.
+    pub left_out: Vec<LeftOut>,
     /// How the file was written.
     pub format: MshFormat,
     /// The file that it was read from.
@@ -94,12 +96,25 @@ pub struct PhysicalGroup {
     pub name: String,
     /// 0 points, 1 curves, 2 surfaces, 3 volumes.
     pub dimension: usize,
-    /// gmsh's tag, unique within its dimension, > 0.
+    /// gmsh's tag, unique within its dimension, > 0; 0 for CAD entities that a case names.
     pub tag: i32,
     /// Indices of its nodes, sorted, each once.
     pub nodes: Vec<usize>,
     /// Its elements, in the order of the mesh.
     pub elements: Vec<ElementId>,
+}
+
+/// A curve's or a surface's element with a node twice. The reader leaves it out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LeftOut {
+    /// gmsh's tag.
+    pub tag: u64,
+    /// 1 or 2.
+    pub dimension: usize,
+    /// Tag of the CAD entity that it lies on.
+    pub entity: i32,
+    /// Tag of its physical group; 0: none, or that of its entity.
+    pub physical: i32,
 }
 
 /// Version of gmsh's MSH format.
@@ -170,19 +185,40 @@ impl Mesh {
             .flat_map(|(block, list)| (0..list.len()).map(move |index| ElementId { block, index }))
     }
 
-    /// The physical group of this name; case matters.
+    /// The group of this name that a bore, support, sensor or link means; case matters. Of several it is that of surfaces
+    /// (of curves in a plane mesh), then the next below.
     ///
     /// # Errors
     /// [`MeshError::Group`] with the nearest name and all names if there is none, and if it has no elements;
-    /// [`MeshError::AmbiguousGroup`] if several groups share the name.
+    /// [`MeshError::AmbiguousGroup`] if several groups of the dimension share the name.
     pub fn group(&self, name: &str) -> Result<&PhysicalGroup, MeshError> {
-        let named: Vec<&PhysicalGroup> = self.groups.iter().filter(|group| group.name == name).collect();
+        self.group_below(name, self.dimension().saturating_sub(1))
+    }
+
+    /// The same for a part: of several groups that of the body's own dimension.
+    ///
+    /// # Errors
+    /// As [`Mesh::group`].
+    pub fn body(&self, name: &str) -> Result<&PhysicalGroup, MeshError> {
+        self.group_below(name, self.dimension())
+    }
+
+    /// Of the groups of a name that with the highest dimension up to `highest`, else the lowest above.
+    fn group_below(&self, name: &str, highest: usize) -> Result<&PhysicalGroup, MeshError> {
         let path = self.source.display();
+        let mut named: Vec<&PhysicalGroup> = self.groups.iter().filter(|group| group.name == name).collect();
+        if named.is_empty() {
+            return Err(MeshError::Group(format!(
+                "{path} has no physical group \"{name}\"; {}",
+                self.known_groups(name)
+            )));
+        }
+        named.retain(|group| !group.elements.is_empty());
+        let rank = |group: &PhysicalGroup| (group.dimension > highest, highest.abs_diff(group.dimension));
+        let best = named.iter().map(|group| rank(group)).min();
+        named.retain(|group| Some(rank(group)) == best);
         match named.as_slice() {
-            [] => {
-                Err(MeshError::Group(format!("{path} has no physical group \"{name}\"; {}", self.known_groups(name))))
-            }
-            [group] if group.elements.is_empty() => Err(MeshError::Group(format!(
+            [] => Err(MeshError::Group(format!(
                 "{path}: the physical group \"{name}\" has no elements: expected at least one"
             ))),
             [group] => Ok(group),
@@ -204,7 +240,7 @@ impl Mesh {
         let wanted = name.to_lowercase();
         let edits = |known: &&PhysicalGroup| strsim::damerau_levenshtein(&known.name.to_lowercase(), &wanted);
         let Some(nearest) = self.groups.iter().min_by_key(edits) else {
-            return "it has none at all (define Physical groups in gmsh)".to_owned();
+            return "it has none at all (plummer inspect lists what a name such as \"surface 7\" may mean)".to_owned();
         };
         let names: Vec<String> = self.groups.iter().map(|group| format!("\"{}\"", group.name)).collect();
         format!("nearest is \"{}\", it has {}", nearest.name, names.join(", "))
@@ -301,6 +337,7 @@ mod tests {
                 format: MshFormat { version: MshVersion::V41, binary: false },
                 source: PathBuf::from("behind.msh"),
                 remarks: Vec::new(),
+                left_out: Vec::new(),
             };
             mesh.turn_clockwise();
             let coords: Vec<[f64; 3]> = mesh.blocks[0].connectivity.iter().map(|&node| mesh.nodes[node]).collect();

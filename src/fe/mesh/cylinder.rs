@@ -37,6 +37,19 @@ pub(crate) struct Cylinder {
     pub hole: Option<bool>,
 }
 
+/// Largest distance of a node from the cylinder, relative to its radius: what the ring's tie accepts.
+pub(crate) const TOLERANCE: f64 = 0.01;
+
+/// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
+const LEAST_TURN: f64 = 1.0 / 12.0;
+
+impl Cylinder {
+    /// Whether a bore could be so: its nodes lie on it, and it is no straight side.
+    pub(crate) fn is_round(&self) -> bool {
+        self.farthest <= TOLERANCE * self.radius && self.turn >= LEAST_TURN
+    }
+}
+
 /// Part of the normals' squares that a cylinder may have along its axis, and must have in its second direction: an arc of 29
 /// degrees has as much, a plane nothing.
 const SPREAD: f64 = 0.02;
@@ -111,10 +124,12 @@ fn axis_across(facets: &[Facet]) -> Option<Vector3<f64>> {
     (least < SPREAD && second > SPREAD).then(|| eigen.eigenvectors.column(order[0]).into_owned())
 }
 
-/// Area times normal of a triangle or a quadrilateral, from its diagonals or sides.
+/// Area times normal of a triangle or a quadrilateral, from its diagonals or sides; length times normal of a curve's
+/// element in the plane.
 pub(crate) fn area_vector(corners: &[[f64; 3]]) -> Vector3<f64> {
     let at = |place: usize| Vector3::from(corners[place]);
     match corners.len() {
+        2 => (at(1) - at(0)).cross(&Vector3::z()),
         3 => 0.5 * (at(1) - at(0)).cross(&(at(2) - at(0))),
         4 => 0.5 * (at(2) - at(0)).cross(&(at(3) - at(1))),
         _ => Vector3::zeros(),

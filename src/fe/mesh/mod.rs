@@ -11,16 +11,22 @@
 
 mod contents;
 pub(crate) mod cylinder;
+mod entity_groups;
 mod error;
 mod faces;
 mod gmsh;
 mod inventory;
 mod kind;
+mod left_out;
+mod rim;
+pub(crate) mod surfaces;
 
-pub use contents::{ElementBlock, ElementId, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+pub use contents::{ElementBlock, ElementId, Entity, LeftOut, Mesh, MshFormat, MshVersion, PhysicalGroup};
+pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};
 pub(crate) use faces::{sorted_corners, sorted_faces};
 pub(crate) use inventory::Sets;
 pub use inventory::{BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part, UnusedNodes};
 pub use kind::ElementKind;
+pub(crate) use rim::Rim;

@@ -216,13 +216,18 @@ impl HousingModel {
         if !group.nodes.iter().any(|&node| self.used[node]) {
             return Err(not_on_housing(path, name, purpose));
         }
+        if let Some(tag) = mesh.left_out_of(group) {
+            return Err(ModelError::Refused(format!(
+                "group \"{name}\" in {path}: its element {tag} has a node twice; {purpose} needs whole faces: expected different nodes; mesh again, or take the element out of the group"
+            )));
+        }
         let Some(MixedOrders { edges, tags: [own, other], place: [x, y, z], .. }) =
             self.bodies().without_middle_nodes(mesh, group)
         else {
             return Ok(group);
         };
         Err(ModelError::Refused(format!(
-            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; set Mesh.ElementOrder in gmsh and mesh again"
+            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh"
         )))
     }
 }
@@ -250,7 +255,7 @@ fn accepted_overlaps(
     if let Some(mixed) = bodies.mixed_orders() {
         return refused(
             mixed.sentence(),
-            "the body would come apart between the corners: expected all its elements in one order; set Mesh.ElementOrder in gmsh and mesh again, or tie bodies with nodes of their own by a link",
+            "the body would come apart between the corners: expected all its elements in one order; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh, or tie bodies with nodes of their own by a link",
         );
     }
     let overlaps = bodies.overlaps();

@@ -47,7 +47,7 @@ fn owners(
 ) -> Result<Vec<Vec<Option<usize>>>, ModelError> {
     let mut owner = mesh.for_each_element(None);
     for (part, HousingPart { group: name, .. }) in parts.iter().enumerate() {
-        let group = mesh.group(name)?;
+        let group = mesh.body(name)?;
         check_dimension(path, name, group.dimension, dimension, "a part of this housing")?;
         for element in &group.elements {
             let slot = &mut owner[element.block][element.index];

@@ -137,6 +137,7 @@ mod tests {
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: PathBuf::new(),
             remarks: Vec::new(),
+            left_out: Vec::new(),
         }
     }
 

@@ -45,38 +45,40 @@ impl Case {
     }
 }
 
-/// Returns every mesh group that a case names, with the key that names it.
-pub(super) fn groups_of(case: &Case) -> Vec<(String, &str)> {
-    let mut groups = Vec::new();
-    let mut name = |key: String, group| groups.push((key, group));
-    if let Some(housing) = case.meshed_housing() {
-        for (index, part) in housing.parts.iter().enumerate() {
-            name(format!("housing.parts[{index}].group"), part.group.as_str());
+impl Case {
+    /// Returns every mesh group that the case names, with the key that names it.
+    pub(crate) fn groups(&self) -> Vec<(String, &str)> {
+        let mut groups = Vec::new();
+        let mut name = |key: String, group| groups.push((key, group));
+        if let Some(housing) = self.meshed_housing() {
+            for (index, part) in housing.parts.iter().enumerate() {
+                name(format!("housing.parts[{index}].group"), part.group.as_str());
+            }
+            for (index, support) in housing.supports.iter().enumerate() {
+                name(format!("housing.supports[{index}].group"), &support.group);
+            }
+            for (index, mass) in housing.masses.iter().enumerate() {
+                name(format!("housing.masses[{index}].group"), &mass.group);
+            }
+            for (index, link) in housing.links.iter().enumerate() {
+                link.between.iter().for_each(|group| name(format!("housing.links[{index}].between"), group));
+            }
         }
-        for (index, support) in housing.supports.iter().enumerate() {
-            name(format!("housing.supports[{index}].group"), &support.group);
+        if let Some(tie) = self.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
+            name("ring.tie.group".to_owned(), &tie.group);
         }
-        for (index, mass) in housing.masses.iter().enumerate() {
-            name(format!("housing.masses[{index}].group"), &mass.group);
+        if let Interface::Group(group) = &self.condense.interface {
+            name("condense.interface.group".to_owned(), group);
         }
-        for (index, link) in housing.links.iter().enumerate() {
-            link.between.iter().for_each(|group| name(format!("housing.links[{index}].between"), group));
+        let pushes = self.frf.iter().flat_map(|frf| &frf.from).map(|push| &push.spot).enumerate();
+        let pushes = pushes.map(|(index, spot)| (format!("frf.from[{index}].group"), spot));
+        let sensors = self.sensors.iter().map(|sensor| &sensor.spot).enumerate();
+        let sensors = sensors.map(|(index, spot)| (format!("sensors[{index}].group"), spot));
+        for (key, spot) in pushes.chain(sensors) {
+            if let SensorSpot::Group(group) = spot {
+                name(key, group);
+            }
         }
+        groups
     }
-    if let Some(tie) = case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
-        name("ring.tie.group".to_owned(), &tie.group);
-    }
-    if let Interface::Group(group) = &case.condense.interface {
-        name("condense.interface.group".to_owned(), group);
-    }
-    let pushes = case.frf.iter().flat_map(|frf| &frf.from).map(|push| &push.spot).enumerate();
-    let pushes = pushes.map(|(index, spot)| (format!("frf.from[{index}].group"), spot));
-    let sensors = case.sensors.iter().map(|sensor| &sensor.spot).enumerate();
-    let sensors = sensors.map(|(index, spot)| (format!("sensors[{index}].group"), spot));
-    for (key, spot) in pushes.chain(sensors) {
-        if let SensorSpot::Group(group) = spot {
-            name(key, group);
-        }
-    }
-    groups
 }

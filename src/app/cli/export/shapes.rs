@@ -102,9 +102,8 @@ fn part_numbers(case: &Case, mesh: &Mesh, elements: &[ElementId]) -> (Vec<i64>, 
     let mut names = Vec::new();
     for (number, part) in (1..).zip(parts) {
         names.push(format!("{number} {}", part.group));
-        for group in mesh.groups.iter().filter(|group| group.name == part.group) {
-            let own = group.elements.iter().map(|&id| (id, number));
-            numbers.extend(own);
+        if let Ok(group) = mesh.body(&part.group) {
+            numbers.extend(group.elements.iter().map(|&id| (id, number)));
         }
     }
     let number = |id: &ElementId| numbers.get(id).copied().unwrap_or(0);
@@ -145,6 +144,7 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
         blocks: vec![line],
         nodes,
         groups: Vec::new(),
+        left_out: Vec::new(),
         format,
         source: PathBuf::new(),
         remarks: Vec::new(),

@@ -74,7 +74,7 @@ impl Source {
         let shapes =
             read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();
-        let mesh = housing.map(|housing| read_mesh(housing, &housing.mesh, &Unwatched)).transpose()?;
+        let mesh = housing.map(|housing| read_mesh(&self.case, housing, &Unwatched)).transpose()?;
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))

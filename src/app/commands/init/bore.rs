@@ -5,15 +5,12 @@
 use super::groups::says;
 use super::partly::{PartlyHole, partly_hole};
 use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
-use crate::fe::mesh::{BoundaryFace, Mesh, PhysicalGroup};
+use crate::fe::mesh::{Mesh, PhysicalGroup, Rim};
 use nalgebra::Vector3;
-use std::collections::HashMap;
 
-/// Largest distance of a node from the cylinder, relative to its radius: what the ring's tie accepts.
-pub(crate) const TOLERANCE: f64 = 0.01;
-
-/// Least share of the turn that a hole or a round outside covers: a straight side whose coordinates are rounded is an arc of some radius too.
-const LEAST_TURN: f64 = 1.0 / 12.0;
+/// Least share of the turn that a CAD surface covers which is taken for the bore: a fillet inside covers a quarter, the
+/// end of a slot a half, and a keyway takes less than a quarter away.
+const BORE_TURN: f64 = 0.75;
 
 /// Parts of names that a bore has.
 const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
@@ -23,6 +20,8 @@ const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
 pub(crate) struct Candidate {
     /// Name of the group.
     pub group: String,
+    /// Whether it is a CAD surface and no physical group.
+    pub entity: bool,
     /// What it lies on, in the mesh's unit.
     pub cylinder: Cylinder,
 }
@@ -40,64 +39,6 @@ pub(crate) struct Cylinders {
     pub partly: Vec<(String, PartlyHole)>,
 }
 
-/// The boundary of the housing's elements by their corners.
-pub(crate) struct Rim {
-    faces: Vec<BoundaryFace>,
-    by_corners: HashMap<Vec<usize>, usize>,
-}
-
-fn key(nodes: &[usize], corners: usize) -> Vec<usize> {
-    let mut key: Vec<usize> = nodes.iter().copied().take(corners).collect();
-    key.sort_unstable();
-    key
-}
-
-impl Rim {
-    /// The rim of the elements of the highest dimension.
-    pub(crate) fn of(mesh: &Mesh, dimension: usize) -> Self {
-        let faces = mesh.boundary_faces(mesh.element_ids(dimension));
-        let keys = faces.iter().enumerate().map(|(place, face)| (key(&face.nodes, face.kind.corners()), place));
-        let by_corners = keys.collect();
-        Self { faces, by_corners }
-    }
-
-    /// Each face of the rim with the corners of its element's middle.
-    pub(crate) fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
-        self.faces.iter().map(move |face| {
-            let corners = &face.nodes[..face.kind.corners()];
-            Facet { corners: corners.iter().map(|&node| mesh.nodes[node]).collect(), inside: Some(middle(mesh, face)) }
-        })
-    }
-}
-
-/// Mean of the corners of the element that a face belongs to.
-fn middle(mesh: &Mesh, face: &BoundaryFace) -> [f64; 3] {
-    let block = &mesh.blocks[face.element.block];
-    let nodes = block.element(face.element.index).unwrap_or_default();
-    let corners = block.kind.corners().min(nodes.len()).max(1);
-    let mut sum = [0.0; 3];
-    for &node in nodes.iter().take(corners) {
-        for (sum, part) in sum.iter_mut().zip(mesh.nodes[node]) {
-            *sum += part / corners as f64;
-        }
-    }
-    sum
-}
-
-fn facets(mesh: &Mesh, rim: &Rim, group: &PhysicalGroup) -> Vec<Facet> {
-    let faces = group.elements.iter().map(|id| {
-        let block = &mesh.blocks[id.block];
-        let nodes = block.element(id.index).unwrap_or_default();
-        let corners = block.kind.corners();
-        let face = rim.by_corners.get(&key(nodes, corners));
-        Facet {
-            corners: nodes.iter().take(corners).map(|&node| mesh.nodes[node]).collect(),
-            inside: face.map(|&place| middle(mesh, &rim.faces[place])),
-        }
-    });
-    faces.collect()
-}
-
 /// Fits a cylinder to every group whose name `usable` accepts, one dimension below the housing.
 pub(crate) fn cylinders(
     mesh: &Mesh,
@@ -106,15 +47,15 @@ pub(crate) fn cylinders(
     usable: impl Fn(&PhysicalGroup) -> bool,
 ) -> Cylinders {
     let groups = mesh.groups.iter().filter(|group| group.dimension + 1 == dimension && usable(group));
-    let round = |own: &Cylinder| own.farthest <= TOLERANCE * own.radius && own.turn >= LEAST_TURN;
     let mut rough = Vec::new();
     let mut found = Vec::new();
     for group in groups {
         let nodes: Vec<[f64; 3]> = group.nodes.iter().map(|&node| mesh.nodes[node]).collect();
-        let facets = facets(mesh, rim, group);
+        let facets = rim.facets_of(mesh, &group.elements);
         let cylinder = fit(&facets, &nodes);
-        match cylinder.filter(round) {
-            Some(cylinder) => found.push(Candidate { group: group.name.clone(), cylinder }),
+        match cylinder.filter(Cylinder::is_round) {
+            Some(cylinder) => found.push(Candidate { group: group.name.clone(), entity: group.tag == 0, cylinder }),
+            None if group.tag == 0 => {}
             None => rough.push((group, facets)),
         }
     }
@@ -124,7 +65,8 @@ pub(crate) fn cylinders(
     let named = |candidate: &Candidate| says(&candidate.group, &NAMES);
     let surface = |candidate: &Candidate| candidate.cylinder.radius * candidate.cylinder.turn;
     holes.sort_by(|a, b| named(b).cmp(&named(a)).then(surface(b).total_cmp(&surface(a))));
-    let bore = (!holes.is_empty()).then(|| holes.remove(0));
+    let bore = holes.iter().position(|hole| !hole.entity || hole.cylinder.turn >= BORE_TURN);
+    let bore = bore.map(|place| holes.remove(place));
     rough.retain(|(group, _)| bore.is_none() || says(&group.name, &NAMES));
     let partly = rough.iter().filter_map(|(group, facets)| {
         let elements = group.elements.iter();
@@ -133,7 +75,7 @@ pub(crate) fn cylinders(
             let nodes = block.element(id.index).unwrap_or_default();
             nodes.iter().take(block.kind.corners()).copied().collect()
         });
-        let part = partly_hole(facets, &corners.collect::<Vec<_>>(), round, TOLERANCE)?;
+        let part = partly_hole(facets, &corners.collect::<Vec<_>>())?;
         Some((group.name.clone(), part))
     });
     let mut partly: Vec<(String, PartlyHole)> = partly.collect();
@@ -191,14 +133,7 @@ pub(crate) fn spot(
 
 /// Unit normal of a face away from its element; `None` for a face without area.
 fn outwards(facet: &Facet, corners: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-    let normal = match corners {
-        [a, b] => {
-            let along = b - a;
-            Vector3::new(along.y, -along.x, 0.0)
-        }
-        _ => area_vector(&facet.corners),
-    };
-    let normal = normal.try_normalize(f64::MIN_POSITIVE)?;
+    let normal = area_vector(&facet.corners).try_normalize(f64::MIN_POSITIVE)?;
     let inside = Vector3::from(facet.inside?);
     let out = normal.dot(&(corners[0] - inside));
     Some(if out < 0.0 { -normal } else { normal })

@@ -1,6 +1,7 @@
 //! `plummer init`: from a mesh to a case file that is ready to be edited.
 //!
-//! The bore is the group that lies on a cylinder with the housing outside of it. Parts and supports go by dimension and name. The
+//! The bore is the group that lies on a cylinder with the housing outside of it. Parts and supports go by dimension and name.
+//! CAD entities stand in for groups that the mesh lacks. The
 //! rest is from the catalogue, usual values and guesses. The file says of every value which of these it is. What could not be told
 //! is there as a template, commented out. The same mesh gives the same file.
 //!
@@ -50,7 +51,7 @@ impl Draft {
             straighten(&mut mesh);
         }
         let inspection = Inspection::of_mesh(&mesh, None);
-        let found = find(request, &mesh, &inspection)?;
+        let found = find(request, &mut mesh, &inspection)?;
         let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
         let parts = found.groups.parts.iter();
         let draft = Self {

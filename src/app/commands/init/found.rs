@@ -6,15 +6,17 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::bore::{Candidate, Cylinders, Rim, cylinders};
-use super::groups::{Groups, PartGuess, usable};
+use super::bore::{Candidate, Cylinders};
+use super::entities::{Offered, offer};
+use super::groups::{Groups, PartGuess};
 use super::partly::PartlyHole;
 use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
 use crate::app::case::{BUILT_IN_MATERIALS, FIT, other_size};
 use crate::app::commands::Inspection;
+use crate::app::commands::inspect::size;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
-use crate::fe::mesh::{Mesh, MeshError};
+use crate::fe::mesh::{Mesh, MeshError, Rim};
 use crate::numerics::units::LengthUnit;
 
 /// What is asked for.
@@ -71,6 +73,10 @@ pub(crate) struct Found<'a> {
     pub(crate) outside: Vec<FoundCylinder>,
     /// Groups of which a part is a hole: that hole, its share of the group, and whether the rest is a shoulder.
     pub(crate) partly: Vec<(FoundCylinder, f64, bool)>,
+    /// Flat faces of CAD surfaces with the whole body behind them.
+    pub(crate) flat: Vec<String>,
+    /// CAD surfaces that were looked at for a bore.
+    pub(crate) surfaces: usize,
     pub(crate) directions: Directions,
     /// Place of a sensor.
     pub(crate) spot: Option<[f64; 3]>,
@@ -86,7 +92,7 @@ pub(crate) struct Found<'a> {
 
 pub(crate) fn find<'a>(
     request: DraftRequest<'a>,
-    mesh: &Mesh,
+    mesh: &mut Mesh,
     inspection: &Inspection,
 ) -> Result<Found<'a>, ComputeError> {
     let inventory = &inspection.inventory;
@@ -95,7 +101,7 @@ pub(crate) fn find<'a>(
     if dimension < 2 {
         return Err(wrong(
             "found a mesh of curves or points, expected surfaces or volumes".to_owned(),
-            "mesh the volume in gmsh (Mesh 3;) and save it again".to_owned(),
+            "mesh the volume: gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
         ));
     }
     let extent = inventory.bounding_box.extent();
@@ -106,16 +112,19 @@ pub(crate) fn find<'a>(
                 "found a mesh of surfaces that reach over {} units of length along z, expected one in a plane z = const, or volumes",
                 page::number(extent[2], 4)
             ),
-            "shells are not modelled: mesh the volume in gmsh (Mesh 3;)".to_owned(),
+            "shells are not modelled: mesh the volume, gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
         ));
     }
     let rim = Rim::of(mesh, dimension);
-    let Cylinders { bore, holes, outside, partly } = cylinders(mesh, dimension, &rim, |group| usable(mesh, group));
-    let groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
+    let (Cylinders { bore, holes, outside, partly }, Offered { flat, surfaces }) = offer(mesh, dimension, &rim);
+    let mut groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
+    if bore.is_some() {
+        groups.hold_flat(&flat);
+    }
     if groups.parts.is_empty() {
         // a name that two groups share is no name
         let solids = mesh.groups.iter().filter(|group| group.dimension == dimension);
-        let named = solids.map(|group| mesh.group(&group.name));
+        let named = solids.map(|group| mesh.body(&group.name));
         let mut errors = named.filter_map(Result::err);
         if let Some(shared) = errors.find(|error| matches!(error, MeshError::AmbiguousGroup(_))) {
             return Err(shared.into());
@@ -149,8 +158,7 @@ pub(crate) fn find<'a>(
     let ring = RingNumbers::of(of, diameter);
     let thickness = if plane { ring.of.width * ring.scale } else { 1.0 };
     let of_part = |part: &PartGuess| {
-        let mut sizes = inspection.group_sizes.iter();
-        let size = sizes.find(|size| size.name == part.group && size.dimension == dimension)?.size;
+        let size = size(mesh, mesh.body(&part.group).ok()?.elements.iter().copied());
         let known = BUILT_IN_MATERIALS.iter().find(|known| known.name == part.material)?;
         Some(size * metres.powi(dimension as i32) * thickness * known.material.density)
     };
@@ -169,9 +177,11 @@ pub(crate) fn find<'a>(
         partly: partly
             .into_iter()
             .map(|(group, PartlyHole { cylinder, share, shoulder })| {
-                (scaled(Candidate { group, cylinder }, metres), share, shoulder)
+                (scaled(Candidate { group, entity: false, cylinder }, metres), share, shoulder)
             })
             .collect(),
+        flat,
+        surfaces,
         directions,
         spot: spot.map(|point| point.map(|part| part * metres)),
         bearing: bearing.map(BearingNumbers::of),

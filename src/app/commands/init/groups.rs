@@ -55,6 +55,8 @@ pub(crate) struct Groups {
     pub without_part: usize,
     /// Groups that are held.
     pub supports: Vec<String>,
+    /// Whether they are held for their shape, not by their names.
+    pub flat: bool,
     /// Groups that are named like supports and share nodes with the bore.
     pub at_bore: Vec<String>,
     /// A point where a sensor may stand.
@@ -63,9 +65,11 @@ pub(crate) struct Groups {
     pub others: Vec<Other>,
 }
 
-/// Whether a case file can name a group: its name is its own, and it has elements.
+/// Whether a case file that names this group means it: no other group takes its name away, and it has elements.
 pub(crate) fn usable(mesh: &Mesh, group: &PhysicalGroup) -> bool {
-    mesh.group(&group.name).is_ok()
+    let body = group.dimension == mesh.dimension();
+    let meant = if body { mesh.body(&group.name) } else { mesh.group(&group.name) };
+    meant.is_ok_and(|meant| std::ptr::eq(meant, group))
 }
 
 impl Groups {
@@ -98,12 +102,12 @@ impl Groups {
                 by_name: known.is_some(),
             });
         }
-        let order = |name: &str| mesh.groups.iter().position(|group| group.name == name);
+        let order = |name: &str| mesh.groups.iter().position(|own| own.dimension == dimension && own.name == name);
         found.parts.sort_by_key(|part| order(&part.group));
         found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         for group in &mesh.groups {
-            if bore.is_some_and(|bore| bore.name == group.name) {
+            if bore.is_some_and(|bore| std::ptr::eq(bore, group)) {
                 continue;
             }
             let name = group.name.as_str();
@@ -137,5 +141,19 @@ impl Groups {
             }
         }
         found
+    }
+
+    /// Holds the first of the flat faces, given largest first, that shares no nodes with the bore, if no group is named like
+    /// a support.
+    pub(crate) fn hold_flat(&mut self, flat: &[String]) {
+        if !(self.supports.is_empty() && self.at_bore.is_empty()) {
+            return;
+        }
+        let free = |name: &&String| self.others.iter().any(|other| other.group == **name && other.note.is_none());
+        if let Some(name) = flat.iter().find(free).cloned() {
+            self.others.retain(|other| other.group != name);
+            self.supports.push(name);
+            self.flat = true;
+        }
     }
 }

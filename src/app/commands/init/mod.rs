@@ -2,6 +2,7 @@
 
 pub(crate) mod bore;
 pub(crate) mod draft;
+mod entities;
 pub(crate) mod found;
 pub(crate) mod groups;
 pub(crate) mod page;

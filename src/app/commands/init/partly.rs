@@ -3,7 +3,7 @@
 //! Faces that meet at a small angle are one patch; the largest patch that is a hole says the cylinder, and every face of the group that
 //! lies on it counts.
 
-use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
+use crate::fe::mesh::cylinder::{Cylinder, Facet, TOLERANCE, area_vector, fit};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
@@ -26,15 +26,9 @@ pub(crate) struct PartlyHole {
     pub shoulder: bool,
 }
 
-/// The hole of a group that is none as a whole; `corners` are the nodes at each facet's corners, `round` accepts a fitted cylinder, and
-/// `tolerance` is how far a corner may be from it, over its radius.
-pub(crate) fn partly_hole(
-    facets: &[Facet],
-    corners: &[Vec<usize>],
-    round: impl Fn(&Cylinder) -> bool,
-    tolerance: f64,
-) -> Option<PartlyHole> {
-    let sizes: Vec<f64> = facets.iter().map(size).collect();
+/// The hole of a group that is none as a whole; `corners` are the nodes at each facet's corners.
+pub(crate) fn partly_hole(facets: &[Facet], corners: &[Vec<usize>]) -> Option<PartlyHole> {
+    let sizes: Vec<f64> = facets.iter().map(|facet| area_vector(&facet.corners).norm()).collect();
     let total: f64 = sizes.iter().sum();
     let mut best: Option<(f64, Cylinder)> = None;
     for patch in patches(facets, corners) {
@@ -44,14 +38,14 @@ pub(crate) fn partly_hole(
         }
         let own: Vec<Facet> = patch.iter().map(|&at| facets[at].clone()).collect();
         let nodes: Vec<[f64; 3]> = own.iter().flat_map(|facet| facet.corners.clone()).collect();
-        let found = fit(&own, &nodes).filter(|found| found.hole == Some(true) && round(found));
+        let found = fit(&own, &nodes).filter(|found| found.hole == Some(true) && found.is_round());
         best = found.map(|found| (area, found)).or(best);
     }
     let (_, cylinder) = best?;
     let (axis, centre) = (Vector3::from(cylinder.axis), Vector3::from(cylinder.centre));
     let on = |corner: &[f64; 3]| {
         let arm = Vector3::from(*corner) - centre;
-        ((arm - axis * axis.dot(&arm)).norm() - cylinder.radius).abs() <= tolerance * cylinder.radius
+        ((arm - axis * axis.dot(&arm)).norm() - cylinder.radius).abs() <= TOLERANCE * cylinder.radius
     };
     let along = |facet: &Facet| normal(facet).is_some_and(|normal| normal.dot(&axis).abs() > ACROSS);
     let (mut curved, mut flat) = (0.0, 0.0);
@@ -66,21 +60,9 @@ pub(crate) fn partly_hole(
     Some(PartlyHole { cylinder, share: curved / total, shoulder: flat > MOST * (total - curved) })
 }
 
-/// Area of a face, length of a curve's element.
-fn size(facet: &Facet) -> f64 {
-    match facet.corners[..] {
-        [a, b] => (Vector3::from(b) - Vector3::from(a)).norm(),
-        _ => area_vector(&facet.corners).norm(),
-    }
-}
-
 /// Unit normal; `None` for a face without area.
 fn normal(facet: &Facet) -> Option<Vector3<f64>> {
-    let vector = match facet.corners[..] {
-        [a, b] => Vector3::new(b[1] - a[1], a[0] - b[0], 0.0),
-        _ => area_vector(&facet.corners),
-    };
-    vector.try_normalize(f64::MIN_POSITIVE)
+    area_vector(&facet.corners).try_normalize(f64::MIN_POSITIVE)
 }
 
 /// Facets by their places, those together that meet smoothly at an edge (curves: at a node).
@@ -158,13 +140,13 @@ mod tests {
                 corners.push(own);
             }
         }
-        let found = partly_hole(&facets, &corners, |_| true, 0.01).unwrap();
+        let found = partly_hole(&facets, &corners).unwrap();
         assert!((found.cylinder.radius - 23.5).abs() < 1e-9);
         assert!(found.shoulder);
         // chords of 24 sides: 2 n R sin(pi / n) L beside n sin(2 pi / n) / 2 (R^2 - r^2)
         let (bore, shoulder) =
             (2.0 * 24.0 * 23.5 * (PI / 24.0).sin() * 14.0, 12.0 * (TAU / 24.0).sin() * (23.5 * 23.5 - 400.0));
         assert!((found.share - bore / (bore + shoulder)).abs() < 1e-9, "{}", found.share);
-        assert!(partly_hole(&facets[n..], &corners[n..], |_| true, 0.01).is_none());
+        assert!(partly_hole(&facets[n..], &corners[n..]).is_none());
     }
 }

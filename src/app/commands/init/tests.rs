@@ -139,10 +139,10 @@ fn groups_are_parts_supports_and_sensors_by_dimension_and_name() {
 
 #[test]
 fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
-    let names = "2 1 \"all\"\n2 2 \"half\"\n1 3 \"twice\"\n0 4 \"twice\"\n";
+    let names = "2 1 \"all\"\n2 2 \"half\"\n1 3 \"twice\"\n1 4 \"twice\"\n";
     let mesh = squares(
         names,
-        &["1 3 2 1 1 1 2 5 4", "2 3 2 1 1 2 3 6 5", "3 3 2 2 1 1 2 5 4", "4 1 2 3 3 1 2", "5 15 2 4 4 4"],
+        &["1 3 2 1 1 1 2 5 4", "2 3 2 1 1 2 3 6 5", "3 3 2 2 1 1 2 5 4", "4 1 2 3 3 1 2", "5 1 2 4 4 2 3"],
     );
     let groups = Groups::of(&mesh, 2, None);
     assert_eq!(groups.parts.len(), 1);
@@ -192,7 +192,7 @@ fn bulging(deep: f64) -> Mesh {
 fn a_straight_side_is_no_round_surface() {
     let outside = |deep: f64| {
         let mesh = bulging(deep);
-        let rim = super::bore::Rim::of(&mesh, 2);
+        let rim = crate::fe::mesh::Rim::of(&mesh, 2);
         let found = super::bore::cylinders(&mesh, 2, &rim, |_| true);
         assert_eq!(found.bore, None);
         found.outside.len()

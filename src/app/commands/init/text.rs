@@ -71,13 +71,20 @@ fn bore_sentence(found: &Found<'_>) -> String {
         None => format!(
             "No group is a {} hole within 1 % of its radius: no bore is known.{}",
             if found.plane { "round" } else { "cylindrical" },
-            match (found.partly.is_empty(), found.plane) {
+            match (found.partly.is_empty() && found.surfaces == 0, found.plane) {
                 (false, _) => "",
                 (true, true) => " If there is one, name it in gmsh: Physical Curve(\"bore\").",
                 (true, false) => " If there is one, name it in gmsh: Physical Surface(\"bore\").",
             }
         ),
     };
+    if found.bore.is_none() && found.surfaces > 0 {
+        let what = if found.plane { "curves" } else { "surfaces" };
+        sentence.push_str(&format!(
+            " Nor is one of the {} CAD {what} such a hole all round. A case may name some together, group = \"{what} 12, 13\"; plummer inspect lists them.",
+            found.surfaces
+        ));
+    }
     for (hole, share, shoulder) in &found.partly {
         sentence.push_str(&format!(
             " {} % of the {} of group {} is {}; the rest {}: name the round part alone in gmsh, Physical {}(\"bore\").",
@@ -124,6 +131,9 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     lines.push(match (supports, at_bore) {
         ([], []) => "Nothing is held: no group is named like a support.".to_owned(),
         ([], _) => "Nothing is held.".to_owned(),
+        _ if found.groups.flat => {
+            format!("Held, a guess: {}, the largest flat outside that shares no nodes with the bore.", all(supports))
+        }
         _ => format!("Held, by their names: {}.", all(supports)),
     });
     if !at_bore.is_empty() {
@@ -151,8 +161,12 @@ fn others(found: &Found<'_>) -> Vec<String> {
         let mut round = found.holes.iter().chain(&found.outside);
         let round = round.find(|cylinder| cylinder.group == other.group);
         let round = round.map(|cylinder| describe(cylinder, found.plane));
-        let notes = round.into_iter().chain(other.note.map(str::to_owned));
-        let words = std::iter::once(format!("{kind} {}", quoted(&other.group))).chain(notes);
+        let flat = found.flat.contains(&other.group).then(|| "flat, with the body behind it".to_owned());
+        let notes = round.into_iter().chain(flat).chain(other.note.map(str::to_owned));
+        // the name of an entity says its kind
+        let entity = other.group.starts_with(&format!("{kind} ")) || other.group.starts_with(&format!("{kind}s "));
+        let kind = if entity { String::new() } else { format!("{kind} ") };
+        let words = std::iter::once(format!("{kind}{}", quoted(&other.group))).chain(notes);
         words.collect::<Vec<_>>().join(": ")
     });
     others.collect()

@@ -338,9 +338,8 @@ pub(crate) fn at(index: usize, path: &Path, source: ComputeError) -> ComputeErro
 
 /// A mesh in the place of a housing's, and the lowest order of its elements.
 fn read(case: &Case, housing: &Housing, path: &Path) -> Result<(SequenceMesh, usize), ComputeError> {
-    let mesh = read_mesh(housing, path, &Unwatched)?;
-    let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
-    on_mesh(case, path.to_owned()).check_groups(&groups)?;
+    let other = Housing { mesh: path.to_owned(), ..housing.clone() };
+    let mesh = read_mesh(&on_mesh(case, path.to_owned()), &other, &Unwatched)?;
     let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);
     let kinds = || mesh.blocks.iter().map(|block| block.kind).filter(|kind| kind.dimension() == dimension);
     let names: BTreeSet<&str> = kinds().map(ElementKind::name).collect();

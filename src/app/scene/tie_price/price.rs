@@ -241,6 +241,7 @@ impl<W: Watch> Tied<'_, W> {
             node_tags: Vec::new(),
             blocks: Vec::new(),
             groups: Vec::new(),
+            left_out: Vec::new(),
             format: self.housing.mesh.format,
             source: "solid ring".into(),
             remarks: Vec::new(),

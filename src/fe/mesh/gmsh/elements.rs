@@ -11,7 +11,7 @@ use super::cursor::Cursor;
 use super::entities::one_partition;
 use super::nodes::{check_range, entity, no_elements, not_as_announced, tag_range};
 use super::numbers::{Item, NodeIndex, TagSet};
-use crate::fe::mesh::{ElementBlock, ElementKind, Entity, MshVersion};
+use crate::fe::mesh::{ElementBlock, ElementKind, Entity, LeftOut, MshVersion};
 use std::collections::BTreeSet;
 
 /// Elements of MSH 4.
@@ -19,7 +19,7 @@ pub(super) fn read_blocks(
     cursor: &mut Cursor<'_>,
     version: MshVersion,
     nodes: &NodeIndex,
-) -> Result<Vec<ElementBlock>, MshError> {
+) -> Result<(Vec<ElementBlock>, Degenerate), MshError> {
     let is_41 = version == MshVersion::V41;
     let item = |numbers: usize| if is_41 { Item::new(numbers, 0, 0) } else { Item::new(0, numbers, 0) };
     let number = |cursor: &mut Cursor<'_>, what| match is_41 {
@@ -33,6 +33,7 @@ pub(super) fn read_blocks(
     }
     let mut tags = TagSet::for_count(announced);
     let mut blocks = Vec::with_capacity(block_count);
+    let mut degenerate = Degenerate::default();
     let mut listed = 0;
     for _ in 0..block_count {
         let entity = entity(cursor, version)?;
@@ -51,12 +52,22 @@ pub(super) fn read_blocks(
         for _ in 0..count {
             let tag = number(cursor, "an element tag")?;
             check_tag(cursor, &mut tags, tag)?;
-            block.tags.push(tag);
-            for read in 0..kind.nodes() {
+            let first = block.connectivity.len();
+            let mut repeated = false;
+            for _ in 0..kind.nodes() {
                 let node = number(cursor, "the tag of a node of an element")?;
-                let earlier = &block.connectivity[block.connectivity.len() - read..];
-                let index = node_index(cursor, nodes, [tag, node], |index| earlier.contains(&index))?;
+                let index = node_index(cursor, nodes, [tag, node])?;
+                if block.connectivity[first..].contains(&index) {
+                    repeated = true;
+                    degenerate.say(cursor, kind, [tag, node]);
+                }
                 block.connectivity.push(index);
+            }
+            if repeated {
+                block.connectivity.truncate(first);
+                degenerate.list.push(LeftOut { tag, dimension: kind.dimension(), entity: entity.tag, physical: 0 });
+            } else {
+                block.tags.push(tag);
             }
         }
         listed += count;
@@ -65,7 +76,7 @@ pub(super) fn read_blocks(
     if listed != announced {
         return Err(not_as_announced(cursor, "elements", announced, listed));
     }
-    (listed > 0).then_some(blocks).ok_or_else(no_elements)
+    (listed > 0).then_some((blocks, degenerate)).ok_or_else(no_elements)
 }
 
 /// A tag greater than 0 that has not occurred.
@@ -78,23 +89,35 @@ pub(super) fn check_tag(cursor: &Cursor<'_>, seen: &mut TagSet, tag: u64) -> Res
     Ok(())
 }
 
-/// Index of a node of an element, which is not among those that the element has already.
-#[inline]
-pub(super) fn node_index(
-    cursor: &Cursor<'_>,
-    nodes: &NodeIndex,
-    [element, node]: [u64; 2],
-    is_repeated: impl FnOnce(usize) -> bool,
-) -> Result<usize, MshError> {
-    match nodes.get(node) {
-        Some(index) if is_repeated(index) => {
-            Err(cursor.fault(format_args!("element {element} has the node {node} twice: expected different nodes")))
-        }
-        Some(index) => Ok(index),
-        None => {
-            Err(cursor.fault(format_args!("element {element} refers to node {node}: expected a tag listed in $Nodes")))
-        }
+/// Elements that have a node twice. Those of the body make no mesh; those below it are left out.
+#[derive(Default)]
+pub(super) struct Degenerate {
+    list: Vec<LeftOut>,
+    /// What is wrong with the first of each dimension.
+    faults: [Option<MshError>; 4],
+}
+
+impl Degenerate {
+    fn say(&mut self, cursor: &Cursor<'_>, kind: ElementKind, [element, node]: [u64; 2]) {
+        self.faults[kind.dimension()].get_or_insert_with(|| {
+            cursor.fault(format_args!("element {element} has the node {node} twice: expected different nodes"))
+        });
     }
+
+    /// The elements below the dimension of a body of these blocks.
+    pub(super) fn beside(mut self, blocks: &[ElementBlock]) -> Result<Vec<LeftOut>, MshError> {
+        let of_blocks = blocks.iter().map(|block| block.kind.dimension());
+        let dimension = of_blocks.chain(self.list.iter().map(|left| left.dimension)).max().unwrap_or(0);
+        self.faults[dimension].take().map_or(Ok(self.list), Err)
+    }
+}
+
+/// Index of a node of an element.
+#[inline]
+fn node_index(cursor: &Cursor<'_>, nodes: &NodeIndex, [element, node]: [u64; 2]) -> Result<usize, MshError> {
+    let unknown =
+        || cursor.fault(format_args!("element {element} refers to node {node}: expected a tag listed in $Nodes"));
+    nodes.get(node).ok_or_else(unknown)
 }
 
 /// The kind of the element type at the cursor; MSH 2.2 gives the type before the entity.
@@ -128,7 +151,7 @@ fn unsupported(gmsh_type: i32) -> (&'static str, &'static str) {
 }
 
 /// What to do about elements of third order and beyond.
-const OTHER_ORDER: &str = "mesh again with second order (gmsh part.geo -3 -order 2)";
+const OTHER_ORDER: &str = "make it one of second order with: gmsh IN.msh -3 -order 2 -o OUT.msh (-2 for a plane mesh)";
 
 /// Elements in the order of the file.
 #[derive(Default)]
@@ -140,6 +163,7 @@ pub(super) struct Listed {
     pub(super) pieces: Vec<Piece>,
     /// Partitions that they belong to, as far as the file tells.
     pub(super) partitions: BTreeSet<i32>,
+    pub(super) degenerate: Degenerate,
 }
 
 /// Where an element belongs.
@@ -218,11 +242,12 @@ impl Reader<'_, '_> {
 
     /// Blocks of elements of one kind; gmsh itself writes a header for every element.
     fn binary(&mut self, count: usize) -> Result<(), MshError> {
-        while self.listed.tags.len() < count {
+        let mut read = 0;
+        while read < count {
             let kind = kind(self.cursor, None)?;
             let what = "the number of elements that follow";
             let found = self.cursor.int(what)?;
-            let left = count - self.listed.tags.len();
+            let left = count - read;
             let following = usize::try_from(found).ok();
             let following = following.filter(|&following| (1..=left).contains(&following)).ok_or_else(|| {
                 let expected = format!("{what}, 1 to {left}");
@@ -233,6 +258,7 @@ impl Reader<'_, '_> {
                 let tag = self.tag()?;
                 self.rest_of_element(tag, kind, tag_count)?;
             }
+            read += following;
         }
         Ok(())
     }
@@ -265,21 +291,31 @@ impl Reader<'_, '_> {
             self.listed.partitions.insert(partition);
         }
         let label = Label { kind, entity, physical: physical.saturating_abs() };
-        let Listed { tags, connectivity, pieces, .. } = &mut self.listed;
-        match pieces.last_mut() {
-            Some(piece) if piece.label == label => piece.count += 1,
-            _ => pieces.push(Piece { label, first: tags.len(), first_node: connectivity.len(), count: 1 }),
-        }
-        tags.push(tag);
-        for read in 0..kind.nodes() {
+        let Listed { tags, connectivity, pieces, degenerate, .. } = &mut self.listed;
+        let first_node = connectivity.len();
+        let mut repeated = false;
+        for _ in 0..kind.nodes() {
             let what = "the tag of a node of an element";
             let node = self.cursor.unsigned_int(what, what)?;
-            let earlier = &connectivity[connectivity.len() - read..];
-            let is_repeated = |index: usize| earlier.contains(&(index as u32));
             // a node has an index below u32::MAX
-            let index = node_index(self.cursor, self.nodes, [tag, node], is_repeated)? as u32;
+            let index = node_index(self.cursor, self.nodes, [tag, node])? as u32;
+            if connectivity[first_node..].contains(&index) {
+                repeated = true;
+                degenerate.say(self.cursor, kind, [tag, node]);
+            }
             connectivity.push(index);
         }
+        if repeated {
+            connectivity.truncate(first_node);
+            let Label { entity, physical, .. } = label;
+            degenerate.list.push(LeftOut { tag, dimension: kind.dimension(), entity, physical });
+            return Ok(());
+        }
+        match pieces.last_mut() {
+            Some(piece) if piece.label == label => piece.count += 1,
+            _ => pieces.push(Piece { label, first: tags.len(), first_node, count: 1 }),
+        }
+        tags.push(tag);
         Ok(())
     }
 }

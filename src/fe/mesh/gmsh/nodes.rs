@@ -117,7 +117,7 @@ pub(super) fn read_blocks(cursor: &mut Cursor<'_>, version: MshVersion, metres: 
 pub(super) fn read_list(cursor: &mut Cursor<'_>, metres: f64) -> Result<NodeTable, MshError> {
     let parametric = cursor.section == "ParametricNodes";
     if parametric && cursor.is_binary() {
-        let advice = "set Mesh.SaveParametric = 0 in gmsh and save again";
+        let advice = "save it again with: gmsh IN.msh -save -format msh41 -setnumber Mesh.SaveParametric 0 -o OUT.msh";
         return Err(cursor.feature("binary parametric coordinates of MSH 2", advice));
     }
     let count = cursor.text_count("the number of nodes", Item::new(0, 1, 3))?;

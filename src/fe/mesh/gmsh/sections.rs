@@ -2,7 +2,7 @@
 
 use super::build::{Allowance, Name, by_entity, groups};
 use super::cursor::{Cursor, Encoding, quoted};
-use super::elements::Listed;
+use super::elements::{Degenerate, Listed};
 use super::entities::Physical;
 use super::nodes::NodeTable;
 use super::{MshError, collect_v22, elements, entities, nodes};
@@ -18,6 +18,7 @@ impl Mesh {
     /// An entity may belong to several physical groups; a group without a name is called by its tag.
     /// Parts of a partitioned mesh become one mesh; what lies between them is left out.
     /// Elements that MSH 2.2 repeats for every group of their entity become one element of all of them.
+    /// Curve and surface elements of a solid body (curve elements of a plane one) that have a node twice are left out.
     /// Surfaces of a plane mesh whose elements all run clockwise are turned.
     ///
     /// # Errors
@@ -55,7 +56,7 @@ struct Found {
 
 enum Elements {
     /// MSH 4.
-    Blocks(Vec<ElementBlock>),
+    Blocks(Vec<ElementBlock>, Degenerate),
     /// MSH 2.
     Listed(Listed),
 }
@@ -100,7 +101,8 @@ impl Found {
             "Elements" => {
                 let known = self.nodes.as_ref().ok_or_else(|| missing("Nodes", " before $Elements"))?;
                 once(&mut self.elements, cursor, |c| match is_4 {
-                    true => elements::read_blocks(c, version, &known.index).map(Elements::Blocks),
+                    true => elements::read_blocks(c, version, &known.index)
+                        .map(|(blocks, left)| Elements::Blocks(blocks, left)),
                     false => elements::read(c, &known.index).map(Elements::Listed),
                 })?;
             }
@@ -116,34 +118,30 @@ impl Found {
         drop(nodes.index);
         let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
         let mut remarks = Vec::new();
-        let (blocks, memberships) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
-            Elements::Blocks(mut blocks) => {
+        let (blocks, memberships, degenerate) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
+            Elements::Blocks(mut blocks, degenerate) => {
                 let entities = self.entities.unwrap_or_default();
                 entities.join_parts(&mut blocks);
                 let memberships = by_entity(&blocks, &entities, &mut allowance)?;
-                (blocks, memberships)
+                (blocks, memberships, degenerate)
             }
-            Elements::Listed(listed) => {
+            Elements::Listed(mut listed) => {
                 if listed.partitions.iter().eq(&[1]) {
                     remarks.push(
                         "all elements are of partition 1 of a mesh: if it has others, in files of their own, the body is not whole".to_owned(),
                     );
                 }
-                collect_v22::blocks(listed, &mut allowance)?
+                let degenerate = std::mem::take(&mut listed.degenerate);
+                let (blocks, memberships) = collect_v22::blocks(listed, &mut allowance)?;
+                (blocks, memberships, degenerate)
             }
         };
+        let left_out = degenerate.beside(&blocks)?;
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
         let source = path.to_path_buf();
-        Ok(Mesh {
-            nodes: nodes.coordinates,
-            node_tags: nodes.tags,
-            blocks,
-            groups,
-            format: self.format,
-            source,
-            remarks,
-        })
+        let (nodes, node_tags) = (nodes.coordinates, nodes.tags);
+        Ok(Mesh { nodes, node_tags, blocks, groups, left_out, format: self.format, source, remarks })
     }
 }
 

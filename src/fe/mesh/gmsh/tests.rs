@@ -111,11 +111,14 @@ fn groups_have_their_names_nodes_and_elements() -> Result<(), String> {
         group("nothing there"),
         Err("small.msh: the physical group \"nothing there\" has no elements: expected at least one".to_owned())
     );
+    // a name of two dimensions: a part means the body, anything else what is below it
     let same = read(SMALL.replace("\"corner point\"", "\"plate\"").as_bytes())?;
+    assert_eq!(same.body("plate").map(|group| group.dimension).ok(), Some(2));
+    assert_eq!(same.group("plate").map(|group| group.dimension).ok(), Some(0));
+    let same = read(SMALL.replace("\"the \"left\" edge\"", "\"5\"").as_bytes())?;
     assert_eq!(
-        same.group("plate").map_err(|error| error.to_string()),
-        Err("small.msh has 2 physical groups \"plate\" (dimension, tag: (0, 7), (2, 10)): rename all but \
-             one in gmsh"
+        same.group("5").map_err(|error| error.to_string()),
+        Err("small.msh has 2 physical groups \"5\" (dimension, tag: (1, 1), (1, 5)): rename all but one in gmsh"
             .to_owned())
     );
     Ok(())
@@ -128,8 +131,8 @@ fn a_mesh_without_groups_says_so() -> Result<(), String> {
     let mesh = read(format!("{before}{after}").as_bytes())?;
     assert_eq!(
         mesh.group("plate").map_err(|error| error.to_string()),
-        Err("small.msh has no physical group \"plate\"; it has none at all (define Physical groups in \
-             gmsh)"
+        Err("small.msh has no physical group \"plate\"; it has none at all (plummer inspect lists \
+             what a name such as \"surface 7\" may mean)"
             .to_owned())
     );
     Ok(())

@@ -220,6 +220,10 @@ fn elements() {
         after("4 2 3 4 5\n$", "4 2 3 2 5\n$"),
         "$Elements, line 43: element 4 has the node 2 twice: expected different nodes"
     );
+    // a curve's element beside a body is left out
+    let mesh = read(SMALL.replace("\n2 6 1\n", "\n2 6 6\n").as_bytes()).unwrap();
+    let left = crate::fe::mesh::LeftOut { tag: 2, dimension: 1, entity: 1, physical: 0 };
+    assert_eq!((mesh.left_out.as_slice(), mesh.element_ids(1).count()), ([left].as_slice(), 0));
     assert_eq!(
         after("2 1 3 2\n", "1 1 3 2\n"),
         "$Elements, line 41: expected elements of dimension 1 like their entity, found \"Quad4\""
@@ -241,7 +245,7 @@ fn no_elements() {
 #[test]
 fn unsupported_elements_are_named() {
     let known = "Point, Line2, Line3, Tri3, Tri6, Quad4, Quad8, Quad9, Tet4, Tet10, Hex8, Hex20, Hex27, Wedge6, Wedge15, Wedge18, Pyramid5, Pyramid13, Pyramid14";
-    let order = "mesh again with second order (gmsh part.geo -3 -order 2)";
+    let order = "make it one of second order with: gmsh IN.msh -3 -order 2 -o OUT.msh (-2 for a plane mesh)";
     let cases = [
         (0, "unknown to gmsh", "is the file damaged?"),
         (21, "Tri10", order),
