@@ -12,6 +12,9 @@ for pair in 1:hex20 2:wedge15 3:tet10; do
         done
     done
 done
+for pair in 0:hex27 1:hex20; do
+    gmsh -3 -v 2 -order 2 -setnumber Mesh.SecondOrderIncomplete "${pair%:*}" -format msh41 -o "mixed_${pair#*:}.msh" mixed.geo
+done
 for name in one_block two_blocks nafems6_ring sdls109_ring; do
     gmsh -3 -v 2 -bin -format msh41 -o "$name.msh" "$name.geo"
 done

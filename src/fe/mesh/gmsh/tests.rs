@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::fe::mesh::{ElementId, ElementKind, Entity, Mesh, MeshError};
+use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshError};
 use crate::numerics::units::LengthUnit;
 
 mod damage;
@@ -11,6 +11,33 @@ mod mshio_agrees;
 mod repeats;
 mod rules;
 mod versions;
+
+/// gmsh's own hexahedra, pyramids and tetrahedra of second order, complete and not: as many as it made, and the volume of
+/// the box of 20 x 10 x 10 mm by their own node order.
+#[test]
+fn gmshs_mixed_meshes_fill_their_box() -> Result<(), Box<dyn std::error::Error>> {
+    use ElementKind::{Hex20, Hex27, Pyramid13, Pyramid14, Tet10};
+    for (name, hexahedron, pyramid) in [("hex27", Hex27, Pyramid14), ("hex20", Hex20, Pyramid13)] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/mixed_{name}.msh"));
+        let mesh = Mesh::read_gmsh(&path, LengthUnit::Metre)?;
+        let count = |kind: ElementKind| -> usize {
+            mesh.blocks.iter().filter(|block| block.kind == kind).map(ElementBlock::len).sum()
+        };
+        assert_eq!([count(hexahedron), count(pyramid), count(Tet10)], [8, 4, 58]);
+        let mut volume = 0.0;
+        for block in &mesh.blocks {
+            for element in block.elements() {
+                let coords: Vec<[f64; 3]> = element.iter().map(|&node| mesh.nodes[node]).collect();
+                let quality = crate::fe::element::continuum::quality(block.kind, &coords)?;
+                // a cell of 5 mm, a pyramid on one, and straight tetrahedra have a constant Jacobian
+                assert!((quality.scaled_jacobian - 1.0).abs() < 1e-9, "{:?}: {quality:?}", block.kind);
+                volume += crate::fe::element::continuum::measure(block.kind, &coords)?;
+            }
+        }
+        assert!((volume / 2e-6 - 1.0).abs() < 1e-12, "{volume}");
+    }
+    Ok(())
+}
 
 /// Two quadrilaterals side by side, 2 x 1. Node tags are dense but not in order; the left edge is in two
 /// groups, one of them without a name; names hold blanks and quotes.
