@@ -16,6 +16,7 @@ mod spread;
 mod support;
 mod surface;
 mod tie;
+mod trapezoid;
 
 pub use error::ModelError;
 pub use flat::FlatLayer;
