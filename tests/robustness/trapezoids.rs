@@ -33,7 +33,7 @@ fn strip(thickness: f64, layers: usize, moved: Moved, more: &str) -> (String, f6
         }
         node[2] += match moved {
             Moved::Tilted(angle) => {
-                let side = if row % 2 == 0 { 1.0 } else { -1.0 };
+                let side = if row.is_multiple_of(2) { 1.0 } else { -1.0 };
                 side * angle.to_radians().tan() * (node[0] - 0.5 * thickness)
             }
             Moved::Shaken { by, alike } => {
