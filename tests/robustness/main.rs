@@ -28,6 +28,7 @@ mod relations_run;
 mod replaced;
 mod signals;
 mod ties;
+mod trapezoids;
 mod turned;
 mod untrusted;
 

@@ -128,6 +128,13 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
             flat.faces, flat.flatness, flat.tag
         )
     });
+    let trapezoids = model.trapezoids().map(|found| {
+        let [x, y, z] = found.place;
+        format!(
+            "part \"{}\" has {} elements of first order with tilted sides in thin places, where they are far too stiff in bending: frequencies may be up to {:.1} times too high; the worst is element {}, ({x:.6}, {y:.6}, {z:.6}) m; mesh with second order (gmsh -order 2), or with sides straight across the thickness",
+            model.description.parts[found.part].group, found.elements, found.factor, found.tag
+        )
+    });
     let is_plain = model.description.formulation.linear == LinearFormulation::Plain;
     let stiff = model.description.parts.iter().enumerate().flat_map(|(part, described)| {
         let of_kind = move |kind: ElementKind| {
@@ -156,7 +163,7 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         )
     });
     let tied = overlaps.chain(touching).chain(crossings).chain(apart);
-    tied.chain(shared).chain(flat).chain(stiff).chain(held).collect()
+    tied.chain(shared).chain(flat).chain(trapezoids).chain(stiff).chain(held).collect()
 }
 
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.

@@ -45,7 +45,7 @@ pub struct FlatLayer {
 }
 
 /// Indices of the one or two elements with a face, by its sorted nodes.
-type Behind = BTreeMap<Vec<usize>, [Option<usize>; 2]>;
+pub(super) type Behind = BTreeMap<Vec<usize>, [Option<usize>; 2]>;
 
 /// What may hold a node of a layer.
 #[derive(Debug, Clone, Default)]
@@ -88,7 +88,7 @@ impl HousingModel {
         found.map(|found| FlatLayer { faces, ..found })
     }
 
-    fn modulus(&self, element: &HousingElement) -> f64 {
+    pub(super) fn modulus(&self, element: &HousingElement) -> f64 {
         self.properties[element.part].shear_modulus()
     }
 
@@ -132,7 +132,7 @@ impl HousingModel {
     }
 
     /// Nodes of the faces of an element with incompatible modes, none of others.
-    fn faces(&self, element: &HousingElement) -> Vec<Vec<usize>> {
+    pub(super) fn faces(&self, element: &HousingElement) -> Vec<Vec<usize>> {
         if !matches!(element.kind, ElementKind::Quad4 | ElementKind::Hex8) {
             return Vec::new();
         }
@@ -141,7 +141,7 @@ impl HousingModel {
         faces.map(|face| face.nodes.iter().map(|&local| nodes[local]).collect()).collect()
     }
 
-    fn elements_behind_faces(&self) -> Behind {
+    pub(super) fn elements_behind_faces(&self) -> Behind {
         let mut behind = Behind::new();
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
@@ -221,7 +221,7 @@ impl HousingModel {
     }
 
     /// Unit normal of a face by its diagonals, of an edge in the plane across it; zero without size.
-    fn normal(&self, face: &[usize]) -> Vector3<f64> {
+    pub(super) fn normal(&self, face: &[usize]) -> Vector3<f64> {
         self.across(face).try_normalize(0.0).unwrap_or_default()
     }
 
@@ -240,11 +240,11 @@ impl HousingModel {
         }
     }
 
-    fn at(&self, node: usize) -> Vector3<f64> {
+    pub(super) fn at(&self, node: usize) -> Vector3<f64> {
         Vector3::from(self.coordinates[node])
     }
 
-    fn mean(&self, face: &[usize]) -> Vector3<f64> {
+    pub(super) fn mean(&self, face: &[usize]) -> Vector3<f64> {
         let sum: Vector3<f64> = face.iter().map(|&node| self.at(node)).sum();
         sum / face.len() as f64
     }

@@ -17,6 +17,7 @@ mod straighten;
 mod support;
 mod surface;
 mod tie;
+mod trapezoid;
 
 pub use error::ModelError;
 pub use flat::FlatLayer;

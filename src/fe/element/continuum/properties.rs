@@ -2,6 +2,7 @@
 
 use crate::fe::element::ElementError;
 use crate::fe::material::ElasticMaterial;
+use nalgebra::{DMatrix, DVector, Matrix3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
@@ -106,6 +107,32 @@ impl ContinuumProperties {
             Elasticity::Isotropic { mu, .. } => *mu,
             Elasticity::General(c) if self.dimension == 2 => c[0][1][0][1],
             Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
+        }
+    }
+
+    /// Strains of stresses (Pa), both symmetric; of a plane part those in its plane. `None` of a singular elasticity.
+    pub(crate) fn strain(&self, stress: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+        let d = self.dimension;
+        match &self.elasticity {
+            Elasticity::Isotropic { lambda, mu } => {
+                let mean = lambda / (d as f64 * lambda + 2.0 * mu) * stress.trace();
+                let identity = Matrix3::from_fn(|i, j| f64::from(u8::from(i == j && i < d)));
+                Some((stress - identity * mean) / (2.0 * mu))
+            }
+            Elasticity::General(c) => {
+                let pairs: Vec<[usize; 2]> = (0..d).flat_map(|i| (i..d).map(move |j| [i, j])).collect();
+                let stiffness = DMatrix::from_fn(pairs.len(), pairs.len(), |row, column| {
+                    let ([i, j], [k, l]) = (pairs[row], pairs[column]);
+                    if k == l { c[i][j][k][l] } else { c[i][j][k][l] + c[i][j][l][k] }
+                });
+                let stresses = DVector::from_iterator(pairs.len(), pairs.iter().map(|&[i, j]| stress[(i, j)]));
+                let strains = stiffness.lu().solve(&stresses)?;
+                let mut found = Matrix3::zeros();
+                for (&[i, j], strain) in pairs.iter().zip(strains.iter()) {
+                    (found[(i, j)], found[(j, i)]) = (*strain, *strain);
+                }
+                Some(found)
+            }
         }
     }
 }

@@ -267,3 +267,24 @@ fn rotation(kind: ElementKind, formulation: Formulation, orthotropic: bool) -> O
     }
     Ok(())
 }
+
+/// A uniform stress does the work `sigma : eps` V on its own strain, whatever element holds it.
+#[test]
+fn strains_of_stresses_have_their_energy() -> Outcome {
+    let stress = nalgebra::Matrix3::new(3.0, 1.0, -2.0, 1.0, 5.0, 0.5, -2.0, 0.5, -4.0);
+    for kind in [ElementKind::Quad4, ElementKind::Hex8] {
+        let in_plane = kind.dimension() == 2;
+        let stress = nalgebra::Matrix3::from_fn(|i, j| if in_plane && i.max(j) == 2 { 0.0 } else { stress[(i, j)] });
+        for p in all_properties(kind)? {
+            let strain = p.strain(&stress).ok_or("a singular elasticity")?;
+            for coords in elements(kind) {
+                let motion = field(kind, &coords, |x| (strain * nalgebra::Vector3::from(x)).into());
+                let energy = motion.dot(&(stiffness(kind, &coords, &p, Formulation::default())? * &motion));
+                let exact = stress.dot(&strain) * p.thickness * measure(kind, &coords)?;
+                // rounding of an inverse and of the stiffness
+                assert!((energy / exact - 1.0).abs() < 1e-11, "{kind:?}: {energy} {exact}");
+            }
+        }
+    }
+    Ok(())
+}
