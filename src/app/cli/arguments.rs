@@ -357,6 +357,8 @@ pub enum ExportFormat {
     Npz,
     /// The condensed housing's matrices as Nastran's OUTPUT4 file
     Op4,
+    /// The housing as an input file of CalculiX or Abaqus
+    Inp,
     /// The condensed housing as a modal body of MBDyn
     Mbdyn,
 }

@@ -99,6 +99,10 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let _ = writeln!(text, "{name:<18}{value}");
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
+    inventory.notes.left_out.iter().for_each(|note| line("warning", note.clone()));
+    if !inventory.notes.passed_over.is_empty() {
+        line("not read", format!("{}: what these give is the case's", inventory.notes.passed_over.join(", ")));
+    }
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
     let extent = inventory.bounding_box.extent();

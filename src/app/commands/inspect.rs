@@ -89,7 +89,7 @@ impl Inspection {
     /// # Errors
     /// [`MeshError`] if it cannot be read.
     pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>) -> Result<Self, MeshError> {
-        let mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+        let mesh = Mesh::read(path, unit.unwrap_or(LengthUnit::Metre))?;
         Ok(Self::of_mesh(&mesh, unit))
     }
 

@@ -54,7 +54,8 @@ pub(crate) fn doubts(
     at_rest: Option<(&BearingSetup, &Equilibrium)>,
 ) -> Result<Vec<String>, ComputeError> {
     let mut found = plausible::materials(case);
-    if let Some((_, model)) = housing {
+    if let Some((mesh, model)) = housing {
+        found.extend(mesh.notes.left_out.iter().map(|note| format!("{}: {note}", mesh.source.display())));
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(model));
     }

@@ -139,7 +139,7 @@ pub(crate) fn read_mesh(housing: &Housing, watch: &impl Watch) -> Result<Mesh, C
     let path = &housing.mesh;
     let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
-    Ok(Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?)
+    Ok(Mesh::from_bytes(bytes, path, housing.length_unit)?)
 }
 
 /// The meshes of a case, of its variants and of its mesh convergence, each once; a superelement's file in the place of a

@@ -21,6 +21,8 @@ pub struct Mesh {
     pub groups: Vec<PhysicalGroup>,
     /// How the file was written.
     pub format: MshFormat,
+    /// What of the file is not in the mesh.
+    pub notes: MeshNotes,
     /// The file that it was read from.
     pub source: PathBuf,
 }
@@ -99,7 +101,16 @@ pub struct PhysicalGroup {
     pub elements: Vec<ElementId>,
 }
 
-/// Version of gmsh's MSH format.
+/// What of a file is not in the mesh.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
+pub struct MeshNotes {
+    /// What is left out and would change results, a sentence each.
+    pub left_out: Vec<String>,
+    /// Keywords of an Abaqus or CalculiX file that are passed over, the first 64 of them; most belong to the case.
+    pub passed_over: Vec<String>,
+}
+
+/// Version of gmsh's MSH format, or the other format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum MshVersion {
     /// 2.0, whose groups may be named without a dimension.
@@ -117,6 +128,9 @@ pub enum MshVersion {
     /// 4.1, which gmsh has written since version 4.1.
     #[serde(rename = "4.1")]
     V41,
+    /// No MSH: an input file of Abaqus or CalculiX.
+    #[serde(rename = "inp")]
+    Inp,
 }
 
 /// Version and encoding of an MSH file.
@@ -137,12 +151,16 @@ impl fmt::Display for MshVersion {
             Self::V22 => "2.2",
             Self::V40 => "4.0",
             Self::V41 => "4.1",
+            Self::Inp => "inp",
         })
     }
 }
 
 impl fmt::Display for MshFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.version == MshVersion::Inp {
+            return f.write_str("Abaqus or CalculiX input");
+        }
         let encoding = if self.binary { "binary" } else { "ASCII" };
         write!(f, "MSH {} {encoding}", self.version)
     }
@@ -175,19 +193,21 @@ impl Mesh {
     pub fn group(&self, name: &str) -> Result<&PhysicalGroup, MeshError> {
         let named: Vec<&PhysicalGroup> = self.groups.iter().filter(|group| group.name == name).collect();
         let path = self.source.display();
+        let (word, program) = match self.format.version {
+            MshVersion::Inp => ("set or surface", "the file"),
+            _ => ("physical group", "gmsh"),
+        };
         match named.as_slice() {
-            [] => {
-                Err(MeshError::Group(format!("{path} has no physical group \"{name}\"; {}", self.known_groups(name))))
+            [] => Err(MeshError::Group(format!("{path} has no {word} \"{name}\"; {}", self.known_groups(name)))),
+            [group] if group.elements.is_empty() => {
+                Err(MeshError::Group(format!("{path}: the {word} \"{name}\" has no elements: expected at least one")))
             }
-            [group] if group.elements.is_empty() => Err(MeshError::Group(format!(
-                "{path}: the physical group \"{name}\" has no elements: expected at least one"
-            ))),
             [group] => Ok(group),
             several => {
                 let tags: Vec<String> =
                     several.iter().map(|group| format!("({}, {})", group.dimension, group.tag)).collect();
                 Err(MeshError::AmbiguousGroup(format!(
-                    "{path} has {} physical groups \"{name}\" (dimension, tag: {}): rename all but one in gmsh",
+                    "{path} has {} {word}s \"{name}\" (dimension, tag: {}): rename all but one in {program}",
                     several.len(),
                     tags.join(", ")
                 )))
@@ -201,7 +221,10 @@ impl Mesh {
         let wanted = name.to_lowercase();
         let edits = |known: &&PhysicalGroup| strsim::damerau_levenshtein(&known.name.to_lowercase(), &wanted);
         let Some(nearest) = self.groups.iter().min_by_key(edits) else {
-            return "it has none at all (define Physical groups in gmsh)".to_owned();
+            return match self.format.version {
+                MshVersion::Inp => "it has none at all (add *NSET, *ELSET or *SURFACE)".to_owned(),
+                _ => "it has none at all (define Physical groups in gmsh)".to_owned(),
+            };
         };
         let names: Vec<String> = self.groups.iter().map(|group| format!("\"{}\"", group.name)).collect();
         format!("nearest is \"{}\", it has {}", nearest.name, names.join(", "))

@@ -7,7 +7,7 @@ use super::source::Source;
 use super::{CliError, Export};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
-use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion};
+use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion};
 use crate::formats::{Field, FieldValues, ModeShapes, write_modes_uff, write_uff, write_vtu};
 
 /// Mode shapes cut in two.
@@ -140,7 +140,15 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
     let (node_tags, entity) = (tags.clone(), Entity { dimension: 1, tag: 1 });
     let line = ElementBlock { kind: ElementKind::Line2, tags, connectivity: ends.collect(), entity };
     let format = MshFormat { version: MshVersion::V41, binary: false };
-    Mesh { node_tags, blocks: vec![line], nodes, groups: Vec::new(), format, source: PathBuf::new() }
+    Mesh {
+        node_tags,
+        blocks: vec![line],
+        nodes,
+        groups: Vec::new(),
+        format,
+        notes: MeshNotes::default(),
+        source: PathBuf::new(),
+    }
 }
 
 /// Shapes at those nodes of a mesh that its elements use, with their labels.

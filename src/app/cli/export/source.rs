@@ -75,7 +75,7 @@ impl Source {
             read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();
         let mesh = housing
-            .map(|housing| Mesh::read_gmsh(&housing.mesh, housing.length_unit))
+            .map(|housing| Mesh::read(&housing.mesh, housing.length_unit))
             .transpose()
             .map_err(ComputeError::from)?;
         let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);

@@ -13,7 +13,7 @@ use super::found::{DraftRequest, FoundCylinder, find};
 use super::text::{case_text, findings};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{Mesh, MeshNotes, MshVersion};
 use crate::numerics::units::LengthUnit;
 
 /// A case file, and what it was made from.
@@ -44,7 +44,7 @@ impl Draft {
     /// # Errors
     /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
     pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
-        let mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
+        let mesh = Mesh::read(request.mesh, LengthUnit::Metre)?;
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mesh, &inspection)?;
         let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
@@ -53,7 +53,7 @@ impl Draft {
             length_unit: found.unit,
             bearing: found.bearing.map(|numbers| numbers.bearing.name),
             parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
-            findings: findings(&found),
+            findings: read_from(&inspection).into_iter().chain(findings(&found)).collect(),
             text,
             bore: found.bore,
             other_holes: found.holes,
@@ -61,4 +61,17 @@ impl Draft {
         };
         Ok((draft, inspection))
     }
+}
+
+/// What of an Abaqus or CalculiX file is not taken.
+fn read_from(inspection: &Inspection) -> Vec<String> {
+    let MeshNotes { left_out, passed_over } = &inspection.inventory.notes;
+    let mut lines: Vec<String> = left_out.iter().map(|note| format!("warning: {note}")).collect();
+    if inspection.inventory.format.version == MshVersion::Inp {
+        let passed_over = if passed_over.is_empty() { String::new() } else { format!(" ({})", passed_over.join(", ")) };
+        lines.push(format!(
+            "Of this file the mesh alone is read; materials, supports and loads{passed_over} are the case's."
+        ));
+    }
+    lines
 }

@@ -337,7 +337,7 @@ pub(crate) fn at(index: usize, path: &Path, source: ComputeError) -> ComputeErro
 
 /// A mesh in the place of a housing's, and the lowest order of its elements.
 fn read(case: &Case, housing: &Housing, path: &Path) -> Result<(SequenceMesh, usize), ComputeError> {
-    let mesh = Mesh::read_gmsh(path, housing.length_unit)?;
+    let mesh = Mesh::read(path, housing.length_unit)?;
     let groups: Vec<String> = mesh.groups.iter().map(|group| group.name.clone()).collect();
     on_mesh(case, path.to_owned()).check_groups(&groups)?;
     let dimension = mesh.blocks.iter().map(|block| block.kind.dimension()).max().unwrap_or(0);

@@ -6,7 +6,7 @@ use super::elements::Listed;
 use super::entities::Physical;
 use super::nodes::NodeTable;
 use super::{MshError, collect_v22, elements, entities, nodes};
-use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MshFormat, MshVersion};
+use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MeshNotes, MshFormat, MshVersion};
 use crate::numerics::units::LengthUnit;
 use std::collections::HashSet;
 use std::path::Path;
@@ -126,7 +126,15 @@ impl Found {
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
         let source = path.to_path_buf();
-        Ok(Mesh { nodes: nodes.coordinates, node_tags: nodes.tags, blocks, groups, format: self.format, source })
+        Ok(Mesh {
+            nodes: nodes.coordinates,
+            node_tags: nodes.tags,
+            blocks,
+            groups,
+            format: self.format,
+            notes: MeshNotes::default(),
+            source,
+        })
     }
 }
 

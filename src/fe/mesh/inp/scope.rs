@@ -1,0 +1,99 @@
+//! Parts, instances and the assembly of a file of Abaqus/CAE: one instance that is not moved is read.
+
+use super::MshError;
+use super::deck::{Block, capitals, items};
+
+/// Where a keyword stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scope {
+    /// In a file without parts, or outside of them.
+    File,
+    /// In the part of this number.
+    Part(u32),
+    /// In the assembly, outside of its instance.
+    Assembly,
+    /// In the instance itself.
+    Instance,
+}
+
+impl Default for Scope {
+    fn default() -> Self {
+        Self::File
+    }
+}
+
+/// What has been seen of parts and instances.
+#[derive(Default)]
+pub(super) struct Scopes {
+    pub(super) now: Scope,
+    /// Names of the parts, in capitals.
+    parts: Vec<String>,
+    /// Name of the instance, number of its part.
+    instance: Option<(String, Option<u32>)>,
+    /// Whether the lines that follow are those of `*INSTANCE`: how far it is moved and turned.
+    moves: bool,
+}
+
+impl Scopes {
+    pub(super) fn at_keyword(&mut self, keyword: &str, block: &Block<'_>) -> Result<(), MshError> {
+        self.moves = keyword == "INSTANCE";
+        self.now = match keyword {
+            "PART" => {
+                self.parts.push(capitals(block.required("NAME")?.as_bytes()));
+                Scope::Part(self.parts.len() as u32 - 1)
+            }
+            "ASSEMBLY" | "ENDINSTANCE" => Scope::Assembly,
+            "INSTANCE" => {
+                let name = block.required("NAME")?;
+                let part = block.required("PART")?;
+                let own = self.parts.iter().position(|known| *known == capitals(part.as_bytes()));
+                if let Some((first, _)) = &self.instance {
+                    return Err(block.fault(
+                        block.line,
+                        format_args!("found a second instance, \"{name}\" after \"{first}\": expected one; merge the instances into one part and write the file again"),
+                    ));
+                }
+                self.instance = Some((name, own.map(|part| part as u32)));
+                Scope::Instance
+            }
+            "ENDPART" | "ENDASSEMBLY" => Scope::File,
+            _ => self.now,
+        };
+        Ok(())
+    }
+
+    /// A line that is no keyword.
+    pub(super) fn data(&mut self, line: usize, text: &[u8]) -> Result<(), MshError> {
+        let is_zero = |word: &[u8]| word.iter().all(|byte| b"0.+-eEdD".contains(byte));
+        if self.moves && !items(text).all(is_zero) {
+            return Err(super::fault(
+                line,
+                "INSTANCE",
+                "found an instance that is moved or turned: expected one that stands where its part was drawn; take the translation out, or move the part and write the file again",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Name of the instance, if there are parts.
+    ///
+    /// # Errors
+    /// Several parts and no instance that says which.
+    pub(super) fn instance(&self) -> Result<Option<String>, MshError> {
+        if self.instance.is_none() && self.parts.len() > 1 {
+            let count = self.parts.len();
+            return Err(MshError(format!(
+                "the file has {count} parts and no *INSTANCE: expected one part, or one instance that says which"
+            )));
+        }
+        Ok(self.instance.as_ref().map(|(name, _)| name.clone()))
+    }
+
+    /// Whether what stands there belongs to the mesh.
+    pub(super) fn holds(&self, scope: Scope) -> bool {
+        match (&self.instance, scope) {
+            (Some((_, part)), Scope::Part(number)) => *part == Some(number),
+            _ => true,
+        }
+    }
+}
