@@ -9,6 +9,7 @@ mod estimates;
 mod examples;
 mod export;
 mod init;
+mod inp;
 mod long_run;
 mod modes;
 mod named_bearing;

@@ -101,7 +101,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     line("file", format!("{} ({})", path.display(), inventory.format));
     inventory.notes.left_out.iter().for_each(|note| line("warning", note.clone()));
     if !inventory.notes.passed_over.is_empty() {
-        line("not read", format!("{}: what these give is the case's", inventory.notes.passed_over.join(", ")));
+        line("not read", inventory.notes.passed_over.join(", "));
     }
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));

@@ -1,10 +1,12 @@
 //! From what has been read to a [`Mesh`]: sets and surfaces as groups, and what is said of the rest.
 
 use super::MshError;
-use super::deck::{Deck, JOINTS, capitals};
+use super::block::capitals;
+use super::deck::{Deck, JOINTS};
 use super::kinds::Purpose;
 use super::read::Bodies;
-use super::sets::{self, Set, Surface};
+use super::sets::Set;
+use super::surfaces::{Surface, read_sets, surfaces};
 use crate::fe::mesh::gmsh::Allowance;
 use crate::fe::mesh::{
     BoundaryFace, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
@@ -21,8 +23,8 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
     let deck = Deck::cut(bytes)?;
     let mut bodies = Bodies::read(&deck, metres)?;
     let mut allowance = Allowance { file_bytes: bytes.len(), listed: 0 };
-    sets::read(&deck, &mut bodies, &mut allowance)?;
-    let surfaces = sets::surfaces(&deck, &bodies, &mut allowance)?;
+    read_sets(&deck, &mut bodies, &mut allowance)?;
+    let surfaces = surfaces(&deck, &bodies, &mut allowance)?;
     check_bodies(&bodies)?;
     let notes = notes(&deck, &bodies);
     let Bodies { nodes, node_numbers, mut blocks, places, element_numbers, node_sets, element_sets, .. } = bodies;
@@ -85,9 +87,7 @@ fn check_bodies(bodies: &Bodies) -> Result<(), MshError> {
 fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
     let mut left_out = Vec::new();
     for (name, (count, first)) in &bodies.left_out {
-        left_out.push(format!(
-            "{count} of the elements are of type {name}, which is not modelled, and are left out (the first is {first})"
-        ));
+        left_out.push(format!("elements of type {name} are not modelled and left out: {count}, the first is {first}"));
     }
     let sections = [
         (Purpose::Shell, ["SHELLSECTION", "MEMBRANESECTION"], "shells and membranes"),
@@ -105,7 +105,7 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
     let joints: Vec<String> = joints.map(|(keyword, line)| format!("*{keyword} (line {line})")).collect();
     if !joints.is_empty() {
         left_out.push(format!(
-            "{} is not taken from the file; housing.links and housing.masses of the case can say the like",
+            "these are not taken from the file: {}; housing.links and housing.masses of the case can say the like",
             joints.join(", ")
         ));
     }

@@ -1,7 +1,8 @@
-//! An input file cut at its keywords, and the items of its lines.
+//! An input file cut at its keywords.
 
-use super::scope::{Scope, Scopes};
-use super::{MshError, fault};
+use super::MshError;
+use super::block::{Block, Lines, Scope, capitals, keyword};
+use super::scope::Scopes;
 use crate::fe::mesh::gmsh::quoted;
 use std::collections::BTreeMap;
 
@@ -35,17 +36,6 @@ pub(super) const JOINTS: [&str; 18] = [
 /// Distinct keywords that are listed as passed over.
 const LISTED: usize = 64;
 
-/// A keyword that is read, with its data.
-pub(super) struct Block<'a> {
-    /// The keyword line with its continuations.
-    head: &'a [u8],
-    /// What follows; the data end at the next keyword.
-    rest: Lines<'a>,
-    /// Line of the keyword, from 1.
-    pub(super) line: usize,
-    pub(super) scope: Scope,
-}
-
 /// The model data of a file.
 pub(super) struct Deck<'a> {
     /// In the order of the file; of a file of several parts those of the instance.
@@ -55,96 +45,6 @@ pub(super) struct Deck<'a> {
     /// Keywords that were passed over, with the line of the first of each.
     pub(super) passed_over: BTreeMap<String, usize>,
 }
-
-/// Lines with their numbers, blank ones and comments left out.
-#[derive(Clone)]
-struct Lines<'a> {
-    bytes: &'a [u8],
-    /// Where the line read last begins, and the next one.
-    start: usize,
-    next: usize,
-    /// Number of the next line, from 1.
-    line: usize,
-}
-
-impl<'a> Iterator for Lines<'a> {
-    type Item = (usize, &'a [u8]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while let rest @ [_, ..] = &self.bytes[self.next..] {
-            let length = rest.iter().position(|&byte| byte == b'\n').map_or(rest.len(), |end| end + 1);
-            let line = self.line;
-            (self.start, self.next, self.line) = (self.next, self.next + length, line + 1);
-            let text = rest[..length].trim_ascii();
-            if !text.is_empty() && !text.starts_with(b"**") {
-                return Some((line, text));
-            }
-        }
-        None
-    }
-}
-
-impl<'a> Block<'a> {
-    /// Its lines with their numbers.
-    pub(super) fn lines(&self) -> impl Iterator<Item = (usize, &'a [u8])> + use<'a> {
-        self.rest.clone().take_while(|(_, text)| !text.starts_with(b"*"))
-    }
-
-    /// The keyword, in capitals without blanks.
-    pub(super) fn keyword(&self) -> String {
-        keyword(self.head)
-    }
-
-    /// A parameter as it is written, without quotes; empty if it has no value.
-    pub(super) fn parameter(&self, name: &str) -> Option<String> {
-        pieces(self.head).skip(1).find_map(|piece| {
-            let mut sides = piece.splitn(2, |&byte| byte == b'=');
-            let is_asked = capitals(sides.next()?) == name;
-            let value = String::from_utf8_lossy(sides.next().unwrap_or_default());
-            is_asked.then(|| value.trim().trim_matches('"').trim().to_owned())
-        })
-    }
-
-    /// The same of a parameter that must be there.
-    pub(super) fn required(&self, name: &str) -> Result<String, MshError> {
-        let found = self.parameter(name).filter(|value| !value.is_empty());
-        found.ok_or_else(|| self.fault(self.line, format_args!("expected {name}=..., found none")))
-    }
-
-    /// An error at one of its lines.
-    pub(super) fn fault(&self, line: usize, what: impl std::fmt::Display) -> MshError {
-        fault(line, &self.keyword(), what)
-    }
-}
-
-/// The items of a line, between commas; a last comma has nothing behind it.
-pub(super) fn items(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let line = line.strip_suffix(b",").unwrap_or(line);
-    line.split(|&byte| byte == b',').map(<[u8]>::trim_ascii)
-}
-
-/// The parts of a keyword line between commas that are not in quotes.
-fn pieces(head: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let mut quoted = false;
-    head.split(move |&byte| {
-        quoted ^= byte == b'"';
-        byte == b',' && !quoted
-    })
-}
-
-/// Text in capitals without blanks, as keywords and names are compared.
-pub(super) fn capitals(text: &[u8]) -> String {
-    let text = String::from_utf8_lossy(text);
-    text.chars().filter(|c| !c.is_whitespace() && *c != '"').flat_map(char::to_uppercase).collect()
-}
-
-fn keyword(head: &[u8]) -> String {
-    let word = pieces(head).next().unwrap_or_default();
-    capitals(&word[..word.len().min(LONGEST_KEYWORD)]).trim_start_matches('*').to_owned()
-}
-
-/// Longest keyword that messages and lists repeat.
-const LONGEST_KEYWORD: usize = 40;
 
 /// Whether a keyword line that ends in a comma goes on in this one: by its parameters, which no data have.
 fn continues(line: &[u8]) -> bool {
@@ -156,23 +56,18 @@ impl<'a> Deck<'a> {
     /// Cuts a file up to its first step.
     ///
     /// # Errors
-    /// What stands before the first keyword, other files that it includes, keywords that make nodes, and anything but one
+    /// Other files that it includes, keywords that make nodes, and anything but one
     /// part in one place.
     pub(super) fn cut(bytes: &'a [u8]) -> Result<Self, MshError> {
         let mut deck = Self { blocks: Vec::new(), instance: None, passed_over: BTreeMap::new() };
         let mut scopes = Scopes::default();
         let mut lines = Lines { bytes, start: 0, next: 0, line: 1 };
-        let mut before_first = true;
         while let Some((line, text)) = lines.next() {
+            // what stands before the first keyword is passed over, as CalculiX does
             if !text.starts_with(b"*") {
-                if before_first {
-                    let found = quoted(text);
-                    return Err(MshError(format!("line {line}: expected a keyword (*NODE, ...), found {found}")));
-                }
                 scopes.data(line, text)?;
                 continue;
             }
-            before_first = false;
             let (start, mut last) = (lines.start, text);
             while last.ends_with(b",") {
                 let mut ahead = lines.clone();

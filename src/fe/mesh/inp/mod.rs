@@ -7,12 +7,15 @@
 //! A first pass cuts the file at its keywords; nodes, elements, sets and surfaces are read after one another, in
 //! whatever order they stand. As in the reader of gmsh's files, memory is bounded by the length of the file.
 
+mod block;
 mod build;
 mod deck;
 mod kinds;
+mod numbers;
 mod read;
 mod scope;
 mod sets;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 
@@ -53,10 +56,4 @@ impl Mesh {
         mesh.turn_clockwise();
         Ok(mesh)
     }
-}
-
-/// An error at a line of the file.
-#[cold]
-fn fault(line: usize, keyword: &str, what: impl std::fmt::Display) -> MshError {
-    MshError(format!("line {line}, *{keyword}: {what}"))
 }

@@ -1,50 +1,14 @@
 //! Nodes and elements of an input file, with the errors of their lines.
 
 use super::MshError;
-use super::deck::{Block, Deck, capitals, items};
+use super::block::{Block, capitals, items};
+use super::deck::Deck;
 use super::kinds::{self, Purpose, Type, inp_nodes};
+use super::numbers::{Numbers, coordinate, number};
 use super::sets::Sets;
-use crate::fe::mesh::gmsh::{NodeIndex, quoted};
+use crate::fe::mesh::gmsh::quoted;
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity};
 use std::collections::BTreeMap;
-
-/// Largest number of a node or element: Abaqus allows no larger one.
-const LARGEST: u64 = 999_999_999;
-
-/// Nodes or elements by their numbers.
-pub(super) struct Numbers {
-    index: NodeIndex,
-    /// In the order of the file.
-    pub(super) listed: Vec<u64>,
-}
-
-impl Numbers {
-    fn for_blocks<'b, 'a: 'b>(blocks: impl Iterator<Item = &'b Block<'a>>) -> Self {
-        let lines = blocks.map(|block| block.lines().count()).sum();
-        Self { index: NodeIndex::for_count(lines), listed: Vec::with_capacity(lines) }
-    }
-
-    pub(super) fn get(&self, number: u64) -> Option<usize> {
-        self.index.get(number)
-    }
-
-    /// Indices of those from `first` to `last` in steps that occur.
-    pub(super) fn between(&self, first: u64, last: u64, step: u64) -> Vec<u32> {
-        if (last - first) / step > self.listed.len() as u64 {
-            let is_in = |number: u64| (first..=last).contains(&number) && (number - first).is_multiple_of(step);
-            let listed = (0..).zip(&self.listed);
-            return listed.filter(|(_, number)| is_in(**number)).map(|(index, _)| index).collect();
-        }
-        let numbers = (first..=last).step_by(step as usize);
-        numbers.filter_map(|number| Some(self.get(number)? as u32)).collect()
-    }
-
-    fn push(&mut self, number: u64) {
-        // the numbers themselves are below 2^32, and different
-        self.index.insert(number, self.listed.len() as u32);
-        self.listed.push(number);
-    }
-}
 
 /// Nodes and elements.
 pub(super) struct Bodies {
@@ -63,24 +27,6 @@ pub(super) struct Bodies {
     /// Sets that keywords of nodes and elements name.
     pub(super) node_sets: Sets,
     pub(super) element_sets: Sets,
-}
-
-/// A whole number from 1 on.
-pub(super) fn number(block: &Block<'_>, line: usize, what: &str, word: &[u8]) -> Result<u64, MshError> {
-    let text = std::str::from_utf8(word).ok();
-    let found = text.and_then(|text| text.parse().ok()).filter(|number| (1..=LARGEST).contains(number));
-    found.ok_or_else(|| block.fault(line, format_args!("expected {what}, 1 to {LARGEST}, found {}", quoted(word))))
-}
-
-/// A coordinate; Fortran writes 1.D-3 and 1.-3.
-fn coordinate(word: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(word).ok()?;
-    let value = text.parse().ok().or_else(|| {
-        let text = text.replace(['d', 'D'], "e");
-        let sign = text.rfind(['+', '-']).filter(|&at| at > 0 && !text.contains(['e', 'E']));
-        sign.map_or(text.clone(), |at| format!("{}e{}", &text[..at], &text[at..])).parse().ok()
-    });
-    value.filter(|value: &f64| value.is_finite())
 }
 
 impl Bodies {
@@ -188,7 +134,13 @@ impl Bodies {
                 open = text.ends_with(b",");
             }
             let tag = number(block, line, "the number of an element", words[0])?;
+            // some programs give a beam of three nodes its ends alone
+            let known = known.filter(|(kind, purpose)| *purpose != Purpose::Curve || words.len() == kind.nodes() + 1);
             let nodes = match known {
+                Some((ElementKind::Line3, _)) => {
+                    let nodes = self.nodes_of(block, line, tag, &words[1..], &order)?;
+                    self.middle_last([nodes[0], nodes[1], nodes[2]]).to_vec()
+                }
                 Some(_) => self.nodes_of(block, line, tag, &words[1..], &order)?,
                 None => Vec::new(),
             };
@@ -222,6 +174,18 @@ impl Bodies {
             }
         }
         Ok(())
+    }
+
+    /// The nodes of a curve with its middle last: Abaqus has it between the ends, gmsh writes it last.
+    fn middle_last(&self, [first, second, third]: [usize; 3]) -> [usize; 3] {
+        let off_middle = |middle: usize, ends: [usize; 2]| {
+            let [a, b, c] = [ends[0], ends[1], middle].map(|node| self.nodes[node]);
+            (0..3).map(|axis| (2.0 * c[axis] - a[axis] - b[axis]).powi(2)).sum::<f64>()
+        };
+        match off_middle(second, [first, third]) < off_middle(third, [first, second]) {
+            true => [first, third, second],
+            false => [first, second, third],
+        }
     }
 
     /// Indices of the nodes of an element, brought into an order that gives for each its place in the file.

@@ -1,26 +1,7 @@
 //! Parts, instances and the assembly of a file of Abaqus/CAE: one instance that is not moved is read.
 
 use super::MshError;
-use super::deck::{Block, capitals, items};
-
-/// Where a keyword stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scope {
-    /// In a file without parts, or outside of them.
-    File,
-    /// In the part of this number.
-    Part(u32),
-    /// In the assembly, outside of its instance.
-    Assembly,
-    /// In the instance itself.
-    Instance,
-}
-
-impl Default for Scope {
-    fn default() -> Self {
-        Self::File
-    }
-}
+use super::block::{Block, Scope, capitals, fault, items};
 
 /// What has been seen of parts and instances.
 #[derive(Default)]
@@ -66,7 +47,7 @@ impl Scopes {
     pub(super) fn data(&mut self, line: usize, text: &[u8]) -> Result<(), MshError> {
         let is_zero = |word: &[u8]| word.iter().all(|byte| b"0.+-eEdD".contains(byte));
         if self.moves && !items(text).all(is_zero) {
-            return Err(super::fault(
+            return Err(fault(
                 line,
                 "INSTANCE",
                 "found an instance that is moved or turned: expected one that stands where its part was drawn; take the translation out, or move the part and write the file again",
