@@ -31,9 +31,9 @@ fn plummer(folder: &Path, words: &str) -> Output {
 }
 
 fn frequencies(folder: &Path, case: &str) -> Vec<f64> {
-    let run = plummer(folder, &format!("modes {case} --json --quiet"));
+    let run = plummer(folder, &format!("modes {case} --json --quiet --out m-{case}"));
     let result: Value = serde_json::from_slice(&run.stdout).unwrap();
-    result["unloaded"]["modes"].as_array().unwrap().iter().map(|mode| mode["frequency_hz"].as_f64().unwrap()).collect()
+    result["frequencies_hz"].as_array().unwrap().iter().map(|hz| hz.as_f64().unwrap()).collect()
 }
 
 /// The coordinates are written with 13 digits.

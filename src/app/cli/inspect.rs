@@ -100,6 +100,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
     inventory.notes.left_out.iter().for_each(|note| line("warning", note.clone()));
+    inventory.notes.as_points.iter().for_each(|note| line("points", note.clone()));
     if !inventory.notes.passed_over.is_empty() {
         line("not read", inventory.notes.passed_over.join(", "));
     }

@@ -106,6 +106,8 @@ pub struct PhysicalGroup {
 pub struct MeshNotes {
     /// What is left out and would change results, a sentence each.
     pub left_out: Vec<String>,
+    /// Node sets that hold whole faces and other nodes, and are points for that, a sentence each.
+    pub as_points: Vec<String>,
     /// Keywords of an Abaqus or CalculiX file that are passed over, the first 64 of them; most belong to the case.
     pub passed_over: Vec<String>,
 }

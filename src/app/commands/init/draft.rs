@@ -65,8 +65,9 @@ impl Draft {
 
 /// What of an Abaqus or CalculiX file is not taken.
 fn read_from(inspection: &Inspection) -> Vec<String> {
-    let MeshNotes { left_out, passed_over } = &inspection.inventory.notes;
+    let MeshNotes { left_out, as_points, passed_over } = &inspection.inventory.notes;
     let mut lines: Vec<String> = left_out.iter().map(|note| format!("warning: {note}")).collect();
+    lines.extend(as_points.iter().cloned());
     if inspection.inventory.format.version == MshVersion::Inp {
         let passed_over = if passed_over.is_empty() { String::new() } else { format!(" ({})", passed_over.join(", ")) };
         lines.push(format!(

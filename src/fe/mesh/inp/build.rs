@@ -110,7 +110,7 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
         ));
     }
     let passed_over = deck.passed_over.keys().map(|keyword| format!("*{keyword}")).collect();
-    MeshNotes { left_out, passed_over }
+    MeshNotes { left_out, as_points: Vec::new(), passed_over }
 }
 
 /// Groups under way, and the faces and points that they need.
@@ -247,6 +247,16 @@ impl<'m> Groups<'m> {
                 .map(|(kind, nodes)| self.face(kind, nodes))
                 .collect()
         } else {
+            let stray = set.members.iter().filter(|&&node| !is_in[&(node as usize)]);
+            if let Some(&first) = stray.clone().next().filter(|_| !covered.is_empty()) {
+                self.mesh.notes.as_points.push(format!(
+                    "the node set \"{}\" is a group of points: beside whole faces ({}) it holds other nodes ({}, the first is {})",
+                    set.name,
+                    covered.len(),
+                    stray.count(),
+                    self.mesh.node_tags[first as usize]
+                ));
+            }
             let points = set.members.iter().map(|&node| node as usize);
             points
                 .map(|node| {

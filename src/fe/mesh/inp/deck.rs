@@ -42,6 +42,8 @@ pub(super) struct Deck<'a> {
     pub(super) blocks: Vec<Block<'a>>,
     /// Name of the one instance.
     pub(super) instance: Option<String>,
+    /// How far it is moved, in the file's unit.
+    pub(super) shift: [f64; 3],
     /// Keywords that were passed over, with the line of the first of each.
     pub(super) passed_over: BTreeMap<String, usize>,
 }
@@ -59,7 +61,7 @@ impl<'a> Deck<'a> {
     /// Other files that it includes, keywords that make nodes, and anything but one
     /// part in one place.
     pub(super) fn cut(bytes: &'a [u8]) -> Result<Self, MshError> {
-        let mut deck = Self { blocks: Vec::new(), instance: None, passed_over: BTreeMap::new() };
+        let mut deck = Self { blocks: Vec::new(), instance: None, shift: [0.0; 3], passed_over: BTreeMap::new() };
         let mut scopes = Scopes::default();
         let mut lines = Lines { bytes, start: 0, next: 0, line: 1 };
         while let Some((line, text)) = lines.next() {
@@ -85,7 +87,7 @@ impl<'a> Deck<'a> {
         }
         let instance = scopes.instance()?;
         deck.blocks.retain(|block| scopes.holds(block.scope));
-        deck.instance = instance;
+        (deck.instance, deck.shift) = (instance, scopes.shift);
         Ok(deck)
     }
 

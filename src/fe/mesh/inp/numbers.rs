@@ -7,6 +7,9 @@ use crate::fe::mesh::gmsh::{NodeIndex, quoted};
 /// Largest number of a node or element: Abaqus allows no larger one.
 const LARGEST: u64 = 999_999_999;
 
+/// Largest coordinate: sums and squares of such ones are finite in any unit.
+const FARTHEST: f64 = 1e100;
+
 /// Nodes or elements by their numbers.
 pub(super) struct Numbers {
     index: NodeIndex,
@@ -57,5 +60,5 @@ pub(super) fn coordinate(word: &[u8]) -> Option<f64> {
         let sign = text.rfind(['+', '-']).filter(|&at| at > 0 && !text.contains(['e', 'E']));
         sign.map_or(text.clone(), |at| format!("{}e{}", &text[..at], &text[at..])).parse().ok()
     });
-    value.filter(|value: &f64| value.is_finite())
+    value.filter(|value: &f64| value.abs() <= FARTHEST)
 }

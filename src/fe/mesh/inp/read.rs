@@ -53,6 +53,9 @@ impl Bodies {
         for block in of("NODE") {
             bodies.read_nodes(block, metres)?;
         }
+        for node in &mut bodies.nodes {
+            (0..3).for_each(|axis| node[axis] += metres * deck.shift[axis]);
+        }
         for block in of("ELEMENT") {
             bodies.read_elements(block)?;
         }
@@ -86,7 +89,7 @@ impl Bodies {
                 // Abaqus takes what is not given as 0
                 let word = words.next().filter(|word| !word.is_empty());
                 if let Some(word) = word {
-                    let found = coordinate(word).map(|found| found * metres).filter(|found| found.is_finite());
+                    let found = coordinate(word).map(|found| found * metres);
                     *x = found.ok_or_else(|| {
                         block.fault(line, format_args!("node {tag}: expected a coordinate, found {}", quoted(word)))
                     })?;

@@ -1,7 +1,9 @@
-//! Parts, instances and the assembly of a file of Abaqus/CAE: one instance that is not moved is read.
+//! Parts, instances and the assembly of a file of Abaqus/CAE: one instance is read, moved but not turned.
 
 use super::MshError;
 use super::block::{Block, Scope, capitals, fault, items};
+use super::numbers::coordinate;
+use crate::fe::mesh::gmsh::quoted;
 
 /// What has been seen of parts and instances.
 #[derive(Default)]
@@ -11,13 +13,15 @@ pub(super) struct Scopes {
     parts: Vec<String>,
     /// Name of the instance, number of its part.
     instance: Option<(String, Option<u32>)>,
-    /// Whether the lines that follow are those of `*INSTANCE`: how far it is moved and turned.
-    moves: bool,
+    /// Lines of `*INSTANCE` that were seen, if those that follow are its own.
+    moves: Option<usize>,
+    /// How far the instance is moved, in the file's unit.
+    pub(super) shift: [f64; 3],
 }
 
 impl Scopes {
     pub(super) fn at_keyword(&mut self, keyword: &str, block: &Block<'_>) -> Result<(), MshError> {
-        self.moves = keyword == "INSTANCE";
+        self.moves = (keyword == "INSTANCE").then_some(0);
         self.now = match keyword {
             "PART" => {
                 self.parts.push(capitals(block.required("NAME")?.as_bytes()));
@@ -43,15 +47,18 @@ impl Scopes {
         Ok(())
     }
 
-    /// A line that is no keyword.
+    /// A line that is no keyword: the first one of an instance is how far it is moved, the second how it is turned.
     pub(super) fn data(&mut self, line: usize, text: &[u8]) -> Result<(), MshError> {
-        let is_zero = |word: &[u8]| word.iter().all(|byte| b"0.+-eEdD".contains(byte));
-        if self.moves && !items(text).all(is_zero) {
-            return Err(fault(
-                line,
-                "INSTANCE",
-                "found an instance that is moved or turned: expected one that stands where its part was drawn; take the translation out, or move the part and write the file again",
-            ));
+        let Some(lines) = &mut self.moves else { return Ok(()) };
+        *lines += 1;
+        if *lines > 1 {
+            let advice = "turn the part itself and write the file again";
+            return Err(fault(line, "INSTANCE", format_args!("an instance that is turned cannot be read; {advice}")));
+        }
+        for (moved, word) in self.shift.iter_mut().zip(items(text)).filter(|(_, word)| !word.is_empty()) {
+            *moved = coordinate(word).ok_or_else(|| {
+                fault(line, "INSTANCE", format_args!("expected a translation, found {}", quoted(word)))
+            })?;
         }
         Ok(())
     }

@@ -86,6 +86,9 @@ fn sets_and_surfaces_are_groups() {
     assert_eq!(mesh.notes.passed_over, ["*ELASTIC", "*HEADING", "*MATERIAL"]);
     assert_eq!(mesh.format.to_string(), "Abaqus or CalculiX input");
     assert!(mesh.notes.left_out.is_empty(), "{:?}", mesh.notes);
+    let mixed =
+        "the node set \"mixed\" is a group of points: beside whole faces (1) it holds other nodes (1, the first is 11)";
+    assert_eq!(mesh.notes.as_points, [mixed]);
 }
 
 /// Middle nodes lie between the corners that gmsh's order says, and the faces S1, S2, ... where the manual has them.
@@ -193,6 +196,8 @@ fn one_instance_of_cae_is_read() {
     let mesh = read(CAE.as_bytes()).unwrap();
     assert_eq!(mesh.nodes.len(), 5);
     assert_eq!(groups(&mesh), ["tip 0 1 1", "face 2 3 1", "bore 2 3 1", "Set-1 3 5 2"]);
+    let moved = CAE.replace("          0.,           0.,           0.\n*End", "1.,,-2.\n*End");
+    assert_eq!(read(moved.as_bytes()).unwrap().nodes[4], [1e-3, 0.0, -3e-3]);
     let [coupling] = mesh.notes.left_out.as_slice() else { panic!("{:?}", mesh.notes) };
     assert!(coupling.starts_with("these are not taken from the file: *COUPLING (line 41); "), "{coupling}");
 }
@@ -258,8 +263,8 @@ fn what_cannot_be_read_is_refused_by_line() {
     let cases = [
         (
             "          0.,           0.,           0.\n*End",
-            "0.,0.,1.\n*End",
-            "line 25, *INSTANCE: found an instance that is moved or turned",
+            "0.,0.,1.\n0.,0.,0.,1.,0.,0.,90.\n*End",
+            "line 26, *INSTANCE: an instance that is turned cannot be read",
         ),
         (
             "*End Instance\n",
