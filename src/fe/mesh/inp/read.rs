@@ -99,7 +99,7 @@ impl Bodies {
             if index == self.nodes.len() {
                 self.node_numbers.push(tag);
                 self.nodes.push(node);
-            } else if self.nodes[index] != node {
+            } else if self.nodes[index].iter().zip(node).any(|(known, other)| (known - other).abs() > 0.0) {
                 return Err(block.fault(
                     line,
                     format_args!("node {tag} occurs a second time in another place: expected every number once"),
