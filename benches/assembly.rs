@@ -12,7 +12,9 @@ use criterion::Criterion;
 use peak_alloc::PeakAlloc;
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::material::Material;
-use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use plummer::fe::mesh::{
+    ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+};
 use plummer::fe::modal::{ModeRange, housing_modes};
 use plummer::fe::model::{Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, SupportShare};
 use plummer::numerics::linalg::SparseMatrix;
@@ -78,8 +80,8 @@ fn tet_box(cells: usize) -> Mesh {
         ],
         nodes,
         format: MshFormat { version: MshVersion::V41, binary: false },
+        notes: MeshNotes::default(),
         source: PathBuf::from("box of tetrahedra"),
-        remarks: Vec::new(),
         left_out: Vec::new(),
     }
 }

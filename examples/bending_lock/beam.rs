@@ -123,7 +123,7 @@ impl Beam {
             groups: vec![group],
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: "cantilever".into(),
-            remarks: Vec::new(),
+            notes: MeshNotes::default(),
             left_out: Vec::new(),
         }
     }

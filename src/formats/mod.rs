@@ -6,6 +6,7 @@
 //! | Universal File Format ([`uff`]) | `.uff`, `.unv` | mesh, mode shapes, frequency responses | mode shapes, frequency responses |
 //! | NumPy archive ([`npz`]) | `.npz` | arrays, sparse matrices, mode shapes | arrays, mode shapes |
 //! | result file of CalculiX ([`frd`]) | `.frd` | | mode shapes |
+//! | input file of CalculiX, Abaqus | `.inp` | mesh, sets, materials, a step | by [`Mesh::read`](crate::fe::mesh::Mesh::read) |
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
@@ -24,6 +25,7 @@ pub mod dof_table;
 mod error;
 mod fortran;
 pub mod frd;
+mod inp;
 pub mod matrix_market;
 pub mod measured;
 mod mode_shapes;
@@ -40,6 +42,7 @@ pub use csv::{read_modes_csv, write_modes_csv};
 pub use dof_table::{DofBody, DofDirection, DofLabel, write_dofs_csv, write_dofs_npz};
 pub use error::FormatError;
 pub use frd::read_modes_frd;
+pub(crate) use inp::{InpJob, write_inp};
 pub use matrix_market::{write_dense_matrix_market, write_matrix_market};
 pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::ModeShapes;

@@ -275,7 +275,8 @@ fn results_that_do_not_fit_are_refused() {
 fn files_in_the_way_are_refused() {
     let folder = scratch("refused");
     assert!(
-        refused(&folder, "export ring.toml --to stl").contains("[possible values: vtu, uff, mtx, npz, op4, mbdyn]")
+        refused(&folder, "export ring.toml --to stl")
+            .contains("[possible values: vtu, uff, mtx, npz, op4, inp, mbdyn]")
     );
     assert!(!folder.join("out").exists());
     let out = folder.join("out/ring");

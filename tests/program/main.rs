@@ -10,6 +10,7 @@ mod examples;
 mod export;
 mod groups;
 mod init;
+mod inp;
 mod long_run;
 mod modes;
 mod named_bearing;

@@ -133,6 +133,7 @@ Files:
   mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
   npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
   op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA, K4AA of the condensed housing, interface first (pyyeti.nastran.op4)
+  inp  housing.inp: mesh, sets, surfaces, materials, held nodes, a *FREQUENCY step in SI (ccx -i housing)
   mbdyn  superelement.fem: data of MBDyn's modal joint";
 
 const SWEEP_EXAMPLE: &str = "\
@@ -218,10 +219,10 @@ pub enum Command {
     /// Write a commented case file for a mesh: bore, parts and supports from its named groups, and a bearing that fits
     #[command(after_help = INIT_EXAMPLE)]
     Init(InitArguments),
-    /// Show what a gmsh mesh contains: groups, elements, size, mass, worst element, loose parts
+    /// Show what a mesh contains: groups, elements, size, mass, worst element, loose parts
     #[command(after_help = INSPECT_EXAMPLE)]
     Inspect {
-        /// Mesh file (gmsh MSH 2 or 4), or a case file: its mesh
+        /// Mesh file (gmsh MSH 2 or 4, .inp of Abaqus or CalculiX), or a case file: its mesh
         mesh: PathBuf,
         /// Unit of the mesh's coordinates: m, cm, mm, um or in (the file does not say)
         #[arg(long, value_name = "UNIT", value_parser = LengthUnit::parse)]
@@ -321,7 +322,7 @@ pub enum Command {
 /// A mesh, and what is known of it.
 #[derive(Debug, Clone, Args)]
 pub struct InitArguments {
-    /// Mesh file (gmsh MSH 2 or 4)
+    /// Mesh file (gmsh MSH 2 or 4, .inp of Abaqus or CalculiX)
     #[arg(value_name = "HOUSING.msh", required_unless_present_any = ["list_bearings", "list_materials"])]
     pub mesh: Option<PathBuf>,
     /// Unit of the mesh's coordinates: m, cm, mm, um or in (default: the one in which the bearing fits, else a guess by the size)
@@ -363,6 +364,8 @@ pub enum ExportFormat {
     Npz,
     /// The condensed housing's matrices as Nastran's OUTPUT4 file
     Op4,
+    /// The housing as an input file of CalculiX or Abaqus
+    Inp,
     /// The condensed housing as a modal body of MBDyn
     Mbdyn,
 }

@@ -119,6 +119,11 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let _ = writeln!(text, "{name:<18}{value}");
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
+    inventory.notes.told.iter().for_each(|note| line("warning", note.clone()));
+    inventory.notes.as_points.iter().for_each(|note| line("points", note.clone()));
+    if !inventory.notes.passed_over.is_empty() {
+        line("not read", inventory.notes.passed_over.join(", "));
+    }
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
     let extent = inventory.bounding_box.extent();
@@ -137,7 +142,6 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if let Some(told) = found.length_unit.and_then(|unit| size_doubt(extent, unit, "--length-unit")) {
         line("warning", told);
     }
-    found.remarks.iter().for_each(|remark| line("note", remark.clone()));
     if let Some(worst) = &found.worst {
         let [x, y, z] = worst.shape.position.map(|at| significant(at, 5));
         let shape = format!(

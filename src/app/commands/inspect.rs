@@ -100,8 +100,6 @@ pub struct InspectResult<'a> {
 pub struct Inspection {
     /// Unit of the file's coordinates; `None`: not given, one unit was taken as 1 m.
     pub length_unit: Option<LengthUnit>,
-    /// What of the file was changed or left out, a sentence each.
-    pub remarks: Vec<String>,
     /// Counts, groups, extent, and what hangs in the air.
     #[serde(flatten)]
     pub inventory: Inventory,
@@ -140,7 +138,7 @@ impl Inspection {
     /// # Errors
     /// [`MeshError`] if it cannot be read.
     pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>, straight: bool) -> Result<Self, MeshError> {
-        let mut mesh = Mesh::read_gmsh(path, unit.unwrap_or(LengthUnit::Metre))?;
+        let mut mesh = Mesh::read(path, unit.unwrap_or(LengthUnit::Metre))?;
         if straight {
             straighten(&mut mesh);
         }
@@ -172,7 +170,6 @@ impl Inspection {
             folded_elements: 0,
             invalid: Vec::new(),
             shells: dimension == 2 && mesh.node_off_plane().is_some(),
-            remarks: mesh.told(),
             doubled: bodies.doubled(),
             mixed_orders: bodies.mixed_orders(),
             crossing,

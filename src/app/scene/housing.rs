@@ -138,7 +138,7 @@ pub(crate) fn read_mesh(case: &Case, housing: &Housing, watch: &impl Watch) -> R
     let path = &housing.mesh;
     let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
     watch.read(&FileDigest::of_bytes(path, &bytes));
-    let mut mesh = Mesh::from_gmsh_bytes(bytes, path, housing.length_unit)?;
+    let mut mesh = Mesh::from_bytes(bytes, path, housing.length_unit)?;
     if housing.straighten {
         straighten(&mut mesh);
     }

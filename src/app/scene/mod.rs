@@ -31,7 +31,7 @@ pub(crate) use bearing::{bearing_geometry, race_contacts};
 pub use condensed::CondensedHousing;
 pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;
-pub(crate) use housing::{mesh_digests, read_mesh};
+pub(crate) use housing::{description, mesh_digests, read_mesh};
 pub use imported::ImportedHousing;
 pub use in_full::RingInHousing;
 pub(crate) use plausible::size_doubt;

@@ -1,7 +1,7 @@
 //! Structured meshes of the unit square and cube, of every continuum element, made in code.
 
 use crate::fe::mesh::ElementKind;
-use crate::fe::mesh::{ElementBlock, ElementId, Entity, Face, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use crate::fe::mesh::{ElementBlock, ElementId, Entity, Face, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup};
 
 /// The group of all elements.
 pub const BODY: &str = "body";
@@ -131,7 +131,7 @@ fn mesh(kind: ElementKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> Me
         nodes,
         left_out: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
+        notes: MeshNotes::default(),
         source: "structured grid".into(),
-        remarks: Vec::new(),
     }
 }

@@ -24,10 +24,10 @@ pub struct Mesh {
     pub left_out: Vec<LeftOut>,
     /// How the file was written.
     pub format: MshFormat,
+    /// What of the file is not in the mesh.
+    pub notes: MeshNotes,
     /// The file that it was read from.
     pub source: PathBuf,
-    /// What of the file was changed or left out, a sentence each; results say it.
-    pub remarks: Vec<String>,
 }
 
 /// A geometrical entity of the CAD model behind the mesh.
@@ -117,7 +117,18 @@ pub struct LeftOut {
     pub physical: i32,
 }
 
-/// Version of gmsh's MSH format.
+/// What of a file was changed, or is not in the mesh.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
+pub struct MeshNotes {
+    /// What was changed or left out and matters to results, a sentence each.
+    pub told: Vec<String>,
+    /// Node sets that hold whole faces and other nodes, and are points for that, a sentence each.
+    pub as_points: Vec<String>,
+    /// Keywords of an Abaqus or CalculiX file that are passed over, the first 64 of them; most belong to the case.
+    pub passed_over: Vec<String>,
+}
+
+/// Version of gmsh's MSH format, or the other format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum MshVersion {
     /// 2.0, whose groups may be named without a dimension.
@@ -135,6 +146,9 @@ pub enum MshVersion {
     /// 4.1, which gmsh has written since version 4.1.
     #[serde(rename = "4.1")]
     V41,
+    /// No MSH: an input file of Abaqus or CalculiX.
+    #[serde(rename = "inp")]
+    Inp,
 }
 
 /// Version and encoding of an MSH file.
@@ -155,12 +169,16 @@ impl fmt::Display for MshVersion {
             Self::V22 => "2.2",
             Self::V40 => "4.0",
             Self::V41 => "4.1",
+            Self::Inp => "inp",
         })
     }
 }
 
 impl fmt::Display for MshFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.version == MshVersion::Inp {
+            return f.write_str("Abaqus or CalculiX input");
+        }
         let encoding = if self.binary { "binary" } else { "ASCII" };
         write!(f, "MSH {} {encoding}", self.version)
     }
@@ -206,27 +224,28 @@ impl Mesh {
     /// Of the groups of a name that with the highest dimension up to `highest`, else the lowest above.
     fn group_below(&self, name: &str, highest: usize) -> Result<&PhysicalGroup, MeshError> {
         let path = self.source.display();
+        let (word, program) = match self.format.version {
+            MshVersion::Inp => ("set or surface", "the file"),
+            _ => ("physical group", "gmsh"),
+        };
         let mut named: Vec<&PhysicalGroup> = self.groups.iter().filter(|group| group.name == name).collect();
         if named.is_empty() {
-            return Err(MeshError::Group(format!(
-                "{path} has no physical group \"{name}\"; {}",
-                self.known_groups(name)
-            )));
+            return Err(MeshError::Group(format!("{path} has no {word} \"{name}\"; {}", self.known_groups(name))));
         }
         named.retain(|group| !group.elements.is_empty());
         let rank = |group: &PhysicalGroup| (group.dimension > highest, highest.abs_diff(group.dimension));
         let best = named.iter().map(|group| rank(group)).min();
         named.retain(|group| Some(rank(group)) == best);
         match named.as_slice() {
-            [] => Err(MeshError::Group(format!(
-                "{path}: the physical group \"{name}\" has no elements: expected at least one"
-            ))),
+            [] => {
+                Err(MeshError::Group(format!("{path}: the {word} \"{name}\" has no elements: expected at least one")))
+            }
             [group] => Ok(group),
             several => {
                 let tags: Vec<String> =
                     several.iter().map(|group| format!("({}, {})", group.dimension, group.tag)).collect();
                 Err(MeshError::AmbiguousGroup(format!(
-                    "{path} has {} physical groups \"{name}\" (dimension, tag: {}): rename all but one in gmsh",
+                    "{path} has {} {word}s \"{name}\" (dimension, tag: {}): rename all but one in {program}",
                     several.len(),
                     tags.join(", ")
                 )))
@@ -240,7 +259,10 @@ impl Mesh {
         let wanted = name.to_lowercase();
         let edits = |known: &&PhysicalGroup| strsim::damerau_levenshtein(&known.name.to_lowercase(), &wanted);
         let Some(nearest) = self.groups.iter().min_by_key(edits) else {
-            return "it has none at all (plummer inspect lists what a name such as \"surface 7\" may mean)".to_owned();
+            return match self.format.version {
+                MshVersion::Inp => "it has none at all (add *NSET, *ELSET or *SURFACE)".to_owned(),
+                _ => "it has none at all (plummer inspect lists what a name such as \"surface 7\" may mean)".to_owned(),
+            };
         };
         let names: Vec<String> = self.groups.iter().map(|group| format!("\"{}\"", group.name)).collect();
         format!("nearest is \"{}\", it has {}", nearest.name, names.join(", "))
@@ -253,7 +275,7 @@ const PLANE: f64 = 1e-9;
 
 impl Mesh {
     /// Turns the plane elements that run clockwise, as far as all elements that share their surface and their first
-    /// physical group do, and remarks it: gmsh makes such surfaces where their curves were drawn clockwise or extruded
+    /// physical group do, and tells it: gmsh makes such surfaces where their curves were drawn clockwise or extruded
     /// backwards. Where elements of one surface run both ways, some are folded, and all stay as they are.
     pub(super) fn turn_clockwise(&mut self) {
         if self.dimension() != 2 || self.node_off_plane().is_some() {
@@ -282,7 +304,7 @@ impl Mesh {
             corners[1..].reverse();
             middles[..kind.middle_edges().len()].reverse();
         }
-        self.remarks.push(format!(
+        self.notes.told.push(format!(
             "{} elements of the plane mesh ran clockwise and were turned round, the first is element {first}",
             turned.len()
         ));
@@ -336,7 +358,7 @@ mod tests {
                 groups: Vec::new(),
                 format: MshFormat { version: MshVersion::V41, binary: false },
                 source: PathBuf::from("behind.msh"),
-                remarks: Vec::new(),
+                notes: MeshNotes::default(),
                 left_out: Vec::new(),
             };
             mesh.turn_clockwise();

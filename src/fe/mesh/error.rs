@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Content of an MSH file that cannot be used: the section, the line (byte of a binary file), what was found and what was
+/// Content of a mesh file that cannot be used: the section, the line (byte of a binary file), what was found and what was
 /// expected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
@@ -27,6 +27,14 @@ pub enum MeshError {
         /// The file.
         path: PathBuf,
         /// What is wrong, in which section and line.
+        fault: MshError,
+    },
+    /// The same of an input file of Abaqus or CalculiX.
+    #[error("{}: {fault}", path.display())]
+    Inp {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, at which keyword and line.
         fault: MshError,
     },
     /// No physical group of this name: the nearest name, and all; or one without elements, so that whatever refers to it

@@ -16,7 +16,7 @@ impl Mesh {
 
     /// What of the file was changed or left out, a sentence each.
     pub(crate) fn told(&self) -> Vec<String> {
-        let mut found = self.remarks.clone();
+        let mut found = self.notes.told.clone();
         let counted = |count: usize, one: &str, many: &str| match count {
             1 => format!("1 element {one}"),
             _ => format!("{count} elements {many}"),

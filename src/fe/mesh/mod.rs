@@ -1,6 +1,6 @@
-//! Meshes with named parts: read from gmsh, checked, in metres.
+//! Meshes with named parts: read from gmsh, Abaqus or CalculiX, checked, in metres.
 //!
-//! [`Mesh::read_gmsh`] is the only way in. It refuses what later stages could not survive (coordinates
+//! [`Mesh::read`] is the way in. It refuses what later stages could not survive (coordinates
 //! that are no numbers, tags used twice, elements on nodes that do not exist) and says in which file,
 //! section and line, what was found and what was expected. Nodes and elements are indices from 0 into
 //! the mesh's own lists; gmsh's tags are kept beside for messages and for export.
@@ -15,17 +15,19 @@ mod entity_groups;
 mod error;
 mod faces;
 mod gmsh;
+mod inp;
 mod inventory;
 mod kind;
 mod left_out;
 mod rim;
 pub(crate) mod surfaces;
 
-pub use contents::{ElementBlock, ElementId, Entity, LeftOut, Mesh, MshFormat, MshVersion, PhysicalGroup};
+pub use contents::{ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup};
 pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};
 pub(crate) use faces::{sorted_corners, sorted_faces};
+pub(crate) use inp::{inp_face, inp_nodes};
 pub(crate) use inventory::Sets;
 pub use inventory::{BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part, UnusedNodes};
 pub use kind::ElementKind;

@@ -5,7 +5,9 @@ use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RingLayer};
-use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use crate::fe::mesh::{
+    ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+};
 use crate::fe::model::{
     Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingFrame,
     RingTie, SupportShare,
@@ -36,8 +38,8 @@ impl Cells {
                 blocks: Vec::new(),
                 groups: Vec::new(),
                 format: MshFormat { version: MshVersion::V41, binary: false },
+                notes: MeshNotes::default(),
                 source: PathBuf::from("cells.msh"),
-                remarks: Vec::new(),
             },
         }
     }

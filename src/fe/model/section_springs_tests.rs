@@ -1,7 +1,7 @@
 use super::*;
 use crate::fe::element::curved_beam::RingInterpolation;
 use crate::fe::material::{BeamSection, Bond, Material, RingLayer};
-use crate::fe::mesh::{Mesh, MshFormat, MshVersion};
+use crate::fe::mesh::{Mesh, MeshNotes, MshFormat, MshVersion};
 use crate::fe::model::{HousingDescription, HousingPart, PlaneModel, RingFrame, RingSupport, SolidRing, SpringShare};
 use crate::numerics::linalg::DenseMatrix;
 use std::path::PathBuf;
@@ -44,8 +44,8 @@ fn solid(dimension: usize, around: usize, frame: RingFrame) -> (MeshedRing, Hous
         blocks: Vec::new(),
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
+        notes: MeshNotes::default(),
         source: PathBuf::from("ring"),
-        remarks: Vec::new(),
     };
     let solid = SolidRing { radius: RADIUS, height: SIDES[0], width: SIDES[1], around, across: 2, along: 2 };
     let solid = solid.added_to(&nothing, &frame, dimension);

@@ -1,6 +1,6 @@
 use super::*;
 use crate::fe::element::continuum::quality;
-use crate::fe::mesh::{MshFormat, MshVersion};
+use crate::fe::mesh::{MeshNotes, MshFormat, MshVersion};
 use std::path::PathBuf;
 
 const RING: SolidRing = SolidRing { radius: 5.0, height: 1.5, width: 4.0, around: 24, across: 2, along: 4 };
@@ -13,8 +13,8 @@ fn empty() -> Mesh {
         blocks: Vec::new(),
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
+        notes: MeshNotes::default(),
         source: PathBuf::from("ring"),
-        remarks: Vec::new(),
     }
 }
 

@@ -44,7 +44,7 @@ pub(crate) fn straighten(mesh: &mut Mesh) {
     }
     if !mended.is_empty() {
         let sentence = sentence(mesh, &mended, &moved);
-        mesh.remarks.push(sentence);
+        mesh.notes.told.push(sentence);
     }
 }
 
@@ -102,7 +102,7 @@ fn sentence(mesh: &Mesh, mended: &BTreeSet<ElementId>, moved: &BTreeMap<usize, f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::mesh::{ElementKind, Entity, MshFormat, MshVersion};
+    use crate::fe::mesh::{ElementKind, Entity, MeshNotes, MshFormat, MshVersion};
     use std::path::PathBuf;
 
     /// Two Tet10 on one face; the middle of an edge of it lies beyond the body, so that both fold.
@@ -136,7 +136,7 @@ mod tests {
             groups: Vec::new(),
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: PathBuf::new(),
-            remarks: Vec::new(),
+            notes: MeshNotes::default(),
             left_out: Vec::new(),
         }
     }
@@ -154,7 +154,7 @@ mod tests {
         }
         // 0.45 sqrt 2 of sqrt 2
         assert_eq!(
-            mesh.remarks,
+            mesh.notes.told,
             [
                 "1 folded element of second order (7) got straight edges: 1 nodes between corners moved, by at most 45.00 % of the longest edge"
             ]

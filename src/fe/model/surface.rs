@@ -202,7 +202,7 @@ fn rotation_rows([s, t]: &[Vector3<f64>; 2], derivative: [f64; 2]) -> Matrix3<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fe::mesh::{MshFormat, MshVersion};
+    use crate::fe::mesh::{MeshNotes, MshFormat, MshVersion};
     use std::path::PathBuf;
 
     fn mesh(nodes: &[[f64; 3]]) -> Mesh {
@@ -213,8 +213,8 @@ mod tests {
             blocks: Vec::new(),
             groups: Vec::new(),
             format: MshFormat { version: MshVersion::V41, binary: false },
+            notes: MeshNotes::default(),
             source: PathBuf::from("face"),
-            remarks: Vec::new(),
         }
     }
 

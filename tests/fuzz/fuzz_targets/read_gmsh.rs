@@ -9,7 +9,7 @@ use plummer::fe::mesh::Mesh;
 use plummer::numerics::units::LengthUnit;
 
 fuzz_target!(|bytes: &[u8]| {
-    match Mesh::from_gmsh_bytes(bytes, Path::new("fuzz.msh"), LengthUnit::Millimetre) {
+    match Mesh::from_bytes(bytes, Path::new("fuzz.msh"), LengthUnit::Millimetre) {
         Ok(mesh) => check(&mesh),
         // the walk accepts what mshio cannot read: the two must agree
         Err(error) => {

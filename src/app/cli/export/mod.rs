@@ -4,6 +4,7 @@
 //! `plummer modes` gives its mode shapes without solving again.
 
 mod condensed;
+mod deck;
 mod matrices;
 mod shapes;
 mod source;
@@ -58,11 +59,15 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
         ExportFormat::Vtu => shapes::vtu(&source, folder, &progress),
         ExportFormat::Uff => shapes::uff(&source, folder, &progress),
         ExportFormat::Op4 => condensed::op4(case, folder, &progress),
+        ExportFormat::Inp => deck::inp(case, folder, &progress),
         ExportFormat::Mbdyn => condensed::mbdyn(case, folder, &progress),
     };
     progress.finish();
     let Export { files, summary } = exported?;
-    let doubts = doubts_of_case(case)?;
+    let mut doubts = doubts_of_case(case)?;
+    if to == ExportFormat::Inp {
+        doubts.extend(deck::left_out(case).into_iter().map(|what| format!("housing.inp has not: {what}")));
+    }
     let lines = warnings(&doubts).chain(std::iter::once(summary));
     let summary = lines.collect::<Vec<_>>().join("\n");
     let meshes = mesh_digests(case)?;
@@ -96,6 +101,7 @@ impl ExportFormat {
             Self::Vtu => of_bodies("modes.vtu", "ring.vtu"),
             Self::Uff => of_bodies("modes.uff", "ring.uff"),
             Self::Op4 => vec!["superelement.op4", "superelement_dofs.csv"],
+            Self::Inp => vec!["housing.inp"],
             Self::Mbdyn => vec!["superelement.fem"],
         }
     }

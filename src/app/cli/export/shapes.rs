@@ -7,7 +7,7 @@ use super::source::Source;
 use super::{CliError, Export};
 use crate::app::case::Case;
 use crate::app::cli::{OutputFolder, Progress};
-use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion};
+use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion};
 use crate::formats::{Field, FieldValues, ModeShapes, write_modes_uff, write_uff, write_vtu};
 
 /// Mode shapes cut in two.
@@ -146,8 +146,8 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
         groups: Vec::new(),
         left_out: Vec::new(),
         format,
+        notes: MeshNotes::default(),
         source: PathBuf::new(),
-        remarks: Vec::new(),
     }
 }
 

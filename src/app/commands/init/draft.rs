@@ -14,7 +14,7 @@ use super::found::{DraftRequest, FoundCylinder, find};
 use super::text::{case_text, findings};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{Mesh, MeshNotes, MshVersion};
 use crate::fe::model::straighten;
 use crate::numerics::units::LengthUnit;
 
@@ -46,7 +46,7 @@ impl Draft {
     /// # Errors
     /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
     pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
-        let mut mesh = Mesh::read_gmsh(request.mesh, LengthUnit::Metre)?;
+        let mut mesh = Mesh::read(request.mesh, LengthUnit::Metre)?;
         if request.straighten {
             straighten(&mut mesh);
         }
@@ -58,8 +58,7 @@ impl Draft {
             length_unit: found.unit,
             bearing: found.bearing.map(|numbers| numbers.bearing.name),
             parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
-            findings: [findings(&found), mesh.remarks.iter().map(|remark| format!("Mesh: {remark}.")).collect()]
-                .concat(),
+            findings: read_from(&inspection).into_iter().chain(findings(&found)).collect(),
             text,
             bore: found.bore,
             other_holes: found.holes,
@@ -67,4 +66,18 @@ impl Draft {
         };
         Ok((draft, inspection))
     }
+}
+
+/// What of the file was changed, or is not taken.
+fn read_from(inspection: &Inspection) -> Vec<String> {
+    let MeshNotes { told, as_points, passed_over } = &inspection.inventory.notes;
+    let mut lines: Vec<String> = told.iter().map(|note| format!("warning: {note}")).collect();
+    lines.extend(as_points.iter().cloned());
+    if inspection.inventory.format.version == MshVersion::Inp {
+        let passed_over = if passed_over.is_empty() { String::new() } else { format!(" ({})", passed_over.join(", ")) };
+        lines.push(format!(
+            "Of this file the mesh alone is read; materials, supports and loads{passed_over} are the case's."
+        ));
+    }
+    lines
 }

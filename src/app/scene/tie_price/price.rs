@@ -13,7 +13,7 @@ use crate::app::scene::AssembledHousing;
 use crate::app::scene::housing::description;
 use crate::app::scene::ring::{ring, ring_and_tie};
 use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{Mesh, MeshNotes};
 use crate::fe::modal::{
     ComparisonOptions, FullModes, ModalComparison, ModeRange, ModeSet, Partner, partners, strain_products,
 };
@@ -243,8 +243,8 @@ impl<W: Watch> Tied<'_, W> {
             groups: Vec::new(),
             left_out: Vec::new(),
             format: self.housing.mesh.format,
+            notes: MeshNotes::default(),
             source: "solid ring".into(),
-            remarks: Vec::new(),
         };
         let meshed = body.ring.added_to(&nothing, frame, if in_space { 3 } else { 2 });
         let description = HousingDescription {

@@ -159,9 +159,9 @@ impl Membership {
 }
 
 /// The memory that groups may take: entities in many groups multiply what a file holds, without limit.
-pub(super) struct Allowance {
-    pub(super) file_bytes: usize,
-    pub(super) listed: u64,
+pub(in crate::fe::mesh) struct Allowance {
+    pub(in crate::fe::mesh) file_bytes: usize,
+    pub(in crate::fe::mesh) listed: u64,
 }
 
 impl Allowance {
@@ -181,7 +181,7 @@ impl Allowance {
     }
 
     /// Asks for room to list so many more items.
-    pub(super) fn take(&mut self, items: usize) -> Result<(), MshError> {
+    pub(in crate::fe::mesh) fn take(&mut self, items: usize) -> Result<(), MshError> {
         self.listed += items as u64;
         let bytes = self.listed.saturating_mul(size_of::<ElementId>() as u64);
         if bytes > Self::FIXED + Self::FACTOR * self.file_bytes as u64 {

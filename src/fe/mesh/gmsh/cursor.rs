@@ -140,7 +140,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// The beginning of some bytes, for a message.
-pub(super) fn quoted(bytes: &[u8]) -> String {
+pub(in crate::fe::mesh) fn quoted(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     // a character takes four bytes at most
     let start = &bytes[..bytes.len().min(4 * LONGEST)];

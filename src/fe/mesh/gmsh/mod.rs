@@ -20,4 +20,8 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub(super) use build::Allowance;
+pub(super) use cursor::quoted;
+pub(super) use numbers::NodeIndex;
+
 use super::MshError;

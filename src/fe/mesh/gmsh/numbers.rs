@@ -194,7 +194,7 @@ impl Cursor<'_> {
 }
 
 /// Index of each node tag.
-pub(super) enum NodeIndex {
+pub(in crate::fe::mesh) enum NodeIndex {
     /// Index + 1 at the place of the tag, 0 for a tag that does not occur.
     Dense { table: Vec<u32>, longest: usize },
     /// Any tags.
@@ -203,13 +203,13 @@ pub(super) enum NodeIndex {
 
 impl NodeIndex {
     /// For this many nodes.
-    pub(super) fn for_count(count: usize) -> Self {
+    pub(in crate::fe::mesh) fn for_count(count: usize) -> Self {
         Self::Dense { table: vec![0; count + 1], longest: count.saturating_mul(4).saturating_add(1024) }
     }
 
     /// Gives a tag its index, below `u32::MAX`; false if it has one already.
     #[inline]
-    pub(super) fn insert(&mut self, tag: u64, index: u32) -> bool {
+    pub(in crate::fe::mesh) fn insert(&mut self, tag: u64, index: u32) -> bool {
         loop {
             match self {
                 Self::Dense { table, longest } => {
@@ -233,7 +233,7 @@ impl NodeIndex {
 
     /// The index of a tag.
     #[inline]
-    pub(super) fn get(&self, tag: u64) -> Option<usize> {
+    pub(in crate::fe::mesh) fn get(&self, tag: u64) -> Option<usize> {
         match self {
             Self::Dense { table, .. } => {
                 let slot = *table.get(usize::try_from(tag).ok()?)?;

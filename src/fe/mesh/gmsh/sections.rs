@@ -6,7 +6,7 @@ use super::elements::{Degenerate, Listed};
 use super::entities::Physical;
 use super::nodes::NodeTable;
 use super::{MshError, collect_v22, elements, entities, nodes};
-use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MshFormat, MshVersion};
+use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MeshNotes, MshFormat, MshVersion};
 use crate::numerics::units::LengthUnit;
 use std::collections::HashSet;
 use std::path::Path;
@@ -117,7 +117,7 @@ impl Found {
         let nodes = self.nodes.ok_or_else(|| missing("Nodes", hint))?;
         drop(nodes.index);
         let mut allowance = Allowance { file_bytes: self.file_bytes, listed: 0 };
-        let mut remarks = Vec::new();
+        let mut told = Vec::new();
         let (blocks, memberships, degenerate) = match self.elements.ok_or_else(|| missing("Elements", hint))? {
             Elements::Blocks(mut blocks, degenerate) => {
                 let entities = self.entities.unwrap_or_default();
@@ -127,7 +127,7 @@ impl Found {
             }
             Elements::Listed(mut listed) => {
                 if listed.partitions.iter().eq(&[1]) {
-                    remarks.push(
+                    told.push(
                         "all elements are of partition 1 of a mesh: if it has others, in files of their own, the body is not whole".to_owned(),
                     );
                 }
@@ -141,7 +141,8 @@ impl Found {
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
         let source = path.to_path_buf();
         let (nodes, node_tags) = (nodes.coordinates, nodes.tags);
-        Ok(Mesh { nodes, node_tags, blocks, groups, left_out, format: self.format, source, remarks })
+        let notes = MeshNotes { told, ..MeshNotes::default() };
+        Ok(Mesh { nodes, node_tags, blocks, groups, left_out, format: self.format, notes, source })
     }
 }
 

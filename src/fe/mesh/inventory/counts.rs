@@ -2,7 +2,7 @@
 
 use super::parts;
 use super::parts::{BoundingBox, DuplicateNodes, Part, UnusedNodes};
-use crate::fe::mesh::{ElementKind, Mesh, MshFormat, PhysicalGroup};
+use crate::fe::mesh::{ElementKind, Mesh, MeshNotes, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -20,6 +20,8 @@ pub struct KindCount {
 pub struct Inventory {
     /// Version and encoding of the file.
     pub format: MshFormat,
+    /// What of the file is not in the mesh.
+    pub notes: MeshNotes,
     /// Number of nodes.
     pub nodes: usize,
     /// Number of nodes that no element uses: `unused.count`.
@@ -54,6 +56,7 @@ impl Mesh {
         let unused = parts::unused(self);
         Inventory {
             format: self.format,
+            notes: MeshNotes { told: self.told(), ..self.notes.clone() },
             nodes: self.nodes.len(),
             unused_nodes: unused.count,
             unused,

@@ -3,7 +3,7 @@
 use super::outline::BoxTree;
 use super::{Bodies, Doubled};
 use crate::fe::mesh::{
-    BoundingBox, ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup,
+    BoundingBox, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -15,8 +15,8 @@ fn empty() -> Mesh {
         blocks: Vec::new(),
         groups: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
+        notes: MeshNotes::default(),
         source: "bodies.msh".into(),
-        remarks: Vec::new(),
     }
 }
 

@@ -1,0 +1,59 @@
+//! Reading the mesh of an input file of Abaqus or CalculiX (`.inp`; cgx calls the same `.msh`).
+//!
+//! Read are nodes, elements, sets and surfaces of the model data, those of one instance in a file of Abaqus/CAE. What
+//! follows `*STEP` is not looked at. Materials, sections and supports are the case's. A surface, or a node set that covers
+//! whole faces, becomes a group of faces; any other node set a group of points; an element set a group of its elements.
+//!
+//! A first pass cuts the file at its keywords; nodes, elements, sets and surfaces are read after one another, in
+//! whatever order they stand. As in the reader of gmsh's files, memory is bounded by the length of the file.
+
+mod block;
+mod build;
+mod deck;
+mod kinds;
+mod numbers;
+mod read;
+mod scope;
+mod sets;
+mod surfaces;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use kinds::{inp_face, inp_nodes};
+
+use super::{Mesh, MeshError, MshError};
+use crate::numerics::units::LengthUnit;
+use std::path::Path;
+
+impl Mesh {
+    /// Reads a mesh: gmsh's MSH as [`Self::read_gmsh`], or an input file of Abaqus or CalculiX. The content says which,
+    /// not the ending. `unit` is that of the coordinates.
+    ///
+    /// # Errors
+    /// [`MeshError::Read`] if the file cannot be read; [`MeshError::Gmsh`] or [`MeshError::Inp`] with place, what was
+    /// found and what was expected.
+    pub fn read(path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
+        let bytes = crate::files::read(path).map_err(|cause| MeshError::Read { path: path.to_path_buf(), cause })?;
+        Self::from_bytes(bytes, path, unit)
+    }
+
+    /// The same from the content of a file; `path` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn from_bytes(bytes: impl AsRef<[u8]>, path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
+        let by_ending = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("inp"));
+        let is_inp = match bytes.as_ref().trim_ascii_start().first() {
+            Some(b'*') => true,
+            Some(b'$') => false,
+            _ => by_ending,
+        };
+        if !is_inp {
+            return Self::from_gmsh_bytes(bytes, path, unit);
+        }
+        let mesh = build::mesh(bytes.as_ref(), path, unit.to_metres());
+        let mut mesh = mesh.map_err(|fault| MeshError::Inp { path: path.to_path_buf(), fault })?;
+        mesh.turn_clockwise();
+        Ok(mesh)
+    }
+}

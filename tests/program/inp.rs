@@ -1,0 +1,86 @@
+//! A housing as an input file of CalculiX and Abaqus: written, read again, and computed by CalculiX.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use plummer::formats::read_modes_frd;
+use serde_json::Value;
+
+const CASE: &str = "[housing]\nmesh = \"MESH\"\nlength_unit = \"UNIT\"\n\
+    parts = [{ group = \"housing\", material = \"aluminium\" }]\n\
+    supports = [{ group = \"feet\", fixed = \"all\" }]\nintegration = \"4-point\"\n[modes]\ncount = 4\n";
+
+/// A folder with the case of a pillow block, and its export.
+fn exported(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("inp-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pedestal.msh");
+    fs::copy(mesh, folder.join("a.msh")).unwrap();
+    fs::write(folder.join("a.toml"), CASE.replace("MESH", "a.msh").replace("UNIT", "mm")).unwrap();
+    fs::write(folder.join("b.toml"), CASE.replace("MESH", "x/housing.inp").replace("UNIT", "m")).unwrap();
+    plummer(&folder, "export a.toml --to inp --out x");
+    folder
+}
+
+fn plummer(folder: &Path, words: &str) -> Output {
+    let run = Command::new(env!("CARGO_BIN_EXE_plummer")).current_dir(folder).args(words.split(' ')).output().unwrap();
+    assert!(run.status.success(), "{words}: {}", String::from_utf8_lossy(&run.stderr));
+    run
+}
+
+fn frequencies(folder: &Path, case: &str) -> Vec<f64> {
+    let run = plummer(folder, &format!("modes {case} --json --quiet --out m-{case}"));
+    let result: Value = serde_json::from_slice(&run.stdout).unwrap();
+    result["frequencies_hz"].as_array().unwrap().iter().map(|hz| hz.as_f64().unwrap()).collect()
+}
+
+/// The coordinates are written with 13 digits.
+#[test]
+fn a_housing_that_was_written_is_read_as_the_same() {
+    let folder = exported("again");
+    let [first, again] = ["a.toml", "b.toml"].map(|case| frequencies(&folder, case));
+    assert_eq!(first.len(), 4);
+    for (a, b) in first.iter().zip(&again) {
+        assert!((a / b - 1.0).abs() < 1e-9, "{first:?} {again:?}");
+    }
+    let inspected = plummer(&folder, "inspect x/housing.inp");
+    let text = String::from_utf8_lossy(&inspected.stdout);
+    let groups: Vec<&str> = text.lines().skip_while(|line| *line != "groups").skip(1).take(3).collect();
+    assert!(groups[0].contains("\"bore\"") && groups[0].contains("234 Tri6  3.7699"), "{text}");
+    assert!(groups[1].contains("\"feet\"") && groups[1].contains("120 Tri6"), "{text}");
+    assert!(groups[2].contains("\"housing\"") && groups[2].contains("1620 Tet10"), "{text}");
+}
+
+/// CalculiX integrates the mass of a C3D10 with four points as well, which makes 1.3e-4 here (docs/tutorials).
+#[test]
+fn calculix_finds_the_same_modes() {
+    let folder = exported("ccx");
+    let ran = Command::new("ccx").args(["-i", "housing"]).current_dir(folder.join("x")).output();
+    if ran.is_err() {
+        eprintln!("skipped: ccx is not installed");
+        return;
+    }
+    let theirs = read_modes_frd(&folder.join("x/housing.frd"), 1.0).unwrap().frequencies_hz;
+    let own = frequencies(&folder, "a.toml");
+    assert_eq!(theirs.len(), 4);
+    for (a, b) in own.iter().zip(&theirs) {
+        assert!((a / b - 1.0).abs() < 3e-4, "{own:?} {theirs:?}");
+    }
+}
+
+#[test]
+fn what_the_file_cannot_hold_is_told() {
+    let folder = exported("told");
+    let springs = CASE.replace("fixed = \"all\"", "spring = { x = 1e6, y = 1e6, z = 1e6 }");
+    let springs = springs.replace("MESH", "a.msh").replace("UNIT", "mm");
+    fs::write(folder.join("c.toml"), springs).unwrap();
+    let run = plummer(&folder, "export c.toml --to inp --out y");
+    let told = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
+    assert!(told.contains("warning: housing.inp has not: supports by springs"), "{told}");
+    let deck = fs::read_to_string(folder.join("y/housing.inp")).unwrap();
+    assert!(deck.contains("** not in this file: supports by springs\n"));
+    // six rigid motions come first
+    assert!(deck.contains("*FREQUENCY\n10\n"));
+}
