@@ -5,7 +5,9 @@ use super::load::end_load;
 use plummer::fe::assembly::SystemMatrices;
 use plummer::fe::element::continuum::Formulation;
 use plummer::fe::material::Material;
-use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, MshFormat, MshVersion, PhysicalGroup};
+use plummer::fe::mesh::{
+    ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+};
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
 use plummer::numerics::linalg::{SparseCholesky, submatrix};
 use std::error::Error;
@@ -122,6 +124,7 @@ impl Beam {
             blocks: vec![block],
             groups: vec![group],
             format: MshFormat { version: MshVersion::V41, binary: false },
+            notes: MeshNotes::default(),
             source: "cantilever".into(),
             notes: MeshNotes::default(),
             left_out: Vec::new(),

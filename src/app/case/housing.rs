@@ -247,7 +247,7 @@ struct SourceForm {
     /// File of condensed matrices on the ring's degrees of freedom, SI units: a NumPy archive (`.npz`) or Nastran's OUTPUT4
     /// (`.op4`), relative to the case file; without any other key.
     superelement: Option<PathBuf>,
-    /// Mesh file (gmsh MSH 2 or 4), relative to the case file.
+    /// Mesh file (gmsh MSH 2 or 4, .inp of Abaqus or CalculiX), relative to the case file.
     mesh: Option<PathBuf>,
     /// Unit of the mesh's coordinates.
     length_unit: Option<LengthUnit>,
