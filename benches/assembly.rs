@@ -82,7 +82,6 @@ fn tet_box(cells: usize) -> Mesh {
         format: MshFormat { version: MshVersion::V41, binary: false },
         notes: MeshNotes::default(),
         source: PathBuf::from("box of tetrahedra"),
-        left_out: Vec::new(),
     }
 }
 

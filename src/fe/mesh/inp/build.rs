@@ -86,9 +86,9 @@ fn check_bodies(bodies: &Bodies) -> Result<(), MshError> {
 
 /// What of the file is not in the mesh.
 fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
-    let mut left_out = Vec::new();
+    let mut told = Vec::new();
     for (name, (count, first)) in &bodies.left_out {
-        left_out.push(format!("elements of type {name} are not modelled and left out: {count}, the first is {first}"));
+        told.push(format!("elements of type {name} are not modelled and left out: {count}, the first is {first}"));
     }
     let sections = [
         (Purpose::Shell, ["SHELLSECTION", "MEMBRANESECTION"], "shells and membranes"),
@@ -97,7 +97,7 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
     for (purpose, keywords, what) in sections {
         let has_section = keywords.iter().any(|keyword| deck.passed_over.contains_key(*keyword));
         if let Some((name, tag)) = bodies.purposes.get(&purpose).filter(|_| has_section) {
-            left_out.push(format!(
+            told.push(format!(
                 "the {what} (the first is element {tag} of type {name}) have no stiffness and no mass here"
             ));
         }
@@ -105,7 +105,7 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
     let joints = deck.passed_over.iter().filter(|(keyword, _)| JOINTS.contains(&keyword.as_str()));
     let joints: Vec<String> = joints.map(|(keyword, line)| format!("*{keyword} (line {line})")).collect();
     if !joints.is_empty() {
-        left_out.push(format!(
+        told.push(format!(
             "these are not taken from the file: {}; housing.links and housing.masses of the case can say the like",
             joints.join(", ")
         ));
