@@ -126,8 +126,6 @@ impl Beam {
             format: MshFormat { version: MshVersion::V41, binary: false },
             notes: MeshNotes::default(),
             source: "cantilever".into(),
-            notes: MeshNotes::default(),
-            left_out: Vec::new(),
         }
     }
 
