@@ -82,7 +82,7 @@ def judge(program, gmsh, mesh, folder):
     return "read", ""
 
 
-def main(folder, program="target/release/plummer"):
+def main(folder, program="plummer"):
     gmsh = shutil.which("gmsh")
     meshes = sorted(p for p in pathlib.Path(folder).rglob("*") if p.suffix in (".msh", ".inp"))
     table = {}

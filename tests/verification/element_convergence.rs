@@ -232,10 +232,10 @@ displacement_orders! {
     wedge18_straight: Wedge18, PLAIN, true, [2, 4, 6];
     wedge18_curved: Wedge18, PLAIN, false, [2, 4, 6];
     pyramid5: Pyramid5, PLAIN, true, [2, 4, 6];
-    pyramid13_straight: Pyramid13, PLAIN, true, [2, 3, 4];
-    pyramid13_curved: Pyramid13, PLAIN, false, [2, 3, 4];
-    pyramid14_straight: Pyramid14, PLAIN, true, [2, 3, 4];
-    pyramid14_curved: Pyramid14, PLAIN, false, [2, 3, 4];
+    pyramid13_straight: Pyramid13, PLAIN, true, [2, 4, 6];
+    pyramid13_curved: Pyramid13, PLAIN, false, [2, 4, 6];
+    pyramid14_straight: Pyramid14, PLAIN, true, [2, 4, 6];
+    pyramid14_curved: Pyramid14, PLAIN, false, [2, 4, 6];
 }
 
 /// Quad8 on trapezoids that keep their shape: order 2, not 3.

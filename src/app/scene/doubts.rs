@@ -41,6 +41,9 @@ const GAP: f64 = 0.5;
 /// Width of a section over the outer diameter of its ring that is told: rings and housings about a bearing are narrower.
 const WIDTH: f64 = 2.0;
 
+/// How gmsh merges nodes in the same place.
+const MERGE_NODES: &str = "echo 'Merge \"IN.msh\"; Coherence Mesh;' > x.geo; gmsh x.geo -save -o OUT.msh";
+
 /// Elements of constant strain across their thickness, which lock in bending (docs/elements.md).
 const STIFF_IN_BENDING: [ElementKind; 4] =
     [ElementKind::Tri3, ElementKind::Tet4, ElementKind::Wedge6, ElementKind::Pyramid5];
@@ -95,9 +98,9 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let touching = model.touching.iter().map(|touching| {
         let [a, b] = &touching.parts;
         let help = match a == b {
-            true => "where they are one body, merge their nodes in gmsh (a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";)".to_owned(),
+            true => format!("where they are one body, merge their nodes ({MERGE_NODES})"),
             false => format!(
-                "nothing holds them together there; where they are one body, merge their nodes in gmsh (BooleanFragments, or a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";) or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
+                "nothing holds them together there; where they are one body, use BooleanFragments in gmsh, merge their nodes ({MERGE_NODES}), or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
             ),
         };
         format!("{}; {help}", touching.sentence())
@@ -270,7 +273,7 @@ fn bore_in_pieces(mesh: &Mesh, model: &HousingModel, bore: &str) -> Result<Optio
     }
     let named: Vec<String> = pieces.iter().map(|parts| format!("\"{}\"", parts.join("\", \""))).collect();
     Ok(Some(format!(
-        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, merge their nodes in gmsh (BooleanFragments, or a .geo file with: Merge \"IN.msh\"; Coherence Mesh; Save \"OUT.msh\";) or add a link to housing.links",
+        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, use BooleanFragments in gmsh, merge their nodes ({MERGE_NODES}), or add a link to housing.links",
         pieces.len(),
         named.join(" and ")
     )))

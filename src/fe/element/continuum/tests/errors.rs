@@ -80,7 +80,7 @@ fn inverted_and_folded_plane_elements_say_where() -> Outcome {
     assert_eq!(
         message(stiffness(ElementKind::Tri3, &clockwise, &p, PLAIN)),
         "the Tri3 element is inverted: its nodes run clockwise (Jacobian determinant -2e-6 m^2 \
-         at (0, 0) m); reverse its surface in gmsh (a group of the mesh whose elements all run so is turned)"
+         at (0, 0) m); turn it in gmsh (a surface of the mesh whose elements all run so is turned)"
     );
     let arrowhead = [[0.0; 3], [1.0, 0.0, 0.0], [0.25, 0.25, 0.0], [0.0, 1.0, 0.0]];
     for formulation in [PLAIN, Formulation::default()] {
