@@ -42,8 +42,9 @@ pub(crate) fn write_inp(path: &Path, mesh: &Mesh, job: &InpJob<'_>) -> Result<()
     let mut used = vec![false; mesh.nodes.len()];
     for block in mesh.blocks.iter().filter(|block| block.kind.dimension() == dimension && !block.is_empty()) {
         if element_type(block.kind, job).is_none() {
-            let found = format!("a {}", block.kind.name());
-            return Err(Fault::new("elements that CalculiX has", found).of(path).into());
+            let expected =
+                "elements that CalculiX has: mesh again in gmsh with Mesh.SecondOrderIncomplete = 1, without pyramids";
+            return Err(Fault::new(expected, format!("a {}", block.kind.name())).of(&mesh.source).into());
         }
         block.connectivity.iter().for_each(|&node| used[node] = true);
     }
@@ -124,11 +125,10 @@ impl Writer<'_> {
         self.write_groups(to)?;
         self.write_materials(to)?;
         for (group, axes) in &self.job.held {
-            for name in self.named(group) {
-                writeln!(to, "*BOUNDARY")?;
-                for (axis, _) in (1..).zip(axes).filter(|(_, held)| **held) {
-                    writeln!(to, "{name},{axis},{axis}")?;
-                }
+            let Ok(group) = self.mesh.group(group) else { continue };
+            writeln!(to, "*BOUNDARY")?;
+            for (axis, _) in (1..).zip(axes).filter(|(_, held)| **held) {
+                writeln!(to, "{},{axis},{axis}", self.names.get(group))?;
             }
         }
         writeln!(to, "*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP", self.job.modes)
@@ -162,7 +162,9 @@ impl Writer<'_> {
                 writeln!(to, "*ELSET,ELSET={name}")?;
                 let tag = |id: &ElementId| self.mesh.blocks[id.block].tags[id.index];
                 write_items(to, group.elements.iter().map(tag))?;
-                continue;
+                if !self.is_held(group) {
+                    continue;
+                }
             }
             let nodes = group.nodes.iter().filter(|&&node| self.used[node]);
             let mut nodes = nodes.map(|&node| self.mesh.node_tags[node]).peekable();
@@ -224,19 +226,17 @@ impl Writer<'_> {
                 writeln!(to, "*ORIENTATION,NAME=AXES_{number},SYSTEM=RECTANGULAR")?;
                 writeln!(to, "{a:.12e},{b:.12e},{c:.12e},{d:.12e},{e:.12e},{f:.12e}")?;
             }
-            for set in self.named(group) {
-                writeln!(to, "*SOLID SECTION,ELSET={set},MATERIAL={name}{orientation}")?;
-                if let Some(plane) = self.job.plane {
-                    writeln!(to, "{:e}", plane.thickness)?;
-                }
+            let Ok(body) = self.mesh.body(group) else { continue };
+            writeln!(to, "*SOLID SECTION,ELSET={},MATERIAL={name}{orientation}", self.names.get(body))?;
+            if let Some(plane) = self.job.plane {
+                writeln!(to, "{:e}", plane.thickness)?;
             }
         }
         Ok(())
     }
 
-    fn named<'n>(&'n self, group: &str) -> impl Iterator<Item = &'n str> {
-        let own = self.mesh.groups.iter().filter(move |own| own.name == group);
-        own.map(|own| self.names.get(own)).collect::<Vec<_>>().into_iter()
+    fn is_held(&self, group: &PhysicalGroup) -> bool {
+        self.job.held.iter().any(|(name, _)| self.mesh.group(name).is_ok_and(|held| std::ptr::eq(held, group)))
     }
 }
 

@@ -70,6 +70,26 @@ fn calculix_finds_the_same_modes() {
     }
 }
 
+/// A held body is a set of nodes too, and of two groups of one name each key takes its own.
+#[test]
+fn held_bodies_and_shared_names_are_sets_of_their_own() {
+    let folder = exported("names");
+    let both = fs::read_to_string(folder.join("a.msh")).unwrap().replace("\"feet\"", "\"housing\"");
+    fs::write(folder.join("a.msh"), both).unwrap();
+    let case = CASE.replace("MESH", "a.msh").replace("UNIT", "mm");
+    fs::write(folder.join("surface.toml"), case.replace("\"feet\"", "\"housing\"")).unwrap();
+    fs::write(folder.join("body.toml"), case.replace("\"feet\"", "\"volume 1\"")).unwrap();
+    for (name, held) in [("surface", "housing"), ("body", "volume_1")] {
+        plummer(&folder, &format!("export {name}.toml --to inp --out {name}"));
+        let deck = fs::read_to_string(folder.join(name).join("housing.inp")).unwrap();
+        let sections: Vec<&str> = deck.lines().filter(|line| line.starts_with("*SOLID SECTION")).collect();
+        assert_eq!(sections, ["*SOLID SECTION,ELSET=housing_2,MATERIAL=aluminium_1"], "{name}");
+        assert!(deck.contains("*ELSET,ELSET=housing_2\n"), "{name}");
+        assert!(deck.contains(&format!("*NSET,NSET={held}\n")), "{name}");
+        assert!(deck.contains(&format!("*BOUNDARY\n{held},1,1\n")), "{name}");
+    }
+}
+
 #[test]
 fn what_the_file_cannot_hold_is_told() {
     let folder = exported("told");

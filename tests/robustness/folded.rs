@@ -40,7 +40,7 @@ fn folded_elements_get_straight_edges_on_request() {
     assert!(errors(&refused).contains("housing.straighten = true"), "{}", errors(&refused));
     let (warnings, found) = result(&folder, &modes(&folder, &straightened));
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
-    let told = "1 folded element of second order (1) got straight edges: 1 nodes between corners moved, by at most 130.00 % of the longest edge; 1 of them in the group \\\"middle\\\"";
+    let told = "1 folded element of second order (1) got straight edges: 1 node between corners moved, by at most 130.00 % of the longest edge; 1 of them in the group \\\"middle\\\"";
     assert!(warnings.contains(told), "{warnings}");
     let seen = plummer(&folder, &["inspect", "grid.msh"]);
     assert_eq!(seen.status.code(), Some(1));

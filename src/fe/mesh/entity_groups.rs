@@ -1,6 +1,7 @@
 //! CAD entities as groups: "surface 7" and "surfaces 12, 13" are what lies on them, if no physical group is called so.
 
 use super::{ElementId, Mesh, PhysicalGroup};
+use std::collections::HashSet;
 
 /// What gmsh calls entities of dimension 0 to 3.
 const KINDS: [&str; 4] = ["point", "curve", "surface", "volume"];
@@ -84,7 +85,9 @@ impl Mesh {
 
     /// Names that a case may give: those of the groups, and of the bodies and their surfaces that are in none.
     pub(crate) fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.groups.iter().map(|group| group.name.clone()).collect();
+        let mut names: Vec<String> = Vec::with_capacity(self.groups.len());
+        let mut known = HashSet::new();
+        names.extend(self.groups.iter().filter(|group| known.insert(&group.name)).map(|group| group.name.clone()));
         let dimension = self.dimension();
         for dimension in [dimension, dimension.saturating_sub(1)] {
             let tags = self.entities_without_group(dimension).into_iter().take(LISTED);

@@ -85,9 +85,9 @@ fn sentence(mesh: &Mesh, mended: &BTreeSet<ElementId>, moved: &BTreeMap<usize, f
     let (word, tags) = (if mended.len() == 1 { "element" } else { "elements" }, tags.join(", "));
     let largest = 100.0 * moved.values().copied().fold(0.0, f64::max);
     let mut text = format!(
-        "{} folded {word} of second order ({tags}{more}) got straight edges: {} nodes between corners moved, by at most {largest:.2} % of the longest edge",
+        "{} folded {word} of second order ({tags}{more}) got straight edges: {} between corners moved, by at most {largest:.2} % of the longest edge",
         mended.len(),
-        moved.len()
+        if moved.len() == 1 { "1 node".to_owned() } else { format!("{} nodes", moved.len()) }
     );
     for group in mesh.groups.iter().filter(|group| group.dimension < mesh.dimension()) {
         let own = moved.keys().filter(|node| group.nodes.binary_search(node).is_ok()).count();
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(
             mesh.notes.told,
             [
-                "1 folded element of second order (7) got straight edges: 1 nodes between corners moved, by at most 45.00 % of the longest edge"
+                "1 folded element of second order (7) got straight edges: 1 node between corners moved, by at most 45.00 % of the longest edge"
             ]
         );
         let before = mesh.clone();

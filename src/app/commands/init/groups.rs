@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 /// Parts of names of what is held.
 const SUPPORTS: [&str; 11] =
-    ["foot", "feet", "base", "bolt", "support", "fixed", "clamp", "mount", "ground", "root", "screw"];
+    ["foot", "feet", "base", "bolt", "support", "fix", "clamp", "mount", "ground", "root", "screw"];
 
 /// Parts of names of points where something is measured.
 const SENSORS: [&str; 5] = ["sensor", "accel", "probe", "pickup", "top"];

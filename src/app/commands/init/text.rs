@@ -81,7 +81,7 @@ fn bore_sentence(found: &Found<'_>) -> String {
     if found.bore.is_none() && found.surfaces > 0 {
         let what = if found.plane { "curves" } else { "surfaces" };
         sentence.push_str(&format!(
-            " Nor is one of the {} CAD {what} such a hole all round. A case may name some together, group = \"{what} 12, 13\"; plummer inspect lists them.",
+            " None of the CAD {what} ({}) is one all round either. A case may name some together, group = \"{what} 12, 13\"; plummer inspect lists them.",
             found.surfaces
         ));
     }

@@ -185,6 +185,11 @@ fn header(cursor: &mut Cursor<'_>) -> Result<MshFormat, MshError> {
                 cursor.skip_section()?;
             }
             b"$NOD" | b"$PARA" => return Err(unknown_version("1.0")),
+            line if line.starts_with(b"ISO-10303") => {
+                return Err(MshError(
+                    "a STEP part, not a mesh: mesh it with gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
+                ));
+            }
             line => {
                 let found = quoted(line);
                 return Err(MshError(format!("not a gmsh mesh: expected $MeshFormat at the start, found {found}")));

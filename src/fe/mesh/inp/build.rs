@@ -309,17 +309,32 @@ impl<'m> Groups<'m> {
         for (index, group) in groups.iter().enumerate() {
             by_name.entry(key(group)).or_default().push(index);
         }
+        // the size of the largest set that holds an element of the bodies
+        let mut largest = self.mesh.blocks.iter().map(|block| vec![0; block.len()]).collect::<Vec<_>>();
+        for group in groups.iter().filter(|group| group.dimension == dimension) {
+            for id in &group.elements {
+                let most = &mut largest[id.block][id.index];
+                *most = group.elements.len().max(*most);
+            }
+        }
+        let is_in_larger =
+            |group: &PhysicalGroup| group.elements.iter().all(|id| largest[id.block][id.index] > group.elements.len());
         let is_said = |index: usize, group: &PhysicalGroup| {
             by_name[&key(group)].iter().filter(|&&other| other != index).any(|&other_index| {
                 let other = &groups[other_index];
                 if other.dimension == group.dimension {
-                    other_index < index && other.elements == group.elements
+                    // gmsh names surface elements and their nodes alike
+                    let same = match group.dimension == dimension {
+                        true => other.elements == group.elements,
+                        false => other.nodes == group.nodes,
+                    };
+                    other_index < index && same
                 } else if group.dimension == 0 {
                     // CAE names a set of elements and that of their nodes alike
                     other.nodes == group.nodes
                 } else {
                     // and a set of faces and that of the elements behind them
-                    group.dimension == dimension && other.dimension + 1 == dimension
+                    group.dimension == dimension && other.dimension + 1 == dimension && is_in_larger(group)
                 }
             })
         };

@@ -43,7 +43,10 @@ impl Mesh {
     /// As [`Self::read`].
     pub fn from_bytes(bytes: impl AsRef<[u8]>, path: &Path, unit: LengthUnit) -> Result<Self, MeshError> {
         let by_ending = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("inp"));
-        let is_inp = match bytes.as_ref().trim_ascii_start().first() {
+        let text = bytes.as_ref();
+        // some editors begin a file with UTF-8's mark
+        let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+        let is_inp = match text.trim_ascii_start().first() {
             Some(b'*') => true,
             Some(b'$') => false,
             _ => by_ending,
@@ -51,7 +54,7 @@ impl Mesh {
         if !is_inp {
             return Self::from_gmsh_bytes(bytes, path, unit);
         }
-        let mesh = build::mesh(bytes.as_ref(), path, unit.to_metres());
+        let mesh = build::mesh(text, path, unit.to_metres());
         let mut mesh = mesh.map_err(|fault| MeshError::Inp { path: path.to_path_buf(), fault })?;
         mesh.turn_clockwise();
         Ok(mesh)

@@ -350,3 +350,24 @@ fn sets_take_no_more_memory_than_the_file_allows() {
     let message = read(deck.as_bytes()).unwrap_err();
     assert!(message.contains("too many for a file of"), "{message}");
 }
+
+/// gmsh names surface elements and their nodes alike; a set of nodes may be called as the body; an editor's mark stands first.
+#[test]
+fn sets_of_one_name_are_kept_by_their_dimension() -> Result<(), String> {
+    // a set within a larger one of the bodies gives way, as CAE's of the elements behind a face
+    let cubes = CUBES
+        .replace("\"lower one\"", "lower")
+        .replace("*ELSET, ELSET=both\nLOWER ONE, upper\n", "")
+        .replace("both, s4", "upper, s4");
+    let named = |more: &str| {
+        format!("\u{feff}{}", cubes.replace("*NSET, NSET=Feet, GENERATE", &format!("{more}*NSET, NSET=Feet, GENERATE")))
+    };
+    let mesh = read(named("*NSET, NSET=LOWER\n1, 2, 3, 4\n").as_bytes())?;
+    let lower =
+        groups(&mesh).into_iter().filter(|group| group.to_lowercase().starts_with("lower ")).collect::<Vec<_>>();
+    assert_eq!(lower, ["LOWER 2 4 1", "lower 3 8 1"]);
+    let mesh = read(named("*ELEMENT, TYPE=CPS4, ELSET=feet\n90, 1, 2, 3, 4\n").as_bytes())?;
+    let feet = groups(&mesh).into_iter().filter(|group| group.to_lowercase().starts_with("feet ")).count();
+    assert_eq!(feet, 1);
+    Ok(())
+}

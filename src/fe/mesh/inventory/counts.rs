@@ -2,9 +2,10 @@
 
 use super::parts;
 use super::parts::{BoundingBox, DuplicateNodes, Part, UnusedNodes};
-use crate::fe::mesh::{ElementKind, Mesh, MeshNotes, MshFormat, PhysicalGroup};
+use crate::fe::mesh::{ElementId, ElementKind, Mesh, MeshNotes, MshFormat, PhysicalGroup};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// How many elements of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -38,7 +39,7 @@ pub struct Inventory {
     pub elements: Vec<KindCount>,
     /// Physical groups in the order of the mesh.
     pub groups: Vec<GroupSummary>,
-    /// Pairs of groups of one dimension that share elements, in the order of the mesh.
+    /// Pairs of groups of one dimension that share elements, in the order of the mesh, a hundred at most.
     pub overlaps: Vec<GroupOverlap>,
     /// Elements of the highest dimension in no group: the mesh was saved with `Mesh.SaveAll`, and they would
     /// get no material.
@@ -126,26 +127,31 @@ impl GroupSummary {
     }
 }
 
+/// Pairs of groups that are listed: sets of a file may all hold the same.
+const LISTED_PAIRS: usize = 100;
+
 fn overlaps(mesh: &Mesh) -> Vec<GroupOverlap> {
-    let mut found = Vec::new();
+    let mut held: Vec<(ElementId, usize)> = Vec::new();
     for (position, group) in mesh.groups.iter().enumerate() {
-        let others = mesh.groups[position + 1..].iter();
-        for other in others.take_while(|other| other.dimension == group.dimension) {
-            let mut lists = [&group.elements, &other.elements];
-            lists.sort_by_key(|list| list.len());
-            // both are in the order of the mesh
-            let elements = lists[0].iter().filter(|id| lists[1].binary_search(id).is_ok()).count();
-            if elements > 0 {
-                found.push(GroupOverlap {
-                    dimension: group.dimension,
-                    tags: [group.tag, other.tag],
-                    names: [group.name.clone(), other.name.clone()],
-                    elements,
-                });
+        held.extend(group.elements.iter().map(|&id| (id, position)));
+    }
+    held.sort_unstable();
+    held.dedup();
+    let mut pairs: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for own in held.chunk_by(|(id, _), (next, _)| id == next) {
+        for (place, &(_, a)) in own.iter().enumerate() {
+            for &(_, b) in own[place + 1..].iter().take(LISTED_PAIRS) {
+                if pairs.len() < LISTED_PAIRS || pairs.contains_key(&[a, b]) {
+                    *pairs.entry([a, b]).or_default() += 1;
+                }
             }
         }
     }
-    found
+    let named = |([a, b], elements): ([usize; 2], usize)| {
+        let [a, b] = [a, b].map(|place| &mesh.groups[place]);
+        GroupOverlap { dimension: a.dimension, tags: [a.tag, b.tag], names: [a.name.clone(), b.name.clone()], elements }
+    };
+    pairs.into_iter().map(named).collect()
 }
 
 /// Elements of a dimension that no group holds.

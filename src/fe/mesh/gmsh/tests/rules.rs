@@ -26,6 +26,8 @@ fn not_a_mesh() {
     assert_eq!(after("$MeshFormat", "solid cube"), format!("{rule} \"solid cube\""));
     assert_eq!(read(b"").err(), Some(format!("{rule} nothing")));
     assert_eq!(read(&[0x89, b'P', b'N', b'G', 13, 10]).err(), Some(format!("{rule} \"\u{fffd}PNG\"")));
+    let step = read(b"ISO-10303-21;\nHEADER;").expect_err("a part");
+    assert!(step.contains("gmsh PART.step -3 -order 2 -o PART.msh"), "{step}");
     assert_eq!(after("4.1 0", "four 0"), "$MeshFormat, line 2: expected the version, found \"four\"");
 }
 
