@@ -12,8 +12,10 @@ fn write(folder: &std::path::Path, x: f64) {
     for from in [0.0, 0.1] {
         let corners = [[from, 0.0], [from + 0.1, 0.0], [from + 0.1, 0.1], [from, 0.1]];
         let middles = [[from + 0.05, 0.0], [from + 0.1, 0.05], [from + 0.05, 0.1], [from, 0.05]];
-        let places =
-            corners.iter().chain(&middles).map(|&[at, y]| if [at, y] == [0.1, 0.05] { [x, y] } else { [at, y] });
+        let places = corners
+            .iter()
+            .chain(&middles)
+            .map(|&[at, y]| if (at - 0.1).hypot(y - 0.05) < 1e-12 { [x, y] } else { [at, y] });
         let nodes: Vec<usize> = places.map(|[x, y]| grid.node([x, y, 0.0], true)).collect();
         grid.element(16, 2, "plate", &nodes);
         if from == 0.0 {

@@ -108,6 +108,7 @@ mod tests {
     /// Two Tet10 on one face; the middle of an edge of it lies beyond the body, so that both fold.
     fn folded() -> Mesh {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+        let at = |nodes: &[[f64; 3]], place: [f64; 3]| nodes.iter().position(|node| distance(*node, place) < 1e-15);
         let mut nodes = corners.to_vec();
         let mut connectivity = Vec::new();
         for tetrahedron in [[0, 1, 2, 3], [1, 2, 3, 4]] {
@@ -115,14 +116,14 @@ mod tests {
             for &[a, b] in ElementKind::Tet10.corner_edges() {
                 let [a, b] = [a, b].map(|place| nodes[tetrahedron[place]]);
                 let middle = [0, 1, 2].map(|d| 0.5 * (a[d] + b[d]));
-                let known = nodes.iter().position(|node| *node == middle);
+                let known = at(&nodes, middle);
                 connectivity.push(known.unwrap_or_else(|| {
                     nodes.push(middle);
                     nodes.len() - 1
                 }));
             }
         }
-        let far = nodes.iter().position(|node| *node == [0.5, 0.5, 0.0]).unwrap();
+        let far = at(&nodes, [0.5, 0.5, 0.0]).unwrap();
         nodes[far] = [0.05, 0.05, 0.0];
         Mesh {
             node_tags: (1..=nodes.len() as u64).collect(),

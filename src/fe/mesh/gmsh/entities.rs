@@ -22,6 +22,15 @@ pub(super) struct Physical {
     parents: Vec<(Entity, Entity)>,
 }
 
+/// How a mesh is partitioned.
+#[derive(Default)]
+struct Cut {
+    /// Parts and what they are cut from.
+    parts: Vec<(Entity, Entity)>,
+    /// Partitions in which the highest dimension so far is cut.
+    own: BTreeSet<i32>,
+}
+
 impl Physical {
     /// Tags of the groups of an entity, > 0.
     pub(super) fn of(&self, entity: Entity) -> impl Iterator<Item = i32> + '_ {
@@ -120,21 +129,19 @@ pub(super) fn read_partitioned(
         cursor.int("the tag of a ghost entity")?;
         cursor.int("its partition")?;
     }
-    let mut parts = Vec::new();
-    // partitions in which the highest dimension so far is cut
-    let mut own = BTreeSet::new();
+    let mut cut = Cut::default();
     for (dimension, count) in counts(cursor, version)?.into_iter().enumerate() {
         if count > 0 {
-            own.clear();
+            cut.own.clear();
         }
         for _ in 0..count {
-            walk(cursor, version, dimension, Some((&mut parts, &mut own)))?;
+            walk(cursor, version, dimension, Some(&mut cut))?;
         }
     }
-    if (own.len() as u64) < partitions {
-        return Err(one_partition(cursor, &own, format_args!("{partitions}")));
+    if (cut.own.len() as u64) < partitions {
+        return Err(one_partition(cursor, &cut.own, format_args!("{partitions}")));
     }
-    Ok(parts)
+    Ok(cut.parts)
 }
 
 /// A file of one partition, which is no whole body.
@@ -225,11 +232,11 @@ fn walk(
     cursor: &mut Cursor<'_>,
     version: MshVersion,
     dimension: usize,
-    parts: Option<(&mut Vec<(Entity, Entity)>, &mut BTreeSet<i32>)>,
+    cut: Option<&mut Cut>,
 ) -> Result<(i32, Vec<i32>), MshError> {
     const TAG: &str = "the tag of an entity";
     let tag = cursor.int(TAG)?;
-    if let Some((parts, own)) = parts {
+    if let Some(Cut { parts, own }) = cut {
         let parent = Entity { dimension: nodes::dimension(cursor)?, tag: cursor.int(TAG)? };
         parts.push((Entity { dimension, tag }, parent));
         let partitions = list(cursor, "the number of partitions", "a partition")?;
