@@ -15,7 +15,7 @@ fn write(folder: &std::path::Path, x: f64) {
         let places = corners
             .iter()
             .chain(&middles)
-            .map(|&[at, y]| if (at - 0.1).hypot(y - 0.05) < 1e-12 { [x, y] } else { [at, y] });
+            .map(|&[at, y]: &[f64; 2]| if (at - 0.1).hypot(y - 0.05) < 1e-12 { [x, y] } else { [at, y] });
         let nodes: Vec<usize> = places.map(|[x, y]| grid.node([x, y, 0.0], true)).collect();
         grid.element(16, 2, "plate", &nodes);
         if from == 0.0 {
