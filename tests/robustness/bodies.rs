@@ -46,6 +46,7 @@ fn elements_that_are_there_twice() {
     type Extra = (usize, usize, &'static str, &'static [usize]);
     let doubled: Said = Err("on the corners of another element");
     let within: Said = Err("have their centre in another element");
+    let crossed: Said = Err("is no face of the housing's elements");
     for (name, extra, said) in [
         ("turned about z", &[(5, 3, "a", &[1, 2, 3, 0, 5, 6, 7, 4])], doubled),
         ("turned about x", &[(5, 3, "a", &[0, 4, 5, 1, 3, 7, 6, 2])], doubled),
@@ -55,7 +56,10 @@ fn elements_that_are_there_twice() {
         ("a face again", &[(3, 2, "a_bottom", &[3, 2, 1, 0])], Ok("")),
         ("a face as a group of another name", &[(3, 2, "b", &[0, 1, 2, 3])], Ok("")),
         ("a face in the group of solids", &[(3, 3, "a", &[0, 1, 2, 3])], Ok("")),
-    ] as [(&str, &[Extra], Said); 8]
+        ("a face whose sides cross", &[(3, 2, "a_bottom", &[0, 2, 1, 3])], crossed),
+        ("a quadrilateral between faces", &[(3, 2, "a_bottom", &[0, 1, 6, 7])], crossed),
+        ("a face inside", &[(3, 2, "a_bottom", &[7, 6, 5, 4])], Ok("")),
+    ] as [(&str, &[Extra], Said); 11]
     {
         let (mut grid, cells) = cube();
         for (kind, dimension, group, corners) in extra {

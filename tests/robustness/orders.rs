@@ -103,12 +103,24 @@ fn elements_of_two_orders_on_one_edge_are_refused() {
 #[test]
 fn groups_without_the_middle_nodes_of_the_elements_are_refused() {
     let folder = scratch("orders-group");
-    let words = ["1 of its edges lack the middle node", "element 3 of the group on element 1"];
+    let words = ["1 of its edges differ in the middle node", "element 3 of the group on element 1"];
     write(&folder, 1.0, &[LOWER, UPPER, (1, 2, "1 2")], "");
     refused(&command(&folder, "modes"), 2, &[words[0], words[1], "the support would"]);
     let mass = "masses = [{ group = 'side', mass = 1.0 }]";
     write(&folder, 1.0, &[LOWER, UPPER, (1, 3, "2 3"), FOOT], mass);
     refused(&command(&folder, "modes"), 2, &[words[0], words[1], "the mass would"]);
+}
+
+/// A line whose middle node stands as an end, and one across the square.
+#[test]
+fn lines_that_are_no_edges_are_refused() {
+    let folder = scratch("orders-edges");
+    for (line, nodes) in [((8, 2, "1 7 2"), "1, 7, 2"), ((8, 2, "1 3 8"), "1, 3, 8")] {
+        write(&folder, 1.0, &[LOWER, UPPER, line], "");
+        let words =
+            ["group \"foot\" in squares.msh: its element 3 is no edge", &format!("found nodes {nodes}, expected")];
+        refused(&command(&folder, "modes"), 2, &words);
+    }
 }
 
 #[test]

@@ -204,7 +204,8 @@ impl HousingModel {
     /// A group of which at least one node is on the housing, with the middle nodes that the housing has there.
     ///
     /// # Errors
-    /// [`ModelError::Mesh`], or [`ModelError::Refused`] for a group beside the housing or without the middle nodes there.
+    /// [`ModelError::Mesh`], or [`ModelError::Refused`] for a group beside the housing, without the middle and centre nodes there,
+    /// or with elements that are no edges or faces.
     pub(crate) fn group_on_housing<'m>(
         &self,
         mesh: &'m Mesh,
@@ -221,13 +222,32 @@ impl HousingModel {
                 "group \"{name}\" in {path}: its element {tag} has a node twice; {purpose} needs whole faces: expected different nodes; mesh again, or take the element out of the group"
             )));
         }
-        let Some(MixedOrders { edges, tags: [own, other], place: [x, y, z], .. }) =
-            self.bodies().without_middle_nodes(mesh, group)
-        else {
+        let bodies = self.bodies();
+        if let Some(MixedOrders { edges, faces, tags: [own, other], place: [x, y, z], .. }) =
+            bodies.without_middle_nodes(mesh, group)
+        {
+            let what = match edges {
+                0 => format!("{faces} of its faces differ in the centre"),
+                _ => format!("{edges} of its edges differ in the middle"),
+            };
+            return Err(ModelError::Refused(format!(
+                "group \"{name}\" in {path}: {what} node from the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of other nodes than the elements have: expected faces in the order of the elements; mesh the geometry again in one order and with one setting of Mesh.SecondOrderIncomplete: gmsh PART.step -3 -order 2 -o PART.msh"
+            )));
+        }
+        let Some((count, first)) = bodies.beside_faces(mesh, group, &self.used) else {
             return Ok(group);
         };
+        let block = &mesh.blocks[first.block];
+        let nodes: Vec<String> =
+            block.nodes_of(first.index).iter().map(|&node| self.node_tags[node].to_string()).collect();
+        let (what, order) = match group.dimension {
+            1 => ("edge", "its two ends, then the node between them"),
+            _ => ("face", "its corners in their order round it, then the nodes between them"),
+        };
         Err(ModelError::Refused(format!(
-            "group \"{name}\" in {path}: {edges} of its edges lack the middle node of the elements there, the first is that of element {own} of the group on element {other} at ({x:.6}, {y:.6}, {z:.6}) m; {purpose} would take hold of the corners alone: expected faces in the order of the elements; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh"
+            "group \"{name}\" in {path}: its element {} is no {what} of the housing's elements, the first of {count} such; {purpose} would have a wrong size: found nodes {}, expected those of one {what}, {order}; mesh the geometry again, or take the element out of the group",
+            block.tags[first.index],
+            nodes.join(", ")
         )))
     }
 }

@@ -1,12 +1,11 @@
 //! Elements that stand on the corners of another one, and elements of first order beside those of second order on the same
 //! edges, which come apart between the corners, and elements with a centre node beside those without on the same face.
 
-use super::bodies::{Bodies, Solid, at, both, counted};
-use crate::fe::mesh::{ElementKind, Mesh, PhysicalGroup, sorted_corners};
+use super::bodies::{Bodies, at, both, counted};
+use crate::fe::mesh::{ElementKind, sorted_corners};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// Elements that stand on the corners of one before them: their mass and stiffness would count twice.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -35,7 +34,7 @@ impl Doubled {
 }
 
 /// No middle node of an edge. A mesh has fewer than 2^32 - 1 nodes, which the reader sees to.
-const NO_NODE: u32 = u32::MAX;
+pub(super) const NO_NODE: u32 = u32::MAX;
 
 /// Edges on which elements do not have the same middle node, or else faces on which they do not have the same centre node.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -69,7 +68,7 @@ impl MixedOrders {
 }
 
 /// Edges of an element: the corners in order, and the middle node.
-fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
+pub(super) fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
     (kind.corners()..).zip(kind.corner_edges()).map(|(middle, ends)| {
         let [a, b] = ends.map(|local| nodes[local] as u32);
         [a.min(b), a.max(b), nodes.get(middle).map_or(NO_NODE, |&node| node as u32)]
@@ -77,12 +76,18 @@ fn edges(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 3]> {
 }
 
 /// Quadrilateral faces of a solid: the corners in order, and the centre node.
-fn faces(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 5]> {
+pub(super) fn faces(kind: ElementKind, nodes: &[usize]) -> impl Iterator<Item = [u32; 5]> {
     let of_solid = if kind.dimension() == 3 { kind.faces() } else { &[] };
-    of_solid.iter().filter(|face| face.kind.corners() == 4).map(|face| {
-        let [a, b, c, d] = sorted_corners(face.nodes[..4].iter().map(|&local| nodes[local]));
-        [a, b, c, d, face.nodes.get(8).map_or(NO_NODE, |&local| nodes[local] as u32)]
-    })
+    of_solid
+        .iter()
+        .filter(|face| face.kind.corners() == 4)
+        .map(|face| quadrilateral(|local| face.nodes.get(local).map(|&local| nodes[local])))
+}
+
+/// The corners in order of a quadrilateral of these nodes, and its centre node.
+pub(super) fn quadrilateral(node: impl Fn(usize) -> Option<usize>) -> [u32; 5] {
+    let [a, b, c, d] = sorted_corners((0..4).filter_map(&node));
+    [a, b, c, d, node(8).map_or(NO_NODE, |centre| centre as u32)]
 }
 
 impl Bodies<'_> {
@@ -161,41 +166,5 @@ impl Bodies<'_> {
             .filter(|same| same[0].0[N - 1] != same[same.len() - 1].0[N - 1]);
         let same = apart.clone().next()?;
         Some((apart.count(), same[0].0, [same[0].1, same[same.len() - 1].1]))
-    }
-
-    /// The edges of a group of curves or faces that lack the middle node of the elements there; the first tag is that of the
-    /// group's element, and both parts are that of the other.
-    pub(in crate::fe::model) fn without_middle_nodes(&self, mesh: &Mesh, group: &PhysicalGroup) -> Option<MixedOrders> {
-        if !self.has_middle_nodes() {
-            return None;
-        }
-        let mut of_group: BTreeMap<[u32; 2], (u32, u64)> = BTreeMap::new();
-        for id in &group.elements {
-            let block = &mesh.blocks[id.block];
-            for [a, b, middle] in edges(block.kind, block.nodes_of(id.index)) {
-                let entry = of_group.entry([a, b]).or_insert((middle, block.tags[id.index]));
-                if middle == NO_NODE {
-                    *entry = (middle, block.tags[id.index]);
-                }
-            }
-        }
-        let mut found: BTreeMap<[u32; 2], (u64, &Solid)> = BTreeMap::new();
-        for solid in self.solids.iter().filter(|solid| solid.kind.order() == 2) {
-            for [a, b, middle] in edges(solid.kind, solid.nodes) {
-                if let Some(&(own, tag)) = of_group.get(&[a, b])
-                    && own != middle
-                {
-                    found.entry([a, b]).or_insert((tag, solid));
-                }
-            }
-        }
-        let (ends, (tag, solid)) = found.first_key_value()?;
-        Some(MixedOrders {
-            edges: found.len(),
-            faces: 0,
-            tags: [*tag, solid.tag],
-            parts: self.names([solid.part; 2]),
-            place: self.mean(&ends.map(|node| node as usize)),
-        })
     }
 }

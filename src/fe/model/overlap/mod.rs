@@ -15,6 +15,7 @@ mod bodies;
 mod crossing;
 mod doubled;
 mod facets;
+mod group;
 mod inside;
 mod outline;
 #[cfg(test)]
