@@ -47,14 +47,11 @@ impl Draft {
     /// [`ComputeError`] when the mesh cannot be read, has no group for a part, or its bore is not as large as the bearing asked for.
     pub(crate) fn of_mesh(request: DraftRequest<'_>) -> Result<(Self, Inspection), ComputeError> {
         let mut mesh = Mesh::read(request.mesh, LengthUnit::Metre)?;
-        // holes are told by the curved edges
-        let inspection = if request.straighten {
-            let mut straight = mesh.clone();
-            straighten(&mut straight);
-            Inspection::of_mesh(&straight, None)
-        } else {
-            Inspection::of_mesh(&mesh, None)
-        };
+        if request.straighten {
+            // a hole whose edges are straight now is none that a ring could be tied to
+            straighten(&mut mesh);
+        }
+        let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mut mesh, &inspection)?;
         let text = case_text(&found).map_err(|error| ComputeError::Failed { what: error.to_string(), help: None })?;
         let parts = found.groups.parts.iter();
