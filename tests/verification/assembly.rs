@@ -8,7 +8,7 @@
 
 use crate::reference_frequencies::data;
 use plummer::fe::assembly::SystemMatrices;
-use plummer::fe::element::continuum::{ContinuumProperties, Formulation, nodal_mass, stiffness};
+use plummer::fe::element::continuum::{ContinuumProperties, Formulation, mass, stiffness};
 use plummer::fe::material::{ElasticMaterial, Material};
 use plummer::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity, Mesh, PhysicalGroup};
 use plummer::fe::model::{
@@ -89,11 +89,11 @@ fn a_list_of_triplets_adds_up_to_the_same() {
         let nodes = model.elements().nodes(element);
         let at: Vec<[f64; 3]> = nodes.iter().map(|&node| model.coordinates()[node]).collect();
         let own_k = stiffness(element.kind, &at, &properties, Formulation::default()).unwrap();
-        let own_m = nodal_mass(element.kind, &at, &properties).unwrap();
+        let own_m = mass(element.kind, &at, &properties, Formulation::default()).unwrap();
         for (a, &row) in nodes.iter().enumerate() {
             for (b, &column) in nodes.iter().enumerate() {
                 for i in 0..3 {
-                    m.add(3 * row + i, 3 * column + i, own_m[(a, b)]);
+                    m.add(3 * row + i, 3 * column + i, own_m[(3 * a + i, 3 * b + i)]);
                     for j in 0..3 {
                         let value = own_k[(3 * a + i, 3 * b + j)];
                         k.add(3 * row + i, 3 * column + j, value);

@@ -69,6 +69,7 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         links: housing.links.clone(),
         overlap: housing.overlap,
         frame: frame(case)?,
+        bore: case.ring.as_ref().and_then(|ring| ring.tie.as_ref()).map(|tie| tie.group.clone()),
     })
 }
 

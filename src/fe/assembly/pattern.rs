@@ -79,9 +79,9 @@ impl NodeGraph {
 /// How a matrix couples the displacement components of two nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Coupling {
-    /// Every component with every other: stiffness.
+    /// Every component with every other: stiffness, and mass with incompatible modes.
     Full,
-    /// Each component with itself, all alike: mass.
+    /// Each component with itself, all alike: mass without them.
     Same,
 }
 
@@ -95,8 +95,8 @@ pub(super) struct BlockMatrix<'g> {
     values: Vec<f64>,
 }
 
-/// A dense matrix on some nodes, column-major: `d` rows a node where the coupling is full, one where it is the
-/// same for all components.
+/// A dense matrix on some nodes, column-major: `d` rows a node, or one where it is the same for all components. A
+/// matrix whose coupling is full takes both.
 #[derive(Clone, Copy)]
 pub(super) struct Local<'a> {
     pub nodes: &'a [usize],
@@ -132,10 +132,11 @@ impl<'g> BlockMatrix<'g> {
                         let first = per_node * graph.starts[node] - origin;
                         let list = graph.neighbours(node);
                         let values = &mut values[first..first + per_node * list.len()];
-                        match (coupling, dimension) {
-                            (Coupling::Same, d) => add_same(list, values, *local, b, d),
-                            (Coupling::Full, 3) => add_full::<3>(list, values, *local, b),
-                            (Coupling::Full, _) => add_full::<2>(list, values, *local, b),
+                        let nodal = local.matrix.len() == local.nodes.len().pow(2);
+                        match (nodal, dimension) {
+                            (true, d) => add_same(list, values, *local, b, d, coupling),
+                            (false, 3) => add_full::<3>(list, values, *local, b),
+                            (false, _) => add_full::<2>(list, values, *local, b),
                         }
                     }
                 }
@@ -182,14 +183,19 @@ fn add_full<const D: usize>(list: &[u32], values: &mut [f64], local: Local<'_>, 
     }
 }
 
-fn add_same(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize, dimension: usize) {
+fn add_same(list: &[u32], values: &mut [f64], local: Local<'_>, b: usize, dimension: usize, coupling: Coupling) {
+    // places of the first component's entry and from a component's entry to the next one's
+    let [first, next] = match coupling {
+        Coupling::Same => [1, list.len()],
+        Coupling::Full => [dimension, dimension * list.len() + 1],
+    };
     for (a, &other) in local.nodes.iter().enumerate() {
         let Ok(place) = list.binary_search(&(other as u32)) else {
             continue;
         };
         let value = local.matrix[b * local.nodes.len() + a];
         for component in 0..dimension {
-            values[component * list.len() + place] += value;
+            values[first * place + next * component] += value;
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use super::pattern::{BlockMatrix, Coupling, Local, NodeGraph};
 use crate::fe::element::ElementError;
-use crate::fe::element::continuum::{nodal_mass_into, stiffness_into};
+use crate::fe::element::continuum::{mass_into, nodal_mass_into, stiffness_into};
 use crate::fe::mesh::ElementKind;
 use crate::fe::model::{HousingElement, HousingModel, ModelError, NodalMatrix, RingTie};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix, congruence, sparse_times_dense, transpose_times_dense};
@@ -151,11 +151,21 @@ fn stiffness<'g>(
 }
 
 fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelError> {
-    let mut m = BlockMatrix::zeros(graph, model.dimension, Coupling::Same);
+    let formulation = model.description.formulation;
+    let bubbles = |element: &HousingElement| formulation.bubbles(element.kind);
+    let coupling = if model.elements.iter().any(bubbles) { Coupling::Full } else { Coupling::Same };
+    let mut m = BlockMatrix::zeros(graph, model.dimension, coupling);
     in_batches(
         model,
-        |kind| kind.nodes() * kind.nodes(),
-        |element, coordinates, out| nodal_mass_into(element.kind, coordinates, &model.properties[element.part], out),
+        |kind| if formulation.bubbles(kind) { kind.dof().pow(2) } else { kind.nodes().pow(2) },
+        |element, coordinates, out| {
+            let (kind, properties) = (element.kind, &model.properties[element.part]);
+            if formulation.bubbles(kind) {
+                mass_into(kind, coordinates, properties, formulation, element.in_plate, out)
+            } else {
+                nodal_mass_into(kind, coordinates, properties, out)
+            }
+        },
         |locals| m.add(locals),
     )?;
     m.add(&locals(&model.masses));

@@ -5,7 +5,7 @@
 //! One element at a time: its matrices, and its displacements less their rigid part.
 
 use super::error::{ModalError, check_count};
-use crate::fe::element::continuum::{MAX_NODES, nodal_mass_into, stiffness_into};
+use crate::fe::element::continuum::{MAX_NODES, mass_into, stiffness_into};
 use crate::fe::model::{HousingElement, HousingModel, ModelError};
 use crate::numerics::linalg::DenseMatrix;
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -155,9 +155,10 @@ impl ElementWork {
         let properties = &model.properties[element.part];
         self.dof = element.kind.dof();
         self.stiffness.resize(self.dof * self.dof, 0.0);
-        self.mass.resize(at.len() * at.len(), 0.0);
-        stiffness_into(element.kind, &at, properties, model.description.formulation, &mut self.stiffness)
-            .and_then(|()| nodal_mass_into(element.kind, &at, properties, &mut self.mass))
+        self.mass.resize(self.dof * self.dof, 0.0);
+        let formulation = model.description.formulation;
+        stiffness_into(element.kind, &at, properties, formulation, &mut self.stiffness)
+            .and_then(|()| mass_into(element.kind, &at, properties, formulation, element.in_plate, &mut self.mass))
             .map_err(|source| ModelError::element(&model.path, element.tag, &source))?;
         let count = at.len() as f64;
         let mean = [0, 1, 2].map(|i| at.iter().map(|x| x[i]).sum::<f64>() / count);
@@ -212,11 +213,15 @@ impl ElementWork {
 
     /// `K_e u`.
     pub(super) fn force(&self, moves: &[f64; MAX_DOF]) -> [f64; MAX_DOF] {
-        let mut force = [0.0; MAX_DOF];
-        for (to, column) in force.iter_mut().zip(self.stiffness.chunks_exact(self.dof)) {
-            *to = column.iter().zip(moves).map(|(k, u)| k * u).sum();
+        self.times(&self.stiffness, moves)
+    }
+
+    fn times(&self, matrix: &[f64], moves: &[f64; MAX_DOF]) -> [f64; MAX_DOF] {
+        let mut product = [0.0; MAX_DOF];
+        for (to, column) in product.iter_mut().zip(matrix.chunks_exact(self.dof)) {
+            *to = column.iter().zip(moves).map(|(entry, u)| entry * u).sum();
         }
-        force
+        product
     }
 
     /// Work of a force on displacements of the element.
@@ -226,16 +231,9 @@ impl ElementWork {
 
     /// `[phi_e^T K_e phi_e, phi_e^T M_e phi_e]`.
     pub(super) fn energies(&self, model: &HousingModel, element: &HousingElement, shape: &[f64]) -> [f64; 2] {
-        let (d, nodes) = (model.dimension, self.arms.len());
         let mut moves = self.moves(model, element, shape);
-        let mut kinetic = 0.0;
-        for b in 0..nodes {
-            for a in 0..nodes {
-                let dot: f64 = (0..d).map(|i| moves[d * a + i] * moves[d * b + i]).sum();
-                kinetic += self.mass[nodes * b + a] * dot;
-            }
-        }
-        self.take_rigid_out(d, &mut moves);
+        let kinetic = self.work(&moves, &self.times(&self.mass, &moves));
+        self.take_rigid_out(model.dimension, &mut moves);
         [self.work(&moves, &self.force(&moves)), kinetic]
     }
 }

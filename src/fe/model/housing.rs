@@ -39,6 +39,8 @@ pub struct HousingDescription {
     pub overlap: OverlapRule,
     /// Where the bearing sits.
     pub frame: RingFrame,
+    /// Group that a ring will be tied to.
+    pub bore: Option<String>,
 }
 
 /// A housing with everything that its matrices need.
@@ -127,6 +129,7 @@ impl HousingModel {
         }
         model.apart = model.ties_apart()?;
         model.find_unconnected();
+        model.find_plates(mesh);
         Ok(model)
     }
 

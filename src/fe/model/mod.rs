@@ -9,6 +9,7 @@ mod housing;
 mod link;
 mod overlap;
 mod parts;
+mod plates;
 mod ring;
 mod section_springs;
 mod solid_ring;

@@ -173,7 +173,7 @@ impl HousingModel {
     }
 
     /// Nodes that supports, springs or ties hold.
-    fn held_nodes(&self) -> Vec<bool> {
+    pub(super) fn held_nodes(&self) -> Vec<bool> {
         let mut held: Vec<bool> = self.fixed.iter().map(|axes| axes.iter().any(Option::is_some)).collect();
         let tied = self.tied.iter().flat_map(|(node, tied)| std::iter::once(node).chain(&tied.foot.nodes));
         for &node in tied.chain(self.springs.iter().flat_map(|spring| &spring.nodes)) {

@@ -92,6 +92,8 @@ const CELLS: [usize; 3] = [4, 3, 1];
 const MATERIAL: [f64; 3] = [2.5, 0.3, 1.6];
 /// Modes compared: shear waves, and the pressure waves along the two longer sides.
 const MODES: usize = 4;
+/// The same for incompatible modes, whose shear waves are too low: the next two, 0.9 % apart, change places on coarse meshes.
+const MODES_INCOMPATIBLE: usize = 2;
 /// Half waves along an edge that are looked at.
 const HALF_WAVES: usize = 9;
 
@@ -144,7 +146,7 @@ fn of_element(
         let errors = found.iter().map(|found| found[mode] / exact[mode] - 1.0).collect();
         series(format!("{name}, wave {}", mode + 1), SOLID_SIZE, sizes, errors, [2.0 * degree, limit])
     };
-    Ok((0..MODES).map(of_mode).collect())
+    Ok((0..if incompatible { MODES_INCOMPATIBLE } else { MODES }).map(of_mode).collect())
 }
 
 fn material() -> Result<Material, VerificationError> {
@@ -258,10 +260,10 @@ mod tests {
             println!("{}", check.line());
             assert!(check.ok, "{}", check.line());
         }
-        assert_eq!(section.checks.len(), 9 * 4 + 3 + 5);
-        // conforming elements are too stiff, and on boxes the incompatible one is too
+        assert_eq!(section.checks.len(), 8 * 4 + 2 + 3 + 5);
+        // conforming elements are too stiff
         let series = section.orders.unwrap();
-        for series in series.iter().filter(|series| series.unit == "m") {
+        for series in series.iter().filter(|series| series.unit == "m" && !series.name.contains("incompatible")) {
             let above = series.relative_errors.iter().all(|&error| error > 0.0);
             assert!(above, "{series:?}");
         }

@@ -128,6 +128,11 @@ impl Jacobian {
         Self(j)
     }
 
+    /// Lengths of the natural element's sides, from -1 to 1, m.
+    pub(super) fn lengths(&self) -> [f64; 3] {
+        self.0.map(|side| 2.0 * side.map(|x| x * x).iter().sum::<f64>().sqrt())
+    }
+
     /// `det J`, m^2 or m^3.
     #[inline(always)]
     pub(super) fn determinant(&self) -> f64 {

@@ -1,29 +1,85 @@
-//! Consistent mass matrices and the measure.
+//! Mass matrices and the measure.
 
 use nalgebra::DMatrix;
 
-use super::ContinuumProperties;
 use super::geometry::{Jacobian, Placed, diagnose};
+use super::incompatible::incompatible_mass;
 use super::kernel::mirror;
 use super::stiffness::{check_length, check_properties};
 use super::table::{Table, for_kind, tables};
+use super::{ContinuumProperties, Formulation, MAX_NODES};
 use crate::fe::element::ElementError;
 use crate::fe::mesh::ElementKind;
 
 /// Points whose shape functions are summed together; as in the stiffness.
 const BLOCK: usize = 8;
 
-/// Consistent mass between the nodes `m_ab = rho int N_a N_b dV` (solid) or `rho t int N_a N_b dA` (plane), kg,
-/// into `out` (nodes x nodes, symmetric, column by column, both triangles; whatever it held is replaced).
+/// Mass `M = rho int N^T N dV` (solid) or `rho t int N^T N dA` (plane), kg, into `out` (dof x dof, symmetric, column
+/// by column, both triangles; whatever it held is replaced).
 ///
-/// The mass matrix of the degrees of freedom is this number times the identity over the displacements of nodes
-/// a and b. Integrated exactly for any geometry (`ElementKind::rules`); the sum of all entries is rho t
-/// A or rho V, and with it frequencies converge from above. `coords` as for
-/// [`stiffness_into`](super::stiffness_into). Source: Bathe, Finite Element Procedures (1996), equation 4.20.
+/// Degrees of freedom as in [`stiffness_into`](super::stiffness_into). Consistent and integrated exactly for any geometry
+/// (`ElementKind::rules`), so that frequencies converge from above; with incompatible modes, which move with the nodes, they
+/// need not: how much the modes move depends on whether the element is `in_plate`, with free faces near by. A rigid motion has
+/// the kinetic energy of the continuum in any case. Source: Bathe, Finite Element Procedures
+/// (1996), equation 4.20.
 ///
 /// # Errors
 /// [`ElementError`] for a wrong number of coordinates or buffer shape, properties of the other dimension,
 /// coordinates that are not finite, or an element that is inverted, degenerate or folded.
+pub(crate) fn mass_into(
+    kind: ElementKind,
+    coords: &[[f64; 3]],
+    properties: &ContinuumProperties,
+    formulation: Formulation,
+    in_plate: bool,
+    out: &mut [f64],
+) -> Result<(), ElementError> {
+    check_properties(kind, properties)?;
+    check_length(kind, kind.dof(), out)?;
+    match kind {
+        ElementKind::Quad4 if formulation.bubbles(kind) => {
+            incompatible_mass::<4, 6, 2>(kind, coords, properties, in_plate, out)
+        }
+        ElementKind::Hex8 if formulation.bubbles(kind) => {
+            incompatible_mass::<8, 11, 3>(kind, coords, properties, in_plate, out)
+        }
+        _ => {
+            let (nodes, d, rows) = (kind.nodes(), kind.dimension(), kind.dof());
+            let mut nodal = [0.0; MAX_NODES * MAX_NODES];
+            let nodal = &mut nodal[..nodes * nodes];
+            nodal_mass_into(kind, coords, properties, nodal)?;
+            out.fill(0.0);
+            for (pair, value) in nodal.iter().enumerate() {
+                let (column, row) = (pair / nodes * d, pair % nodes * d);
+                for i in 0..d {
+                    out[(column + i) * rows + row + i] = *value;
+                }
+            }
+            Ok(())
+        }
+    }
+}
+
+/// `mass_into` a new matrix, of an element alone.
+///
+/// # Errors
+/// As `mass_into`.
+pub fn mass(
+    kind: ElementKind,
+    coords: &[[f64; 3]],
+    properties: &ContinuumProperties,
+    formulation: Formulation,
+) -> Result<DMatrix<f64>, ElementError> {
+    let mut out = DMatrix::zeros(kind.dof(), kind.dof());
+    mass_into(kind, coords, properties, formulation, true, out.as_mut_slice())?;
+    Ok(out)
+}
+
+/// The mass of compatible elements between the nodes, kg [nodes x nodes]: the same for each component of a displacement,
+/// which components do not couple.
+///
+/// # Errors
+/// As `mass_into`.
 pub(crate) fn nodal_mass_into(
     kind: ElementKind,
     coords: &[[f64; 3]],
@@ -33,21 +89,7 @@ pub(crate) fn nodal_mass_into(
     check_properties(kind, properties)?;
     check_length(kind, kind.nodes(), out)?;
     let density = properties.density * properties.thickness;
-    for_kind!(kind, mass(kind, coords, density, out))
-}
-
-/// `nodal_mass_into` a new matrix.
-///
-/// # Errors
-/// As `nodal_mass_into`.
-pub fn nodal_mass(
-    kind: ElementKind,
-    coords: &[[f64; 3]],
-    properties: &ContinuumProperties,
-) -> Result<DMatrix<f64>, ElementError> {
-    let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
-    nodal_mass_into(kind, coords, properties, out.as_mut_slice())?;
-    Ok(out)
+    for_kind!(kind, nodal_mass(kind, coords, density, out))
 }
 
 /// `int N_a N_b dA` (m^2) or `int N_a N_b dV` (m^3) [nodes x nodes]: the consistent mass of unit density and thickness.
@@ -56,7 +98,7 @@ pub fn nodal_mass(
 /// As [`measure`].
 pub(crate) fn measure_matrix(kind: ElementKind, coords: &[[f64; 3]]) -> Result<DMatrix<f64>, ElementError> {
     let mut out = DMatrix::zeros(kind.nodes(), kind.nodes());
-    for_kind!(kind, mass(kind, coords, 1.0, out.as_mut_slice()))?;
+    for_kind!(kind, nodal_mass(kind, coords, 1.0, out.as_mut_slice()))?;
     Ok(out)
 }
 
@@ -71,7 +113,7 @@ pub fn measure(kind: ElementKind, coords: &[[f64; 3]]) -> Result<f64, ElementErr
     for_kind!(kind, size(kind, coords))
 }
 
-fn mass<const N: usize, const D: usize>(
+fn nodal_mass<const N: usize, const D: usize>(
     kind: ElementKind,
     coords: &[[f64; 3]],
     density: f64,

@@ -7,7 +7,7 @@
 //! From coordinates to matrix: [`shape_derivatives`] at the points of a [`QuadratureRule`] are tabulated once a
 //! kind; the Jacobian turns them into gradients, whose products are summed over the points and contracted with
 //! the elasticity of [`ContinuumProperties`]; every element is checked on the way (`stiffness_into`,
-//! `nodal_mass_into`). Nothing is allocated.
+//! `mass_into`). Nothing is allocated.
 //!
 //! Frequencies from the compatible elements lie above those of the continuum and fall as the mesh is refined,
 //! as far as the integration is exact: which rule is exact for what stands with
@@ -19,6 +19,7 @@
 //! Poisson's ratio comes near 1/2, except in plane stress.
 
 mod geometry;
+mod incompatible;
 mod kernel;
 mod mass;
 mod properties;
@@ -33,8 +34,8 @@ mod tests;
 
 pub use geometry::ShapeQuality;
 pub(crate) use geometry::quality;
-pub use mass::{measure, nodal_mass};
-pub(crate) use mass::{measure_matrix, nodal_mass_into};
+pub use mass::{mass, measure};
+pub(crate) use mass::{mass_into, measure_matrix, nodal_mass_into};
 pub use properties::{ContinuumProperties, PlaneAssumption};
 pub use quadrature::{QuadraturePoint, QuadratureRule};
 pub use rules::{Formulation, Integration, LinearFormulation};

@@ -15,6 +15,13 @@ pub struct Formulation {
     pub linear: LinearFormulation,
 }
 
+impl Formulation {
+    /// Whether an element of this kind has incompatible modes.
+    pub(crate) fn bubbles(self, kind: ElementKind) -> bool {
+        self.linear == LinearFormulation::Incompatible && matches!(kind, ElementKind::Quad4 | ElementKind::Hex8)
+    }
+}
+
 /// How the stiffness of ten-noded tetrahedra is integrated; other elements are not touched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -43,7 +50,8 @@ pub enum LinearFormulation {
 impl ElementKind {
     /// The rule that integrates the mass and the measure, exact for every geometry, curved ones too:
     /// `N_i N_j det J` is a polynomial of degree
-    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8, Quad9), 4 (Hex8), 9 (Hex20, Hex27);
+    /// 2 (Tri3, Tet4), 6 (Tri6), 7 (Tet10); in each direction 3 (Quad4), 7 (Quad8, Quad9), 4 (Hex8), 9 (Hex20, Hex27), with the
+    /// square of a bubble 5 (Quad4) and in a box 4 (Hex8);
     /// 3 in the triangle and 4 along zeta (Wedge6), 8 and 9 (Wedge15, Wedge18). For pyramids it is one in xi, eta and s of
     /// their shape functions: of degree 3, 3 and 2 (Pyramid5), 9, 9 and 7 (Pyramid13, Pyramid14).
     pub(crate) fn mass_rule(self) -> QuadratureRule {
@@ -85,7 +93,7 @@ impl ElementKind {
             Self::Point | Self::Line2 | Self::Line3 => [[Rule::Line4; 2]; 2],
             Self::Tri3 => [[Rule::Triangle1; 2], [Rule::Triangle3; 2]],
             Self::Tri6 => [[Rule::Triangle6, Rule::Triangle3], [Rule::Triangle12; 2]],
-            Self::Quad4 => [[Rule::Square2; 2]; 2],
+            Self::Quad4 => [[Rule::Square2; 2], [Rule::Square3; 2]],
             Self::Quad8 | Self::Quad9 => [[Rule::Square3; 2], [Rule::Square4; 2]],
             Self::Tet4 => [[Rule::Tetrahedron1; 2], [Rule::Tetrahedron4; 2]],
             Self::Tet10 => [[Rule::Tetrahedron24, Rule::Tetrahedron4], [Rule::Tetrahedron64; 2]],

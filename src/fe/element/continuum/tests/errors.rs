@@ -4,9 +4,9 @@ use proptest::prelude::*;
 
 use super::fixtures::{all_properties, aluminium, distorted, message, properties, rigid_motions, straight};
 use super::{FOUR_POINT, Outcome, PLAIN};
-use crate::fe::element::continuum::stiffness::soft_modes;
+use crate::fe::element::continuum::incompatible::soft_modes;
 use crate::fe::element::continuum::{
-    ContinuumProperties, Formulation, measure, nodal_mass, nodal_mass_into, stiffness, stiffness_into,
+    ContinuumProperties, Formulation, mass, mass_into, measure, stiffness, stiffness_into,
 };
 use crate::fe::mesh::ElementKind;
 
@@ -37,7 +37,7 @@ pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
     for (coords, expected) in cases {
         let found = [
             message(stiffness(kind, coords, &p, formulation)),
-            message(nodal_mass(kind, coords, &p)),
+            message(mass(kind, coords, &p, formulation)),
             message(measure(kind, coords)),
         ];
         for text in found {
@@ -50,8 +50,8 @@ pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
         format!("the matrix of a {name} element has {dof} x {dof} entries, the buffer holds 6")
     );
     assert_eq!(
-        message(nodal_mass_into(kind, &good, &p, &mut buffer)),
-        format!("the matrix of a {name} element has {nodes} x {nodes} entries, the buffer holds 6")
+        message(mass_into(kind, &good, &p, formulation, true, &mut buffer)),
+        format!("the matrix of a {name} element has {dof} x {dof} entries, the buffer holds 6")
     );
     wrong_properties(kind, formulation)
 }
@@ -65,7 +65,7 @@ fn wrong_properties(kind: ElementKind, formulation: Formulation) -> Outcome {
     let p = all_properties(other)?[0];
     let coords = straight(kind);
     assert_eq!(message(stiffness(kind, &coords, &p, formulation)), expected);
-    assert_eq!(message(nodal_mass(kind, &coords, &p)), expected);
+    assert_eq!(message(mass(kind, &coords, &p, formulation)), expected);
     Ok(())
 }
 
@@ -128,7 +128,8 @@ fn a_fold_at_a_node_is_found() -> Outcome {
         for text in [
             message(stiffness(kind, coords, &p, Formulation::default())),
             message(stiffness(kind, coords, &p, PLAIN)),
-            message(nodal_mass(kind, coords, &p)),
+            message(mass(kind, coords, &p, Formulation::default())),
+            message(mass(kind, coords, &p, PLAIN)),
             message(measure(kind, coords)),
         ] {
             assert!(text.contains("degenerate or folded"), "{kind:?}: {text}");
@@ -190,7 +191,7 @@ proptest! {
             }
         }
         for p in all_properties(kind).map_err(fail)? {
-            if let Ok(m) = nodal_mass(kind, &coords, &p) {
+            if let Ok(m) = mass(kind, &coords, &p, formulation) {
                 prop_assert!(m.iter().all(|value| value.is_finite()));
             }
             if let Ok(k) = stiffness(kind, &coords, &p, formulation) {

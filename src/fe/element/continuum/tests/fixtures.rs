@@ -1,12 +1,12 @@
 //! Elements, materials and fields that the tests share.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::quadrature::{
     conical_pyramid, conical_tetrahedron, conical_triangle, cube, product, square,
 };
-use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint, nodal_mass};
+use crate::fe::element::continuum::{ContinuumProperties, PlaneAssumption, QuadraturePoint};
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::ElementKind;
 
@@ -143,16 +143,6 @@ pub(super) fn rigid_motions(kind: ElementKind, coords: &[[f64; 3]]) -> Vec<DVect
     };
     let count = if kind.dimension() == 2 { 3 } else { 6 };
     (0..count).map(motion).collect()
-}
-
-/// The mass matrix of the degrees of freedom.
-pub(super) fn mass(
-    kind: ElementKind,
-    coords: &[[f64; 3]],
-    properties: &ContinuumProperties,
-) -> Result<DMatrix<f64>, ElementError> {
-    let identity = DMatrix::identity(kind.dimension(), kind.dimension());
-    Ok(nodal_mass(kind, coords, properties)?.kronecker(&identity))
 }
 
 pub(super) fn message<T: std::fmt::Debug>(result: Result<T, ElementError>) -> String {

@@ -5,13 +5,13 @@ use nalgebra::DMatrix;
 use super::Outcome;
 use super::fixtures::{
     POISSON, SHEAR, YOUNG, all_properties, aluminium, curved, distorted, elements, field, laminate, laminate_along,
-    mass, properties, rigid_motions, straight, very_fine,
+    properties, rigid_motions, straight, very_fine,
 };
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::table::for_kind;
-use crate::fe::element::continuum::{ContinuumProperties, Formulation, measure, nodal_mass, stiffness};
+use crate::fe::element::continuum::{ContinuumProperties, Formulation, mass, measure, stiffness};
 use crate::fe::material::{ElasticMaterial, OrthotropicMaterial};
 use crate::fe::mesh::ElementKind;
 
@@ -20,10 +20,10 @@ pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
         for coords in elements(kind) {
             symmetry(kind, &coords, &p, formulation)?;
             rigid_motions_and_no_other_mechanism(kind, &coords, &p, formulation)?;
-            mass_is_density_times_volume(kind, &coords, &p)?;
+            mass_is_density_times_volume(kind, &coords, &p, formulation)?;
             mass_is_exact(kind, &coords, &p)?;
         }
-        inertia_about_the_axes(kind, &p)?;
+        inertia_about_the_axes(kind, &p, formulation)?;
     }
     for orthotropic in [false, true] {
         uniform_strain_energy(kind, formulation, orthotropic)?;
@@ -41,8 +41,8 @@ fn symmetry(
     let k = stiffness(kind, coords, p, formulation)?;
     assert_eq!(k.shape(), (kind.dof(), kind.dof()));
     assert_eq!(k, k.transpose(), "{kind:?}");
-    let m = nodal_mass(kind, coords, p)?;
-    assert_eq!(m.shape(), (kind.nodes(), kind.nodes()));
+    let m = mass(kind, coords, p, formulation)?;
+    assert_eq!(m.shape(), (kind.dof(), kind.dof()));
     assert!((&m - m.transpose()).amax() <= 1e-16 * m.amax(), "{kind:?}");
     Ok(())
 }
@@ -75,8 +75,9 @@ fn mass_is_density_times_volume(
     kind: ElementKind,
     coords: &[[f64; 3]],
     p: &ContinuumProperties,
+    formulation: Formulation,
 ) -> Result<(), ElementError> {
-    let m = mass(kind, coords, p)?;
+    let m = mass(kind, coords, p, formulation)?;
     let expected = p.density * p.thickness * measure(kind, coords)?;
     for d in 0..kind.dimension() {
         let translation = field(kind, coords, |_| [0, 1, 2].map(|i| f64::from(u8::from(i == d))));
@@ -91,7 +92,8 @@ fn mass_is_density_times_volume(
 /// Against 12 points a direction, on straight, distorted and curved elements.
 fn mass_is_exact(kind: ElementKind, coords: &[[f64; 3]], p: &ContinuumProperties) -> Result<(), ElementError> {
     let fine = fine_mass(kind, coords, p)?;
-    let error = (nodal_mass(kind, coords, p)? - &fine).amax() / fine.amax();
+    let fine = fine.kronecker(&DMatrix::identity(kind.dimension(), kind.dimension()));
+    let error = (mass(kind, coords, p, super::PLAIN)? - &fine).amax() / fine.amax();
     assert!(error < 1e-14, "{kind:?}: {error:e}");
     Ok(())
 }
@@ -139,7 +141,11 @@ fn simplex_measure(x: &[[f64; 3]]) -> f64 {
 
 /// A rotation meets `rho int |w x r|^2 dV`, by hand. Over a simplex with n
 /// corners `int x_i x_j dV = V / (n (n + 1)) (sum_a x_ai x_aj + sum_a x_ai sum_a x_aj)`.
-fn inertia_about_the_axes(kind: ElementKind, p: &ContinuumProperties) -> Result<(), ElementError> {
+fn inertia_about_the_axes(
+    kind: ElementKind,
+    p: &ContinuumProperties,
+    formulation: Formulation,
+) -> Result<(), ElementError> {
     let coords = straight(kind);
     let mut moments = [0.0; 3];
     let mut volume = 0.0;
@@ -156,7 +162,7 @@ fn inertia_about_the_axes(kind: ElementKind, p: &ContinuumProperties) -> Result<
         }
     }
     assert!((measure(kind, &coords)? / volume - 1.0).abs() < 1e-14);
-    let m = mass(kind, &coords, p)?;
+    let m = mass(kind, &coords, p, formulation)?;
     let [x, y, z] = moments;
     let motions = rigid_motions(kind, &coords);
     for (which, second) in [(2, x + y), (4, y + z), (5, x + z)] {

@@ -10,6 +10,7 @@ mod quality;
 mod rules;
 mod shapes;
 mod surface;
+mod wave;
 
 use super::{Formulation, Integration, LinearFormulation};
 use crate::fe::mesh::ElementKind;

@@ -9,7 +9,7 @@ use crate::fe::element::continuum::geometry::Placed;
 use crate::fe::element::continuum::table::Table;
 use crate::fe::element::continuum::table::for_kind;
 use crate::fe::element::continuum::{
-    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, nodal_mass, shape_values, stiffness,
+    ContinuumProperties, Formulation, QuadraturePoint, QuadratureRule, mass, shape_values, stiffness,
 };
 use crate::fe::mesh::ElementKind;
 
@@ -61,14 +61,14 @@ fn straightness_has_no_step() -> Outcome {
     let p = properties(kind, &aluminium()?)?[0];
     let straight = distorted(kind);
     let k = stiffness(kind, &straight, &p, Formulation::default())?;
-    let m = nodal_mass(kind, &straight, &p)?;
+    let m = mass(kind, &straight, &p, Formulation::default())?;
     for (moved, is_straight) in [(5e-14, true), (1e-11, false)] {
         let mut coords = straight.clone();
         coords[5][2] += moved;
         assert_eq!(Placed::<10>::new(kind, &coords)?.straight, is_straight);
         let error = (stiffness(kind, &coords, &p, Formulation::default())? - &k).amax() / k.amax();
         assert!(error < 20.0 * moved + 1e-14, "{moved}: {error:e}");
-        let error = (nodal_mass(kind, &coords, &p)? - &m).amax() / m.amax();
+        let error = (mass(kind, &coords, &p, Formulation::default())? - &m).amax() / m.amax();
         assert!(error < 20.0 * moved + 1e-14, "{moved}: {error:e}");
     }
     // a millimetre a hundred metres from the origin: coordinates are rounded to 1e-14 m
