@@ -119,7 +119,7 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let _ = writeln!(text, "{name:<18}{value}");
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
-    inventory.notes.told.iter().for_each(|note| line("warning", note.clone()));
+    inventory.notes.told.iter().for_each(|note| line("warning", note.to_string()));
     inventory.notes.as_points.iter().for_each(|note| line("points", note.clone()));
     if !inventory.notes.passed_over.is_empty() {
         line("not read", inventory.notes.passed_over.join(", "));

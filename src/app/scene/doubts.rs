@@ -59,7 +59,7 @@ pub(crate) fn doubts(
 ) -> Result<Vec<String>, ComputeError> {
     let mut found = plausible::materials(case);
     if let Some((mesh, model)) = housing {
-        found.extend(mesh.told().into_iter().map(|told| format!("{}: {told}", mesh.source.display())));
+        found.extend(mesh.notes.told.iter().map(|told| format!("{}: {told}", mesh.source.display())));
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(model));
     }

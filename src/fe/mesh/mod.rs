@@ -22,7 +22,9 @@ mod left_out;
 mod rim;
 pub(crate) mod surfaces;
 
-pub use contents::{ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup};
+pub use contents::{
+    ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNote, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+};
 pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};

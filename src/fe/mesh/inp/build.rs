@@ -9,8 +9,8 @@ use super::sets::Set;
 use super::surfaces::{Surface, read_sets, surfaces};
 use crate::fe::mesh::gmsh::Allowance;
 use crate::fe::mesh::{
-    BoundaryFace, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
-    sorted_corners,
+    BoundaryFace, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNote, MeshNotes, MshFormat, MshVersion,
+    PhysicalGroup, sorted_corners,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -39,7 +39,6 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
         node_tags: node_numbers.listed,
         blocks,
         groups: Vec::new(),
-        left_out: Vec::new(),
         format: MshFormat { version: MshVersion::Inp, binary: false },
         notes,
         source: path.to_path_buf(),
@@ -111,8 +110,9 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
         ));
     }
     let passed_over = deck.passed_over.keys().map(|keyword| format!("*{keyword}")).collect();
-    MeshNotes { told, as_points: Vec::new(), passed_over }
+    MeshNotes { told, passed_over, ..MeshNotes::default() }
 }
+    let told = told.into_iter().map(MeshNote::Sentence).collect();
 
 /// Groups under way, and the faces and points that they need.
 struct Groups<'m> {

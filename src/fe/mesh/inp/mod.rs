@@ -59,4 +59,5 @@ impl Mesh {
         mesh.turn_clockwise();
         Ok(mesh)
     }
+        mesh.tell_what_is_beside();
 }

@@ -9,7 +9,6 @@ use std::f64::consts::{PI, TAU};
 
 fn empty() -> Mesh {
     Mesh {
-        left_out: Vec::new(),
         nodes: Vec::new(),
         node_tags: Vec::new(),
         blocks: Vec::new(),
