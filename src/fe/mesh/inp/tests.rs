@@ -226,6 +226,17 @@ fn elements_that_make_no_body_are_told() {
     assert!(groups(&mesh).contains(&"skin2 2 4 1".to_owned()));
 }
 
+/// Tags of entities are made up here, so that no name can mean one.
+#[test]
+fn a_set_is_no_entity() {
+    let deck = CUBES.replace("*ELSET, ELSET=both", "*ELEMENT, TYPE=S4\n40, 1,2,3,4\n*ELSET, ELSET=both");
+    let mut mesh = read(deck.as_bytes()).unwrap();
+    let before = mesh.groups.len();
+    mesh.add_entity_groups(["surface 1", "volume 1"]);
+    assert_eq!(mesh.groups.len(), before);
+    assert!(!mesh.names().iter().any(|name| name == "surface 1"), "{:?}", mesh.names());
+}
+
 /// What is changed in the deck of the cubes, or of CAE, and the message.
 #[test]
 fn what_cannot_be_read_is_refused_by_line() {
