@@ -120,3 +120,13 @@ fn what_no_body_needs_is_left_out() {
         assert!(errors(&modes).contains(told), "{}", errors(&modes));
     }
 }
+
+/// What stands in the place of a group's name, in editors.
+#[test]
+fn the_schema_says_what_a_group_may_be() {
+    let schema = plummer(Path::new("."), &["schema"]);
+    let schema = String::from_utf8_lossy(&schema.stdout).into_owned();
+    assert!(
+        schema.contains("a physical group, a set, or CAD entities") && !schema.contains("physical group of the mesh")
+    );
+}
