@@ -93,7 +93,7 @@ pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
 
 fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let overlaps = model.overlaps.iter().map(|overlap| {
-        format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence())
+        format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence("m"))
     });
     let touching = model.touching.iter().map(|touching| {
         let [a, b] = &touching.parts;
@@ -103,18 +103,18 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
                 "nothing holds them together there; where they are one body, use BooleanFragments in gmsh, merge their nodes ({MERGE_NODES}), or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
             ),
         };
-        format!("{}; {help}", touching.sentence())
+        format!("{}; {help}", touching.sentence("m"))
     });
     let crossings = model.crossings.iter().map(|crossing| {
         format!(
             "{}; mass and stiffness count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments), or move it",
-            crossing.sentence()
+            crossing.sentence("m")
         )
     });
     let apart = model.apart.iter().map(|apart| {
         format!(
             "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
-            apart.sentence()
+            apart.sentence("m")
         )
     });
     let links = model.description.links.iter().zip(&model.common_nodes);
