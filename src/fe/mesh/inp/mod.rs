@@ -52,12 +52,23 @@ impl Mesh {
             _ => by_ending,
         };
         if !is_inp {
-            return Self::from_gmsh_bytes(bytes, path, unit);
+            return Self::from_gmsh_bytes(bytes, path, unit).map_err(|error| with_converter(error, path));
         }
         let mesh = build::mesh(text, path, unit.to_metres());
         let mut mesh = mesh.map_err(|fault| MeshError::Inp { path: path.to_path_buf(), fault })?;
         mesh.turn_clockwise();
         Ok(mesh)
     }
-        mesh.tell_what_is_beside();
+}
+
+/// Adds the command of gmsh to the error of a mesh in a format that gmsh converts (tried with 4.8.4).
+fn with_converter(error: MeshError, path: &Path) -> MeshError {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match error {
+        MeshError::Gmsh { path, fault } if ["unv", "bdf", "nas", "vtk"].contains(&ending.as_str()) => {
+            let advice = format!("convert it: gmsh IN.{ending} -save -format msh22 -o OUT.msh");
+            MeshError::Gmsh { path, fault: MshError(format!("{fault}; {advice}")) }
+        }
+        error => error,
+    }
 }
