@@ -6,11 +6,12 @@ use std::path::Path;
 use super::earlier_results::result_of;
 use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder};
-use crate::app::case::Case;
+use crate::app::case::{Case, short};
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection, SurfaceKind};
 use crate::app::error::ComputeError;
 use crate::app::scene::size_doubt;
+use crate::fe::mesh::{ConsistentUnits, DeckMaterial};
 use crate::numerics::units::LengthUnit;
 use crate::report::{counted, mass_in_words, significant, size_in_words};
 
@@ -44,11 +45,11 @@ pub(crate) fn inspect(
     let unit = unit.or(housing.map(|housing| housing.length_unit));
     let straight = straight || housing.is_some_and(|housing| housing.straighten);
     let found = Inspection::of_file(path, unit, straight).map_err(ComputeError::from)?;
-    let result = json(&InspectResult {
     if found.shells {
         let what = "the mesh is of surfaces that do not lie in a plane z = const, and shells are not modelled";
         return Err(CliError::input(format!("{}: {what}", path.display())).with_help(SHELLS));
     }
+    let result = json(&InspectResult {
         plummer: VERSION,
         command: "inspect",
         mesh: path,
@@ -124,6 +125,13 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     if !inventory.notes.passed_over.is_empty() {
         line("not read", inventory.notes.passed_over.join(", "));
     }
+    let notes = &inventory.notes;
+    notes.materials.iter().for_each(|material| line("material", of_file(material, &notes.materials)));
+    for held in &notes.supports {
+        let axes = ["x", "y", "z"].into_iter().zip(held.fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| axis);
+        line("held", format!("\"{}\" along {}", held.group, axes.collect::<Vec<_>>().join(", ")));
+    }
+    notes.not_supports.iter().for_each(|note| line("not held", note.clone()));
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
     let extent = inventory.bounding_box.extent();
@@ -197,6 +205,18 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         );
     }
     text
+}
+
+/// A material of the file, in the file's numbers.
+fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
+    let elastic = material.elastic.map(|[young, poisson]| format!("E {}, nu {poisson}", short(young)));
+    let density = material.density.map(|density| format!("density {}", short(density)));
+    let [elastic, density] = [(elastic, "no isotropic modulus"), (density, "no density")]
+        .map(|(known, none)| known.unwrap_or_else(|| none.to_owned()));
+    let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
+    let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
+    let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
+    format!("\"{}\": {elastic}, {density} ({units}) of {of}", material.name)
 }
 
 /// Surfaces that the summary lists.

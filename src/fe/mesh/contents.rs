@@ -2,7 +2,7 @@
 //!
 //! Plane meshes that are seen from behind.
 
-use super::{ElementKind, MeshError};
+use super::{DeckMaterial, DeckSupport, ElementKind, MeshError};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -125,7 +125,7 @@ pub enum MeshNote {
 }
 
 /// What of a file was changed, or is not in the mesh.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct MeshNotes {
     /// What was changed or left out and matters to results, a sentence each.
     #[schemars(with = "Vec<String>")]
@@ -134,6 +134,19 @@ pub struct MeshNotes {
     pub as_points: Vec<String>,
     /// Keywords of an Abaqus or CalculiX file that are passed over, the first 64 of them; most belong to the case.
     pub passed_over: Vec<String>,
+    /// Materials of such a file.
+    pub materials: Vec<DeckMaterial>,
+    /// Groups that such a file holds.
+    pub supports: Vec<DeckSupport>,
+    /// What such a file holds and no support can say, a sentence each.
+    pub not_supports: Vec<String>,
+}
+
+impl MeshNotes {
+    /// The file's material of a group of the bodies.
+    pub(crate) fn material_of(&self, group: &str) -> Option<&DeckMaterial> {
+        self.materials.iter().find(|material| material.groups.iter().any(|own| own == group))
+    }
 }
 
 /// Version of gmsh's MSH format, or the other format that is read.

@@ -11,6 +11,7 @@
 
 mod contents;
 pub(crate) mod cylinder;
+mod deck_case;
 mod entity_groups;
 mod error;
 mod faces;
@@ -25,6 +26,8 @@ pub(crate) mod surfaces;
 pub use contents::{
     ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNote, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
 };
+pub(crate) use deck_case::ConsistentUnits;
+pub use deck_case::{DeckMaterial, DeckSupport};
 pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};

@@ -2,6 +2,7 @@
 
 use super::MshError;
 use super::block::capitals;
+use super::case_data::CaseData;
 use super::deck::{Deck, JOINTS};
 use super::kinds::Purpose;
 use super::read::Bodies;
@@ -26,6 +27,7 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
     read_sets(&deck, &mut bodies, &mut allowance)?;
     let surfaces = surfaces(&deck, &bodies, &mut allowance)?;
     check_bodies(&bodies)?;
+    let case_data = CaseData::read(&deck, &mut bodies);
     let notes = notes(&deck, &bodies);
     let Bodies { nodes, node_numbers, mut blocks, places, element_numbers, node_sets, element_sets, .. } = bodies;
     // blocks without elements go
@@ -56,6 +58,7 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
         groups.add_element_set(set.name, members.collect())?;
     }
     groups.finish()?;
+    case_data.note(&mut mesh, &places);
     Ok(mesh)
 }
 
@@ -109,10 +112,10 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
             joints.join(", ")
         ));
     }
+    let told = told.into_iter().map(MeshNote::Sentence).collect();
     let passed_over = deck.passed_over.keys().map(|keyword| format!("*{keyword}")).collect();
     MeshNotes { told, passed_over, ..MeshNotes::default() }
 }
-    let told = told.into_iter().map(MeshNote::Sentence).collect();
 
 /// Groups under way, and the faces and points that they need.
 struct Groups<'m> {
