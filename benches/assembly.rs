@@ -63,7 +63,6 @@ fn tet_box(cells: usize) -> Mesh {
         elements,
     };
     Mesh {
-        left_out: Vec::new(),
         node_tags: (1..=nodes.len() as u64).collect(),
         groups: vec![
             group("base", 0, (0..side * side).collect(), ids(1, side * side).collect()),

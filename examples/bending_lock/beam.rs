@@ -118,7 +118,6 @@ impl Beam {
             entity,
         };
         Mesh {
-            left_out: Vec::new(),
             node_tags: (1..=nodes.len() as u64).collect(),
             nodes,
             blocks: vec![block],

@@ -186,3 +186,15 @@ fn messages_name_the_file() {
         )
     );
 }
+
+/// Each command was tried with gmsh 4.8.4.
+#[test]
+fn a_mesh_that_gmsh_converts_is_told_how() {
+    for (name, start) in [("a.unv", "    -1\n"), ("a.BDF", "$ Nastran\n"), ("a.nas", "SOL 101\n"), ("a.vtk", "# vtk\n")]
+    {
+        let error = Mesh::from_bytes(start, Path::new(name), LengthUnit::Metre).unwrap_err().to_string();
+        let ending = name[2..].to_lowercase();
+        let command = format!("; convert it: gmsh IN.{ending} -save -format msh22 -o OUT.msh");
+        assert!(error.starts_with(&format!("{name}: not a gmsh mesh")) && error.ends_with(&command), "{error}");
+    }
+}

@@ -120,3 +120,39 @@ fn what_no_body_needs_is_left_out() {
         assert!(errors(&modes).contains(told), "{}", errors(&modes));
     }
 }
+
+/// Of one body in no group, in the mesh's own unit; and of shells no more than that.
+#[test]
+fn a_bad_body_and_shells_are_refused_in_their_own_words() {
+    let folder = scratch("groups-bad");
+    let mesh = |nodes: &str, elements: &str| {
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n{nodes}\n$EndNodes\n$Elements\n2\n{elements}\n$EndElements\n"
+        )
+    };
+    let folded = mesh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 .9 .5 0", "1 2 2 0 1 1 2 3\n2 2 2 0 1 1 4 3");
+    fs::write(folder.join("folded.msh"), folded).unwrap();
+    let output = plummer(&folder, &["inspect", "folded.msh"]);
+    let told = errors(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(told.contains("error: elements of the mesh lie in one another") && told.contains("unit^2"), "{told}");
+    assert!(
+        told.contains("help: mesh the geometry again") && !told.contains(" m^2") && !told.contains("cut"),
+        "{told}"
+    );
+    let shells = mesh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 0 1", "1 2 2 0 1 1 2 3\n2 2 2 0 2 1 2 4");
+    fs::write(folder.join("shells.msh"), shells).unwrap();
+    let output = plummer(&folder, &["inspect", "shells.msh"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty() && errors(&output).starts_with("error: shells.msh: the mesh is of surfaces"));
+}
+
+/// What stands in the place of a group's name, in editors.
+#[test]
+fn the_schema_says_what_a_group_may_be() {
+    let schema = plummer(Path::new("."), &["schema"]);
+    let schema = String::from_utf8_lossy(&schema.stdout).into_owned();
+    assert!(
+        schema.contains("a physical group, a set, or CAD entities") && !schema.contains("physical group of the mesh")
+    );
+}

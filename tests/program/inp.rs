@@ -104,3 +104,80 @@ fn what_the_file_cannot_hold_is_told() {
     // six rigid motions come first
     assert!(deck.contains("*FREQUENCY\n10\n"));
 }
+
+/// A deck of another program: what it says of material and supports is the case's, in SI.
+#[test]
+fn init_takes_material_and_supports_from_the_file() {
+    let folder = exported("init");
+    let text = plummer(&folder, "init x/housing.inp --out c.toml --length-unit m").stdout;
+    let text = String::from_utf8_lossy(&text).into_owned();
+    for sentence in [
+        "Parts: \"housing\" of aluminium_1 (by the file).",
+        "Materials of the file: aluminium_1 of 70 GPa and 2700 kg/m^3; by their numbers its units are m-kg-s.",
+        "Held, as *BOUNDARY of the file says: \"feet\".",
+    ] {
+        assert!(text.contains(sentence), "{text}");
+    }
+    let case = fs::read_to_string(folder.join("c.toml")).unwrap();
+    assert!(case.contains("{ group = \"feet\", fixed = [\"x\", \"y\", \"z\"] }"), "{case}");
+    let alone = "c.toml --set housing.integration=\"4-point\" --set modes.count=4";
+    let run = plummer(&folder, &format!("export {alone} --to inp --out y"));
+    assert!(run.status.success());
+    let [first, again] = ["x", "y"].map(|of| fs::read_to_string(folder.join(of).join("housing.inp")).unwrap());
+    let of = |deck: &str, from: &str| deck.split(from).nth(1).unwrap_or_default().lines().nth(1).unwrap().to_owned();
+    for keyword in ["*ELASTIC", "*DENSITY"] {
+        assert_eq!(of(&first, keyword), of(&again, keyword));
+    }
+    // a case of another material, and of another unit than the file's numbers are in
+    let steel = fs::read_to_string(folder.join("b.toml")).unwrap().replace("\"aluminium\"", "\"steel\"");
+    fs::write(folder.join("d.toml"), steel.replace("\"m\"", "\"cm\"")).unwrap();
+    let told = |case: &str| String::from_utf8_lossy(&plummer(&folder, &format!("modes {case}")).stdout).into_owned();
+    let text = told("d.toml");
+    let other = "part \"housing\": aluminium_1 of the mesh file has 70.00 GPa and 2700 kg/m^3, steel of the case 206.0 GPa and 7850 kg/m^3";
+    assert!(text.contains(other), "{text}");
+    assert!(
+        text.contains("the materials of this file are in m-kg-s, a length in m, and housing.length_unit is \"cm\""),
+        "{text}"
+    );
+    assert!(!told("b.toml").contains("of the mesh file"));
+}
+
+/// The same in mm, t and s, with what init cannot take: a material without density, single nodes, and steel beside.
+#[test]
+fn units_of_a_deck_are_known_by_its_materials() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("inp-units");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let deck = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,0,0,-1\n*ELEMENT,TYPE=C3D4,ELSET=upper\n1,1,2,3,4\n\
+        *ELEMENT,TYPE=C3D4,ELSET=lower\n2,1,3,2,5\n*ELSET,ELSET=Eall\nupper,lower\n*NSET,NSET=top\n1,4\n\
+        *MATERIAL,NAME=bearing steel\n*DENSITY\n7.85e-9\n*ELASTIC\n210000,0.3\n*MATERIAL,NAME=GG\n*ELASTIC\n110000,.27\n\
+        *SOLID SECTION,ELSET=upper,MATERIAL=bearing steel\n*SOLID SECTION,ELSET=lower,MATERIAL=GG\n\
+        *STEP\n*FREQUENCY\n3\n*BOUNDARY\ntop,2,3\n5,1,3\n*END STEP\n";
+    fs::write(folder.join("a.inp"), deck).unwrap();
+    let text = String::from_utf8_lossy(&plummer(&folder, "init a.inp").stdout).into_owned();
+    for sentence in [
+        "length_unit = \"mm\": that of the file's materials",
+        "\"upper\" of bearing steel of the mesh (by the file) and \"lower\" of aluminium (a guess)",
+        "by their numbers its units are mm-t-s",
+        "The material \"GG\" of the file is not taken: it has no *DENSITY",
+        "*BOUNDARY holds single nodes (1, first in line ",
+    ] {
+        assert!(text.contains(sentence), "{sentence}\n{text}");
+    }
+    let case = fs::read_to_string(folder.join("a.toml")).unwrap();
+    for line in
+        ["[materials.\"bearing steel of the mesh\"]", "young = 2.1e11 ", "density = 7850 ", "fixed = [\"y\", \"z\"]"]
+    {
+        assert!(case.contains(line), "{line}\n{case}");
+    }
+    let inspected = String::from_utf8_lossy(&plummer(&folder, "inspect a.inp").stdout).into_owned();
+    assert!(
+        inspected.contains("\"bearing steel\": E 210000, nu 0.3, density 7.85e-9 (mm-t-s) of \"upper\""),
+        "{inspected}"
+    );
+    let told = String::from_utf8_lossy(&plummer(&folder, "modes a.toml --set modes.count=2").stdout).into_owned();
+    assert!(
+        told.contains("mesh with second order (C3D10, C3D15 or C3D20 in the program that wrote the file)"),
+        "{told}"
+    );
+}

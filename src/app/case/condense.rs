@@ -38,7 +38,7 @@ pub enum Interface {
     /// The ring's degrees of freedom.
     #[default]
     Ring,
-    /// The nodes of a physical group of the mesh, each with its displacements.
+    /// The nodes of a group of the mesh, each with its displacements.
     Group(String),
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
     Nodes(Vec<u64>),
@@ -48,7 +48,7 @@ pub enum Interface {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = one_of(&["group", "nodes"])))]
 struct InterfaceForm {
-    /// The nodes of this physical group of the mesh, each with its displacements.
+    /// The nodes of this group of the mesh, each with its displacements.
     group: Option<String>,
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
     nodes: Option<Vec<u64>>,

@@ -48,7 +48,7 @@ pub struct Push {
 struct PushForm {
     /// Its name in results.
     name: Option<String>,
-    /// Shared evenly by the nodes of this physical group of the mesh.
+    /// Shared evenly by the nodes of this group of the mesh.
     group: Option<String>,
     /// On the ring, at an angle in degrees.
     ring_deg: Option<f64>,
@@ -102,7 +102,7 @@ fn is_of_row(direction: &[f64; 3]) -> bool {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SensorSpot {
-    /// The mean over a physical group of the mesh.
+    /// The mean over a group of the mesh.
     Group(String),
     /// On the ring, at an angle in degrees.
     RingDeg(f64),
@@ -125,7 +125,7 @@ pub enum SensorSpot {
 struct SensorForm {
     /// Name of its signal; unique.
     name: String,
-    /// The mean over this physical group of the mesh.
+    /// The mean over this group of the mesh.
     group: Option<String>,
     /// On the ring, at an angle in degrees.
     ring_deg: Option<f64>,

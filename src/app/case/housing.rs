@@ -55,7 +55,7 @@ fn is_refused(rule: &OverlapRule) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// Name of a physical group of the mesh.
+    /// A group of the mesh: a physical group, a set, or CAD entities as "surface 7".
     pub group: String,
     /// Name of a material.
     pub material: String,
@@ -76,7 +76,7 @@ pub enum Axis {
 /// What holds a group of nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Support {
-    /// Name of a physical group of the mesh.
+    /// A group of the mesh: a physical group, a set, or CAD entities as "surface 7".
     pub group: String,
     /// How it is held.
     pub hold: Hold,
@@ -98,7 +98,7 @@ pub enum Hold {
 #[schemars(extend("oneOf" = one_of(&["fixed", "spring", "radial"]), "not" = together(&["fixed", "per"])))]
 /// What holds a group of nodes: `fixed`, `spring` or `radial`.
 struct SupportForm {
-    /// Name of a physical group of the mesh.
+    /// A group of the mesh: a physical group, a set, or CAD entities as "surface 7".
     group: String,
     /// These displacements are zero: "all", or a list of "x", "y" and "z".
     #[serde(default, skip_serializing_if = "Option::is_none")]

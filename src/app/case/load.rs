@@ -167,7 +167,7 @@ impl Case {
         known_isotropic(self, key, name).map_err(|broken| self.broken(&broken))
     }
 
-    /// Checks that the mesh has every physical group that the case names.
+    /// Checks that the mesh has every group that the case names.
     ///
     /// # Errors
     /// [`CaseError`] with the first that it lacks and the nearest that it has.

@@ -111,7 +111,7 @@ pub struct RingSupport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
-    /// Name of the mesh's physical group of the bore.
+    /// The group of the bore: a physical group, a set, or CAD entities as "surface 7".
     pub group: String,
     /// What the bore follows.
     #[serde(default)]

@@ -48,7 +48,7 @@ impl SpringKeys {
 #[schemars(extend("oneOf" = one_of(&["spring", "radial", "tie"]), "not" = together(&["tie", "per"])))]
 /// A connection between two groups: `spring`, `radial` or `tie = true`.
 struct LinkForm {
-    /// Names of two physical groups of the mesh.
+    /// Names of two groups of the mesh.
     between: [String; 2],
     /// Stiffnesses of springs along the axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]

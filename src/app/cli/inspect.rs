@@ -6,11 +6,12 @@ use std::path::Path;
 use super::earlier_results::result_of;
 use super::output::json;
 use super::{CliError, Options, Outcome, OutputFolder};
-use crate::app::case::Case;
+use crate::app::case::{Case, short};
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection, SurfaceKind};
 use crate::app::error::ComputeError;
 use crate::app::scene::size_doubt;
+use crate::fe::mesh::{ConsistentUnits, DeckMaterial};
 use crate::numerics::units::LengthUnit;
 use crate::report::{counted, mass_in_words, significant, size_in_words};
 
@@ -18,7 +19,7 @@ use crate::report::{counted, mass_in_words, significant, size_in_words};
 const DENSITIES: [(f64, &str); 2] = [(2700.0, "of aluminium"), (7850.0, "of steel")];
 
 /// What to do with a mesh of surfaces in space.
-pub(super) const SHELLS: &str = "mesh the volume (gmsh FILE.geo -3 -o FILE.msh), or draw a plane model in x and y";
+const SHELLS: &str = "mesh the volume (gmsh FILE.geo -3 -o FILE.msh), or draw a plane model in x and y";
 
 /// Inspects a mesh, or that of a case; writes `inspect.json` if a folder was named with `--out`.
 ///
@@ -44,6 +45,10 @@ pub(crate) fn inspect(
     let unit = unit.or(housing.map(|housing| housing.length_unit));
     let straight = straight || housing.is_some_and(|housing| housing.straighten);
     let found = Inspection::of_file(path, unit, straight).map_err(ComputeError::from)?;
+    if found.shells {
+        let what = "the mesh is of surfaces that do not lie in a plane z = const, and shells are not modelled";
+        return Err(CliError::input(format!("{}: {what}", path.display())).with_help(SHELLS));
+    }
     let result = json(&InspectResult {
         plummer: VERSION,
         command: "inspect",
@@ -63,27 +68,23 @@ pub(crate) fn inspect(
     Ok(Outcome { summary: summary(path, &found, density), result, written, verdict: verdict(&found) })
 }
 
-/// A mesh is good unless it is of shells, or elements of it are folded or count twice.
+/// A mesh is good unless elements of it are folded or count twice.
 pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
-    if found.shells {
-        return Err(CliError::input(
-            "the mesh is of surfaces that do not lie in a plane z = const, and shells are not modelled",
-        )
-        .with_help(SHELLS));
-    }
-    let overlapping: Vec<String> = found.overlapping.iter().map(|overlap| overlap.sentence()).collect();
+    let unit = found.length_unit.map_or("unit", |_| "m");
+    let overlapping: Vec<String> = found.overlapping.iter().map(|overlap| overlap.sentence(unit)).collect();
     let (what, help) = match (found.invalid.first(), &found.doubled, &found.mixed_orders) {
         (None, None, None) if overlapping.is_empty() => return Ok(()),
-        (None, None, None) => (
-            overlapping.join("; "),
-            "cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy; with housing.overlap = \"allow\" a case takes them as they are",
-        ),
+        (None, None, None) => {
+            let advice = found.overlapping[0].advice();
+            let help = format!("{advice}; with housing.overlap = \"allow\" a case takes them as they are");
+            return Err(CliError::failed(overlapping.join("; ")).with_help(help));
+        }
         (None, None, Some(mixed)) => (
-            mixed.sentence(),
+            mixed.sentence(unit),
             "all elements of a body are of one order: mesh the geometry again, gmsh PART.step -3 -order 2 -o PART.msh",
         ),
         (None, Some(doubled), _) => (
-            doubled.sentence(),
+            doubled.sentence(unit),
             "keep each element once: put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
         ),
         (Some(first), ..) => (
@@ -119,11 +120,18 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let _ = writeln!(text, "{name:<18}{value}");
     };
     line("file", format!("{} ({})", path.display(), inventory.format));
-    inventory.notes.told.iter().for_each(|note| line("warning", note.clone()));
+    inventory.notes.told.iter().for_each(|note| line("warning", note.to_string()));
     inventory.notes.as_points.iter().for_each(|note| line("points", note.clone()));
     if !inventory.notes.passed_over.is_empty() {
         line("not read", inventory.notes.passed_over.join(", "));
     }
+    let notes = &inventory.notes;
+    notes.materials.iter().for_each(|material| line("material", of_file(material, &notes.materials)));
+    for held in &notes.supports {
+        let axes = ["x", "y", "z"].into_iter().zip(held.fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| axis);
+        line("held", format!("\"{}\" along {}", held.group, axes.collect::<Vec<_>>().join(", ")));
+    }
+    notes.not_supports.iter().for_each(|note| line("not held", note.clone()));
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
     let extent = inventory.bounding_box.extent();
@@ -157,11 +165,11 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         let more = if found.invalid_elements > tags.len() { ", ..." } else { "" };
         line("INVALID", format!("{}: {}{more}", counted(found.invalid_elements, "element"), tags.join(", ")));
     }
-    found.doubled.iter().for_each(|doubled| line("DOUBLED", doubled.sentence()));
-    found.mixed_orders.iter().for_each(|mixed| line("MIXED ORDERS", mixed.sentence()));
-    found.overlapping.iter().for_each(|overlap| line("OVERLAP", overlap.sentence()));
-    found.touching.iter().for_each(|touching| line("warning", touching.sentence()));
-    found.crossing.iter().for_each(|crossing| line("warning", crossing.sentence()));
+    found.doubled.iter().for_each(|doubled| line("DOUBLED", doubled.sentence(unit)));
+    found.mixed_orders.iter().for_each(|mixed| line("MIXED ORDERS", mixed.sentence(unit)));
+    found.overlapping.iter().for_each(|overlap| line("OVERLAP", overlap.sentence(unit)));
+    found.touching.iter().for_each(|touching| line("warning", touching.sentence(unit)));
+    found.crossing.iter().for_each(|crossing| line("warning", crossing.sentence(unit)));
     line("connected parts", inventory.parts.len().to_string());
     if inventory.parts.len() > 1 {
         for part in &inventory.parts {
@@ -197,6 +205,18 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         );
     }
     text
+}
+
+/// A material of the file, in the file's numbers.
+fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
+    let elastic = material.elastic.map(|[young, poisson]| format!("E {}, nu {poisson}", short(young)));
+    let density = material.density.map(|density| format!("density {}", short(density)));
+    let [elastic, density] = [(elastic, "no isotropic modulus"), (density, "no density")]
+        .map(|(known, none)| known.unwrap_or_else(|| none.to_owned()));
+    let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
+    let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
+    let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
+    format!("\"{}\": {elastic}, {density} ({units}) of {of}", material.name)
 }
 
 /// Surfaces that the summary lists.

@@ -6,7 +6,7 @@ use super::bearing::race_contacts;
 use super::housing::{description, read_mesh};
 use super::plausible::STATIC_RATING;
 use super::ring::{Seat, layer, metres};
-use super::{fit, plausible};
+use super::{deck, fit, plausible};
 use crate::app::case;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
@@ -41,9 +41,6 @@ const GAP: f64 = 0.5;
 /// Width of a section over the outer diameter of its ring that is told: rings and housings about a bearing are narrower.
 const WIDTH: f64 = 2.0;
 
-/// How gmsh merges nodes in the same place.
-const MERGE_NODES: &str = "echo 'Merge \"IN.msh\"; Coherence Mesh;' > x.geo; gmsh x.geo -save -o OUT.msh";
-
 /// Elements of constant strain across their thickness, which lock in bending (docs/elements.md).
 const STIFF_IN_BENDING: [ElementKind; 4] =
     [ElementKind::Tri3, ElementKind::Tet4, ElementKind::Wedge6, ElementKind::Pyramid5];
@@ -59,9 +56,10 @@ pub(crate) fn doubts(
 ) -> Result<Vec<String>, ComputeError> {
     let mut found = plausible::materials(case);
     if let Some((mesh, model)) = housing {
-        found.extend(mesh.told().into_iter().map(|told| format!("{}: {told}", mesh.source.display())));
+        found.extend(mesh.notes.told.iter().map(|told| format!("{}: {told}", mesh.source.display())));
+        found.extend(deck::doubts(case, mesh));
         found.extend(plausible::housing(case, model));
-        found.extend(housing_doubts(model));
+        found.extend(housing_doubts(mesh, model));
     }
     if let Some(ring) = &case.ring {
         found.extend(section_doubts(case, ring)?);
@@ -91,30 +89,32 @@ pub(crate) fn doubts_of_case(case: &Case) -> Result<Vec<String>, ComputeError> {
     doubts(case, Some((&mesh, &model)), None)
 }
 
-fn housing_doubts(model: &HousingModel) -> Vec<String> {
+fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
+    let merge = deck::merge_nodes(mesh);
+    let order = deck::second_order(mesh);
     let overlaps = model.overlaps.iter().map(|overlap| {
-        format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence())
+        format!("{}; housing.overlap allows it, mass and stiffness count twice there", overlap.sentence("m"))
     });
     let touching = model.touching.iter().map(|touching| {
         let [a, b] = &touching.parts;
         let help = match a == b {
-            true => format!("where they are one body, merge their nodes ({MERGE_NODES})"),
+            true => format!("where they are one body, merge their nodes ({merge})"),
             false => format!(
-                "nothing holds them together there; where they are one body, use BooleanFragments in gmsh, merge their nodes ({MERGE_NODES}), or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
+                "nothing holds them together there; where they are one body, use BooleanFragments in gmsh, merge their nodes ({merge}), or add {{ between = [\"{a}\", \"{b}\"], tie = true }} to housing.links"
             ),
         };
-        format!("{}; {help}", touching.sentence())
+        format!("{}; {help}", touching.sentence("m"))
     });
     let crossings = model.crossings.iter().map(|crossing| {
         format!(
             "{}; mass and stiffness count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments), or move it",
-            crossing.sentence()
+            crossing.sentence("m")
         )
     });
     let apart = model.apart.iter().map(|apart| {
         format!(
             "{}; the tie is rigid across that distance: draw the parts on each other, or give it the faces that are",
-            apart.sentence()
+            apart.sentence("m")
         )
     });
     let links = model.description.links.iter().zip(&model.common_nodes);
@@ -134,7 +134,7 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
     let trapezoids = model.trapezoids().map(|found| {
         let [x, y, z] = found.place;
         format!(
-            "part \"{}\" has {} elements of first order with tilted sides in thin places, where they are far too stiff in bending: frequencies may be up to {:.1} times too high; the worst is element {}, ({x:.6}, {y:.6}, {z:.6}) m; mesh with second order (gmsh -order 2), or with sides straight across the thickness",
+            "part \"{}\" has {} elements of first order with tilted sides in thin places, where they are far too stiff in bending: frequencies may be up to {:.1} times too high; the worst is element {}, ({x:.6}, {y:.6}, {z:.6}) m; mesh with second order ({order}), or with sides straight across the thickness",
             model.description.parts[found.part].group, found.elements, found.factor, found.tag
         )
     });
@@ -148,12 +148,12 @@ fn housing_doubts(model: &HousingModel) -> Vec<String> {
         let counts = STIFF_IN_BENDING.into_iter().chain(plain).map(of_kind).filter(|(count, _)| *count > 0);
         counts.map(|(count, kind)| {
             let [plain, way] = match STIFF_IN_BENDING.contains(&kind) {
-                true => ["", "mesh with second order (gmsh IN.msh -3 -order 2 -o OUT.msh)"],
-                false => ["plain ", "leave housing.linear = \"plain\" out, or mesh with second order (gmsh IN.msh -3 -order 2 -o OUT.msh)"],
+                true => ["", ""],
+                false => ["plain ", "leave housing.linear = \"plain\" out, or "],
             };
             let lost = if kind == ElementKind::Pyramid5 { "48 %" } else { "75 %" };
             format!(
-                "part \"{}\" has {count} {plain}{} elements, which are far too stiff in bending: with one layer across a thickness, they lose {lost} of the deflection and more; {way}",
+                "part \"{}\" has {count} {plain}{} elements, which are far too stiff in bending: with one layer across a thickness, they lose {lost} of the deflection and more; {way}mesh with second order ({order})",
                 described.group,
                 kind.name()
             )
@@ -273,9 +273,10 @@ fn bore_in_pieces(mesh: &Mesh, model: &HousingModel, bore: &str) -> Result<Optio
     }
     let named: Vec<String> = pieces.iter().map(|parts| format!("\"{}\"", parts.join("\", \""))).collect();
     Ok(Some(format!(
-        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, use BooleanFragments in gmsh, merge their nodes ({MERGE_NODES}), or add a link to housing.links",
+        "the bore \"{bore}\" is in {} bodies that nothing but the ring joins, of the parts {}: where they are one in the machine, use BooleanFragments in gmsh, merge their nodes ({}), or add a link to housing.links",
         pieces.len(),
-        named.join(" and ")
+        named.join(" and "),
+        deck::merge_nodes(mesh)
     )))
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod at_rest;
 pub(crate) mod bearing;
 pub(crate) mod condensed;
 pub(crate) mod damping;
+mod deck;
 pub(crate) mod doubts;
 mod fit;
 #[cfg(test)]

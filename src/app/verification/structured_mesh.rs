@@ -129,7 +129,6 @@ fn mesh(kind: ElementKind, nodes: Vec<[f64; 3]>, connectivity: Vec<usize>) -> Me
         }],
         blocks: vec![ElementBlock { kind, tags: (1..=count as u64).collect(), connectivity, entity }],
         nodes,
-        left_out: Vec::new(),
         format: MshFormat { version: MshVersion::V41, binary: false },
         notes: MeshNotes::default(),
         source: "structured grid".into(),

@@ -2,7 +2,7 @@
 //!
 //! Plane meshes that are seen from behind.
 
-use super::{ElementKind, MeshError};
+use super::{DeckMaterial, DeckSupport, ElementKind, MeshError};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,8 +20,6 @@ pub struct Mesh {
     pub blocks: Vec<ElementBlock>,
     /// Physical groups, by dimension, then by tag.
     pub groups: Vec<PhysicalGroup>,
-    /// Elements below the body's dimension that the reader left out.
-    pub left_out: Vec<LeftOut>,
     /// How the file was written.
     pub format: MshFormat,
     /// What of the file is not in the mesh.
@@ -117,15 +115,38 @@ pub struct LeftOut {
     pub physical: i32,
 }
 
+/// What was changed or left out and matters to results. It is written as a sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MeshNote {
+    /// Elements below the body's dimension that have a node twice, at least one.
+    NodeTwice(Vec<LeftOut>),
+    /// Anything else.
+    Sentence(String),
+}
+
 /// What of a file was changed, or is not in the mesh.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct MeshNotes {
     /// What was changed or left out and matters to results, a sentence each.
-    pub told: Vec<String>,
+    #[schemars(with = "Vec<String>")]
+    pub told: Vec<MeshNote>,
     /// Node sets that hold whole faces and other nodes, and are points for that, a sentence each.
     pub as_points: Vec<String>,
     /// Keywords of an Abaqus or CalculiX file that are passed over, the first 64 of them; most belong to the case.
     pub passed_over: Vec<String>,
+    /// Materials of such a file.
+    pub materials: Vec<DeckMaterial>,
+    /// Groups that such a file holds.
+    pub supports: Vec<DeckSupport>,
+    /// What such a file holds and no support can say, a sentence each.
+    pub not_supports: Vec<String>,
+}
+
+impl MeshNotes {
+    /// The file's material of a group of the bodies.
+    pub(crate) fn material_of(&self, group: &str) -> Option<&DeckMaterial> {
+        self.materials.iter().find(|material| material.groups.iter().any(|own| own == group))
+    }
 }
 
 /// Version of gmsh's MSH format, or the other format that is read.
@@ -304,10 +325,10 @@ impl Mesh {
             corners[1..].reverse();
             middles[..kind.middle_edges().len()].reverse();
         }
-        self.notes.told.push(format!(
+        self.notes.told.push(MeshNote::Sentence(format!(
             "{} elements of the plane mesh ran clockwise and were turned round, the first is element {first}",
             turned.len()
-        ));
+        )));
     }
 
     /// The first node that is off the plane z = const of the others, if there is one.
@@ -359,7 +380,6 @@ mod tests {
                 format: MshFormat { version: MshVersion::V41, binary: false },
                 source: PathBuf::from("behind.msh"),
                 notes: MeshNotes::default(),
-                left_out: Vec::new(),
             };
             mesh.turn_clockwise();
             let coords: Vec<[f64; 3]> = mesh.blocks[0].connectivity.iter().map(|&node| mesh.nodes[node]).collect();

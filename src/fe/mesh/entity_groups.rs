@@ -1,6 +1,6 @@
 //! CAD entities as groups: "surface 7" and "surfaces 12, 13" are what lies on them, if no physical group is called so.
 
-use super::{ElementId, Mesh, PhysicalGroup};
+use super::{ElementId, Mesh, MshVersion, PhysicalGroup};
 use std::collections::HashSet;
 
 /// What gmsh calls entities of dimension 0 to 3.
@@ -37,10 +37,11 @@ impl Mesh {
             let Some((dimension, tags)) = entities_of(name) else {
                 continue;
             };
-            let elements = |tag: &i32| self.entity_elements(dimension, *tag);
-            if tags.iter().any(|tag| elements(tag).next().is_none()) {
+            let known = self.entities(|_| true, dimension);
+            if tags.iter().any(|tag| known.binary_search(tag).is_err()) {
                 continue;
             }
+            let elements = |tag: &i32| self.entity_elements(dimension, *tag);
             let mut elements: Vec<ElementId> = tags.iter().flat_map(elements).collect();
             elements.sort_unstable();
             elements.dedup();
@@ -72,9 +73,9 @@ impl Mesh {
         with.into_iter().filter(|tag| some.binary_search(tag).is_err()).collect()
     }
 
-    /// Tags of the entities of a dimension that have elements; sorted.
+    /// Tags of the entities of a dimension that have elements; sorted. An input file has none: its tags are made up.
     pub(crate) fn entities(&self, asked: impl Fn(usize) -> bool, dimension: usize) -> Vec<i32> {
-        let blocks = self.blocks.iter().enumerate();
+        let blocks = self.blocks.iter().enumerate().filter(|_| self.format.version != MshVersion::Inp);
         let own = blocks.filter(|(place, block)| block.kind.dimension() == dimension && asked(*place));
         let mut tags: Vec<i32> =
             own.filter(|(_, block)| !block.is_empty()).map(|(_, block)| block.entity.tag).collect();

@@ -11,6 +11,7 @@
 
 mod contents;
 pub(crate) mod cylinder;
+mod deck_case;
 mod entity_groups;
 mod error;
 mod faces;
@@ -22,7 +23,11 @@ mod left_out;
 mod rim;
 pub(crate) mod surfaces;
 
-pub use contents::{ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup};
+pub use contents::{
+    ElementBlock, ElementId, Entity, LeftOut, Mesh, MeshNote, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+};
+pub(crate) use deck_case::ConsistentUnits;
+pub use deck_case::{DeckMaterial, DeckSupport};
 pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};

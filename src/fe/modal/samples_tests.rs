@@ -32,7 +32,6 @@ impl Cells {
             plane: dimension == 2,
             nodes: BTreeMap::new(),
             mesh: Mesh {
-                left_out: Vec::new(),
                 nodes: Vec::new(),
                 node_tags: Vec::new(),
                 blocks: Vec::new(),

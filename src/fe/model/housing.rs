@@ -271,21 +271,24 @@ fn accepted_overlaps(
     let bodies = Bodies::of_housing(&mesh.nodes, elements, parts);
     if let Some(doubled) = bodies.doubled() {
         return refused(
-            doubled.sentence(),
+            doubled.sentence("m"),
             "their mass and stiffness would count twice: keep each element once; put every volume (surface of a plane mesh) into one physical group, and save the mesh again",
         );
     }
     if let Some(mixed) = bodies.mixed_orders() {
         return refused(
-            mixed.sentence(),
+            mixed.sentence("m"),
             "the body would come apart between the corners: expected all its elements in one order; mesh the geometry again: gmsh PART.step -3 -order 2 -o PART.msh, or tie bodies with nodes of their own by a link",
         );
     }
     let overlaps = bodies.overlaps();
     match overlaps.first() {
         Some(first) if rule == OverlapRule::Refuse => refused(
-            first.sentence(),
-            "mass and stiffness would count twice there: cut one from the other in gmsh (BooleanDifference or BooleanFragments) or delete the copy; housing.overlap = \"allow\" takes them as they are",
+            first.sentence("m"),
+            &format!(
+                "mass and stiffness would count twice there: {}; housing.overlap = \"allow\" takes them as they are",
+                first.advice()
+            ),
         ),
         _ => Ok(overlaps),
     }

@@ -161,7 +161,7 @@ impl HousingModel {
             Some(apart) if self.description.overlap == OverlapRule::Refuse => Err(ModelError::Refused(format!(
                 "{}: {}: a tie joins faces that lie on each other; move or cut one of the bodies in gmsh, or check the groups of the link; housing.overlap = \"allow\" takes them as they are",
                 self.path,
-                apart.sentence()
+                apart.sentence("m")
             ))),
             _ => Ok(found),
         }

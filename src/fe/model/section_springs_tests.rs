@@ -38,7 +38,6 @@ fn ring(in_space: bool) -> Ring {
 
 fn solid(dimension: usize, around: usize, frame: RingFrame) -> (MeshedRing, HousingModel) {
     let nothing = Mesh {
-        left_out: Vec::new(),
         nodes: Vec::new(),
         node_tags: Vec::new(),
         blocks: Vec::new(),

@@ -7,7 +7,6 @@ const RING: SolidRing = SolidRing { radius: 5.0, height: 1.5, width: 4.0, around
 
 fn empty() -> Mesh {
     Mesh {
-        left_out: Vec::new(),
         nodes: Vec::new(),
         node_tags: Vec::new(),
         blocks: Vec::new(),

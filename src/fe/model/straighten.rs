@@ -4,7 +4,7 @@
 //! nodes between its corners where the straight element has them, such an element is valid.
 
 use crate::fe::element::continuum::measure;
-use crate::fe::mesh::{ElementBlock, ElementId, Mesh};
+use crate::fe::mesh::{ElementBlock, ElementId, Mesh, MeshNote};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
@@ -44,7 +44,7 @@ pub(crate) fn straighten(mesh: &mut Mesh) {
     }
     if !mended.is_empty() {
         let sentence = sentence(mesh, &mended, &moved);
-        mesh.notes.told.push(sentence);
+        mesh.notes.told.push(MeshNote::Sentence(sentence));
     }
 }
 
@@ -138,7 +138,6 @@ mod tests {
             format: MshFormat { version: MshVersion::V41, binary: false },
             source: PathBuf::new(),
             notes: MeshNotes::default(),
-            left_out: Vec::new(),
         }
     }
 
@@ -155,7 +154,7 @@ mod tests {
         }
         // 0.45 sqrt 2 of sqrt 2
         assert_eq!(
-            mesh.notes.told,
+            mesh.notes.told.iter().map(ToString::to_string).collect::<Vec<_>>(),
             [
                 "1 folded element of second order (7) got straight edges: 1 node between corners moved, by at most 45.00 % of the longest edge"
             ]

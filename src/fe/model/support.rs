@@ -53,7 +53,7 @@ pub struct HousingSupport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointMass {
-    /// Name of a physical group of the mesh.
+    /// A group of the mesh: a physical group, a set, or CAD entities as "surface 7".
     pub group: String,
     /// Mass of the whole group in kg, > 0.
     pub mass: f64,

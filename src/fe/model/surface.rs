@@ -207,7 +207,6 @@ mod tests {
 
     fn mesh(nodes: &[[f64; 3]]) -> Mesh {
         Mesh {
-            left_out: Vec::new(),
             nodes: nodes.to_vec(),
             node_tags: (1..=nodes.len() as u64).collect(),
             blocks: Vec::new(),

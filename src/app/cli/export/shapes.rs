@@ -144,7 +144,6 @@ fn ring_line(shapes: &ModeShapes) -> Mesh {
         blocks: vec![line],
         nodes,
         groups: Vec::new(),
-        left_out: Vec::new(),
         format,
         notes: MeshNotes::default(),
         source: PathBuf::new(),

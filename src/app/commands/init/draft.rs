@@ -58,12 +58,12 @@ impl Draft {
         let draft = Self {
             length_unit: found.unit,
             bearing: found.bearing.map(|numbers| numbers.bearing.name),
-            parts: parts.map(|part| [part.group.clone(), part.material.to_owned()]).collect(),
+            parts: parts.map(|part| [part.group.clone(), part.material.clone()]).collect(),
             findings: read_from(&inspection).into_iter().chain(findings(&found)).collect(),
             text,
             bore: found.bore,
             other_holes: found.holes,
-            supports: found.groups.supports,
+            supports: found.groups.supports.into_iter().map(|support| support.group).collect(),
         };
         Ok((draft, inspection))
     }
@@ -71,13 +71,13 @@ impl Draft {
 
 /// What of the file was changed, or is not taken.
 fn read_from(inspection: &Inspection) -> Vec<String> {
-    let MeshNotes { told, as_points, passed_over } = &inspection.inventory.notes;
+    let MeshNotes { told, as_points, passed_over, not_supports, .. } = &inspection.inventory.notes;
     let mut lines: Vec<String> = told.iter().map(|note| format!("warning: {note}")).collect();
-    lines.extend(as_points.iter().cloned());
+    lines.extend(as_points.iter().chain(not_supports).cloned());
     if inspection.inventory.format.version == MshVersion::Inp {
         let passed_over = if passed_over.is_empty() { String::new() } else { format!(" ({})", passed_over.join(", ")) };
         lines.push(format!(
-            "Of this file the mesh alone is read; materials, supports and loads{passed_over} are the case's."
+            "Of this file mesh, materials and supports are read; loads and all else{passed_over} are the case's."
         ));
     }
     lines

@@ -3,7 +3,7 @@
 use super::bore::{Cylinders, cylinders};
 use super::groups::usable;
 use crate::fe::mesh::surfaces::{CadSurface, SurfaceShape};
-use crate::fe::mesh::{Mesh, MshVersion, Rim, entity_name};
+use crate::fe::mesh::{Mesh, Rim, entity_name};
 
 /// Holes, and flat faces, that are offered at most.
 const OFFERED: usize = 8;
@@ -27,11 +27,7 @@ pub(crate) fn offer(mesh: &mut Mesh, dimension: usize, rim: &Rim) -> (Cylinders,
     if found.bore.is_some() {
         return (found, Offered::default());
     }
-    // sets of an input file are no CAD entities
-    let tags = match mesh.format.version {
-        MshVersion::Inp => Vec::new(),
-        _ => mesh.entities(|_| true, dimension - 1),
-    };
+    let tags = mesh.entities(|_| true, dimension - 1);
     let surfaces = CadSurface::joined(mesh, rim, &tags);
     let named = |own: &CadSurface| entity_name(dimension - 1, &own.tags);
     let is_hole = |own: &&CadSurface| match &own.shape {

@@ -16,7 +16,7 @@ use crate::app::commands::Inspection;
 use crate::app::commands::inspect::size;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
-use crate::fe::mesh::{Mesh, MeshError, Rim};
+use crate::fe::mesh::{DeckMaterial, Mesh, MeshError, Rim};
 use crate::numerics::units::LengthUnit;
 
 /// What is asked for.
@@ -86,6 +86,8 @@ pub(crate) struct Found<'a> {
     pub(crate) ring: RingNumbers,
     /// Connected parts of the mesh.
     pub(crate) bodies: usize,
+    /// Materials of the mesh's file.
+    pub(crate) deck_materials: Vec<DeckMaterial>,
     /// Mass of the parts by their materials, kg; of a plane mesh, as thick as the file says.
     pub(crate) mass: f64,
 }
@@ -119,7 +121,7 @@ pub(crate) fn find<'a>(
     let (Cylinders { bore, holes, outside, partly }, Offered { flat, surfaces }) = offer(mesh, dimension, &rim);
     let mut groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
     if bore.is_some() {
-        groups.hold_flat(&flat);
+        groups.hold_flat(&flat, dimension);
     }
     if groups.parts.is_empty() {
         // a name that two groups share is no name
@@ -139,7 +141,7 @@ pub(crate) fn find<'a>(
     }
     let longest = extent.into_iter().fold(0.0, f64::max);
     let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
-    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing);
+    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing, groups.units);
     let metres = unit.to_metres();
     let directions = Directions::of(bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis));
     let middle = inventory.bounding_box;
@@ -159,11 +161,14 @@ pub(crate) fn find<'a>(
     let thickness = if plane { ring.of.width * ring.scale } else { 1.0 };
     let of_part = |part: &PartGuess| {
         let size = size(mesh, mesh.body(&part.group).ok()?.elements.iter().copied());
-        let known = BUILT_IN_MATERIALS.iter().find(|known| known.name == part.material)?;
-        Some(size * metres.powi(dimension as i32) * thickness * known.material.density)
+        let known = BUILT_IN_MATERIALS.iter().find(|known| known.name == part.material);
+        let of_file = groups.materials.iter().find(|own| own.name == part.material).map(|own| own.density[1]);
+        let density = of_file.or(known.map(|known| known.material.density))?;
+        Some(size * metres.powi(dimension as i32) * thickness * density)
     };
     let mass = groups.parts.iter().filter_map(of_part).sum();
     Ok(Found {
+        deck_materials: mesh.notes.materials.clone(),
         mass,
         request,
         plane,

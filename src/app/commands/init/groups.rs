@@ -1,7 +1,7 @@
 //! What the groups of a mesh are for, by dimension and name.
 
-use crate::app::case::built_in_like;
-use crate::fe::mesh::{Mesh, PhysicalGroup};
+use crate::app::case::{BUILT_IN_MATERIALS, built_in_like};
+use crate::fe::mesh::{ConsistentUnits, DeckMaterial, Mesh, PhysicalGroup};
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -18,10 +18,39 @@ const STEEL: [&str; 3] = ["shaft", "bolt", "screw"];
 /// What a part is made of where its name says nothing.
 const USUAL_MATERIAL: &str = "aluminium";
 
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// What says that a group is held.
+pub(crate) const BY_NAME: &str = "guess, by its name";
+pub(crate) const BY_SHAPE: &str = "guess, the largest flat outside that shares no nodes with the bore";
+pub(crate) const BY_FILE: &str = "mesh: *BOUNDARY holds it";
+
 /// Whether a name has one of these words.
 pub(crate) fn says(name: &str, words: &[&str]) -> bool {
     let name = name.to_lowercase();
     words.iter().any(|word| name.contains(word))
+}
+
+/// A material of the file, in SI.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct FileMaterial {
+    /// What the case calls it.
+    pub name: String,
+    /// Young's modulus, Pa, as the file has it and in Pa.
+    pub young: [f64; 2],
+    pub poisson: f64,
+    /// Density, as the file has it and in kg/m^3.
+    pub density: [f64; 2],
+}
+
+impl FileMaterial {
+    fn of(units: ConsistentUnits, own: &DeckMaterial) -> Option<Self> {
+        let [young, poisson, density] = units.to_si(own)?;
+        // a ring may be of a built-in one
+        let is_taken = BUILT_IN_MATERIALS.iter().any(|known| known.name == own.name);
+        let name = if is_taken { format!("{} of the mesh", own.name) } else { own.name.clone() };
+        Some(Self { name, young: [own.elastic?[0], young], poisson, density: [own.density?, density] })
+    }
 }
 
 /// A part with its material.
@@ -29,10 +58,19 @@ pub(crate) fn says(name: &str, words: &[&str]) -> bool {
 pub(crate) struct PartGuess {
     /// Name of the group.
     pub group: String,
-    /// Name of a built-in material.
-    pub material: &'static str,
-    /// Whether the name says the material.
-    pub by_name: bool,
+    /// Name of a material, built in or of the file.
+    pub material: String,
+    /// What says the material; "guess" if nothing does.
+    pub from: &'static str,
+}
+
+/// A group that is held.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct SupportGuess {
+    /// Name of the group.
+    pub group: String,
+    /// "x", "y", "z".
+    pub axes: Vec<&'static str>,
 }
 
 /// A group that is left to the user.
@@ -47,16 +85,20 @@ pub(crate) struct Other {
 }
 
 /// What the groups are for.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Groups {
+    /// Units of the file's materials, if they show them.
+    pub units: Option<ConsistentUnits>,
+    /// Materials of the file that parts are of.
+    pub materials: Vec<FileMaterial>,
     /// Parts of the housing that share no element.
     pub parts: Vec<PartGuess>,
     /// Elements of the highest dimension in no part.
     pub without_part: usize,
     /// Groups that are held.
-    pub supports: Vec<String>,
-    /// Whether they are held for their shape, not by their names.
-    pub flat: bool,
+    pub supports: Vec<SupportGuess>,
+    /// What says so: [`BY_NAME`], [`BY_SHAPE`] or [`BY_FILE`].
+    pub held_by: &'static str,
     /// Groups that are named like supports and share nodes with the bore.
     pub at_bore: Vec<String>,
     /// A point where a sensor may stand.
@@ -75,13 +117,17 @@ pub(crate) fn usable(mesh: &Mesh, group: &PhysicalGroup) -> bool {
 impl Groups {
     /// Looks at every group; `bore` is the one that the ring sits in.
     pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
-        let mut found = Self::default();
+        let units = ConsistentUnits::of(&mesh.notes.materials);
+        let mut found = Self { units, ..Self::default() };
         let mut taken = HashSet::new();
         let mut on_housing = vec![false; mesh.nodes.len()];
-        // large groups first: of two that overlap the one that holds more is the part
+        // large groups first: of two that overlap the one that holds more is the part; where the file says what bodies are
+        // made of, those of one material before all
         let mut solids: Vec<&PhysicalGroup> =
             mesh.groups.iter().filter(|group| group.dimension == dimension && usable(mesh, group)).collect();
-        solids.sort_by_key(|group| std::cmp::Reverse(group.elements.len()));
+        let is_mixed =
+            |group: &PhysicalGroup| !mesh.notes.materials.is_empty() && mesh.notes.material_of(&group.name).is_none();
+        solids.sort_by_key(|group| (is_mixed(group), std::cmp::Reverse(group.elements.len())));
         for group in solids {
             if group.elements.iter().any(|id| taken.contains(id)) {
                 found.others.push(Other {
@@ -96,16 +142,20 @@ impl Groups {
                 on_housing[node] = true;
             }
             let known = built_in_like(&group.name).or_else(|| says(&group.name, &STEEL).then_some("steel"));
-            found.parts.push(PartGuess {
-                group: group.name.clone(),
-                material: known.unwrap_or(USUAL_MATERIAL),
-                by_name: known.is_some(),
-            });
+            let said = mesh.notes.material_of(&group.name).and_then(|own| FileMaterial::of(units?, own));
+            let (material, from) = match (&said, known) {
+                (Some(said), _) => (said.name.as_str(), "mesh"),
+                (None, Some(known)) => (known, "by its name"),
+                (None, None) => (USUAL_MATERIAL, "guess"),
+            };
+            found.parts.push(PartGuess { group: group.name.clone(), material: material.to_owned(), from });
+            found.materials.extend(said.filter(|said| found.materials.iter().all(|own| own.name != said.name)));
         }
         let order = |name: &str| mesh.groups.iter().position(|own| own.dimension == dimension && own.name == name);
         found.parts.sort_by_key(|part| order(&part.group));
         found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
+        found.held_by = if mesh.notes.supports.is_empty() { BY_NAME } else { BY_FILE };
         for group in &mesh.groups {
             if bore.is_some_and(|bore| std::ptr::eq(bore, group)) {
                 continue;
@@ -119,19 +169,25 @@ impl Groups {
                 let mut nodes = group.nodes.iter();
                 nodes.any(|node| bore.nodes.binary_search(node).is_ok())
             });
+            let fixed = match mesh.notes.supports.as_slice() {
+                [] => [says(name, &SUPPORTS); 3],
+                held => held.iter().find(|held| held.group == name).map_or([false; 3], |held| held.fixed),
+            };
+            let axes = AXES[..dimension].iter().zip(fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| *axis);
+            let axes: Vec<&'static str> = axes.collect();
             let whole = group.nodes.iter().all(|&node| on_housing[node]);
             if group.elements.is_empty() {
                 leave(Some("has no elements"));
             } else if !usable(mesh, group) {
                 leave(Some("another group has this name too: give each its own in gmsh"));
-            } else if group.dimension < dimension && says(name, &SUPPORTS) {
+            } else if group.dimension < dimension && !axes.is_empty() {
                 if !whole {
                     leave(Some("looks like a support, but lies on no part"));
                 } else if touches_bore {
                     leave(Some("looks like a support, but shares nodes with the bore, which follow the ring"));
                     found.at_bore.push(name.to_owned());
                 } else {
-                    found.supports.push(name.to_owned());
+                    found.supports.push(SupportGuess { group: name.to_owned(), axes });
                 }
             } else if group.dimension == 0 && found.sensor.is_none() && says(name, &SENSORS) && whole {
                 found.sensor = Some(name.to_owned());
@@ -145,15 +201,15 @@ impl Groups {
 
     /// Holds the first of the flat faces, given largest first, that shares no nodes with the bore, if no group is named like
     /// a support.
-    pub(crate) fn hold_flat(&mut self, flat: &[String]) {
+    pub(crate) fn hold_flat(&mut self, flat: &[String], dimension: usize) {
         if !(self.supports.is_empty() && self.at_bore.is_empty()) {
             return;
         }
         let free = |name: &&String| self.others.iter().any(|other| other.group == **name && other.note.is_none());
         if let Some(name) = flat.iter().find(free).cloned() {
             self.others.retain(|other| other.group != name);
-            self.supports.push(name);
-            self.flat = true;
+            self.supports.push(SupportGuess { group: name, axes: AXES[..dimension].to_vec() });
+            self.held_by = BY_SHAPE;
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::app::case::FIT;
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection, UsualNumbers};
+use crate::fe::mesh::ConsistentUnits;
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -80,16 +81,20 @@ pub(crate) enum UnitFrom {
     Given,
     /// The one in which the named bearing fits the bore.
     Bearing,
+    /// The one that the file's materials are in.
+    Materials,
     /// Guessed by the extent.
     Extent,
 }
 
-/// The unit that was given, else the one in which a bearing fits a bore of this radius, else by the extent.
+/// The unit that was given, else the one in which a bearing fits a bore of this radius, else that of the file's materials, else by
+/// the extent.
 pub(crate) fn unit_of(
     given: Option<LengthUnit>,
     longest: f64,
     radius: Option<f64>,
     bearing: Option<&CatalogueBearing>,
+    units: Option<ConsistentUnits>,
 ) -> (LengthUnit, UnitFrom) {
     if let Some(unit) = given {
         return (unit, UnitFrom::Given);
@@ -102,6 +107,9 @@ pub(crate) fn unit_of(
         if let Some(unit) = LengthUnit::ALL.into_iter().find(fits) {
             return (unit, UnitFrom::Bearing);
         }
+    }
+    if let Some(units) = units {
+        return (units.length, UnitFrom::Materials);
     }
     let unit = if longest < LONGEST_METRES { LengthUnit::Metre } else { LengthUnit::Millimetre };
     (unit, UnitFrom::Extent)

@@ -1,11 +1,13 @@
 //! The case file's text, and the findings in sentences.
 
 use super::found::{Found, FoundCylinder};
+use super::groups::{BY_FILE, BY_NAME, BY_SHAPE};
 use super::page::{ORIGIN, list, number, numbers, page, quoted};
 use super::pit::Pit;
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use crate::app::scene::size_doubt;
+use crate::numerics::units::LengthUnit;
 use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
@@ -20,6 +22,7 @@ fn unit_origin(found: &Found<'_>) -> String {
     match found.unit_from {
         UnitFrom::Given => format!("given; {size}"),
         UnitFrom::Bearing => format!("the unit in which the bearing fits the bore; {size}"),
+        UnitFrom::Materials => format!("that of the file's materials; {size}"),
         UnitFrom::Extent => format!("guess: {size}; the file does not say its unit"),
     }
 }
@@ -122,19 +125,31 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
         (None, None) => "[ring] and [bearing] are templates.".to_owned(),
     });
     let parts = found.groups.parts.iter().map(|part| {
-        let sure = if part.by_name { "by its name" } else { "a guess" };
+        let sure = match part.from {
+            "mesh" => "by the file",
+            "guess" => "a guess",
+            by_name => by_name,
+        };
         format!("{} of {} ({sure})", quoted(&part.group), part.material)
     });
     lines.push(format!("Parts: {}.", list(&parts.collect::<Vec<_>>())));
+    lines.extend(materials(found));
     let all = |names: &[String]| list(&names.iter().map(|name| quoted(name)).collect::<Vec<_>>());
-    let (supports, at_bore) = (&found.groups.supports[..], &found.groups.at_bore[..]);
+    let held: Vec<String> = found.groups.supports.iter().map(|support| support.group.clone()).collect();
+    let (supports, at_bore) = (&held[..], &found.groups.at_bore[..]);
     lines.push(match (supports, at_bore) {
-        ([], []) => "Nothing is held: no group is named like a support.".to_owned(),
+        ([], []) if found.groups.held_by == BY_NAME => "Nothing is held: no group is named like a support.".to_owned(),
         ([], _) => "Nothing is held.".to_owned(),
-        _ if found.groups.flat => {
-            format!("Held, a guess: {}, the largest flat outside that shares no nodes with the bore.", all(supports))
-        }
-        _ => format!("Held, by their names: {}.", all(supports)),
+        _ => match found.groups.held_by {
+            BY_SHAPE => {
+                format!(
+                    "Held, a guess: {}, the largest flat outside that shares no nodes with the bore.",
+                    all(supports)
+                )
+            }
+            BY_FILE => format!("Held, as *BOUNDARY of the file says: {}.", all(supports)),
+            _ => format!("Held, by their names: {}.", all(supports)),
+        },
     });
     if !at_bore.is_empty() {
         lines.push(format!(
@@ -150,6 +165,36 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     }
     if found.bodies > 1 {
         lines.push(format!("The mesh has {} bodies that share no nodes: join them under housing.links.", found.bodies));
+    }
+    lines
+}
+
+/// The materials that the file gives, and those that it does not give in full.
+fn materials(found: &Found<'_>) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some(units) = found.groups.units {
+        let [length, unit] = [units.length, found.unit].map(LengthUnit::symbol);
+        let known = found.groups.materials.iter().map(|own| {
+            let [young, density] = [1e-9 * own.young[1], own.density[1]].map(|value| number(value, 4));
+            format!("{} of {young} GPa and {density} kg/m^3", own.name)
+        });
+        let known = list(&known.collect::<Vec<_>>());
+        lines.push(format!("Materials of the file: {known}; by their numbers its units are {}.", units.name));
+        if length != unit {
+            lines.push(format!(
+                "warning: the file's materials are in {}, a length in {length}, and length_unit is \"{unit}\"",
+                units.name
+            ));
+        }
+    }
+    for own in found.deck_materials.iter().filter(|own| !own.groups.is_empty()) {
+        let lacks = match (own.elastic, own.density) {
+            (None, _) => "it has no isotropic *ELASTIC, or several over temperature",
+            (_, None) => "it has no *DENSITY, or several over temperature",
+            _ if found.groups.units.is_none() => "its numbers are in no usual system of units",
+            _ => continue,
+        };
+        lines.push(format!("The material {} of the file is not taken: {lacks}.", quoted(&own.name)));
     }
     lines
 }

@@ -241,7 +241,6 @@ impl<W: Watch> Tied<'_, W> {
             node_tags: Vec::new(),
             blocks: Vec::new(),
             groups: Vec::new(),
-            left_out: Vec::new(),
             format: self.housing.mesh.format,
             notes: MeshNotes::default(),
             source: "solid ring".into(),

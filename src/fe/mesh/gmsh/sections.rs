@@ -6,7 +6,7 @@ use super::elements::{Degenerate, Listed};
 use super::entities::Physical;
 use super::nodes::NodeTable;
 use super::{MshError, collect_v22, elements, entities, nodes};
-use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MeshNotes, MshFormat, MshVersion};
+use crate::fe::mesh::{ElementBlock, Mesh, MeshError, MeshNote, MeshNotes, MshFormat, MshVersion};
 use crate::numerics::units::LengthUnit;
 use std::collections::HashSet;
 use std::path::Path;
@@ -40,6 +40,7 @@ impl Mesh {
         let mesh = found.and_then(|found| found.into_mesh(path));
         let mut mesh = mesh.map_err(|fault| MeshError::Gmsh { path: path.to_path_buf(), fault })?;
         mesh.turn_clockwise();
+        mesh.tell_what_is_beside();
         Ok(mesh)
     }
 }
@@ -127,9 +128,9 @@ impl Found {
             }
             Elements::Listed(mut listed) => {
                 if listed.partitions.iter().eq(&[1]) {
-                    told.push(
+                    told.push(MeshNote::Sentence(
                         "all elements are of partition 1 of a mesh: if it has others, in files of their own, the body is not whole".to_owned(),
-                    );
+                    ));
                 }
                 let degenerate = std::mem::take(&mut listed.degenerate);
                 let (blocks, memberships) = collect_v22::blocks(listed, &mut allowance)?;
@@ -137,12 +138,13 @@ impl Found {
             }
         };
         let left_out = degenerate.beside(&blocks)?;
+        told.extend((!left_out.is_empty()).then_some(MeshNote::NodeTwice(left_out)));
         let names = self.names.unwrap_or_default();
         let groups = groups(nodes.tags.len(), &blocks, memberships, names, &mut allowance)?;
         let source = path.to_path_buf();
         let (nodes, node_tags) = (nodes.coordinates, nodes.tags);
         let notes = MeshNotes { told, ..MeshNotes::default() };
-        Ok(Mesh { nodes, node_tags, blocks, groups, left_out, format: self.format, notes, source })
+        Ok(Mesh { nodes, node_tags, blocks, groups, format: self.format, notes, source })
     }
 }
 

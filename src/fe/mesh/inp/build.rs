@@ -2,6 +2,7 @@
 
 use super::MshError;
 use super::block::capitals;
+use super::case_data::CaseData;
 use super::deck::{Deck, JOINTS};
 use super::kinds::Purpose;
 use super::read::Bodies;
@@ -9,8 +10,8 @@ use super::sets::Set;
 use super::surfaces::{Surface, read_sets, surfaces};
 use crate::fe::mesh::gmsh::Allowance;
 use crate::fe::mesh::{
-    BoundaryFace, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
-    sorted_corners,
+    BoundaryFace, ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNote, MeshNotes, MshFormat, MshVersion,
+    PhysicalGroup, sorted_corners,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -26,6 +27,7 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
     read_sets(&deck, &mut bodies, &mut allowance)?;
     let surfaces = surfaces(&deck, &bodies, &mut allowance)?;
     check_bodies(&bodies)?;
+    let case_data = CaseData::read(&deck, &mut bodies);
     let notes = notes(&deck, &bodies);
     let Bodies { nodes, node_numbers, mut blocks, places, element_numbers, node_sets, element_sets, .. } = bodies;
     // blocks without elements go
@@ -39,7 +41,6 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
         node_tags: node_numbers.listed,
         blocks,
         groups: Vec::new(),
-        left_out: Vec::new(),
         format: MshFormat { version: MshVersion::Inp, binary: false },
         notes,
         source: path.to_path_buf(),
@@ -57,6 +58,7 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
         groups.add_element_set(set.name, members.collect())?;
     }
     groups.finish()?;
+    case_data.note(&mut mesh, &places);
     Ok(mesh)
 }
 
@@ -110,8 +112,9 @@ fn notes(deck: &Deck<'_>, bodies: &Bodies) -> MeshNotes {
             joints.join(", ")
         ));
     }
+    let told = told.into_iter().map(MeshNote::Sentence).collect();
     let passed_over = deck.passed_over.keys().map(|keyword| format!("*{keyword}")).collect();
-    MeshNotes { told, as_points: Vec::new(), passed_over }
+    MeshNotes { told, passed_over, ..MeshNotes::default() }
 }
 
 /// Groups under way, and the faces and points that they need.

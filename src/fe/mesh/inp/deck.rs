@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 /// Keywords that are read.
 const READ: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
+/// Keywords that say something of the case.
+const OF_CASE: [&str; 5] = ["MATERIAL", "DENSITY", "ELASTIC", "SOLIDSECTION", "BOUNDARY"];
 /// Keywords that make nodes and elements, or change them: without these the mesh would be another one.
 const MAKERS: [&str; 9] =
     ["NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "PARAMETER", "SYSTEM", "SYMMETRICMODELGENERATION"];
@@ -55,7 +57,7 @@ fn continues(line: &[u8]) -> bool {
 }
 
 impl<'a> Deck<'a> {
-    /// Cuts a file up to its first step.
+    /// Cuts a file up to its first step; of that the boundaries alone are kept.
     ///
     /// # Errors
     /// Other files that it includes, keywords that make nodes, and anything but one
@@ -64,10 +66,13 @@ impl<'a> Deck<'a> {
         let mut deck = Self { blocks: Vec::new(), instance: None, shift: [0.0; 3], passed_over: BTreeMap::new() };
         let mut scopes = Scopes::default();
         let mut lines = Lines { bytes, start: 0, next: 0, line: 1 };
+        let mut in_step = false;
         while let Some((line, text)) = lines.next() {
             // what stands before the first keyword is passed over, as CalculiX does
             if !text.starts_with(b"*") {
-                scopes.data(line, text)?;
+                if !in_step {
+                    scopes.data(line, text)?;
+                }
                 continue;
             }
             let (start, mut last) = (lines.start, text);
@@ -80,10 +85,13 @@ impl<'a> Deck<'a> {
             }
             let head = bytes[start..lines.next].trim_ascii();
             let block = Block { head, rest: lines.clone(), line, scope: scopes.now };
-            if keyword(head) == "STEP" {
-                break;
+            match keyword(head).as_str() {
+                "STEP" => in_step = true,
+                "ENDSTEP" => break,
+                "BOUNDARY" if in_step => deck.blocks.push(block),
+                _ if in_step => {}
+                _ => deck.take(block, &mut scopes)?,
             }
-            deck.take(block, &mut scopes)?;
         }
         let instance = scopes.instance()?;
         deck.blocks.retain(|block| scopes.holds(block.scope));
@@ -110,10 +118,11 @@ impl<'a> Deck<'a> {
     fn take(&mut self, block: Block<'a>, scopes: &mut Scopes) -> Result<(), MshError> {
         let name = block.keyword();
         scopes.at_keyword(&name, &block)?;
-        if READ.contains(&name.as_str()) {
-            if block.parameter("INPUT").is_some() {
-                return Err(include(&block));
-            }
+        let is_mesh = READ.contains(&name.as_str());
+        if is_mesh && block.parameter("INPUT").is_some() {
+            return Err(include(&block));
+        }
+        if is_mesh || OF_CASE.contains(&name.as_str()) {
             self.blocks.push(block);
         } else if name == "INCLUDE" {
             return Err(include(&block));

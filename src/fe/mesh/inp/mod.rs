@@ -1,14 +1,16 @@
 //! Reading the mesh of an input file of Abaqus or CalculiX (`.inp`; cgx calls the same `.msh`).
 //!
-//! Read are nodes, elements, sets and surfaces of the model data, those of one instance in a file of Abaqus/CAE. What
-//! follows `*STEP` is not looked at. Materials, sections and supports are the case's. A surface, or a node set that covers
-//! whole faces, becomes a group of faces; any other node set a group of points; an element set a group of its elements.
+//! Read are nodes, elements, sets and surfaces of the model data, those of one instance in a file of Abaqus/CAE. Of what
+//! follows `*STEP` the first step's `*BOUNDARY` is looked at alone. Materials and supports are notes for the case. A
+//! surface, or a node set that covers whole faces, becomes a group of faces; any other node set a group of points; an
+//! element set a group of its elements.
 //!
 //! A first pass cuts the file at its keywords; nodes, elements, sets and surfaces are read after one another, in
 //! whatever order they stand. As in the reader of gmsh's files, memory is bounded by the length of the file.
 
 mod block;
 mod build;
+mod case_data;
 mod deck;
 mod kinds;
 mod numbers;
@@ -52,11 +54,24 @@ impl Mesh {
             _ => by_ending,
         };
         if !is_inp {
-            return Self::from_gmsh_bytes(bytes, path, unit);
+            return Self::from_gmsh_bytes(bytes, path, unit).map_err(|error| with_converter(error, path));
         }
         let mesh = build::mesh(text, path, unit.to_metres());
         let mut mesh = mesh.map_err(|fault| MeshError::Inp { path: path.to_path_buf(), fault })?;
         mesh.turn_clockwise();
+        mesh.tell_what_is_beside();
         Ok(mesh)
+    }
+}
+
+/// Adds the command of gmsh to the error of a mesh in a format that gmsh converts (tried with 4.8.4).
+fn with_converter(error: MeshError, path: &Path) -> MeshError {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match error {
+        MeshError::Gmsh { path, fault } if ["unv", "bdf", "nas", "vtk"].contains(&ending.as_str()) => {
+            let advice = format!("convert it: gmsh IN.{ending} -save -format msh22 -o OUT.msh");
+            MeshError::Gmsh { path, fault: MshError(format!("{fault}; {advice}")) }
+        }
+        error => error,
     }
 }

@@ -1,6 +1,6 @@
 //! Decks as Abaqus/CAE, CalculiX and gmsh write them, what is refused, and damaged ones.
 
-use crate::fe::mesh::{ElementKind, Mesh};
+use crate::fe::mesh::{DeckMaterial, DeckSupport, ElementKind, Mesh};
 use crate::numerics::units::LengthUnit;
 use std::path::Path;
 
@@ -19,6 +19,11 @@ fn groups(mesh: &Mesh) -> Vec<String> {
         format!("{} {} {} {}", group.name, group.dimension, group.nodes.len(), group.elements.len())
     };
     mesh.groups.iter().map(of).collect()
+}
+
+/// What was changed or left out, in sentences.
+fn told(mesh: &Mesh) -> Vec<String> {
+    mesh.notes.told.iter().map(ToString::to_string).collect()
 }
 
 /// Two cubes on each other, with what a hand-written deck has.
@@ -87,7 +92,7 @@ fn sets_and_surfaces_are_groups() {
         "both 3 12 2",
     ];
     assert_eq!(groups(&mesh), expected);
-    assert_eq!(mesh.notes.passed_over, ["*ELASTIC", "*HEADING", "*MATERIAL"]);
+    assert_eq!(mesh.notes.passed_over, ["*HEADING"]);
     assert_eq!(mesh.format.to_string(), "Abaqus or CalculiX input");
     assert!(mesh.notes.told.is_empty(), "{:?}", mesh.notes);
     let mixed =
@@ -202,7 +207,7 @@ fn one_instance_of_cae_is_read() {
     assert_eq!(groups(&mesh), ["tip 0 1 1", "face 2 3 1", "bore 2 3 1", "Set-1 3 5 2"]);
     let moved = CAE.replace("          0.,           0.,           0.\n*End", "1.,,-2.\n*End");
     assert!(is_at(&read(moved.as_bytes()).unwrap(), 4, [1e-3, 0.0, -3e-3]));
-    let [coupling] = mesh.notes.told.as_slice() else { panic!("{:?}", mesh.notes) };
+    let [coupling] = &told(&mesh)[..] else { panic!("{:?}", mesh.notes) };
     assert!(coupling.starts_with("these are not taken from the file: *COUPLING (line 41); "), "{coupling}");
 }
 
@@ -212,13 +217,71 @@ fn elements_that_make_no_body_are_told() {
         *SHELL SECTION,ELSET=skin2\n1.\n*STEP";
     let mesh = read(CUBES.replace("*STEP", more).as_bytes()).unwrap();
     assert_eq!(
-        mesh.notes.told,
+        told(&mesh),
         [
             "elements of type SPRINGA are not modelled and left out: 2, the first is 31",
             "the shells and membranes (the first is element 40 of type S4R) have no stiffness and no mass here"
         ]
     );
     assert!(groups(&mesh).contains(&"skin2 2 4 1".to_owned()));
+}
+
+/// Sections by sets, one of them internal; one body of no section; boundaries before the step and in it.
+#[test]
+fn materials_and_what_is_held_are_notes() {
+    let case = "*MATERIAL, NAME=Steel\n*DENSITY\n7.85E-9\n*ELASTIC, TYPE=ISO\n2.1e5, 0.3\n*CONDUCTIVITY\n50.\n\
+        *MATERIAL, NAME=Hot\n*ELASTIC\n7.e4, .33, 20.\n6.e4, .33, 200.\n*DENSITY\n2.7E-9,\n\
+        *SOLID SECTION, ELSET=both, MATERIAL=hot\n*SOLID SECTION, ELSET=_p, MATERIAL=STEEL\n\
+        *BOUNDARY\nfeet, 1, 2\nsensor, 2, 6\n11, 1\n11, 2\n12, 3\nsensor, 1, 1, 0.5\nmixed, XSYMM\nnall, 11, 11, 20.\n\
+        *STEP\n*FREQUENCY\n10\n*BOUNDARY\nFEET, 3\nNall, 1\n*END STEP\n*STEP\n*BOUNDARY\nsensor, 1\n";
+    let deck = CUBES.replace("*ELSET, ELSET=both", "*ELSET, ELSET=_p, INTERNAL\n20\n*ELSET, ELSET=both");
+    let deck = deck.split("*MATERIAL").next().unwrap().to_owned() + case;
+    let notes = read(deck.as_bytes()).unwrap().notes;
+    let material = |name: &str, groups: &[&str], elastic, density| DeckMaterial {
+        name: name.to_owned(),
+        groups: groups.iter().map(|&group| group.to_owned()).collect(),
+        elastic,
+        density,
+    };
+    // the second section takes one of two bodies from the first
+    let steel = material("Steel", &["Upper", "_p"], Some([2.1e5, 0.3]), Some(7.85e-9));
+    assert_eq!(notes.materials, [steel, material("Hot", &["lower one"], None, Some(2.7e-9))]);
+    let held: Vec<_> = notes.supports.iter().map(|held| (held.group.as_str(), held.fixed)).collect();
+    assert_eq!(held, [("Feet", [true; 3]), ("mixed", [true, false, false]), ("sensor", [false, true, true])]);
+    assert_eq!(
+        notes.not_supports,
+        [
+            "*BOUNDARY holds the set \"Nall\", which is no group: give its nodes a set of their own",
+            "*BOUNDARY holds single nodes (2, first in line 61), which are no support: put them into an *NSET",
+            "*BOUNDARY has lines (1, first line 64) that move nodes, stand in turned axes or cannot be read: they are no support",
+        ]
+    );
+    assert_eq!(notes.passed_over, ["*CONDUCTIVITY", "*HEADING"]);
+    // in axes of their own only what is held all round is known; what a step begins anew is not held any more
+    let turned =
+        read(deck.replace("*BOUNDARY\nfeet", "*TRANSFORM, NSET=Nall\n0,1,0,1,0,0\n*BOUNDARY\nfeet").as_bytes());
+    assert_eq!(turned.unwrap().notes.supports.len(), 0);
+    let anew = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW\nFEET").as_bytes()).unwrap().notes;
+    assert_eq!(anew.supports, [DeckSupport { group: "Feet".to_owned(), fixed: [false, false, true] }]);
+    // what was picked in Abaqus/CAE, and a surface of the set's name
+    let picked = read(deck.replace("NSET=Feet, GENERATE", "NSET=Feet, GENERATE, INTERNAL").as_bytes()).unwrap().notes;
+    assert_eq!(picked.supports[0].group, "Feet");
+    let surface =
+        read(deck.replace("*SURFACE, NAME=skin", "*SURFACE, NAME=FEET\nlower one, S1\n*SURFACE, NAME=skin").as_bytes());
+    assert_eq!(surface.unwrap().notes.supports[0].group, "FEET");
+    let moving = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW, TYPE=VELOCITY\nFEET").as_bytes());
+    assert_eq!(moving.unwrap().notes.supports.len(), 0);
+}
+
+/// Tags of entities are made up here, so that no name can mean one.
+#[test]
+fn a_set_is_no_entity() {
+    let deck = CUBES.replace("*ELSET, ELSET=both", "*ELEMENT, TYPE=S4\n40, 1,2,3,4\n*ELSET, ELSET=both");
+    let mut mesh = read(deck.as_bytes()).unwrap();
+    let before = mesh.groups.len();
+    mesh.add_entity_groups(["surface 1", "volume 1"]);
+    assert_eq!(mesh.groups.len(), before);
+    assert!(!mesh.names().iter().any(|name| name == "surface 1"), "{:?}", mesh.names());
 }
 
 /// What is changed in the deck of the cubes, or of CAE, and the message.
@@ -290,6 +353,10 @@ fn what_cannot_be_read_is_refused_by_line() {
     assert!(read(b"").unwrap_err().contains("the file has no *NODE with data"));
 }
 
+/// What says something of the case.
+const HELD: &str = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n*NSET,NSET=N\n1,2,3\n\
+    *MATERIAL,NAME=M\n*DENSITY\n7.8\n*ELASTIC\n2.,.3\n*SOLID SECTION,ELSET=E,MATERIAL=M\n*BOUNDARY\nN,1,3\n1,2\n*STEP\n*END STEP\n";
+
 /// What later stages rely on, whatever the file held.
 fn is_sound(bytes: &[u8]) -> bool {
     match read(bytes) {
@@ -312,7 +379,7 @@ fn is_sound(bytes: &[u8]) -> bool {
 
 #[test]
 fn damage_is_an_error_or_a_mesh() {
-    for deck in [CUBES, CAE] {
+    for deck in [CUBES, CAE, HELD] {
         let bytes = deck.as_bytes();
         for length in 0..bytes.len() {
             assert!(is_sound(&bytes[..length]), "cut to {length}");

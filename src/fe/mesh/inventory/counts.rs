@@ -57,7 +57,7 @@ impl Mesh {
         let unused = parts::unused(self);
         Inventory {
             format: self.format,
-            notes: MeshNotes { told: self.told(), ..self.notes.clone() },
+            notes: self.notes.clone(),
             nodes: self.nodes.len(),
             unused_nodes: unused.count,
             unused,

@@ -32,8 +32,8 @@ pub struct Apart {
 }
 
 impl Apart {
-    /// What is apart where, in words.
-    pub fn sentence(&self) -> String {
+    /// What is apart where, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let [a, b] = &self.between;
         let inside = match self.inside {
             0 => String::new(),
@@ -53,7 +53,7 @@ impl Apart {
             self.nodes,
             self.tied,
             self.tag,
-            at(self.place)
+            at(self.place, unit)
         )
     }
 }

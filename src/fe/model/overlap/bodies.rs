@@ -9,6 +9,9 @@ use nalgebra::Vector3;
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
 const SAME_PLACE: f64 = 1e-6;
 
+/// What stands for a part where elements are in none.
+const NO_GROUP: &str = "no group";
+
 /// An element and the part that it belongs to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solid<'m> {
@@ -45,7 +48,7 @@ impl<'m> Bodies<'m> {
         let dimension = mesh.dimension();
         let groups: Vec<_> = mesh.groups.iter().filter(|group| group.dimension == dimension).collect();
         let mut parts: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
-        parts.push("no group".to_owned());
+        parts.push(NO_GROUP.to_owned());
         let mut part = mesh.for_each_element(groups.len());
         for (number, group) in groups.iter().enumerate().rev() {
             for id in &group.elements {
@@ -128,13 +131,19 @@ pub(super) fn counted(count: usize, one: &str, several: &str) -> String {
 
 /// Two parts in words, or the one that both are.
 pub(super) fn both(parts: &[String; 2]) -> String {
-    match parts {
-        [a, b] if a == b => format!("\"{a}\""),
-        [a, b] => format!("\"{a}\" and \"{b}\""),
-    }
+    let [a, b] = parts.each_ref().map(|part| match part.as_str() {
+        NO_GROUP => NO_GROUP.to_owned(),
+        name => format!("\"{name}\""),
+    });
+    if a == b { a } else { format!("{a} and {b}") }
 }
 
-/// A place in words, in metres.
-pub(super) fn at([x, y, z]: [f64; 3]) -> String {
-    format!("({x:.6}, {y:.6}, {z:.6}) m")
+/// A part in words; elements in no group are of the mesh.
+pub(super) fn part(name: &str) -> String {
+    if name == NO_GROUP { "the mesh".to_owned() } else { format!("the part \"{name}\"") }
+}
+
+/// A place in words.
+pub(super) fn at([x, y, z]: [f64; 3], unit: &str) -> String {
+    format!("({x:.6}, {y:.6}, {z:.6}) {unit}")
 }

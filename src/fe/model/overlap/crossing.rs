@@ -1,6 +1,6 @@
 //! Bodies that reach into one another between the centres of all their elements.
 
-use super::bodies::{Bodies, Solid, at, both};
+use super::bodies::{Bodies, Solid, at, both, part};
 use super::outline::{BoxTree, corners_of, normal};
 use super::{Overlap, Touching};
 use crate::numerics::Brief;
@@ -29,18 +29,18 @@ pub struct Crossing {
 }
 
 impl Crossing {
-    /// What crosses where, in words.
-    pub fn sentence(&self) -> String {
+    /// What crosses where, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let [first, second] = self.tags;
         let parts = match &self.parts {
-            [a, b] if a == b => format!("bodies of the part \"{a}\""),
+            [a, b] if a == b => format!("bodies of {}", part(a)),
             parts => format!("the parts {}", both(parts)),
         };
         format!(
-            "{parts} reach into one another: {} pairs of elements do, by up to {} m, the deepest are elements {first} and {second} at {}",
+            "{parts} reach into one another: {} pairs of elements do, by up to {} {unit}, the deepest are elements {first} and {second} at {}",
             self.pairs,
             Brief::rounded(self.depth, 2),
-            at(self.place)
+            at(self.place, unit)
         )
     }
 }

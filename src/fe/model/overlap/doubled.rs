@@ -21,14 +21,14 @@ pub struct Doubled {
 }
 
 impl Doubled {
-    /// What they are, in words.
-    pub fn sentence(&self) -> String {
+    /// What they are, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let [first, second] = self.tags;
         format!(
             "{} on the corners of another element, the first are elements {first} and {second} of {} at {}",
             counted(self.elements, "element stands", "elements stand"),
             both(&self.parts),
-            at(self.place)
+            at(self.place, unit)
         )
     }
 }
@@ -52,8 +52,8 @@ pub struct MixedOrders {
 }
 
 impl MixedOrders {
-    /// What they are, in words.
-    pub fn sentence(&self) -> String {
+    /// What they are, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let [first, second] = self.tags;
         let what = match self.edges {
             0 => counted(self.faces, "face is without a centre", "faces are without a centre"),
@@ -62,7 +62,7 @@ impl MixedOrders {
         format!(
             "{what} node that all elements there have in common, the first is that of elements {first} and {second} of {} at {}",
             both(&self.parts),
-            at(self.place)
+            at(self.place, unit)
         )
     }
 }

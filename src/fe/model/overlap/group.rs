@@ -135,7 +135,6 @@ mod tests {
         };
         let all: Vec<usize> = (0..kind.nodes()).collect();
         Mesh {
-            left_out: Vec::new(),
             nodes: places.iter().copied().chain([[5.0; 3]]).collect(),
             node_tags: (1..=1 + places.len() as u64).collect(),
             groups: vec![group(kind, 0, &all), group(own, 1, nodes)],

@@ -1,6 +1,6 @@
 //! Bodies that lie in one another: elements whose centre is within another element.
 
-use super::bodies::{Bodies, at, both, common_size};
+use super::bodies::{Bodies, at, both, common_size, part};
 use super::outline::{BoxTree, centre, holds};
 use crate::numerics::Brief;
 use nalgebra::Vector3;
@@ -39,21 +39,29 @@ pub struct Overlap {
 }
 
 impl Overlap {
-    /// What overlaps where, in words.
-    pub fn sentence(&self) -> String {
+    /// What overlaps where, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let [first, second] = self.tags;
         let parts = match &self.parts {
-            [a, b] if a == b => format!("elements of \"{a}\" lie in one another"),
+            [a, b] if a == b => format!("elements of {} lie in one another", part(a)),
             parts => format!("the parts {} lie in one another", both(parts)),
         };
         format!(
-            "{parts}: {} elements have their centre in another element, on about {} m^{}, the first is element \
+            "{parts}: {} elements have their centre in another element, on about {} {unit}^{}, the first is element \
              {first} in element {second} at {}",
             self.elements,
             Brief::rounded(self.size, 4),
             self.dimension,
-            at(self.place)
+            at(self.place, unit)
         )
+    }
+
+    /// What to do about it.
+    pub(crate) fn advice(&self) -> &'static str {
+        match &self.parts {
+            [a, b] if a == b => "mesh the geometry again, or delete the copy where it holds a body twice",
+            _ => "cut one body from the other in gmsh (BooleanDifference or BooleanFragments), or delete the copy",
+        }
     }
 }
 

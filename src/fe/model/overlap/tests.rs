@@ -9,7 +9,6 @@ use std::f64::consts::{PI, TAU};
 
 fn empty() -> Mesh {
     Mesh {
-        left_out: Vec::new(),
         nodes: Vec::new(),
         node_tags: Vec::new(),
         blocks: Vec::new(),
@@ -194,7 +193,7 @@ fn faces_with_and_without_a_centre_come_apart() {
         for node in &mut mesh.blocks[1].connectivity {
             *node = points.iter().position(|&point| same(point, points[*node])).unwrap();
         }
-        Bodies::of_mesh(&mesh).mixed_orders().map(|mixed| mixed.sentence())
+        Bodies::of_mesh(&mesh).mixed_orders().map(|mixed| mixed.sentence("m"))
     };
     for [lower, upper] in [[Hex27, Hex27], [Hex20, Hex20], [Hex27, Pyramid14], [Hex20, Pyramid13]] {
         assert_eq!(found(lower, upper), None, "{lower:?} {upper:?}");
@@ -253,6 +252,25 @@ fn an_inverted_element_is_no_overlap() {
     assert_eq!(Bodies::of_mesh(&mesh).overlaps().len(), 1);
     mesh.blocks[0].connectivity[3..].reverse();
     assert_eq!(Bodies::of_mesh(&mesh).overlaps(), []);
+}
+
+/// Of one body without a group, in a unit that is not known.
+#[test]
+fn one_body_is_told_as_one() {
+    let mut mesh = empty();
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.9, 0.5, 0.0]];
+    add(&mut mesh, "plate", ElementKind::Tri3, &nodes, &[vec![0, 1, 2], vec![0, 4, 2]]);
+    let told = |mesh: &Mesh| {
+        let [overlap] = &Bodies::of_mesh(mesh).overlaps()[..] else { panic!() };
+        (overlap.sentence("unit"), overlap.advice())
+    };
+    let (sentence, advice) = told(&mesh);
+    assert!(sentence.starts_with("elements of the part \"plate\" lie in one another: 1 elements have their centre"));
+    assert_eq!(advice, "mesh the geometry again, or delete the copy where it holds a body twice");
+    mesh.groups.clear();
+    let (sentence, _) = told(&mesh);
+    assert!(sentence.starts_with("elements of the mesh lie in one another: "), "{sentence}");
+    assert!(sentence.contains(" on about 0.1 unit^2, ") && sentence.ends_with(") unit"), "{sentence}");
 }
 
 /// A surface that folds back over itself in space has no inside.

@@ -1,6 +1,6 @@
 //! Faces that lie on each other and have no nodes in common.
 
-use super::bodies::{Bodies, at, both, common_size};
+use super::bodies::{Bodies, at, both, common_size, part};
 use super::facets::Facet;
 use super::outline::{BoxTree, centre, holds};
 use crate::numerics::Brief;
@@ -38,23 +38,23 @@ pub struct Touching {
 }
 
 impl Touching {
-    /// What touches where, in words.
-    pub fn sentence(&self) -> String {
+    /// What touches where, in words; `unit` is that of lengths.
+    pub fn sentence(&self, unit: &str) -> String {
         let (what, power) = match self.dimension {
             2 => ("edges", ""),
             _ => ("faces", "^2"),
         };
         let parts = match &self.parts {
-            [a, b] if a == b => format!("{what} of the part \"{a}\" lie on each other"),
+            [a, b] if a == b => format!("{what} of {} lie on each other", part(a)),
             parts => format!("the parts {} touch", both(parts)),
         };
         format!(
-            "{parts} without common nodes: {} {what} on {} m{power}, at most {} m apart or into one another, {} pairs of nodes in one place, the first at {}",
+            "{parts} without common nodes: {} {what} on {} {unit}{power}, at most {} {unit} apart or into one another, {} pairs of nodes in one place, the first at {}",
             self.faces,
             Brief::rounded(self.size, 4),
             Brief::rounded(self.gap, 2),
             self.node_pairs,
-            at(self.place)
+            at(self.place, unit)
         )
     }
 }

@@ -113,7 +113,7 @@ fn one_partition_of_several_is_no_body() -> Result<(), String> {
     };
     assert!(refused(&old(2)).contains("partition 2 of 2 or more"));
     let first = read(old(1).as_bytes())?;
-    assert!(first.notes.told[0].contains("partition 1 of a mesh"), "{:?}", first.notes.told);
+    assert!(first.notes.told[0].to_string().contains("partition 1 of a mesh"), "{:?}", first.notes.told);
     Ok(())
 }
 

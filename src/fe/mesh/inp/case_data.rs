@@ -1,0 +1,180 @@
+//! Materials and what is held: no part of the mesh, but of the case that is made from it.
+//!
+//! Source: CalculiX CrunchiX user's manual 2.20, "*BOUNDARY", "*MATERIAL", "*SOLID SECTION"; Abaqus names the same ones alike.
+
+use super::block::{Block, capitals, items};
+use super::deck::Deck;
+use super::numbers::coordinate;
+use super::read::Bodies;
+use crate::fe::mesh::{DeckMaterial, DeckSupport, ElementId, Mesh};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Words for directions that are held, in Abaqus.
+const WORDS: [(&str, [bool; 3]); 8] = [
+    ("ENCASTRE", [true; 3]),
+    ("PINNED", [true; 3]),
+    ("XSYMM", [true, false, false]),
+    ("YSYMM", [false, true, false]),
+    ("ZSYMM", [false, false, true]),
+    ("XASYMM", [false, true, true]),
+    ("YASYMM", [true, false, true]),
+    ("ZASYMM", [true, true, false]),
+];
+
+/// Parameters of a `*BOUNDARY` that holds nothing at rest, or not what its lines say.
+const MOVING: [&str; 6] = ["BASEMOTION", "LOADCASE", "MASSFLOW", "SUBMODEL", "TYPE", "USER"];
+
+/// What the file says of the case, before it has groups.
+#[derive(Default)]
+pub(super) struct CaseData {
+    materials: Vec<DeckMaterial>,
+    /// Elements of a section, and the index of its material.
+    sections: Vec<(Vec<u32>, usize)>,
+    /// Held sets by their names, each with its nodes.
+    held: BTreeMap<String, (Vec<u32>, [bool; 3])>,
+    /// Nodes that are held one by one, and the line of the first.
+    nodes: BTreeSet<Vec<u8>>,
+    first_node: usize,
+    /// Lines that say what no support can.
+    others: Vec<usize>,
+}
+
+impl CaseData {
+    /// Reads materials, sections and boundaries. A set that a section names and that is not of all elements becomes a group.
+    pub(super) fn read(deck: &Deck<'_>, bodies: &mut Bodies) -> Self {
+        let mut data = Self::default();
+        data.read_materials(deck);
+        for block in deck.of("SOLIDSECTION") {
+            let named = |key: &str| block.parameter(key).map(|name| capitals(name.as_bytes()));
+            let is_named = |own: &DeckMaterial| named("MATERIAL") == Some(capitals(own.name.as_bytes()));
+            let material = data.materials.iter().position(is_named);
+            let set = named("ELSET").and_then(|set| bodies.element_sets.find(set.as_bytes(), false, deck));
+            if let (Some(material), Some(set)) = (material, set) {
+                let set = &mut bodies.element_sets.list[set];
+                set.internal &= set.members.len() == bodies.places.len();
+                data.sections.push((set.members.clone(), material));
+            }
+        }
+        // sets of the first step go on from those before it
+        for block in deck.of("BOUNDARY") {
+            if block.parameter("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW")) {
+                (data.held, data.nodes, data.others) = Default::default();
+            }
+            for (line, text) in block.lines() {
+                data.read_boundary(block, line, text, deck, bodies);
+            }
+        }
+        data
+    }
+
+    fn read_materials(&mut self, deck: &Deck<'_>) {
+        let mut is_open = false;
+        for block in &deck.blocks {
+            let keyword = block.keyword();
+            let mut lines = block.lines().map(|(_, text)| items(text).map(coordinate).collect::<Vec<_>>());
+            // one line is for all temperatures
+            let numbers = lines.next().filter(|_| lines.next().is_none()).unwrap_or_default();
+            let is_isotropic = block.parameter("TYPE").is_none_or(|kind| capitals(kind.as_bytes()).starts_with("ISO"));
+            match (keyword.as_str(), self.materials.last_mut().filter(|_| is_open)) {
+                ("MATERIAL", _) => {
+                    let name = block.parameter("NAME").unwrap_or_default();
+                    self.materials.push(DeckMaterial { name, groups: Vec::new(), elastic: None, density: None });
+                }
+                ("DENSITY", Some(own)) => own.density = numbers.first().copied().flatten().filter(|rho| *rho > 0.0),
+                ("ELASTIC", Some(own)) => {
+                    own.elastic = match *numbers.as_slice() {
+                        [Some(young), Some(poisson), ..] => Some([young, poisson]),
+                        _ => None,
+                    };
+                    let is_solid = |[young, poisson]: &[f64; 2]| *young > 0.0 && (-1.0..0.5).contains(poisson);
+                    own.elastic = own.elastic.filter(is_solid).filter(|_| is_isotropic);
+                }
+                _ => {}
+            }
+            is_open = ["MATERIAL", "DENSITY", "ELASTIC"].contains(&keyword.as_str());
+        }
+    }
+
+    fn read_boundary(&mut self, block: &Block<'_>, line: usize, text: &[u8], deck: &Deck<'_>, bodies: &mut Bodies) {
+        let words: Vec<&[u8]> = items(text).collect();
+        let word = capitals(words.get(1).copied().unwrap_or_default());
+        let whole = |place: usize| words.get(place).and_then(|word| coordinate(word)).filter(|at| *at >= 1.0);
+        let mut fixed = WORDS.iter().find(|(known, _)| *known == word).map(|(_, fixed)| *fixed);
+        if let Some(first) = whole(1) {
+            let last = whole(2).unwrap_or(first);
+            fixed = Some([1.0, 2.0, 3.0].map(|axis| (first..=last).contains(&axis)));
+            if first > 3.0 {
+                // solids have no rotations, and temperatures hold nothing
+                return;
+            }
+        }
+        let moves = words.get(3).is_some_and(|value| coordinate(value).is_none_or(|value| value.abs() > 0.0));
+        let moves = moves || MOVING.iter().any(|parameter| block.parameter(parameter).is_some());
+        // axes of its own that a line alone does not show
+        let is_turned = deck.passed_over.contains_key("TRANSFORM");
+        let fixed = fixed.filter(|fixed| !moves && (!is_turned || *fixed == [true; 3]));
+        let tag = words[0].rsplit(|&byte| byte == b'.').next().unwrap_or_default();
+        let is_node = !tag.is_empty() && tag.iter().all(u8::is_ascii_digit);
+        match (fixed, bodies.node_sets.find(words[0], true, deck)) {
+            (Some(fixed), Some(set)) => {
+                let set = &mut bodies.node_sets.list[set];
+                // Abaqus/CAE makes sets for what was picked
+                set.internal = false;
+                let (_, own) = self.held.entry(set.name.clone()).or_insert_with(|| (set.members.clone(), [false; 3]));
+                (0..3).for_each(|axis| own[axis] |= fixed[axis]);
+            }
+            (Some(_), None) if is_node => {
+                self.first_node = if self.nodes.is_empty() { line } else { self.first_node };
+                self.nodes.insert(words[0].to_vec());
+            }
+            _ => self.others.push(line),
+        }
+    }
+
+    /// Names the groups that materials and supports are of, in the mesh that has them.
+    pub(super) fn note(mut self, mesh: &mut Mesh, places: &[Option<ElementId>]) {
+        let mut made_of = mesh.for_each_element(usize::MAX);
+        for (members, material) in &self.sections {
+            for id in members.iter().filter_map(|&element| places[element as usize]) {
+                made_of[id.block][id.index] = *material;
+            }
+        }
+        let dimension = mesh.dimension();
+        for group in mesh.groups.iter().filter(|group| group.dimension == dimension) {
+            let of = |id: &ElementId| made_of[id.block][id.index];
+            let Some(first) = group.elements.first().map(of) else { continue };
+            if let Some(material) =
+                self.materials.get_mut(first).filter(|_| group.elements.iter().all(|id| of(id) == first))
+            {
+                material.groups.push(group.name.clone());
+            }
+        }
+        let notes = &mut mesh.notes;
+        notes.materials = self.materials;
+        let mut lost = Vec::new();
+        for (name, (members, fixed)) in self.held {
+            let nodes: Vec<usize> = members.iter().map(|&node| node as usize).collect();
+            let key = capitals(name.as_bytes());
+            let mut groups = mesh.groups.iter().filter(|group| group.dimension < dimension);
+            match groups.find(|group| capitals(group.name.as_bytes()) == key && group.nodes == nodes) {
+                Some(group) => notes.supports.push(DeckSupport { group: group.name.clone(), fixed }),
+                None => lost.push(format!(
+                    "*BOUNDARY holds the set \"{name}\", which is no group: give its nodes a set of their own"
+                )),
+            }
+        }
+        notes.not_supports = lost;
+        if let count @ 1.. = self.nodes.len() {
+            notes.not_supports.push(format!(
+                "*BOUNDARY holds single nodes ({count}, first in line {}), which are no support: put them into an *NSET",
+                self.first_node
+            ));
+        }
+        if let [first, ..] = self.others[..] {
+            notes.not_supports.push(format!(
+                "*BOUNDARY has lines ({}, first line {first}) that move nodes, stand in turned axes or cannot be read: they are no support",
+                self.others.len()
+            ));
+        }
+    }
+}
