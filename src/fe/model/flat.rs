@@ -14,18 +14,18 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Longest edge of a held face over the height of the layer above it from which on the layer is told. A plate of steel,
-/// held at one face, in elements of incompatible modes: its lowest frequency is off by +11 % at 2, +8 % at 3, -4 % at 4,
-/// -23 % at 5, -52 % at 8, and -77 % at 17; plain elements stay within +12 %. Two or four layers of the same height
-/// together are off as one; ten layers of flatness 5, twice as high as an edge is long, by +1 %.
+/// held at one face, in elements of incompatible modes: its lowest frequency is off by +7 % at 2 and 3, -6 % at 4,
+/// -23 % at 5, -52 % at 8, and -77 % at 17; plain elements stay within +12 %. Two layers of the same height together are off
+/// as one.
 const FLAT: f64 = 3.0;
 
 /// The same for layers of several elements held at both faces, with the height between these. The lowest frequency of
-/// their inner nodes is off by +10 % at 1.5, 0 % at 2, -33 % at 3 and -60 % at 5.
+/// their inner nodes is off by +9 % at 1.5, -3 % at 2, -34 % at 3 and -60 % at 5.
 const FLAT_BETWEEN: f64 = 2.0;
 
-/// Shear modulus of what holds a face over that of the layer from which on the face is held. A layer on a block of
-/// cubes: at a ratio of 4 and a flatness up to 20 none of 14 frequencies is too low; at 10 they are off by -5 % at 4 and -12 %
-/// at 10, at 1000 by -60 % at 10.
+/// Shear modulus of what holds a face over that of the layer from which on the face is held. A layer on a block of cubes, held
+/// below: at a ratio of 4 and a flatness up to 10 none of 14 frequencies is more than 5 % too low; at 10 they are off by -6 % at 10,
+/// at 100 by -13 % at 5 and -29 % at 10.
 const STIFFER: f64 = 10.0;
 
 /// `(pi / 2)^2`: a layer of shear stiffness k an area that is held at one face moves as if it were a spring of that many k.
