@@ -21,6 +21,7 @@ mod mode_counts;
 mod mutations;
 mod neighbours;
 mod orders;
+mod plates;
 #[path = "../program/common.rs"]
 mod program;
 mod relations;

@@ -1,6 +1,6 @@
 //! Mesh to matrices of a housing, as the case asks for them, and which mesh files these are, by their content.
 
-use crate::app::case::{self, Case, Hold, Housing, IsotropicMaterial, Rule};
+use crate::app::case::{self, Case, Hold, Housing, Interface, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
@@ -60,6 +60,12 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         .parts
         .iter()
         .map(|part| Ok(HousingPart { group: part.group.clone(), material: elastic_material(case, &part.material)? }));
+    let (mut attached, attached_nodes) = match &case.condense.interface {
+        Interface::Ring => (Vec::new(), Vec::new()),
+        Interface::Group(group) => (vec![group.clone()], Vec::new()),
+        Interface::Nodes(tags) => (Vec::new(), tags.clone()),
+    };
+    attached.extend(case.ring.iter().filter_map(|ring| ring.tie.as_ref()).map(|tie| tie.group.clone()));
     Ok(HousingDescription {
         parts: parts.collect::<Result<_, ComputeError>>()?,
         plane: housing.plane,
@@ -69,7 +75,8 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         links: housing.links.clone(),
         overlap: housing.overlap,
         frame: frame(case)?,
-        bore: case.ring.as_ref().and_then(|ring| ring.tie.as_ref()).map(|tie| tie.group.clone()),
+        attached,
+        attached_nodes,
     })
 }
 

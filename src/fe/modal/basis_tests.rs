@@ -102,7 +102,9 @@ fn sharpened_modes_are_normal_modes() {
         let all = over_all_dofs(&model, &free, &basis.shapes).expect("of its order");
         (all.transpose() * heavy - DenseMatrix::identity(10, 10)).norm_max()
     };
-    assert!(orthogonality(&basis) < 1e-11, "{:e}", orthogonality(&basis));
+    // as orthogonal as they came from the solver, and that beside springs of 1e-7 N/m
+    let [rough, sharp] = [&rough, &basis].map(orthogonality);
+    assert!(rough < 1e-10 && sharp < 1.01 * rough + 1e-13, "{rough:e} {sharp:e}");
 }
 
 #[test]

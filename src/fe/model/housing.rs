@@ -39,8 +39,10 @@ pub struct HousingDescription {
     pub overlap: OverlapRule,
     /// Where the bearing sits.
     pub frame: RingFrame,
-    /// Group that a ring will be tied to.
-    pub bore: Option<String>,
+    /// Groups that a ring or the user of a superelement will hold.
+    pub attached: Vec<String>,
+    /// The same by gmsh's tags of nodes.
+    pub attached_nodes: Vec<u64>,
 }
 
 /// A housing with everything that its matrices need.

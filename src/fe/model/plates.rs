@@ -10,6 +10,7 @@ use super::support::sorted;
 use crate::fe::element::continuum::LinearFormulation;
 use crate::fe::mesh::Mesh;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// Ratio of the sides of an element up to which its bubbles have the same mass everywhere.
 const AS_LONG: f64 = 1.5;
@@ -41,14 +42,18 @@ impl HousingModel {
         }
     }
 
-    /// Nodes that supports, springs, ties or the ring hold, and those that elements of other kinds share.
+    /// Nodes that supports, springs, ties or what is attached hold, and those that elements of other kinds share.
     fn held_or_joined(&self, mesh: &Mesh) -> Vec<bool> {
         let mut held = self.held_nodes();
         for element in self.elements.iter().filter(|element| !self.description.formulation.bubbles(element.kind)) {
             self.elements.nodes(element).iter().for_each(|&node| held[node] = true);
         }
-        let bore = self.description.bore.as_deref().and_then(|bore| mesh.group(bore).ok());
-        bore.iter().flat_map(|group| &group.nodes).for_each(|&node| held[node] = true);
+        let groups = self.description.attached.iter().filter_map(|name| mesh.group(name).ok());
+        groups.flat_map(|group| &group.nodes).for_each(|&node| held[node] = true);
+        let tags: BTreeSet<u64> = self.description.attached_nodes.iter().copied().collect();
+        for (held, _) in held.iter_mut().zip(&self.node_tags).filter(|(_, tag)| tags.contains(tag)) {
+            *held = true;
+        }
         held
     }
 
