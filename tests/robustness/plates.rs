@@ -4,7 +4,7 @@
 //! Conditions: the program as a user runs it. Parameters: the limits are a tenth wider than what was found. Without the bubbles' mass
 //!   the plate's errors reach 23 %; with all of it the block's frequencies are up to 25 % too low.
 
-use super::grids::{Grids, modes, steps};
+use super::grids::{Grids, modes, result, steps};
 use super::program::{plummer, scratch};
 
 /// Name, sides in m, cells, frequencies in Hz, and the limits of the error.
@@ -45,5 +45,25 @@ fn flat_elements_have_the_mass_of_their_bubbles_in_plates_alone() {
             let error = found / expected - 1.0;
             assert!((least..most).contains(&error), "{name}: {found} Hz, expected {expected} Hz");
         }
+    }
+}
+
+/// Plates whose edges are 12 and 6 times as long as they are thick, in one layer and in two, and a beam.
+#[test]
+fn thin_plates_are_told() {
+    let bodies = [
+        ("thin", [0.1, 0.1, 0.001], [8, 8, 1], true),
+        ("thin in two layers", [0.1, 0.1, 0.001], [8, 8, 2], true),
+        ("thicker", [0.1, 0.1, 0.002], [8, 8, 1], false),
+        ("beam", [0.1, 0.001, 0.001], [8, 1, 1], false),
+    ];
+    for (name, sides, cells, told) in bodies {
+        let folder = scratch("thin-plates");
+        let mut grid = Grids::default();
+        let [x, y, z] = [0, 1, 2].map(|i| steps(0.0, sides[i], cells[i]));
+        grid.solid("a", [&x, &y, &z], false);
+        grid.write(&folder);
+        let (warnings, _) = result(&folder, &modes(&folder, "parts = [{ group = 'a', material = 'steel' }]"));
+        assert_eq!(warnings.contains("Hex8 are in thin plates, with edges up to 1"), told, "{name}: {warnings}");
     }
 }

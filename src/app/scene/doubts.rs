@@ -138,6 +138,12 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
             model.description.parts[found.part].group, found.elements, found.factor, found.tag
         )
     });
+    let thin = model.thin_plates().map(|found| {
+        format!(
+            "{} Hex8 are in thin plates, with edges up to {:.0} times as long as the plate is thick at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
+            found.elements, found.slenderness, found.tag, model.description.parts[found.part].group
+        )
+    });
     let is_plain = model.description.formulation.linear == LinearFormulation::Plain;
     let stiff = model.description.parts.iter().enumerate().flat_map(|(part, described)| {
         let of_kind = move |kind: ElementKind| {
@@ -166,7 +172,7 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
         )
     });
     let tied = overlaps.chain(touching).chain(crossings).chain(apart);
-    tied.chain(shared).chain(flat).chain(trapezoids).chain(stiff).chain(held).collect()
+    tied.chain(shared).chain(flat).chain(trapezoids).chain(thin).chain(stiff).chain(held).collect()
 }
 
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.

@@ -161,7 +161,7 @@ fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelEr
         |element, coordinates, out| {
             let (kind, properties) = (element.kind, &model.properties[element.part]);
             if formulation.bubbles(kind) {
-                mass_into(kind, coordinates, properties, formulation, element.in_plate, out)
+                mass_into(kind, coordinates, properties, formulation, element.across_plate, out)
             } else {
                 nodal_mass_into(kind, coordinates, properties, out)
             }

@@ -158,7 +158,7 @@ impl ElementWork {
         self.mass.resize(self.dof * self.dof, 0.0);
         let formulation = model.description.formulation;
         stiffness_into(element.kind, &at, properties, formulation, &mut self.stiffness)
-            .and_then(|()| mass_into(element.kind, &at, properties, formulation, element.in_plate, &mut self.mass))
+            .and_then(|()| mass_into(element.kind, &at, properties, formulation, element.across_plate, &mut self.mass))
             .map_err(|source| ModelError::element(&model.path, element.tag, &source))?;
         let count = at.len() as f64;
         let mean = [0, 1, 2].map(|i| at.iter().map(|x| x[i]).sum::<f64>() / count);

@@ -2,6 +2,7 @@
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
 use super::parts::{HousingElements, HousingPart};
+use super::plates::ThinPlates;
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, NodalMatrix, NodalSource, PointMass, TiedNodes, unique};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};
@@ -81,6 +82,7 @@ pub struct HousingModel {
     /// The mesh file, for messages.
     pub(crate) path: String,
     pub(crate) node_tags: Vec<u64>,
+    pub(super) thin_plates: Option<ThinPlates>,
 }
 
 impl HousingModel {
@@ -119,6 +121,7 @@ impl HousingModel {
             common_nodes: Vec::new(),
             path,
             node_tags: mesh.node_tags.clone(),
+            thin_plates: None,
         };
         for index in 0..model.description.supports.len() {
             model.attach_support(mesh, index)?;

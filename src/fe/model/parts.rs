@@ -22,7 +22,7 @@ impl HousingElements {
             match owner[id.block][id.index] {
                 Some(part) => {
                     found.connectivity.extend_from_slice(block.nodes_of(id.index));
-                    found.list.push(HousingElement { tag, kind: block.kind, part, in_plate: false, first });
+                    found.list.push(HousingElement { tag, kind: block.kind, part, across_plate: [false; 3], first });
                 }
                 None => unassigned.push(tag),
             }
@@ -98,8 +98,8 @@ pub struct HousingElement {
     pub kind: ElementKind,
     /// Index into the model's parts.
     pub part: usize,
-    /// It is flat, has incompatible modes, and is in a plate or bar with free faces, not thicker than its edge is long.
-    pub(crate) in_plate: bool,
+    /// Natural directions across which it is in a plate of few elements with incompatible modes and free faces.
+    pub(crate) across_plate: [bool; 3],
     pub(super) first: usize,
 }
 

@@ -133,6 +133,12 @@ impl Jacobian {
         self.0.map(|side| 2.0 * side.map(|x| x * x).iter().sum::<f64>().sqrt())
     }
 
+    /// Distances of the natural element's opposite sides, m.
+    pub(super) fn heights(&self) -> [f64; 3] {
+        let (_, inverse) = self.inverse();
+        inverse.map(|row| 2.0 / row.iter().map(|x| x * x).sum::<f64>().sqrt())
+    }
+
     /// `det J`, m^2 or m^3.
     #[inline(always)]
     pub(super) fn determinant(&self) -> f64 {

@@ -19,7 +19,8 @@ const BLOCK: usize = 8;
 ///
 /// Degrees of freedom as in [`stiffness_into`](super::stiffness_into). Consistent and integrated exactly for any geometry
 /// (`ElementKind::rules`), so that frequencies converge from above; with incompatible modes, which move with the nodes, they
-/// need not: how much the modes move depends on whether the element is `in_plate`, with free faces near by. A rigid motion has
+/// need not: how much the modes move depends on whether it is `across_plate`, with free faces near by, by
+/// natural direction. A rigid motion has
 /// the kinetic energy of the continuum in any case. Source: Bathe, Finite Element Procedures
 /// (1996), equation 4.20.
 ///
@@ -31,17 +32,17 @@ pub(crate) fn mass_into(
     coords: &[[f64; 3]],
     properties: &ContinuumProperties,
     formulation: Formulation,
-    in_plate: bool,
+    across_plate: [bool; 3],
     out: &mut [f64],
 ) -> Result<(), ElementError> {
     check_properties(kind, properties)?;
     check_length(kind, kind.dof(), out)?;
     match kind {
         ElementKind::Quad4 if formulation.bubbles(kind) => {
-            incompatible_mass::<4, 6, 2>(kind, coords, properties, in_plate, out)
+            incompatible_mass::<4, 6, 2>(kind, coords, properties, across_plate, out)
         }
         ElementKind::Hex8 if formulation.bubbles(kind) => {
-            incompatible_mass::<8, 11, 3>(kind, coords, properties, in_plate, out)
+            incompatible_mass::<8, 11, 3>(kind, coords, properties, across_plate, out)
         }
         _ => {
             let (nodes, d, rows) = (kind.nodes(), kind.dimension(), kind.dof());
@@ -71,7 +72,7 @@ pub fn mass(
     formulation: Formulation,
 ) -> Result<DMatrix<f64>, ElementError> {
     let mut out = DMatrix::zeros(kind.dof(), kind.dof());
-    mass_into(kind, coords, properties, formulation, true, out.as_mut_slice())?;
+    mass_into(kind, coords, properties, formulation, [true; 3], out.as_mut_slice())?;
     Ok(out)
 }
 

@@ -50,7 +50,7 @@ pub(super) fn check(kind: ElementKind, formulation: Formulation) -> Outcome {
         format!("the matrix of a {name} element has {dof} x {dof} entries, the buffer holds 6")
     );
     assert_eq!(
-        message(mass_into(kind, &good, &p, formulation, true, &mut buffer)),
+        message(mass_into(kind, &good, &p, formulation, [true; 3], &mut buffer)),
         format!("the matrix of a {name} element has {dof} x {dof} entries, the buffer holds 6")
     );
     wrong_properties(kind, formulation)

@@ -35,7 +35,7 @@ fn bending_wave(
     let coords: Vec<_> = natural.iter().map(|x| [0, 1, 2].map(|i| 0.5 * x[i] * sides[i])).collect();
     let formulation = Formulation::default();
     let mut mass = DMatrix::zeros(kind.dof(), kind.dof());
-    mass_into(kind, &coords, &p, formulation, in_plate, mass.as_mut_slice())?;
+    mass_into(kind, &coords, &p, formulation, [in_plate; 3], mass.as_mut_slice())?;
     let matrices = [stiffness(kind, &coords, &p, formulation)?, mass];
     // a section moves across and turns
     let wave = TAU / (count as f64 * length);
