@@ -32,7 +32,7 @@ mod table;
 mod tests;
 
 pub use geometry::ShapeQuality;
-pub(crate) use geometry::quality;
+pub(crate) use geometry::{quality, straight_edges};
 pub use mass::{measure, nodal_mass};
 pub(crate) use mass::{measure_matrix, nodal_mass_into};
 pub use properties::{ContinuumProperties, PlaneAssumption};
