@@ -97,7 +97,7 @@ pub(crate) fn folds(mesh: &Mesh, id: ElementId) -> bool {
 }
 
 fn has_moved(mesh: &Mesh, id: ElementId, before: &[[f64; 3]]) -> bool {
-    mesh.blocks[id.block].nodes_of(id.index).iter().any(|&node| mesh.nodes[node] != before[node])
+    mesh.blocks[id.block].nodes_of(id.index).iter().any(|&node| distance(mesh.nodes[node], before[node]) > 0.0)
 }
 
 fn is_thin(mesh: &Mesh, id: ElementId) -> bool {
@@ -240,7 +240,7 @@ fn best_place(
         if slope.norm() > 0.0 {
             try_at((Vector3::from(from) - step * slope.normalize()).into(), &mut at, &mut least);
         }
-        if at == from {
+        if distance(at, from) <= 0.0 {
             step *= 0.5;
         }
     }
@@ -327,127 +327,5 @@ fn sentence(mesh: &Mesh, mended: &BTreeSet<ElementId>, before: &[[f64; 3]], is_h
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fe::mesh::{ElementBlock, Entity, MeshNotes, MshFormat, MshVersion, PhysicalGroup};
-    use std::path::PathBuf;
-
-    /// Two Tet10 on one face; the middle of an edge of it lies beyond the body, so that both fold.
-    fn folded() -> Mesh {
-        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
-        let at = |nodes: &[[f64; 3]], place: [f64; 3]| nodes.iter().position(|node| distance(*node, place) < 1e-15);
-        let mut nodes = corners.to_vec();
-        let mut connectivity = Vec::new();
-        for tetrahedron in [[0, 1, 2, 3], [1, 2, 3, 4]] {
-            connectivity.extend(tetrahedron);
-            for &[a, b] in ElementKind::Tet10.corner_edges() {
-                let [a, b] = [a, b].map(|place| nodes[tetrahedron[place]]);
-                let middle = [0, 1, 2].map(|d| 0.5 * (a[d] + b[d]));
-                let known = at(&nodes, middle);
-                connectivity.push(known.unwrap_or_else(|| {
-                    nodes.push(middle);
-                    nodes.len() - 1
-                }));
-            }
-        }
-        let far = at(&nodes, [0.5, 0.5, 0.0]).unwrap();
-        nodes[far] = [0.05, 0.05, 0.0];
-        Mesh {
-            node_tags: (1..=nodes.len() as u64).collect(),
-            nodes,
-            blocks: vec![ElementBlock {
-                kind: ElementKind::Tet10,
-                tags: vec![7, 8],
-                connectivity,
-                entity: Entity { dimension: 3, tag: 1 },
-            }],
-            groups: Vec::new(),
-            format: MshFormat { version: MshVersion::V41, binary: false },
-            source: PathBuf::new(),
-            notes: MeshNotes::default(),
-            left_out: Vec::new(),
-        }
-    }
-
-    #[test]
-    fn folded_elements_and_their_neighbours_are_mended() {
-        let mut mesh = folded();
-        let ids: Vec<ElementId> = mesh.element_ids(3).collect();
-        assert!(folds(&mesh, ids[0]));
-        let nodes = (0..mesh.nodes.len()).collect();
-        mesh.groups = vec![PhysicalGroup { name: "skin".into(), dimension: 2, tag: 1, nodes, elements: Vec::new() }];
-        straighten(&mut mesh);
-        for id in ids {
-            assert!(measure(ElementKind::Tet10, &places(&mesh, id)).is_ok() && !is_thin(&mesh, id));
-        }
-        assert!(mesh.notes.told[0].contains("off its surfaces moved by at most"), "{:?}", mesh.notes.told);
-        assert!(mesh.notes.told[0].ends_with("of them in the group \"skin\""), "{:?}", mesh.notes.told);
-        let before = mesh.clone();
-        straighten(&mut mesh);
-        assert_eq!(mesh, before);
-    }
-
-    #[test]
-    fn inverted_elements_stay() {
-        let mut mesh = folded();
-        mesh.nodes.swap(0, 3);
-        mesh.nodes[4] = [-1.0; 3];
-        let before = mesh.clone();
-        straighten(&mut mesh);
-        assert_eq!(mesh, before);
-    }
-
-    /// Two layers of Quad8 about a bore of radius 1, ten round the turn: the inner layer is thinner than its arcs are high.
-    fn bore() -> Mesh {
-        let mut nodes: Vec<[f64; 3]> = Vec::new();
-        let mut connectivity = Vec::new();
-        let turn = |tenths: f64, radius: f64| {
-            let (sin, cos) = (tenths * std::f64::consts::PI / 5.0).sin_cos();
-            [radius * cos, radius * sin, 0.0]
-        };
-        for (inner, outer) in [(1.0, 1.04), (1.04, 2.0)] {
-            for side in 0..10 {
-                let [from, to] = [f64::from(side), f64::from(side + 1)];
-                let corners = [turn(from, inner), turn(from, outer), turn(to, outer), turn(to, inner)];
-                let middle = |a: usize, b: usize| [0, 1, 2].map(|d| 0.5 * (corners[a][d] + corners[b][d]));
-                let arc = if inner == 1.0 { turn(from + 0.5, 1.0) } else { middle(3, 0) };
-                for place in corners.into_iter().chain([middle(0, 1), middle(1, 2), middle(2, 3), arc]) {
-                    let known = nodes.iter().position(|node| distance(*node, place) < 1e-9);
-                    connectivity.push(known.unwrap_or_else(|| {
-                        nodes.push(place);
-                        nodes.len() - 1
-                    }));
-                }
-            }
-        }
-        let block = ElementBlock {
-            kind: ElementKind::Quad8,
-            tags: (1..=20).collect(),
-            connectivity,
-            entity: Entity { dimension: 2, tag: 1 },
-        };
-        Mesh { node_tags: (1..=nodes.len() as u64).collect(), nodes, blocks: vec![block], ..folded() }
-    }
-
-    #[test]
-    fn a_bore_stays_round() {
-        let mut mesh = bore();
-        let ids: Vec<ElementId> = mesh.element_ids(2).collect();
-        assert_eq!(ids.iter().filter(|&&id| folds(&mesh, id)).count(), 10);
-        straighten(&mut mesh);
-        assert!(ids.iter().all(|&id| !folds(&mesh, id) && !is_thin(&mesh, id)));
-        let on_bore = |node: &&[f64; 3]| (node[0].hypot(node[1]) - 1.0).abs() < 1e-12;
-        assert_eq!(mesh.nodes.iter().filter(on_bore).count(), 20);
-    }
-
-    #[test]
-    fn straight_edges_are_advised_only_where_they_mend() {
-        let mut mesh = folded();
-        let id = mesh.element_ids(3).next().unwrap();
-        let advice = |mesh: &Mesh| measure(ElementKind::Tet10, &places(mesh, id)).unwrap_err().to_string();
-        assert!(advice(&mesh).contains("housing.straighten = true mends"), "{}", advice(&mesh));
-        // all corners in one plane
-        mesh.nodes[3] = [1.0, 1.0, 0.0];
-        assert!(advice(&mesh).ends_with("straight edges do not mend it: mesh again"), "{}", advice(&mesh));
-    }
-}
+#[path = "straighten_tests.rs"]
+mod tests;
