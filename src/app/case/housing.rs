@@ -42,7 +42,7 @@ pub struct Housing {
     /// Whether bodies may lie in one another.
     #[serde(skip_serializing_if = "is_refused")]
     pub overlap: OverlapRule,
-    /// Whether folded elements of second order get straight edges.
+    /// Whether folded elements of second order are mended.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub straighten: bool,
 }
@@ -267,7 +267,7 @@ struct SourceForm {
     links: Option<Vec<Link>>,
     /// Whether bodies may lie in one another; refused unless "allow".
     overlap: Option<OverlapRule>,
-    /// Whether folded elements of second order get straight edges; they are refused unless true.
+    /// Whether folded elements of second order are mended; they are refused unless true.
     straighten: Option<bool>,
 }
 

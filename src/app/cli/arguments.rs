@@ -230,7 +230,7 @@ pub enum Command {
         /// Density in kg/m^3 for the mass (default: those of aluminium and of steel)
         #[arg(long, allow_hyphen_values = true, value_name = "RHO", value_parser = density)]
         density: Option<f64>,
-        /// Give folded elements of second order straight edges, and say which
+        /// Mend folded elements of second order by nodes between corners, and say which
         #[arg(long)]
         straighten: bool,
     },
@@ -331,7 +331,7 @@ pub struct InitArguments {
     /// Deep groove ball bearing of the catalogue (default: one whose outer diameter is the bore's within 1 %)
     #[arg(long, value_name = "NAME")]
     pub bearing: Option<String>,
-    /// Give folded elements of second order straight edges, here and in the case
+    /// Mend folded elements of second order, here and in the case
     #[arg(long)]
     pub straighten: bool,
     /// List the bearings of the catalogue with their dimensions and sources

@@ -96,10 +96,10 @@ pub(super) fn verdict(found: &Inspection) -> Result<(), CliError> {
             match found.folded_elements {
                 0 => "mesh again, or look at them in gmsh (Tools, Visibility)",
                 count if count < found.invalid_elements => {
-                    "--straighten (housing.straighten = true in a case) gives some of them straight edges; mesh again for the others"
+                    "--straighten (housing.straighten = true in a case) mends some of them; mesh again for the others"
                 }
                 _ => {
-                    "--straighten (housing.straighten = true in a case) gives them straight edges; or mesh again, finer where the surface is curved"
+                    "--straighten (housing.straighten = true in a case) mends them; or mesh again, finer where the surface is curved"
                 }
             },
         ),

@@ -33,7 +33,7 @@ pub struct DraftRequest<'a> {
     pub length_unit: Option<LengthUnit>,
     /// The bearing, if it is known.
     pub bearing: Option<&'static CatalogueBearing>,
-    /// Whether folded elements of second order get straight edges.
+    /// Whether folded elements of second order are mended.
     pub straighten: bool,
 }
 

@@ -174,6 +174,16 @@ fn position(kind: ElementKind, coords: &[[f64; 3]], natural: [f64; 3]) -> [f64; 
     position
 }
 
+/// Where the nodes of an element lie if its edges are straight.
+pub(crate) fn straight_edges(kind: ElementKind, coords: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut at = coords.to_vec();
+    for (node, corners) in (kind.corners()..).zip(kind.beyond_corners()) {
+        let sum = |d: usize| corners.iter().map(|&corner| coords[corner][d]).sum::<f64>();
+        at[node] = [0, 1, 2].map(|d| sum(d) / corners.len() as f64);
+    }
+    at
+}
+
 /// A determinant and the natural coordinates where it is.
 type Determinant = (f64, [f64; 3]);
 
@@ -231,9 +241,12 @@ pub(super) fn diagnose<const N: usize, const D: usize>(
         [xi, eta, _] if D == 2 => format!("({xi:.3}, {eta:.3})"),
         [xi, eta, zeta] => format!("({xi:.3}, {eta:.3}, {zeta:.3})"),
     };
-    let way = match placed.straight {
-        true => "",
-        false => "; housing.straighten = true gives folded elements of second order straight edges",
+    let way = match (placed.straight, Placed::<N>::new(kind, &straight_edges(kind, coords))) {
+        (true, _) => "",
+        (false, Ok(mended)) if mended.accepts(kind, mended.smallest_at_nodes::<D>(kind)) => {
+            "; housing.straighten = true mends such elements of second order"
+        }
+        (false, _) => "; straight edges do not mend it: mesh again",
     };
     ElementError(format!(
         "the {name} element is degenerate or folded: Jacobian determinant {} m^{D} at {}, natural coordinates {natural}; it must be positive everywhere{way}",

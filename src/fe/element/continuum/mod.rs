@@ -33,7 +33,7 @@ mod table;
 mod tests;
 
 pub use geometry::ShapeQuality;
-pub(crate) use geometry::quality;
+pub(crate) use geometry::{quality, straight_edges};
 pub use mass::{mass, measure};
 pub(crate) use mass::{mass_into, measure_matrix, nodal_mass_into};
 pub use properties::{ContinuumProperties, PlaneAssumption};

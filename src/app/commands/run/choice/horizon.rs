@@ -80,7 +80,7 @@ impl Horizon {
         };
         let held = ms(self.held_s);
         let place = match self.from_s > self.start_s {
-            true => format!("from {} to {} ms", precise(self.from_s), precise(self.from_s + self.held_s)),
+            true => format!("for {held} ms from {} ms on", precise(self.from_s)),
             false => format!("in the first {held} ms of {whole}"),
         };
         match (self.passed(), self.looked_s < self.run_s) {
@@ -155,6 +155,8 @@ mod tests {
         assert_eq!(horizon.sentence(), "over the whole run");
         let longer = Horizon { run_s: 1.0, ..horizon };
         assert!(longer.sentence().contains("at least"), "{longer:?}");
+        let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, ..longer };
+        assert!(short.sentence().starts_with("for 1.0 ms from 2580 ms on; after that"), "{}", short.sentence());
     }
 
     /// What no finer model sees leaves less to what it sees.
