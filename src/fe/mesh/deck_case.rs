@@ -22,7 +22,7 @@ pub struct DeckMaterial {
 pub struct DeckSupport {
     /// The group.
     pub group: String,
-    /// Along x, y and z.
+    /// Along x, y and z; none: its lines hold nothing, or could not be used.
     pub fixed: [bool; 3],
 }
 

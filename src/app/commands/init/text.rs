@@ -139,6 +139,7 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     let (supports, at_bore) = (&held[..], &found.groups.at_bore[..]);
     lines.push(match (supports, at_bore) {
         ([], []) if found.groups.held_by == BY_NAME => "Nothing is held: no group is named like a support.".to_owned(),
+        ([], []) => "Nothing is held: *BOUNDARY of the file names groups, and no line of it is a support.".to_owned(),
         ([], _) => "Nothing is held.".to_owned(),
         _ => match found.groups.held_by {
             BY_SHAPE => {
