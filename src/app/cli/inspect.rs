@@ -216,7 +216,8 @@ fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
     let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
     let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
     let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
-    format!("\"{}\": {elastic}, {density} ({units}) of {of}", material.name)
+    let first = if material.first_line { ", the first line of several over temperature" } else { "" };
+    format!("\"{}\": {elastic}, {density}{first} ({units}) of {of}", material.name)
 }
 
 /// Surfaces that the summary lists.

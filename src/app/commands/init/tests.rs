@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::groups::Groups;
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection};
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{DeckMaterial, Mesh};
 use crate::numerics::units::LengthUnit;
 
 fn named(name: &str) -> &'static CatalogueBearing {
@@ -182,6 +182,24 @@ fn what_a_boundary_names_is_not_guessed() {
     assert!(notes(&groups).contains(&("fix", "*BOUNDARY of the file names it")), "{groups:?}");
     assert_eq!(held(&of(&deck.replace("fix,1", "fix,1,3"))), ["fix"]);
     assert_eq!(held(&of(deck.split("*TRANSFORM").next().unwrap())), ["fix", "base"]);
+}
+
+#[test]
+fn what_a_material_of_the_file_lacks_is_said_as_such() {
+    let own = |elastic, density| {
+        let (name, groups) = ("m".to_owned(), Vec::new());
+        super::text::lacks(&DeckMaterial { name, groups, elastic, density, first_line: true })
+    };
+    assert_eq!(own(Some([1.0, 0.3]), Some(1.0)), None);
+    for (said, expected) in [
+        (own(None, Some(1.0)), "it has no isotropic *ELASTIC"),
+        (own(Some([1.0, 0.3]), None), "it has no *DENSITY"),
+        (own(Some([1.0, 0.5]), Some(1.0)), "its Poisson's ratio is 0.5, expected -1 to less than 0.5"),
+        (own(Some([1.0, 0.3]), Some(0.0)), "its density is 0, expected more than 0"),
+        (own(Some([0.0, 0.3]), Some(1.0)), "its modulus is 0, expected more than 0"),
+    ] {
+        assert_eq!(said.as_deref(), Some(expected));
+    }
 }
 
 /// A strip of five squares whose lower side bulges by the sagitta `deep`, in sides.

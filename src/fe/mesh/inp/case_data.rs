@@ -102,22 +102,30 @@ impl CaseData {
         for block in &deck.blocks {
             let keyword = block.keyword();
             let mut lines = block.lines().map(|(_, text)| items(text).map(coordinate).collect::<Vec<_>>());
-            // one line is for all temperatures
-            let numbers = lines.next().filter(|_| lines.next().is_none()).unwrap_or_default();
+            // more lines are over temperature
+            let (numbers, is_first) = (lines.next().unwrap_or_default(), lines.next().is_some());
             let is_isotropic = block.parameter("TYPE").is_none_or(|kind| capitals(kind.as_bytes()).starts_with("ISO"));
             match (keyword.as_str(), self.materials.last_mut().filter(|_| is_open)) {
                 ("MATERIAL", _) => {
                     let name = block.parameter("NAME").unwrap_or_default();
-                    self.materials.push(DeckMaterial { name, groups: Vec::new(), elastic: None, density: None });
+                    self.materials.push(DeckMaterial {
+                        name,
+                        groups: Vec::new(),
+                        elastic: None,
+                        density: None,
+                        first_line: false,
+                    });
                 }
-                ("DENSITY", Some(own)) => own.density = numbers.first().copied().flatten().filter(|rho| *rho > 0.0),
+                ("DENSITY", Some(own)) => {
+                    own.density = numbers.first().copied().flatten();
+                    own.first_line |= is_first;
+                }
                 ("ELASTIC", Some(own)) => {
                     own.elastic = match *numbers.as_slice() {
-                        [Some(young), Some(poisson), ..] => Some([young, poisson]),
+                        [Some(young), Some(poisson), ..] if is_isotropic => Some([young, poisson]),
                         _ => None,
                     };
-                    let is_solid = |[young, poisson]: &[f64; 2]| *young > 0.0 && (-1.0..0.5).contains(poisson);
-                    own.elastic = own.elastic.filter(is_solid).filter(|_| is_isotropic);
+                    own.first_line |= is_first && is_isotropic;
                 }
                 _ => {}
             }

@@ -243,10 +243,11 @@ fn materials_and_what_is_held_are_notes() {
         groups: groups.iter().map(|&group| group.to_owned()).collect(),
         elastic,
         density,
+        first_line: name == "Hot",
     };
     // the second section takes one of two bodies from the first
     let steel = material("Steel", &["Upper", "_p"], Some([2.1e5, 0.3]), Some(7.85e-9));
-    assert_eq!(notes.materials, [steel, material("Hot", &["lower one"], None, Some(2.7e-9))]);
+    assert_eq!(notes.materials, [steel, material("Hot", &["lower one"], Some([7e4, 0.33]), Some(2.7e-9))]);
     assert_eq!(held(&mesh), ["Feet xyz", "mixed x", "sensor xyz"]);
     assert_eq!(
         notes.not_supports,
