@@ -127,11 +127,11 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
     }
     let notes = &inventory.notes;
     notes.materials.iter().for_each(|material| line("material", of_file(material, &notes.materials)));
-    for held in &notes.supports {
+    for held in notes.supports.iter().filter(|held| held.fixed.contains(&true)) {
         let axes = ["x", "y", "z"].into_iter().zip(held.fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| axis);
         line("held", format!("\"{}\" along {}", held.group, axes.collect::<Vec<_>>().join(", ")));
     }
-    notes.not_supports.iter().for_each(|note| line("not held", note.clone()));
+    notes.not_supports.iter().for_each(|note| line("boundaries", note.clone()));
     line("elements", counts(&inventory.elements));
     line("nodes", format!("{}{}", inventory.nodes, node_faults(found)));
     let extent = inventory.bounding_box.extent();
@@ -216,7 +216,8 @@ fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
     let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
     let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
     let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
-    format!("\"{}\": {elastic}, {density} ({units}) of {of}", material.name)
+    let first = if material.first_line { ", the first line of several over temperature" } else { "" };
+    format!("\"{}\": {elastic}, {density}{first} ({units}) of {of}", material.name)
 }
 
 /// Surfaces that the summary lists.

@@ -136,9 +136,9 @@ pub struct MeshNotes {
     pub passed_over: Vec<String>,
     /// Materials of such a file.
     pub materials: Vec<DeckMaterial>,
-    /// Groups that such a file holds.
+    /// Groups that `*BOUNDARY` of such a file names.
     pub supports: Vec<DeckSupport>,
-    /// What such a file holds and no support can say, a sentence each.
+    /// What such a file holds and no support can say, and which step counts, a sentence each.
     pub not_supports: Vec<String>,
 }
 

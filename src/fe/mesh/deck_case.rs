@@ -11,10 +11,12 @@ pub struct DeckMaterial {
     pub name: String,
     /// Groups of the bodies that are made of it alone.
     pub groups: Vec<String>,
-    /// Young's modulus and Poisson's ratio; `None`: the file has no isotropic ones, or several over temperature.
+    /// Young's modulus and Poisson's ratio, as the file has them; `None`: it has no isotropic ones.
     pub elastic: Option<[f64; 2]>,
-    /// Density; `None`: the file has none, or several over temperature.
+    /// Density, as the file has it; `None`: it has none.
     pub density: Option<f64>,
+    /// The file has several lines over temperature, and the first is taken.
+    pub first_line: bool,
 }
 
 /// Directions in which the file holds the nodes of a group.
@@ -22,7 +24,7 @@ pub struct DeckMaterial {
 pub struct DeckSupport {
     /// The group.
     pub group: String,
-    /// Along x, y and z.
+    /// Along x, y and z; none: its lines hold nothing, or could not be used.
     pub fixed: [bool; 3],
 }
 
@@ -60,25 +62,60 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 500.0..=23_000.0;
 /// Modulus over density of these, m^2/s^2: from polyethylene to diamond.
 const STIFFNESSES: std::ops::RangeInclusive<f64> = 1e5..=4e8;
 
+/// The same of soft materials and light ones, where no other material shows the unit: rubber and wood.
+const LIGHT: std::ops::RangeInclusive<f64> = 300.0..=1_600.0;
+const SOFT: std::ops::RangeInclusive<f64> = 4e3..=4e8;
+
+/// MPa beside kg/mm^3, a usual error, looks like a soft material in these.
+const LIKE_AN_ERROR: &str = "mm-kg-s";
+
+/// What is so light that it adds no mass looks like a solid in these.
+const LIKE_A_DUMMY: &str = "um-kg-s";
+
 impl ConsistentUnits {
-    /// The one system in which all materials of the file are solids; `None` if none or several are.
+    /// The system in which one material of the file is a solid, and in no other: it is that of all. `None` if there are none
+    /// or several.
     pub(crate) fn of(materials: &[DeckMaterial]) -> Option<Self> {
-        materials.iter().find(|material| material.elastic.is_some() && material.density.is_some())?;
-        let fits = |units: &&Self| {
-            materials
-                .iter()
-                .filter_map(|material| units.to_si(material))
-                .all(|[young, _, density]| DENSITIES.contains(&density) && STIFFNESSES.contains(&(young / density)))
+        let is_solid = |_: &Self, [young, density]: [f64; 2]| {
+            DENSITIES.contains(&density) && STIFFNESSES.contains(&(young / density))
         };
-        let mut fitting = SYSTEMS.iter().filter(fits);
-        let found = fitting.next();
-        found.filter(|_| fitting.next().is_none()).copied()
+        let is_soft = |units: &Self, [young, density]: [f64; 2]| {
+            LIGHT.contains(&density) && SOFT.contains(&(young / density)) && units.name != LIKE_AN_ERROR
+        };
+        let mut shown = Self::shown(materials, is_solid);
+        if shown.is_empty() {
+            shown = Self::shown(materials, is_soft);
+        }
+        if shown.len() > 1 {
+            shown.retain(|units| units.name != LIKE_A_DUMMY);
+        }
+        let [units] = shown[..] else { return None };
+        Some(units)
+    }
+
+    /// The systems that materials of a kind show, each material one alone.
+    fn shown(materials: &[DeckMaterial], is_of_kind: impl Fn(&Self, [f64; 2]) -> bool) -> Vec<Self> {
+        let mut shown: Vec<Self> = Vec::new();
+        for material in materials {
+            let fits = |units: &&Self| {
+                units.to_si(material).is_some_and(|[young, _, density]| is_of_kind(units, [young, density]))
+            };
+            let mut fitting = SYSTEMS.iter().filter(fits);
+            if let (Some(found), None) = (fitting.next(), fitting.next())
+                && !shown.contains(found)
+            {
+                shown.push(*found);
+            }
+        }
+        shown
     }
 
     /// Young's modulus (Pa), Poisson's ratio and density (kg/m^3) of a material that has all three.
     pub(crate) fn to_si(self, material: &DeckMaterial) -> Option<[f64; 3]> {
         let [young, poisson] = material.elastic?;
-        Some([self.stress * young, poisson, self.density * material.density?])
+        let is_solid = young > 0.0 && (-1.0..0.5).contains(&poisson);
+        let density = material.density.filter(|density| is_solid && *density > 0.0)?;
+        Some([self.stress * young, poisson, self.density * density])
     }
 }
 
@@ -98,7 +135,13 @@ mod tests {
     ];
 
     fn material([young, density]: [f64; 2]) -> DeckMaterial {
-        DeckMaterial { name: "m".to_owned(), groups: Vec::new(), elastic: Some([young, 0.3]), density: Some(density) }
+        DeckMaterial {
+            name: "m".to_owned(),
+            groups: Vec::new(),
+            elastic: Some([young, 0.3]),
+            density: Some(density),
+            first_line: false,
+        }
     }
 
     #[test]
@@ -120,5 +163,31 @@ mod tests {
         assert_eq!(ConsistentUnits::of(&[material([210_000.0, 7850.0])]), None);
         assert_eq!(ConsistentUnits::of(&[material([210e9, 7850.0]), material([70_000.0, 2.7e-9])]), None);
         assert_eq!(ConsistentUnits::of(&[DeckMaterial { density: None, ..material([210e9, 7850.0]) }]), None);
+    }
+
+    #[test]
+    fn one_solid_shows_the_units_of_all() {
+        let of = |own: &[[f64; 2]]| {
+            ConsistentUnits::of(&own.iter().copied().map(material).collect::<Vec<_>>()).map(|units| units.name)
+        };
+        let (steel, rubber) = ([210_000.0, 7.85e-9], [1.0, 1.1e-9]);
+        for dummy in [rubber, [210_000.0, 1e-14], [1.0, 1e-14], [1e-3, 1e-9]] {
+            assert_eq!(of(&[steel, dummy]), Some("mm-t-s"), "{dummy:?}");
+            assert_eq!(of(&[dummy, steel]), Some("mm-t-s"), "{dummy:?}");
+        }
+        assert_eq!(of(&[steel, [70e9, 2700.0]]), None);
+        // rubber and wood alone
+        for system in SYSTEMS.iter().filter(|system| system.name != "mm-kg-s") {
+            for [young, density] in [[5e6, 1100.0], [20e6, 1100.0], [100e6, 1100.0], [11e9, 450.0]] {
+                let own = [young / system.stress, density / system.density];
+                assert!([None, Some(system.name)].contains(&of(&[own])), "{} {young}", system.name);
+                let is_usual = ["m-kg-s", "mm-t-s", "mm-kg-ms"].contains(&system.name);
+                assert!(!is_usual || of(&[own]).is_some(), "{} {young}", system.name);
+            }
+        }
+        // MPa beside kg/mm^3
+        for error in [[210_000.0, 7.85e-6], [70_000.0, 2.7e-6], [45_000.0, 1.8e-6], [2_500.0, 1.14e-6]] {
+            assert_eq!(of(&[error]), None, "{error:?}");
+        }
     }
 }

@@ -169,10 +169,8 @@ impl Groups {
                 let mut nodes = group.nodes.iter();
                 nodes.any(|node| bore.nodes.binary_search(node).is_ok())
             });
-            let fixed = match mesh.notes.supports.as_slice() {
-                [] => [says(name, &SUPPORTS); 3],
-                held => held.iter().find(|held| held.group == name).map_or([false; 3], |held| held.fixed),
-            };
+            let named = mesh.notes.supports.iter().find(|held| held.group == name);
+            let fixed = named.map_or([found.held_by == BY_NAME && says(name, &SUPPORTS); 3], |named| named.fixed);
             let axes = AXES[..dimension].iter().zip(fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| *axis);
             let axes: Vec<&'static str> = axes.collect();
             let whole = group.nodes.iter().all(|&node| on_housing[node]);
@@ -192,8 +190,9 @@ impl Groups {
             } else if group.dimension == 0 && found.sensor.is_none() && says(name, &SENSORS) && whole {
                 found.sensor = Some(name.to_owned());
             } else if group.dimension < dimension {
-                let note = "shares nodes with the bore, which follow the ring and cannot be fixed too";
-                leave(touches_bore.then_some(note));
+                let bore = "shares nodes with the bore, which follow the ring and cannot be fixed too";
+                let unused = "*BOUNDARY of the file names it: look there for what is held";
+                leave(touches_bore.then_some(bore).or(named.map(|_| unused)));
             }
         }
         found
@@ -202,7 +201,7 @@ impl Groups {
     /// Holds the first of the flat faces, given largest first, that shares no nodes with the bore, if no group is named like
     /// a support.
     pub(crate) fn hold_flat(&mut self, flat: &[String], dimension: usize) {
-        if !(self.supports.is_empty() && self.at_bore.is_empty()) {
+        if self.held_by == BY_FILE || !(self.supports.is_empty() && self.at_bore.is_empty()) {
             return;
         }
         let free = |name: &&String| self.others.iter().any(|other| other.group == **name && other.note.is_none());

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::groups::Groups;
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection};
-use crate::fe::mesh::Mesh;
+use crate::fe::mesh::{DeckMaterial, Mesh};
 use crate::numerics::units::LengthUnit;
 
 fn named(name: &str) -> &'static CatalogueBearing {
@@ -164,6 +164,42 @@ fn groups_that_overlap_share_a_name_or_hang_in_the_air_are_left() {
     assert_eq!((groups.parts.len(), groups.without_part), (1, 1));
     assert_eq!(groups.supports.len(), 0);
     assert_eq!(notes(&groups), [("base", "looks like a support")]);
+}
+
+/// Lines that cannot be used name a group all the same.
+#[test]
+fn what_a_boundary_names_is_not_guessed() {
+    let deck = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=body\n1,1,2,3,4\n*ELSET,ELSET=part\n1\n\
+        *NSET,NSET=fix\n1,2,3\n*NSET,NSET=base\n1,2,4\n*TRANSFORM,NSET=fix\n0,1,0,1,0,0\n*BOUNDARY\nfix,1\n";
+    let of = |deck: &str| {
+        let mesh = Mesh::from_bytes(deck.as_bytes(), Path::new("a.inp"), LengthUnit::Metre).unwrap();
+        let mut groups = Groups::of(&mesh, 3, None);
+        groups.hold_flat(&["fix".to_owned(), "base".to_owned()], 3);
+        groups
+    };
+    let groups = of(deck);
+    assert_eq!(held(&groups), [""; 0], "{groups:?}");
+    assert!(notes(&groups).contains(&("fix", "*BOUNDARY of the file names it")), "{groups:?}");
+    assert_eq!(held(&of(&deck.replace("fix,1", "fix,1,3"))), ["fix"]);
+    assert_eq!(held(&of(deck.split("*TRANSFORM").next().unwrap())), ["fix", "base"]);
+}
+
+#[test]
+fn what_a_material_of_the_file_lacks_is_said_as_such() {
+    let own = |elastic, density| {
+        let (name, groups) = ("m".to_owned(), Vec::new());
+        super::text::lacks(&DeckMaterial { name, groups, elastic, density, first_line: true })
+    };
+    assert_eq!(own(Some([1.0, 0.3]), Some(1.0)), None);
+    for (said, expected) in [
+        (own(None, Some(1.0)), "it has no isotropic *ELASTIC"),
+        (own(Some([1.0, 0.3]), None), "it has no *DENSITY"),
+        (own(Some([1.0, 0.5]), Some(1.0)), "its Poisson's ratio is 0.5, expected -1 to less than 0.5"),
+        (own(Some([1.0, 0.3]), Some(0.0)), "its density is 0, expected more than 0"),
+        (own(Some([0.0, 0.3]), Some(1.0)), "its modulus is 0, expected more than 0"),
+    ] {
+        assert_eq!(said.as_deref(), Some(expected));
+    }
 }
 
 /// A strip of five squares whose lower side bulges by the sagitta `deep`, in sides.

@@ -7,6 +7,7 @@ use super::pit::Pit;
 use super::run_text::Window;
 use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
 use crate::app::scene::size_doubt;
+use crate::fe::mesh::DeckMaterial;
 use crate::numerics::units::LengthUnit;
 use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
@@ -139,6 +140,7 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     let (supports, at_bore) = (&held[..], &found.groups.at_bore[..]);
     lines.push(match (supports, at_bore) {
         ([], []) if found.groups.held_by == BY_NAME => "Nothing is held: no group is named like a support.".to_owned(),
+        ([], []) => "Nothing is held: *BOUNDARY of the file names groups, and no line of it is a support.".to_owned(),
         ([], _) => "Nothing is held.".to_owned(),
         _ => match found.groups.held_by {
             BY_SHAPE => {
@@ -188,15 +190,37 @@ fn materials(found: &Found<'_>) -> Vec<String> {
         }
     }
     for own in found.deck_materials.iter().filter(|own| !own.groups.is_empty()) {
-        let lacks = match (own.elastic, own.density) {
-            (None, _) => "it has no isotropic *ELASTIC, or several over temperature",
-            (_, None) => "it has no *DENSITY, or several over temperature",
-            _ if found.groups.units.is_none() => "its numbers are in no usual system of units",
+        let name = quoted(&own.name);
+        lines.push(match (lacks(own), found.groups.units) {
+            (Some(lacks), _) => format!("The material {name} of the file is not taken: {lacks}."),
+            (None, None) => {
+                format!("The material {name} of the file is not taken: its numbers are in no usual system of units.")
+            }
+            _ if own.first_line => {
+                format!("The material {name} of the file has several lines over temperature: the first is taken.")
+            }
             _ => continue,
-        };
-        lines.push(format!("The material {} of the file is not taken: {lacks}.", quoted(&own.name)));
+        });
     }
     lines
+}
+
+/// Why a material of the file is none of a case.
+pub(super) fn lacks(own: &DeckMaterial) -> Option<String> {
+    match (own.elastic, own.density) {
+        (None, _) => Some("it has no isotropic *ELASTIC".to_owned()),
+        (_, None) => Some("it has no *DENSITY".to_owned()),
+        (Some([young, _]), _) if young <= 0.0 => {
+            Some(format!("its modulus is {}, expected more than 0", number(young, 4)))
+        }
+        (Some([_, poisson]), _) if !(-1.0..0.5).contains(&poisson) => {
+            Some(format!("its Poisson's ratio is {}, expected -1 to less than 0.5", number(poisson, 4)))
+        }
+        (_, Some(density)) if density <= 0.0 => {
+            Some(format!("its density is {}, expected more than 0", number(density, 4)))
+        }
+        _ => None,
+    }
 }
 
 /// The groups that the file does not use, with what they may be.

@@ -31,6 +31,8 @@ pub(super) struct Block<'a> {
     /// Line of the keyword, from 1.
     pub(super) line: usize,
     pub(super) scope: Scope,
+    /// The step that it stands in, from 1; 0: before the first.
+    pub(super) step: usize,
 }
 
 /// Lines with their numbers, blank ones and comments left out.

@@ -6,6 +6,7 @@ use super::block::{Block, capitals, items};
 use super::deck::Deck;
 use super::numbers::coordinate;
 use super::read::Bodies;
+use super::sets::Set;
 use crate::fe::mesh::{DeckMaterial, DeckSupport, ElementId, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,13 +31,17 @@ pub(super) struct CaseData {
     materials: Vec<DeckMaterial>,
     /// Elements of a section, and the index of its material.
     sections: Vec<(Vec<u32>, usize)>,
-    /// Held sets by their names, each with its nodes.
+    /// Sets that boundaries name by their names, each with its nodes and what of them is held.
     held: BTreeMap<String, (Vec<u32>, [bool; 3])>,
     /// Nodes that are held one by one, and the line of the first.
     nodes: BTreeSet<Vec<u8>>,
     first_node: usize,
     /// Lines that say what no support can.
     others: Vec<usize>,
+    /// Lines that hold directions away from 0.
+    valued: Vec<usize>,
+    /// Which step counts, where the file has several.
+    step: Option<String>,
 }
 
 impl CaseData {
@@ -55,16 +60,41 @@ impl CaseData {
                 data.sections.push((set.members.clone(), material));
             }
         }
-        // sets of the first step go on from those before it
+        data.read_boundaries(deck, bodies);
+        data
+    }
+
+    /// What holds in the step of the modes: steps go on from those before.
+    fn read_boundaries(&mut self, deck: &Deck<'_>, bodies: &mut Bodies) {
+        let counted = deck.frequency.unwrap_or(1);
+        let mut step = 0;
         for block in deck.of("BOUNDARY") {
-            if block.parameter("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW")) {
-                (data.held, data.nodes, data.others) = Default::default();
+            // of the first of a step alone
+            let is_first = std::mem::replace(&mut step, block.step) != block.step;
+            let is_counted = block.step <= counted;
+            if is_first && is_counted && block.parameter("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW")) {
+                (self.nodes, self.others, self.valued) = Default::default();
+                self.held.values_mut().for_each(|(_, fixed)| *fixed = [false; 3]);
             }
             for (line, text) in block.lines() {
-                data.read_boundary(block, line, text, deck, bodies);
+                if is_counted {
+                    self.read_boundary(block, line, text, deck, bodies);
+                } else if let Some(set) = items(text).next().and_then(|name| bodies.node_sets.find(name, true, deck)) {
+                    self.named(&bodies.node_sets.list[set]);
+                }
             }
         }
-        data
+        if deck.steps > 1 && deck.of("BOUNDARY").next().is_some() {
+            let why = if deck.frequency.is_some() { "the first that has *FREQUENCY" } else { "as none has *FREQUENCY" };
+            self.step =
+                Some(format!("the file has {} steps: *BOUNDARY counts up to step {counted}, {why}", deck.steps));
+        }
+    }
+
+    /// What of a set is held.
+    fn named(&mut self, set: &Set) -> &mut [bool; 3] {
+        let (_, fixed) = self.held.entry(set.name.clone()).or_insert_with(|| (set.members.clone(), [false; 3]));
+        fixed
     }
 
     fn read_materials(&mut self, deck: &Deck<'_>) {
@@ -72,22 +102,30 @@ impl CaseData {
         for block in &deck.blocks {
             let keyword = block.keyword();
             let mut lines = block.lines().map(|(_, text)| items(text).map(coordinate).collect::<Vec<_>>());
-            // one line is for all temperatures
-            let numbers = lines.next().filter(|_| lines.next().is_none()).unwrap_or_default();
+            // more lines are over temperature
+            let (numbers, is_first) = (lines.next().unwrap_or_default(), lines.next().is_some());
             let is_isotropic = block.parameter("TYPE").is_none_or(|kind| capitals(kind.as_bytes()).starts_with("ISO"));
             match (keyword.as_str(), self.materials.last_mut().filter(|_| is_open)) {
                 ("MATERIAL", _) => {
                     let name = block.parameter("NAME").unwrap_or_default();
-                    self.materials.push(DeckMaterial { name, groups: Vec::new(), elastic: None, density: None });
+                    self.materials.push(DeckMaterial {
+                        name,
+                        groups: Vec::new(),
+                        elastic: None,
+                        density: None,
+                        first_line: false,
+                    });
                 }
-                ("DENSITY", Some(own)) => own.density = numbers.first().copied().flatten().filter(|rho| *rho > 0.0),
+                ("DENSITY", Some(own)) => {
+                    own.density = numbers.first().copied().flatten();
+                    own.first_line |= is_first;
+                }
                 ("ELASTIC", Some(own)) => {
                     own.elastic = match *numbers.as_slice() {
-                        [Some(young), Some(poisson), ..] => Some([young, poisson]),
+                        [Some(young), Some(poisson), ..] if is_isotropic => Some([young, poisson]),
                         _ => None,
                     };
-                    let is_solid = |[young, poisson]: &[f64; 2]| *young > 0.0 && (-1.0..0.5).contains(poisson);
-                    own.elastic = own.elastic.filter(is_solid).filter(|_| is_isotropic);
+                    own.first_line |= is_first && is_isotropic;
                 }
                 _ => {}
             }
@@ -108,26 +146,30 @@ impl CaseData {
                 return;
             }
         }
-        let moves = words.get(3).is_some_and(|value| coordinate(value).is_none_or(|value| value.abs() > 0.0));
-        let moves = moves || MOVING.iter().any(|parameter| block.parameter(parameter).is_some());
+        let value = words.get(3).copied().filter(|value| !value.is_empty()).map_or(Some(0.0), coordinate);
+        // the usual type of a boundary
+        let is_other = |value: String| !value.eq_ignore_ascii_case("DISPLACEMENT");
+        let moves = value.is_none() || MOVING.iter().any(|name| block.parameter(name).is_some_and(is_other));
         // axes of its own that a line alone does not show
         let is_turned = deck.passed_over.contains_key("TRANSFORM");
         let fixed = fixed.filter(|fixed| !moves && (!is_turned || *fixed == [true; 3]));
         let tag = words[0].rsplit(|&byte| byte == b'.').next().unwrap_or_default();
         let is_node = !tag.is_empty() && tag.iter().all(u8::is_ascii_digit);
-        match (fixed, bodies.node_sets.find(words[0], true, deck)) {
-            (Some(fixed), Some(set)) => {
-                let set = &mut bodies.node_sets.list[set];
-                // Abaqus/CAE makes sets for what was picked
-                set.internal = false;
-                let (_, own) = self.held.entry(set.name.clone()).or_insert_with(|| (set.members.clone(), [false; 3]));
-                (0..3).for_each(|axis| own[axis] |= fixed[axis]);
-            }
-            (Some(_), None) if is_node => {
-                self.first_node = if self.nodes.is_empty() { line } else { self.first_node };
-                self.nodes.insert(words[0].to_vec());
-            }
-            _ => self.others.push(line),
+        let set = bodies.node_sets.find(words[0], true, deck);
+        if let Some(set) = set {
+            let set = &mut bodies.node_sets.list[set];
+            // Abaqus/CAE makes sets for what was picked
+            set.internal &= fixed.is_none();
+            let own = self.named(set);
+            (0..3).for_each(|axis| own[axis] |= fixed.is_some_and(|fixed| fixed[axis]));
+        } else if fixed.is_some() && is_node {
+            self.first_node = if self.nodes.is_empty() { line } else { self.first_node };
+            self.nodes.insert(words[0].to_vec());
+        }
+        if fixed.is_none() || (set.is_none() && !is_node) {
+            self.others.push(line);
+        } else if value.is_some_and(|value| value.abs() > 0.0) {
+            self.valued.push(line);
         }
     }
 
@@ -151,19 +193,33 @@ impl CaseData {
         }
         let notes = &mut mesh.notes;
         notes.materials = self.materials;
-        let mut lost = Vec::new();
+        let mut lost: Vec<String> = self.step.into_iter().collect();
         for (name, (members, fixed)) in self.held {
             let nodes: Vec<usize> = members.iter().map(|&node| node as usize).collect();
             let key = capitals(name.as_bytes());
-            let mut groups = mesh.groups.iter().filter(|group| group.dimension < dimension);
-            match groups.find(|group| capitals(group.name.as_bytes()) == key && group.nodes == nodes) {
-                Some(group) => notes.supports.push(DeckSupport { group: group.name.clone(), fixed }),
-                None => lost.push(format!(
-                    "*BOUNDARY holds the set \"{name}\", which is no group: give its nodes a set of their own"
-                )),
+            let groups = mesh.groups.iter().filter(|group| group.dimension < dimension);
+            let named: Vec<_> = groups.filter(|group| capitals(group.name.as_bytes()) == key).collect();
+            let own = named.iter().find(|group| group.nodes == nodes);
+            // a group of the set's name is not guessed, whatever its nodes
+            if let Some(group) = own.or(named.first()) {
+                let fixed = fixed.map(|fixed| fixed && own.is_some());
+                notes.supports.push(DeckSupport { group: group.name.clone(), fixed });
+            }
+            if own.is_none() && fixed.contains(&true) {
+                lost.push(if nodes.len() == mesh.nodes.len() {
+                    format!("*BOUNDARY holds \"{name}\", the set of all nodes: no support holds a whole body")
+                } else {
+                    format!("*BOUNDARY holds the set \"{name}\", which is no group: give its nodes a set of their own")
+                });
             }
         }
         notes.not_supports = lost;
+        if let [first, ..] = self.valued[..] {
+            notes.not_supports.push(format!(
+                "*BOUNDARY has lines with values ({}, first line {first}): their directions are held, and the values are not used",
+                self.valued.len()
+            ));
+        }
         if let count @ 1.. = self.nodes.len() {
             notes.not_supports.push(format!(
                 "*BOUNDARY holds single nodes ({count}, first in line {}), which are no support: put them into an *NSET",
@@ -172,7 +228,7 @@ impl CaseData {
         }
         if let [first, ..] = self.others[..] {
             notes.not_supports.push(format!(
-                "*BOUNDARY has lines ({}, first line {first}) that move nodes, stand in turned axes or cannot be read: they are no support",
+                "*BOUNDARY has lines ({}, first line {first}) that move nodes over time, stand in turned axes or cannot be read: they are no support",
                 self.others.len()
             ));
         }

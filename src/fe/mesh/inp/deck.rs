@@ -48,6 +48,9 @@ pub(super) struct Deck<'a> {
     pub(super) shift: [f64; 3],
     /// Keywords that were passed over, with the line of the first of each.
     pub(super) passed_over: BTreeMap<String, usize>,
+    /// Number of steps, and the first that has *FREQUENCY.
+    pub(super) steps: usize,
+    pub(super) frequency: Option<usize>,
 }
 
 /// Whether a keyword line that ends in a comma goes on in this one: by its parameters, which no data have.
@@ -57,20 +60,26 @@ fn continues(line: &[u8]) -> bool {
 }
 
 impl<'a> Deck<'a> {
-    /// Cuts a file up to its first step; of that the boundaries alone are kept.
+    /// Cuts a file up to its first step; of the steps the boundaries alone are kept.
     ///
     /// # Errors
     /// Other files that it includes, keywords that make nodes, and anything but one
     /// part in one place.
     pub(super) fn cut(bytes: &'a [u8]) -> Result<Self, MshError> {
-        let mut deck = Self { blocks: Vec::new(), instance: None, shift: [0.0; 3], passed_over: BTreeMap::new() };
+        let mut deck = Self {
+            blocks: Vec::new(),
+            instance: None,
+            shift: [0.0; 3],
+            passed_over: BTreeMap::new(),
+            steps: 0,
+            frequency: None,
+        };
         let mut scopes = Scopes::default();
         let mut lines = Lines { bytes, start: 0, next: 0, line: 1 };
-        let mut in_step = false;
         while let Some((line, text)) = lines.next() {
             // what stands before the first keyword is passed over, as CalculiX does
             if !text.starts_with(b"*") {
-                if !in_step {
+                if deck.steps == 0 {
                     scopes.data(line, text)?;
                 }
                 continue;
@@ -84,12 +93,12 @@ impl<'a> Deck<'a> {
                 }
             }
             let head = bytes[start..lines.next].trim_ascii();
-            let block = Block { head, rest: lines.clone(), line, scope: scopes.now };
+            let block = Block { head, rest: lines.clone(), line, scope: scopes.now, step: deck.steps };
             match keyword(head).as_str() {
-                "STEP" => in_step = true,
-                "ENDSTEP" => break,
-                "BOUNDARY" if in_step => deck.blocks.push(block),
-                _ if in_step => {}
+                "STEP" => deck.steps += 1,
+                "BOUNDARY" if deck.steps > 0 => deck.blocks.push(block),
+                "FREQUENCY" if deck.steps > 0 => deck.frequency = deck.frequency.or(Some(deck.steps)),
+                _ if deck.steps > 0 => {}
                 _ => deck.take(block, &mut scopes)?,
             }
         }

@@ -236,33 +236,37 @@ fn materials_and_what_is_held_are_notes() {
         *STEP\n*FREQUENCY\n10\n*BOUNDARY\nFEET, 3\nNall, 1\n*END STEP\n*STEP\n*BOUNDARY\nsensor, 1\n";
     let deck = CUBES.replace("*ELSET, ELSET=both", "*ELSET, ELSET=_p, INTERNAL\n20\n*ELSET, ELSET=both");
     let deck = deck.split("*MATERIAL").next().unwrap().to_owned() + case;
-    let notes = read(deck.as_bytes()).unwrap().notes;
+    let mesh = read(deck.as_bytes()).unwrap();
+    let notes = &mesh.notes;
     let material = |name: &str, groups: &[&str], elastic, density| DeckMaterial {
         name: name.to_owned(),
         groups: groups.iter().map(|&group| group.to_owned()).collect(),
         elastic,
         density,
+        first_line: name == "Hot",
     };
     // the second section takes one of two bodies from the first
     let steel = material("Steel", &["Upper", "_p"], Some([2.1e5, 0.3]), Some(7.85e-9));
-    assert_eq!(notes.materials, [steel, material("Hot", &["lower one"], None, Some(2.7e-9))]);
-    let held: Vec<_> = notes.supports.iter().map(|held| (held.group.as_str(), held.fixed)).collect();
-    assert_eq!(held, [("Feet", [true; 3]), ("mixed", [true, false, false]), ("sensor", [false, true, true])]);
+    assert_eq!(notes.materials, [steel, material("Hot", &["lower one"], Some([7e4, 0.33]), Some(2.7e-9))]);
+    assert_eq!(held(&mesh), ["Feet xyz", "mixed x", "sensor xyz"]);
     assert_eq!(
         notes.not_supports,
         [
-            "*BOUNDARY holds the set \"Nall\", which is no group: give its nodes a set of their own",
+            "the file has 2 steps: *BOUNDARY counts up to step 1, the first that has *FREQUENCY",
+            "*BOUNDARY holds \"Nall\", the set of all nodes: no support holds a whole body",
+            "*BOUNDARY has lines with values (1, first line 64): their directions are held, and the values are not used",
             "*BOUNDARY holds single nodes (2, first in line 61), which are no support: put them into an *NSET",
-            "*BOUNDARY has lines (1, first line 64) that move nodes, stand in turned axes or cannot be read: they are no support",
         ]
     );
     assert_eq!(notes.passed_over, ["*CONDUCTIVITY", "*HEADING"]);
     // in axes of their own only what is held all round is known; what a step begins anew is not held any more
     let turned =
         read(deck.replace("*BOUNDARY\nfeet", "*TRANSFORM, NSET=Nall\n0,1,0,1,0,0\n*BOUNDARY\nfeet").as_bytes());
-    assert_eq!(turned.unwrap().notes.supports.len(), 0);
-    let anew = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW\nFEET").as_bytes()).unwrap().notes;
-    assert_eq!(anew.supports, [DeckSupport { group: "Feet".to_owned(), fixed: [false, false, true] }]);
+    let turned = turned.unwrap();
+    assert_eq!(held(&turned), [""; 0]);
+    assert!(turned.notes.supports.iter().any(|named| named.group == "Feet"), "{:?}", turned.notes);
+    let anew = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW\nFEET").as_bytes()).unwrap();
+    assert_eq!(held(&anew), ["Feet z"]);
     // what was picked in Abaqus/CAE, and a surface of the set's name
     let picked = read(deck.replace("NSET=Feet, GENERATE", "NSET=Feet, GENERATE, INTERNAL").as_bytes()).unwrap().notes;
     assert_eq!(picked.supports[0].group, "Feet");
@@ -270,7 +274,37 @@ fn materials_and_what_is_held_are_notes() {
         read(deck.replace("*SURFACE, NAME=skin", "*SURFACE, NAME=FEET\nlower one, S1\n*SURFACE, NAME=skin").as_bytes());
     assert_eq!(surface.unwrap().notes.supports[0].group, "FEET");
     let moving = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW, TYPE=VELOCITY\nFEET").as_bytes());
-    assert_eq!(moving.unwrap().notes.supports.len(), 0);
+    assert_eq!(held(&moving.unwrap()), [""; 0]);
+}
+
+/// Groups that the file holds, with the directions.
+fn held(mesh: &Mesh) -> Vec<String> {
+    let axes = |fixed: [bool; 3]| {
+        ["x", "y", "z"].into_iter().zip(fixed).filter(|own| own.1).map(|own| own.0).collect::<String>()
+    };
+    let supports = mesh.notes.supports.iter().filter(|named| named.fixed.contains(&true));
+    supports.map(|DeckSupport { group, fixed }| format!("{group} {}", axes(*fixed))).collect()
+}
+
+/// A static step before that of the frequencies, which adds a set, begins anew, or both in two boundaries; a step after it.
+#[test]
+fn boundaries_count_up_to_the_step_of_the_frequencies() {
+    let deck = CUBES.split("*STEP").next().unwrap().to_owned()
+        + "*BOUNDARY\nmixed,1\n*STEP\n*STATIC\n*BOUNDARY\nFeet,1,3\n*END STEP\n*STEP\n*FREQUENCY\n3\n*BOUNDARY\nsensor,2\n\
+            *END STEP\n*STEP\n*FREQUENCY\n3\n*BOUNDARY, OP=NEW\nsensor,3\n*END STEP\n";
+    let of = |deck: &str| held(&read(deck.as_bytes()).unwrap());
+    assert_eq!(of(&deck), ["Feet xyz", "mixed x", "sensor y"]);
+    assert_eq!(of(&deck.replacen("*BOUNDARY\nsensor", "*BOUNDARY, OP=NEW\nsensor", 1)), ["sensor y"]);
+    let twice = deck.replacen("*BOUNDARY\nsensor", "*BOUNDARY, OP=NEW\nmixed,3\n*BOUNDARY, OP=NEW\nsensor", 1);
+    assert_eq!(of(&twice), ["mixed z", "sensor y"]);
+    assert_eq!(of(&deck.replace("*FREQUENCY", "*STATIC")), ["Feet xyz", "mixed x"]);
+    let said = |deck: &str| read(deck.as_bytes()).unwrap().notes.not_supports.concat();
+    assert_eq!(said(&deck), "the file has 3 steps: *BOUNDARY counts up to step 2, the first that has *FREQUENCY");
+    assert!(said(&deck.replace("*FREQUENCY", "*STATIC")).ends_with("up to step 1, as none has *FREQUENCY"));
+    // what only a later step names is named still
+    let anew = read(deck.replacen("*BOUNDARY\nsensor,2", "*BOUNDARY, OP=NEW", 1).as_bytes()).unwrap();
+    let named: Vec<_> = anew.notes.supports.iter().map(|named| named.group.as_str()).collect();
+    assert_eq!((named, held(&anew)), (vec!["Feet", "mixed", "sensor"], Vec::new()));
 }
 
 /// Tags of entities are made up here, so that no name can mean one.
