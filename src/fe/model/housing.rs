@@ -1,8 +1,7 @@
 //! A housing, plane or solid: mesh, materials, supports, degrees of freedom. Node n has the displacements
 //! `d n`, `d n + 1`, ... along the mesh's axes x, y (d = 2) or x, y, z (d = 3).
 
-use super::parts::{HousingElements, HousingPart};
-use super::plates::ThinPlates;
+use super::parts::{HousingElements, HousingPart, ThinPlates};
 use super::spread::not_on_housing;
 use super::support::{HousingSupport, Link, NodalMatrix, NodalSource, PointMass, TiedNodes, unique};
 use super::{Apart, Bodies, Crossing, MixedOrders, ModelError, Overlap, OverlapRule, RingFrame, Touching};

@@ -103,6 +103,19 @@ pub struct HousingElement {
     pub(super) first: usize,
 }
 
+/// Elements with incompatible modes in plates that are thin beside their edges.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ThinPlates {
+    /// Index of the part of the worst one.
+    pub part: usize,
+    /// How many there are, > 0.
+    pub elements: usize,
+    /// The shorter edge along the plate over its thickness, of the worst one.
+    pub slenderness: f64,
+    /// gmsh's tag of the worst one.
+    pub tag: u64,
+}
+
 /// The elements of a housing, in the order of the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HousingElements {

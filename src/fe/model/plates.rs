@@ -5,9 +5,10 @@
 //! false ones. On a block of 4 times the shear modulus a layer of flatness 10 had frequencies up to 42 % too low by full mass, and
 //! a free bar of ten layers of flatness 10 had as well (measured).
 
+use super::HousingModel;
 use super::flat::Behind;
+use super::parts::{HousingElement, ThinPlates};
 use super::support::sorted;
-use super::{HousingElement, HousingModel};
 use crate::fe::element::continuum::LinearFormulation;
 use crate::fe::mesh::Mesh;
 use rayon::prelude::*;
@@ -26,19 +27,6 @@ const ALIKE: f64 = 2.0;
 /// bending along one that changes along the other shears it, with the square of this number. One layer of steel in 8 x 8
 /// elements, its tenth mode and those before: below 4 % too high up to 6, 16 % and more at 12, 53 % at 25 (measured).
 const THIN: f64 = 8.0;
-
-/// Elements with incompatible modes in plates that are thin beside their edges.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ThinPlates {
-    /// Index of the part of the worst one.
-    pub part: usize,
-    /// How many there are, > 0.
-    pub elements: usize,
-    /// The shorter edge along the plate over its thickness, of the worst one.
-    pub slenderness: f64,
-    /// gmsh's tag of the worst one.
-    pub tag: u64,
-}
 
 impl HousingModel {
     /// Marks the directions across which there is at most one more element, and then free faces.

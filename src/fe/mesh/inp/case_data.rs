@@ -29,8 +29,8 @@ const MOVING: [&str; 6] = ["BASEMOTION", "LOADCASE", "MASSFLOW", "SUBMODEL", "TY
 #[derive(Default)]
 pub(super) struct CaseData {
     materials: Vec<DeckMaterial>,
-    /// Elements of a section, and the index of its material.
-    sections: Vec<(Vec<u32>, usize)>,
+    /// Set of a section, its elements, and the index of its material.
+    sections: Vec<(String, Vec<u32>, usize)>,
     /// Sets that boundaries name by their names, each with its nodes and what of them is held.
     held: BTreeMap<String, (Vec<u32>, [bool; 3])>,
     /// Nodes that are held one by one, and the line of the first.
@@ -57,7 +57,10 @@ impl CaseData {
             if let (Some(material), Some(set)) = (material, set) {
                 let set = &mut bodies.element_sets.list[set];
                 set.internal &= set.members.len() == bodies.places.len();
-                data.sections.push((set.members.clone(), material));
+                // later sections take over
+                let known = data.sections.iter().position(|(own, ..)| *own == set.name);
+                let members = known.map_or_else(|| set.members.clone(), |known| data.sections.remove(known).1);
+                data.sections.push((set.name.clone(), members, material));
             }
         }
         data.read_boundaries(deck, bodies);
@@ -75,6 +78,10 @@ impl CaseData {
             if is_first && is_counted && block.parameter("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW")) {
                 (self.nodes, self.others, self.valued) = Default::default();
                 self.held.values_mut().for_each(|(_, fixed)| *fixed = [false; 3]);
+            }
+            if block.parameter("INPUT").is_some() && is_counted {
+                // in another file
+                self.others.push(block.line);
             }
             for (line, text) in block.lines() {
                 if is_counted {
@@ -176,7 +183,7 @@ impl CaseData {
     /// Names the groups that materials and supports are of, in the mesh that has them.
     pub(super) fn note(mut self, mesh: &mut Mesh, places: &[Option<ElementId>]) {
         let mut made_of = mesh.for_each_element(usize::MAX);
-        for (members, material) in &self.sections {
+        for (_, members, material) in &self.sections {
             for id in members.iter().filter_map(|&element| places[element as usize]) {
                 made_of[id.block][id.index] = *material;
             }
@@ -228,7 +235,7 @@ impl CaseData {
         }
         if let [first, ..] = self.others[..] {
             notes.not_supports.push(format!(
-                "*BOUNDARY has lines ({}, first line {first}) that move nodes over time, stand in turned axes or cannot be read: they are no support",
+                "*BOUNDARY has lines ({}, first line {first}) that move nodes over time, stand in turned axes or another file, or cannot be read: they are no support",
                 self.others.len()
             ));
         }
