@@ -223,7 +223,7 @@ fn a_band_above_the_kept_modes_fails_its_certificate() {
         let on = on(TOP, FLOOR);
         format!("{on}fixed_interface_modes = {modes}\n[accuracy]\nband_hz = [0, {top}]\n")
     };
-    // the first three fixed-interface modes are from 28.3 kHz on
+    // the lowest fixed-interface mode is at 28.3 kHz
     for modes in ["0", "2", "{ up_to_hz = 1000 }"] {
         let said = run(&folder, &case(modes, 60e3), &["--quiet"]);
         assert_eq!(said.code, 1, "{modes}");

@@ -1,6 +1,6 @@
 //! Reference: the same free bodies of steel in Hex27 of half the size and less (by the same program).
 //! Goal: flat Hex8 have the mass of their bubbles in plates, and little of it where they are stacked up to a thick body.
-//! Sketch: a plate of 100 x 100 x 10 mm in 5 x 5 x 2 cells; a block of 40 x 40 x 20 mm in 4 x 4 x 10.
+//! Sketch: a plate of 100 x 100 x 10 mm in 5 x 5 x 2 cells. A block of 40 x 40 x 20 mm in 4 x 4 x 10.
 //! Conditions: the program as a user runs it. Parameters: the limits are a tenth wider than what was found. Without the bubbles' mass
 //!   the plate's errors reach 23 %; with all of it the block's frequencies are up to 25 % too low.
 

@@ -24,8 +24,8 @@ const FLAT: f64 = 3.0;
 const FLAT_BETWEEN: f64 = 2.0;
 
 /// Shear modulus of what holds a face over that of the layer from which on the face is held. A layer on a block of cubes, held
-/// below: at a ratio of 4 and a flatness up to 10 none of 14 frequencies is more than 5 % too low; at 10 they are off by -6 % at 10,
-/// at 100 by -13 % at 5 and -29 % at 10.
+/// below: at a ratio of 4 and a flatness up to 10 none of 14 frequencies is more than 5 % too low. At a ratio of 10 and a
+/// flatness of 10 they are 6 % too low; at 100 it is 13 % at 5 and 29 % at 10.
 const STIFFER: f64 = 10.0;
 
 /// `(pi / 2)^2`: a layer of shear stiffness k an area that is held at one face moves as if it were a spring of that many k.

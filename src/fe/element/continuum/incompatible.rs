@@ -37,7 +37,7 @@ const IN_MASS: f64 = 1.5;
 const LONG_IN_PLATE: f64 = 2.0;
 
 /// The same over other heights, by the third power. In a flat layer on a held face bubbles move in the stiffness as the layer
-/// cannot. With all of their mass its lowest frequency was 51 % too low at an edge of 3 heights, and 8 % too high so (measured
+/// cannot. With all of their mass its lowest frequency was 51 % too low at an edge of 3 heights, and 7 % too high so (measured
 /// on steel plates).
 const LONG: f64 = 1.5;
 
