@@ -33,6 +33,9 @@ fn flat_layers_are_said_where_they_are_too_soft() {
             "supports = [{{ group = 'a_bottom', spring = {{ x = {stiffness}, y = {stiffness}, z = {stiffness} }} }}]"
         )
     };
+    let ply = |young: [f64; 3], shear: [f64; 3]| {
+        format!("[materials.ply]\nyoung = {young:?}\npoisson = [0, 0, 0]\nshear = {shear:?}\ndensity = 8000")
+    };
     let tie = "links = [{ between = ['a_top', 'b_bottom'], tie = true }]";
     let plate: Stack = &[("a", 0.01, 1, false)];
     let block: Stack = &[("a", 0.1, 1, false), ("b", 0.01, 1, true)];
@@ -63,8 +66,22 @@ fn flat_layers_are_said_where_they_are_too_soft() {
             fixed.to_owned(),
             false,
         ),
+        (
+            "soft along it",
+            block,
+            ["steel", "ply"],
+            format!("{fixed}\n{}", ply([1e9, 1e9, 2e11], [1e9, 8e10, 8e10])),
+            true,
+        ),
+        (
+            "stiff along it",
+            block,
+            ["steel", "ply"],
+            format!("{fixed}\n{}", ply([2e11, 2e11, 1e9], [8e10, 1e8, 1e8])),
+            false,
+        ),
         ("as high as its edges", &[("a", 0.1, 1, false)], ["steel", ""], fixed.to_owned(), false),
-    ] as [(&str, Stack, [&str; 2], String, bool); 9]
+    ] as [(&str, Stack, [&str; 2], String, bool); 11]
     {
         write(&folder, stack);
         let parts = ["a", "b"].into_iter().zip(materials).filter(|(_, material)| !material.is_empty());
@@ -75,5 +92,28 @@ fn flat_layers_are_said_where_they_are_too_soft() {
         let (_, plain) = result(&folder, &modes(&folder, &plain));
         assert_eq!(warnings.contains("flat layers"), told, "{name}: {warnings}");
         assert_eq!(own < FAR_TOO_LOW * plain, told, "{name}: {own} Hz, plain {plain} Hz");
+    }
+}
+
+/// A block of steel on a pad that is held below; the fourth mode is the first one that presses it.
+#[test]
+fn single_elements_of_rubber_between_held_faces_are_told() {
+    let folder = scratch("pads");
+    let fourth = |material: &str, cells: usize| {
+        write(&folder, &[("a", 0.2, cells, false), ("b", 0.2, 1, true)]);
+        let parts = format!("{{ group = 'a', material = '{material}' }}, {{ group = 'b', material = 'steel' }}");
+        let support = "supports = [{ group = 'a_bottom', fixed = ['x', 'y', 'z'] }]";
+        let (warnings, _) = result(&folder, &modes(&folder, &format!("parts = [{parts}]\n{support}")));
+        let json = std::fs::read_to_string(folder.join("out/modes.json")).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        (
+            warnings.contains("16 elements of first order stand alone between held faces"),
+            json["frequencies_hz"][3].as_f64().unwrap(),
+        )
+    };
+    for (material, told) in [("rubber", true), ("POM", false)] {
+        let ((one, stiff), (two, right)) = (fourth(material, 1), fourth(material, 2));
+        assert_eq!([one, two], [told, false], "{material}");
+        assert_eq!(stiff > 1.25 * right, told, "{material}: {stiff} and {right} Hz");
     }
 }

@@ -48,22 +48,36 @@ fn flat_elements_have_the_mass_of_their_bubbles_in_plates_alone() {
     }
 }
 
-/// Plates whose edges are 12 and 6 times as long as they are thick, in one layer and in two, and a beam.
+/// Plates of 8 x 8 cells, by their sides in m, layers and angle off square: frequencies of bending are 14 % too high and more in
+/// those that are told (see `THIN` of the model).
 #[test]
 fn thin_plates_are_told() {
     let bodies = [
-        ("thin", [0.1, 0.1, 0.001], [8, 8, 1], true),
-        ("thin in two layers", [0.1, 0.1, 0.001], [8, 8, 2], true),
-        ("thicker", [0.1, 0.1, 0.002], [8, 8, 1], false),
-        ("beam", [0.1, 0.001, 0.001], [8, 1, 1], false),
+        ("thin", [0.096, 0.096, 0.001], [8, 8, 1], 0.0, "with edges up to 12 times as long as the plate is thick at"),
+        ("thin in four layers", [0.096, 0.096, 0.001], [8, 8, 4], 0.0, "up to 12 times"),
+        (
+            "askew",
+            [0.1, 0.1, 0.003],
+            [8, 8, 1],
+            60.0,
+            "up to 4 times as long as the plate is thick, 60 degrees off square,",
+        ),
+        ("thicker", [0.1, 0.1, 0.002], [8, 8, 1], 0.0, ""),
+        ("thick and askew", [0.1, 0.1, 0.0125], [8, 8, 2], 60.0, ""),
+        ("beam", [0.1, 0.001, 0.001], [8, 1, 1], 0.0, ""),
     ];
-    for (name, sides, cells, told) in bodies {
+    for (name, sides, cells, askew, told) in bodies {
         let folder = scratch("thin-plates");
         let mut grid = Grids::default();
         let [x, y, z] = [0, 1, 2].map(|i| steps(0.0, sides[i], cells[i]));
         grid.solid("a", [&x, &y, &z], false);
+        let (sine, cosine) = f64::to_radians(askew).sin_cos();
+        for [x, y, _] in &mut grid.nodes {
+            (*x, *y) = (*x + sine * *y, cosine * *y);
+        }
         grid.write(&folder);
         let (warnings, _) = result(&folder, &modes(&folder, "parts = [{ group = 'a', material = 'steel' }]"));
-        assert_eq!(warnings.contains("Hex8 are in thin plates, with edges up to 1"), told, "{name}: {warnings}");
+        let is_right = if told.is_empty() { !warnings.contains("thin plates") } else { warnings.contains(told) };
+        assert!(is_right, "{name}: {warnings}");
     }
 }

@@ -139,9 +139,19 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
         )
     });
     let thin = model.thin_plates().map(|found| {
+        let skewed = match found.skew.to_degrees() {
+            skew if skew < 10.0 => String::new(),
+            skew => format!(", {skew:.0} degrees off square,"),
+        };
         format!(
-            "{} Hex8 are in thin plates, with edges up to {:.0} times as long as the plate is thick at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
-            found.elements, found.slenderness, found.tag, model.description.parts[found.part].group
+            "{} Hex8 are in thin plates, with edges up to {:.0} times as long as the plate is thick{} at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
+            found.elements, found.slenderness, skewed, found.tag, model.description.parts[found.part].group
+        )
+    });
+    let confined = model.confined().map(|found| {
+        format!(
+            "{} elements of first order stand alone between held faces in layers that hardly change their volume: their frequencies of pressure may be twice too high; the first is element {} of part \"{}\"; give two elements across, or mesh with second order ({order})",
+            found.elements, found.tag, model.description.parts[found.part].group
         )
     });
     let is_plain = model.description.formulation.linear == LinearFormulation::Plain;
@@ -172,7 +182,7 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
         )
     });
     let tied = overlaps.chain(touching).chain(crossings).chain(apart);
-    tied.chain(shared).chain(flat).chain(trapezoids).chain(thin).chain(stiff).chain(held).collect()
+    tied.chain(shared).chain(flat).chain(trapezoids).chain(thin).chain(confined).chain(stiff).chain(held).collect()
 }
 
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.

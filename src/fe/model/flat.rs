@@ -6,12 +6,11 @@
 //! `c' / H`. So the layer is too soft from some `L / H` on, and from a larger one on springs. An element alone cannot tell
 //! the two: without these bubbles a flat one locks in bending, by `1 / (1 + (L / H)^2 / 2)`.
 
-use super::support::{NodalSource, sorted};
-use super::{HousingElement, HousingModel, overlap};
+use super::stack::{Behind, Storey};
+use super::support::NodalSource;
+use super::{HousingElement, HousingModel};
 use crate::fe::element::continuum::LinearFormulation;
-use crate::fe::mesh::ElementKind;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
 
 /// Longest edge of a held face over the height of the layer above it from which on the layer is told. A plate of steel,
 /// held at one face, in elements of incompatible modes: its lowest frequency is off by +7 % at 2 and 3, -6 % at 4,
@@ -44,18 +43,26 @@ pub struct FlatLayer {
     pub place: [f64; 3],
 }
 
-/// Indices of the one or two elements with a face, by its sorted nodes.
-pub(super) type Behind = BTreeMap<Vec<usize>, [Option<usize>; 2]>;
-
 /// What may hold a node of a layer.
 #[derive(Debug, Clone, Default)]
-struct Hold {
+pub(super) struct Hold {
     /// Shear moduli of the stiffest element at it, and of the stiffest that is tied to it, Pa.
     modulus: f64,
     /// Springs along the axes, N/m, with the shear modulus of what is at their other end, Pa.
     springs: Vec<(Vector3<f64>, f64)>,
     /// Its share of the faces of incompatible elements that stand on springs, m^2.
     area: f64,
+}
+
+/// A layer between faces, as its bubbles see it. All moduli are alike in an isotropic one.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ply {
+    /// Shear modulus across it, Pa.
+    pub(super) shear: f64,
+    /// Its resistance to being stretched along an edge, as the shear modulus of steel, Pa. False motions have no other.
+    stretch: f64,
+    /// Mean of its shear moduli, Pa.
+    mean: f64,
 }
 
 impl HousingModel {
@@ -71,7 +78,7 @@ impl HousingModel {
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
                 let [edge, height] = self.shape(element, &face);
-                let held = self.held(&face, self.modulus(element), &holds);
+                let held = self.held(&face, self.ply(element, &face), &holds);
                 if held <= 0.0 || edge <= FLAT_BETWEEN * height {
                     continue;
                 }
@@ -92,7 +99,20 @@ impl HousingModel {
         self.properties[element.part].shear_modulus()
     }
 
-    fn holds(&self) -> Vec<Hold> {
+    /// An element as a layer on a face, in the direction in which its bubbles make it softest.
+    pub(super) fn ply(&self, element: &HousingElement, face: &[usize]) -> Ply {
+        let (normal, properties) = (self.normal(face), &self.properties[element.part]);
+        let edges = face.iter().zip(face.iter().cycle().skip(1));
+        let plies = edges.take(2).map(|(&from, &to)| {
+            let edge = self.at(to) - self.at(from);
+            let along = (edge - normal * normal.dot(&edge)).try_normalize(0.0).unwrap_or_default();
+            let [shear, stretch] = properties.layer_moduli(normal, along);
+            Ply { shear, stretch, mean: properties.shear_modulus() }
+        });
+        plies.max_by(|a, b| (a.shear * b.stretch).total_cmp(&(b.shear * a.stretch))).unwrap_or_default()
+    }
+
+    pub(super) fn holds(&self) -> Vec<Hold> {
         let mut holds = vec![Hold::default(); self.coordinates.len()];
         for element in self.elements.iter() {
             for &node in self.elements.nodes(element) {
@@ -131,39 +151,17 @@ impl HousingModel {
         holds
     }
 
-    /// Nodes of the faces of an element with incompatible modes, none of others.
-    pub(super) fn faces(&self, element: &HousingElement) -> Vec<Vec<usize>> {
-        if !matches!(element.kind, ElementKind::Quad4 | ElementKind::Hex8) {
-            return Vec::new();
-        }
-        let nodes = self.elements.nodes(element);
-        let faces = element.kind.faces().iter();
-        faces.map(|face| face.nodes.iter().map(|&local| nodes[local]).collect()).collect()
-    }
-
-    pub(super) fn elements_behind_faces(&self) -> Behind {
-        let mut behind = Behind::new();
-        for (index, element) in self.elements.iter().enumerate() {
-            for face in self.faces(element) {
-                let slots = behind.entry(sorted(&face)).or_default();
-                let free = usize::from(slots[0].is_some());
-                slots[free] = Some(index);
-            }
-        }
-        behind
-    }
-
-    /// Stiffness an area against motions along a face of an element of this shear modulus, Pa/m: infinite where supports or
-    /// something much stiffer hold all its nodes, that of their springs, zero without either.
-    fn held(&self, face: &[usize], modulus: f64, holds: &[Hold]) -> f64 {
+    /// Stiffness an area against motions along a face of a layer, Pa/m: infinite where supports or something much stiffer
+    /// hold all its nodes, that of their springs, zero without either.
+    pub(super) fn held(&self, face: &[usize], ply: Ply, holds: &[Hold]) -> f64 {
         let normal = self.normal(face);
         let of_node = |node: usize, axis: usize| {
             let hold = &holds[node];
-            if self.fixed[node][axis].is_some() || hold.modulus >= STIFFER * modulus {
+            if self.fixed[node][axis].is_some() || (hold.modulus >= STIFFER * ply.stretch && hold.modulus > ply.mean) {
                 return f64::INFINITY;
             }
             let springs = hold.springs.iter();
-            let springs = springs.filter(|(_, other)| *other >= STIFFER * modulus);
+            let springs = springs.filter(|(_, other)| *other >= STIFFER * ply.stretch);
             let sum: f64 = springs.map(|(along, _)| along[axis]).sum();
             if sum > 0.0 { sum / hold.area } else { 0.0 }
         };
@@ -176,36 +174,26 @@ impl HousingModel {
     }
 
     /// Longest edge of a face over the height of the layer that begins there; `None` if that is not flat.
-    fn layer_flatness(&self, mut index: usize, face: &[usize], behind: &Behind, holds: &[Hold]) -> Option<f64> {
-        let mut face = face.to_vec();
-        let modulus = self.modulus(&self.elements.list[index]);
-        let held = self.held(&face, modulus, holds);
+    fn layer_flatness(&self, index: usize, face: &[usize], behind: &Behind, holds: &[Hold]) -> Option<f64> {
+        let ply = self.ply(&self.elements.list[index], face);
+        let (held, more) = (self.held(face, ply, holds), (ply.shear / ply.stretch).sqrt());
         let (mut sum, mut whole) = (0.0, 0.0); // of heights over the longest edge, and of heights
-        for layers in 1..=self.elements.len() {
-            let element = &self.elements.list[index];
-            let [edge, height] = self.shape(element, &face);
-            (sum, whole) = (sum + height / edge, whole + height);
+        let told = |flat: f64, [sum, whole]: [f64; 2]| {
+            let limit = flat * (1.0 + OF_SHEAR * ply.shear / (whole * held)).sqrt();
+            (sum * limit < 1.0).then_some(1.0 / (more * sum))
+        };
+        let goes_on = |storey: &Storey| STIFFER * self.modulus(&self.elements.list[storey.index]) > ply.mean;
+        for (below, storey) in self.stack(index, face.to_vec(), behind).take_while(goes_on).enumerate() {
+            let [edge, height] = self.shape(&self.elements.list[storey.index], &storey.bottom);
+            (sum, whole) = (sum + height / (more * edge), whole + height);
             if sum * FLAT_BETWEEN >= 1.0 || sum.is_nan() {
                 return None;
             }
-            let told = |flat: f64| {
-                let limit = flat * (1.0 + OF_SHEAR * modulus / (whole * held)).sqrt();
-                (sum * limit < 1.0).then_some(1.0 / sum)
-            };
-            let apart = |other: &Vec<usize>| other.iter().all(|node| !face.contains(node));
-            let opposite = self.faces(element).into_iter().find(apart)?;
-            if self.held(&opposite, modulus, holds) >= modulus / whole {
-                return told(FLAT_BETWEEN).filter(|_| layers > 1);
-            }
-            let next = behind.get(&sorted(&opposite))?.iter().flatten();
-            let next = next.copied().find(|&next| next != index);
-            let goes_on = |&next: &usize| STIFFER * self.modulus(&self.elements.list[next]) > modulus;
-            match next.filter(goes_on) {
-                Some(next) => (index, face) = (next, opposite),
-                None => return told(FLAT),
+            if self.held(&storey.top, ply, holds) >= ply.shear / whole {
+                return told(FLAT_BETWEEN, [sum, whole]).filter(|_| below > 0);
             }
         }
-        None
+        told(FLAT, [sum, whole])
     }
 
     /// Longest edge of a face and the least height of the element above it, m.
@@ -218,34 +206,5 @@ impl HousingModel {
         let edges = face.iter().zip(face.iter().cycle().skip(1));
         let edges = edges.map(|(&a, &b)| (self.at(a) - self.at(b)).norm());
         [edges.fold(0.0, f64::max), height]
-    }
-
-    /// Unit normal of a face by its diagonals, of an edge in the plane across it; zero without size.
-    pub(super) fn normal(&self, face: &[usize]) -> Vector3<f64> {
-        self.across(face).try_normalize(0.0).unwrap_or_default()
-    }
-
-    /// Twice the area of a face along its normal, m^2; of an edge in the plane its length, m.
-    fn across(&self, face: &[usize]) -> Vector3<f64> {
-        let corners: Vec<_> = face.iter().map(|&node| self.at(node)).collect();
-        overlap::normal(&corners)
-    }
-
-    /// Area of a face, m^2.
-    fn area(&self, face: &[usize], element: &HousingElement) -> f64 {
-        let across = self.across(face).norm();
-        match self.dimension {
-            2 => across * self.properties[element.part].thickness,
-            _ => 0.5 * across,
-        }
-    }
-
-    pub(super) fn at(&self, node: usize) -> Vector3<f64> {
-        Vector3::from(self.coordinates[node])
-    }
-
-    pub(super) fn mean(&self, face: &[usize]) -> Vector3<f64> {
-        let sum: Vector3<f64> = face.iter().map(|&node| self.at(node)).sum();
-        sum / face.len() as f64
     }
 }

@@ -2,6 +2,7 @@
 //! between ring and housing.
 
 mod attach;
+mod confined;
 mod error;
 mod flat;
 mod frame;
@@ -14,6 +15,7 @@ mod ring;
 mod section_springs;
 mod solid_ring;
 mod spread;
+mod stack;
 mod straighten;
 mod support;
 mod surface;

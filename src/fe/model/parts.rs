@@ -112,8 +112,17 @@ pub(crate) struct ThinPlates {
     pub elements: usize,
     /// The shorter edge along the plate over its thickness, of the worst one.
     pub slenderness: f64,
+    /// Angle between its edges along the plate, off a right one, rad.
+    pub skew: f64,
     /// gmsh's tag of the worst one.
     pub tag: u64,
+}
+
+impl ThinPlates {
+    /// How much the worst one locks.
+    pub(super) fn measure(&self) -> f64 {
+        self.slenderness / self.skew.cos().powi(2)
+    }
 }
 
 /// The elements of a housing, in the order of the mesh.

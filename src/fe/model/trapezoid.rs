@@ -9,7 +9,7 @@
 //! one free face to the opposite one make the body `1 + sum (R - 1) B_i / B` times too stiff, by the bending stiffness `B_i`
 //! of each alone and B of all. Along the body deflections add: it is the harmonic mean that counts.
 
-use super::flat::Behind;
+use super::stack::{Behind, Storey};
 use super::support::sorted;
 use super::{HousingElement, HousingModel};
 use crate::fe::element::continuum::{LinearFormulation, measure, measure_matrix, stiffness_into};
@@ -67,14 +67,10 @@ impl HousingModel {
         if self.description.formulation.linear != LinearFormulation::Incompatible {
             return None;
         }
-        let worst = |element: &HousingElement| {
-            let (faces, first) = (self.faces(element), self.elements.nodes(element)[0]);
-            let one_of_each_pair = (0..faces.len()).filter(|&face| faces[face].contains(&first));
-            one_of_each_pair.map(|face| self.slab(element, &faces, face).excess).fold(1.0, f64::max)
-        };
+        let worst = |index: usize| self.storeys(index).iter().map(|own| self.slab(own).excess).fold(1.0, f64::max);
         // a body's stiffness is too high by no more than that of its worst element
         let limit = TOO_HIGH * TOO_HIGH;
-        if !self.elements.list.par_iter().any(|element| worst(element) > limit) {
+        if !(0..self.elements.len()).into_par_iter().any(|index| worst(index) > limit) {
             return None;
         }
         let layers = self.layers();
@@ -128,28 +124,17 @@ impl HousingModel {
         layers
     }
 
-    /// The elements on each other from a face to the opposite one; `None` if that is not free or they end before it.
+    /// The elements on each other from a face to the opposite one; `None` if that is not free.
     fn column(
         &self,
-        mut index: usize,
-        mut face: Vec<usize>,
+        index: usize,
+        face: Vec<usize>,
         behind: &Behind,
         free: impl Fn(&[usize]) -> bool,
     ) -> Option<Vec<(usize, Slab)>> {
-        let mut chain = Vec::new();
-        while chain.len() < self.elements.len() {
-            let element = &self.elements.list[index];
-            let faces = self.faces(element);
-            let key = sorted(&face);
-            let at = faces.iter().position(|face| sorted(face) == key)?;
-            chain.push((index, self.slab(element, &faces, at)));
-            face = faces.into_iter().find(|other| other.iter().all(|node| !face.contains(node)))?;
-            match behind.get(&sorted(&face))?.iter().flatten().find(|&&next| next != index) {
-                Some(&next) => index = next,
-                None => return free(&face).then_some(chain),
-            }
-        }
-        None
+        let stack: Vec<_> = self.stack(index, face, behind).collect();
+        let ends = stack.last().is_some_and(|last| free(&last.top));
+        ends.then(|| stack.iter().map(|storey| (storey.index, self.slab(storey))).collect())
     }
 
     /// The chain as a laminate whose sections stay plane.
@@ -182,17 +167,12 @@ impl HousingModel {
         held
     }
 
-    /// The element between one of its faces and the opposite one.
-    fn slab(&self, element: &HousingElement, faces: &[Vec<usize>], face: usize) -> Slab {
-        let base = &faces[face];
-        let (mean, mut normal) = (self.mean(base), self.normal(base));
-        let Some(opposite) = faces.iter().find(|other| other.iter().all(|node| !base.contains(node))) else {
-            return Slab { excess: 1.0, height: 0.0 };
-        };
-        let across = self.mean(opposite) - mean;
-        let other = self.normal(opposite);
-        normal = (normal - other).try_normalize(0.0).unwrap_or(normal);
-        let height = across.dot(&normal).abs();
+    /// The element between its two faces.
+    fn slab(&self, storey: &Storey) -> Slab {
+        let element = &self.elements.list[storey.index];
+        let [below, above] = [&storey.bottom, &storey.top].map(|face| (self.mean(face), self.normal(face)));
+        let normal = (below.1 - above.1).try_normalize(0.0).unwrap_or(below.1);
+        let height = (above.0 - below.0).dot(&normal).abs();
         let excess = if self.is_straight(element) { None } else { self.excess(element, normal) };
         Slab { excess: excess.unwrap_or(1.0).max(1.0), height }
     }

@@ -2,10 +2,13 @@
 
 use crate::fe::element::ElementError;
 use crate::fe::material::ElasticMaterial;
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
+
+/// Poisson's ratio of steel.
+const STEEL_POISSON: f64 = 0.3;
 
 /// What vanishes across a plane model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -108,6 +111,30 @@ impl ContinuumProperties {
             Elasticity::General(c) if self.dimension == 2 => c[0][1][0][1],
             Elasticity::General(c) => (c[0][1][0][1] + c[1][2][1][2] + c[0][2][0][2]) / 3.0,
         }
+    }
+
+    /// Moduli, Pa, of a layer across a unit normal, along a unit vector in it: against shear across the layer, and the shear modulus
+    /// of the isotropic steel that gives the same resistance to stretching in the layer, `G 2 / (1 - nu)`.
+    pub(crate) fn layer_moduli(&self, normal: Vector3<f64>, along: Vector3<f64>) -> [f64; 2] {
+        let Elasticity::General(c) = &self.elasticity else { return [self.shear_modulus(); 2] };
+        let d = self.dimension;
+        let component = |[p, q, r, s]: [Vector3<f64>; 4]| {
+            let indices = (0..d.pow(4)).map(|at| [at / (d * d * d), at / (d * d) % d, at / d % d, at % d]);
+            indices.map(|[i, j, k, l]| c[i][j][k][l] * p[i] * q[j] * r[k] * s[l]).sum::<f64>()
+        };
+        let coupling = component([normal, normal, along, along]);
+        let stretch = component([along; 4]) - coupling * coupling / component([normal; 4]);
+        [component([normal, along, normal, along]), stretch * (1.0 - STEEL_POISSON) / 2.0]
+    }
+
+    /// Lame's first constant over the shear modulus; of an orthotropic material the mean of its planes.
+    pub(crate) fn lame_over_shear(&self) -> f64 {
+        let lame = match &self.elasticity {
+            Elasticity::Isotropic { lambda, .. } => *lambda,
+            Elasticity::General(c) if self.dimension == 2 => c[0][0][1][1],
+            Elasticity::General(c) => (c[0][0][1][1] + c[1][1][2][2] + c[0][0][2][2]) / 3.0,
+        };
+        lame / self.shear_modulus()
     }
 
     /// Strains of stresses (Pa), both symmetric; of a plane part those in its plane. `None` of a singular elasticity.
