@@ -2,11 +2,12 @@
 //!
 //! Where an accelerometer may stand: on the outside of the housing, above the bearing.
 
-use super::groups::says;
+use super::groups::{SupportGuess, says};
 use super::partly::{PartlyHole, partly_hole};
 use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
 use crate::fe::mesh::{Mesh, PhysicalGroup, Rim};
 use nalgebra::Vector3;
+use std::collections::HashSet;
 
 /// Least share of the turn that a CAD surface covers which is taken for the bore: a fillet inside covers a quarter, the
 /// end of a slot a half, and a keyway takes less than a quarter away.
@@ -91,13 +92,18 @@ const BESIDE: f64 = 0.35;
 
 /// Looks from `centre` along `up` (unit vectors; lengths in the mesh's unit): the corner of the first face beyond `radius` that
 /// faces that way, beside the line and along `axis` by no more than a part of the radius. Without one the highest corner of all.
+/// Nodes of the groups that are `held` are none.
 pub(crate) fn spot(
     mesh: &Mesh,
     rim: &Rim,
     centre: [f64; 3],
     radius: f64,
     [up, axis]: [[f64; 3]; 2],
+    held: &[SupportGuess],
 ) -> Option<[f64; 3]> {
+    let groups = held.iter().filter_map(|support| mesh.group(&support.group).ok());
+    let held: HashSet<_> =
+        groups.flat_map(|group| &group.nodes).map(|&node| mesh.nodes[node].map(f64::to_bits)).collect();
     let (centre, up, axis) = (Vector3::from(centre), Vector3::from(up), Vector3::from(axis));
     let side = up.cross(&axis);
     let height = |point: &Vector3<f64>| up.dot(&(point - centre));
@@ -109,7 +115,8 @@ pub(crate) fn spot(
     let mut highest: Option<Vector3<f64>> = None;
     for facet in rim.facets(mesh) {
         let corners: Vec<Vector3<f64>> = facet.corners.iter().map(|&c| Vector3::from(c)).collect();
-        for corner in &corners {
+        let is_free = |corner: &&Vector3<f64>| !held.contains(&[corner.x, corner.y, corner.z].map(f64::to_bits));
+        for corner in corners.iter().filter(is_free) {
             if highest.is_none_or(|other| height(corner) > height(&other)) {
                 highest = Some(*corner);
             }
@@ -117,7 +124,7 @@ pub(crate) fn spot(
         if outwards(&facet, &corners).is_none_or(|normal| normal.dot(&up) < FACING) {
             continue;
         }
-        let near = corners.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)));
+        let near = corners.iter().filter(is_free).min_by(|a, b| beside(a).total_cmp(&beside(b)));
         let Some(corner) = near.filter(|corner| height(corner) > 1.001 * radius) else {
             continue;
         };

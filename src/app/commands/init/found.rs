@@ -148,7 +148,7 @@ pub(crate) fn find<'a>(
     let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
     let centre = bore.as_ref().map_or(middle, |bore| bore.cylinder.centre);
     let seen = [directions.up, directions.axis];
-    let spot = bore::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen);
+    let spot = bore::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen, &groups.supports);
     let in_metres = |list: Vec<Candidate>| list.into_iter().map(|found| scaled(found, metres)).collect();
     let bore = bore.map(|bore| scaled(bore, metres));
     // no bore: a template for the smallest bearing

@@ -5,9 +5,10 @@ use super::scene::{BALANCE, BearingNumbers, RingNumbers, SPEED_HZ, shaft};
 use super::scene::{UnitFrom, unit_of};
 use std::path::Path;
 
-use super::groups::Groups;
+use super::bore::spot;
+use super::groups::{Groups, SupportGuess};
 use crate::bearing::catalogue::{CatalogueBearing, OuterRingSection};
-use crate::fe::mesh::{DeckMaterial, Mesh};
+use crate::fe::mesh::{DeckMaterial, Mesh, Rim};
 use crate::numerics::units::LengthUnit;
 
 fn named(name: &str) -> &'static CatalogueBearing {
@@ -110,6 +111,20 @@ fn notes(groups: &Groups) -> Vec<(&str, &str)> {
 
 fn held(groups: &Groups) -> Vec<&str> {
     groups.supports.iter().map(|support| support.group.as_str()).collect()
+}
+
+#[test]
+fn a_sensor_stands_where_nothing_is_held() {
+    let names = "2 1 \"steel\"\n1 3 \"foot\"\n";
+    let mesh = squares(names, &["1 3 2 1 1 1 2 5 4", "2 3 2 1 1 2 3 6 5", "3 1 2 3 3 4 5"]);
+    let rim = Rim::of(&mesh, 2);
+    let place = |held: &[SupportGuess]| {
+        let found = spot(&mesh, &rim, [0.0; 3], 0.0, [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], held).unwrap();
+        mesh.nodes.iter().position(|node| *node == found).unwrap() + 1
+    };
+    let groups = Groups::of(&mesh, 2, None);
+    assert_eq!(held(&groups), ["foot"]);
+    assert_eq!((place(&[]), place(&groups.supports)), (4, 6));
 }
 
 #[test]
