@@ -294,6 +294,13 @@ mod record_tests {
     }
 
     #[test]
+    fn a_table_without_rows_says_so() {
+        let empty = Table::new("Lines", [Column::text("Line"), Column::number("Found", "Hz")]);
+        let page = Report::new("t", "c", "0").section(Section::new("s").table(empty)).to_html().unwrap();
+        assert!(page.contains("<td colspan=\"2\">none</td>"));
+    }
+
+    #[test]
     fn damage_is_an_error() {
         let bytes = report().to_record().expect("a record");
         for cut in [0, 1, 10, bytes.len() / 2, bytes.len() - 1] {

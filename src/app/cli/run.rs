@@ -178,8 +178,8 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         let [rms, peak] = [window.rms, window.peak].map(|value| significant(value, 3));
         let mut said = verdict_lines(window, |diagnosis| not_shown(case, diagnosis));
-        said.insert(1, format!("  rms {rms} m/s^2, peak {peak} m/s^2"));
-        let in_band = window.rms_in_band.and_then(|level| level.beside(window.rms, "m/s^2"));
+        said.insert(1, format!("  rms {rms} m/s², peak {peak} m/s²"));
+        let in_band = window.rms_in_band.and_then(|level| level.beside(window.rms, "m/s²"));
         said.splice(2..2, in_band.map(|text| format!("  rms: {text}")));
         lines.extend(said);
     }
