@@ -211,8 +211,8 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
 fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
     let elastic = material.elastic.map(|[young, poisson]| format!("E {}, nu {poisson}", short(young)));
     let density = material.density.map(|density| format!("density {}", short(density)));
-    let [elastic, density] = [(elastic, "no isotropic modulus"), (density, "no density")]
-        .map(|(known, none)| known.unwrap_or_else(|| none.to_owned()));
+    let elastic = elastic.or_else(|| material.other_law.clone()).unwrap_or_else(|| "no isotropic modulus".to_owned());
+    let density = density.unwrap_or_else(|| "no density".to_owned());
     let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
     let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
     let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
