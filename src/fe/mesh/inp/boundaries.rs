@@ -164,7 +164,7 @@ impl Boundaries {
             by_name.entry(capitals(group.name.as_bytes())).or_default().push(group);
         }
         let mut lost: Vec<String> = self.step.into_iter().collect();
-        let mut supports = Vec::new();
+        let mut supports: BTreeMap<String, [bool; 3]> = BTreeMap::new();
         for ((name, _), Held { nodes, fixed }) in self.held {
             let named = by_name.get(&capitals(name.as_bytes())).map_or(&[][..], Vec::as_slice);
             // of groups of one name a case means that of the highest dimension
@@ -174,8 +174,8 @@ impl Boundaries {
             let own = named.iter().find(|group| group.nodes == nodes && is_meant(group));
             // a group of the set's name is not guessed, whatever its nodes
             if let Some(group) = own.or(named.first()) {
-                let fixed = fixed.map(|fixed| fixed && own.is_some());
-                supports.push(DeckSupport { group: group.name.clone(), fixed });
+                let held = supports.entry(group.name.clone()).or_default();
+                (0..3).for_each(|axis| held[axis] |= fixed[axis] && own.is_some());
             }
             if own.is_none() && fixed.contains(&true) {
                 lost.push(if nodes.len() == mesh.nodes.len() {
@@ -188,7 +188,8 @@ impl Boundaries {
             }
         }
         let notes = &mut mesh.notes;
-        (notes.supports, notes.not_supports) = (supports, lost);
+        notes.supports = supports.into_iter().map(|(group, fixed)| DeckSupport { group, fixed }).collect();
+        notes.not_supports = lost;
         if let [first, ..] = self.valued[..] {
             notes.not_supports.push(format!(
                 "*BOUNDARY has lines with values ({}, first line {first}): their directions are held, and the values are not used",

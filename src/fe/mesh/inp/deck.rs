@@ -2,7 +2,6 @@
 
 use super::MshError;
 use super::block::{Block, Lines, Scope, capitals, keyword};
-use super::materials::OTHER_LAWS;
 use super::scope::Scopes;
 use crate::fe::mesh::gmsh::quoted;
 use std::collections::BTreeMap;
@@ -11,6 +10,16 @@ use std::collections::BTreeMap;
 const READ: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
 /// Keywords that say something of the case.
 const OF_CASE: [&str; 6] = ["MATERIAL", "DENSITY", "ELASTIC", "SOLIDSECTION", "BOUNDARY", "TRANSFORM"];
+/// Keywords in place of `*ELASTIC`. CalculiX 2.20 takes the last of all of these, and Abaqus refuses two.
+pub(super) const OTHER_LAWS: [&str; 7] = [
+    "HYPERELASTIC",
+    "ANISOTROPICHYPERELASTIC",
+    "HYPERFOAM",
+    "HYPOELASTIC",
+    "POROUSELASTIC",
+    "DEFORMATIONPLASTICITY",
+    "USERMATERIAL",
+];
 /// Keywords that make nodes and elements, or change them: without these the mesh would be another one.
 const MAKERS: [&str; 9] =
     ["NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "PARAMETER", "SYSTEM", "SYMMETRICMODELGENERATION"];

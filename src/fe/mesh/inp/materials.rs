@@ -3,23 +3,12 @@
 //! Source: CalculiX CrunchiX user's manual 2.20, "*MATERIAL", "*ELASTIC", "*SOLID SECTION"; Abaqus names the same ones alike.
 
 use super::block::{capitals, items};
-use super::deck::Deck;
+use super::deck::{Deck, OTHER_LAWS};
 use super::numbers::coordinate;
 use super::read::Bodies;
 use crate::fe::mesh::gmsh::quoted;
 use crate::fe::mesh::{DeckMaterial, ElementId, Mesh, MeshNote};
 use std::collections::HashMap;
-
-/// Keywords in place of `*ELASTIC`. CalculiX 2.20 takes the last of all of these, and Abaqus refuses two.
-pub(super) const OTHER_LAWS: [&str; 7] = [
-    "HYPERELASTIC",
-    "ANISOTROPICHYPERELASTIC",
-    "HYPERFOAM",
-    "HYPOELASTIC",
-    "POROUSELASTIC",
-    "DEFORMATIONPLASTICITY",
-    "USERMATERIAL",
-];
 
 /// The materials, before there are groups.
 pub(super) struct Materials {

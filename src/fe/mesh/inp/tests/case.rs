@@ -45,6 +45,7 @@ fn materials_and_what_is_held_are_notes() {
     assert!(turned.notes.supports.iter().any(|named| named.group == "Feet"), "{:?}", turned.notes);
     let anew = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW\nFEET").as_bytes()).unwrap();
     assert_eq!(held(&anew), ["Feet z"]);
+    assert_eq!(anew.notes.not_supports, notes.not_supports[..2]);
     // what was picked in Abaqus/CAE, and a surface of the set's name
     let picked = read(deck.replace("NSET=Feet, GENERATE", "NSET=Feet, GENERATE, INTERNAL").as_bytes()).unwrap().notes;
     assert_eq!(picked.supports[0].group, "Feet");
@@ -158,6 +159,15 @@ fn a_held_set_whose_name_a_surface_has_is_told() {
     // another name to a case, and the same one to the file
     let mesh = with("*SURFACE, NAME=SENSOR\nupper, S2\n*BOUNDARY\nsensor,1,3\n");
     assert_eq!(held(&mesh), ["sensor xyz"]);
+    // a set of the assembly, and one of the part by the same name
+    let cae = super::CAE
+        .replace("*Nset, nset=Set-1", "*Nset, nset=bore\n5\n*Nset, nset=Set-1")
+        .replace("*Step", "*Boundary\nbore,1\nBlock-1.bore,2\n*Step");
+    let mesh = read(cae.as_bytes()).unwrap();
+    assert_eq!(
+        (held(&mesh), &mesh.notes.not_supports[..]),
+        (vec!["bore x".to_owned()], &[told.replace("NAME", "bore")][..])
+    );
 }
 
 #[test]
