@@ -155,19 +155,22 @@ fn a_held_set_whose_name_a_surface_has_is_told() {
         assert_eq!(mesh.groups.iter().filter(|group| group.name == name).count(), 2);
         assert_eq!(mesh.notes.not_supports, [told.replace("NAME", name)]);
         assert_eq!(held(&mesh), [""; 0]);
+        // nor is it guessed
+        assert!(mesh.notes.supports.iter().any(|own| own.group == name), "{:?}", mesh.notes);
     }
     // another name to a case, and the same one to the file
     let mesh = with("*SURFACE, NAME=SENSOR\nupper, S2\n*BOUNDARY\nsensor,1,3\n");
     assert_eq!(held(&mesh), ["sensor xyz"]);
-    // a set of the assembly, and one of the part by the same name
-    let cae = super::CAE
-        .replace("*Nset, nset=Set-1", "*Nset, nset=bore\n5\n*Nset, nset=Set-1")
-        .replace("*Step", "*Boundary\nbore,1\nBlock-1.bore,2\n*Step");
-    let mesh = read(cae.as_bytes()).unwrap();
-    assert_eq!(
-        (held(&mesh), &mesh.notes.not_supports[..]),
-        (vec!["bore x".to_owned()], &[told.replace("NAME", "bore")][..])
-    );
+    // a set of the assembly, and one of the part by the same name: one of the two has faces
+    for (of_part, of_assembly, expected) in [("5", "1, 3, 4", "bore x"), ("1, 3, 4", "5", "bore y")] {
+        let cae = super::CAE
+            .replace("*Nset, nset=Set-1", &format!("*Nset, nset=bore\n{of_part}\n*Nset, nset=Set-1"))
+            .replace("instance=Block-1\n 1, 3, 4", &format!("instance=Block-1\n {of_assembly}"))
+            .replace("*Step", "*Boundary\nbore,1\nBlock-1.bore,2\n*Step");
+        let mesh = read(cae.as_bytes()).unwrap();
+        assert_eq!(held(&mesh), [expected]);
+        assert_eq!(mesh.notes.not_supports, [told.replace("NAME", "bore")]);
+    }
 }
 
 #[test]
