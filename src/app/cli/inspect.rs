@@ -126,7 +126,8 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
         line("not read", inventory.notes.passed_over.join(", "));
     }
     let notes = &inventory.notes;
-    notes.materials.iter().for_each(|material| line("material", of_file(material, &notes.materials)));
+    let units = ConsistentUnits::of(&notes.materials).map_or("units unknown", |units| units.name);
+    notes.materials.iter().for_each(|material| line("material", of_file(material, units)));
     for held in notes.supports.iter().filter(|held| held.fixed.contains(&true)) {
         let axes = ["x", "y", "z"].into_iter().zip(held.fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| axis);
         line("held", format!("\"{}\" along {}", held.group, axes.collect::<Vec<_>>().join(", ")));
@@ -208,12 +209,11 @@ fn summary(path: &Path, found: &Inspection, density: Option<f64>) -> String {
 }
 
 /// A material of the file, in the file's numbers.
-fn of_file(material: &DeckMaterial, all: &[DeckMaterial]) -> String {
+fn of_file(material: &DeckMaterial, units: &str) -> String {
     let elastic = material.elastic.map(|[young, poisson]| format!("E {}, nu {poisson}", short(young)));
     let density = material.density.map(|density| format!("density {}", short(density)));
-    let [elastic, density] = [(elastic, "no isotropic modulus"), (density, "no density")]
-        .map(|(known, none)| known.unwrap_or_else(|| none.to_owned()));
-    let units = ConsistentUnits::of(all).map_or("units unknown", |units| units.name);
+    let elastic = elastic.or_else(|| material.other_law.clone()).unwrap_or_else(|| "no isotropic modulus".to_owned());
+    let density = density.unwrap_or_else(|| "no density".to_owned());
     let groups: Vec<String> = material.groups.iter().map(|group| format!("\"{group}\"")).collect();
     let of = if groups.is_empty() { "no group".to_owned() } else { groups.join(", ") };
     let first = if material.first_line { ", the first line of several over temperature" } else { "" };

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A material of the file. Its numbers are in the file's units.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct DeckMaterial {
     /// Its name.
     pub name: String,
@@ -13,6 +13,8 @@ pub struct DeckMaterial {
     pub groups: Vec<String>,
     /// Young's modulus and Poisson's ratio, as the file has them; `None`: it has no isotropic ones.
     pub elastic: Option<[f64; 2]>,
+    /// What it has in their place, or beside them: `*HYPERELASTIC`, or `*ELASTIC` with its type.
+    pub other_law: Option<String>,
     /// Density, as the file has it; `None`: it has none.
     pub density: Option<f64>,
     /// The file has several lines over temperature, and the first is taken.
@@ -113,7 +115,7 @@ impl ConsistentUnits {
     /// Young's modulus (Pa), Poisson's ratio and density (kg/m^3) of a material that has all three.
     pub(crate) fn to_si(self, material: &DeckMaterial) -> Option<[f64; 3]> {
         let [young, poisson] = material.elastic?;
-        let is_solid = young > 0.0 && (-1.0..0.5).contains(&poisson);
+        let is_solid = young > 0.0 && poisson > -1.0 && poisson < 0.5;
         let density = material.density.filter(|density| is_solid && *density > 0.0)?;
         Some([self.stress * young, poisson, self.density * density])
     }
@@ -137,10 +139,9 @@ mod tests {
     fn material([young, density]: [f64; 2]) -> DeckMaterial {
         DeckMaterial {
             name: "m".to_owned(),
-            groups: Vec::new(),
             elastic: Some([young, 0.3]),
             density: Some(density),
-            first_line: false,
+            ..DeckMaterial::default()
         }
     }
 

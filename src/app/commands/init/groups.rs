@@ -3,7 +3,7 @@
 use crate::app::case::{BUILT_IN_MATERIALS, built_in_like};
 use crate::fe::mesh::{ConsistentUnits, DeckMaterial, Mesh, PhysicalGroup};
 use serde::Serialize;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Parts of names of what is held.
 const SUPPORTS: [&str; 11] =
@@ -156,6 +156,8 @@ impl Groups {
         found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         found.held_by = if mesh.notes.supports.is_empty() { BY_NAME } else { BY_FILE };
+        let held: HashMap<&str, [bool; 3]> =
+            mesh.notes.supports.iter().map(|held| (held.group.as_str(), held.fixed)).collect();
         for group in &mesh.groups {
             if bore.is_some_and(|bore| std::ptr::eq(bore, group)) {
                 continue;
@@ -169,8 +171,8 @@ impl Groups {
                 let mut nodes = group.nodes.iter();
                 nodes.any(|node| bore.nodes.binary_search(node).is_ok())
             });
-            let named = mesh.notes.supports.iter().find(|held| held.group == name);
-            let fixed = named.map_or([found.held_by == BY_NAME && says(name, &SUPPORTS); 3], |named| named.fixed);
+            let named = held.get(name);
+            let fixed = named.copied().unwrap_or([found.held_by == BY_NAME && says(name, &SUPPORTS); 3]);
             let axes = AXES[..dimension].iter().zip(fixed).filter(|(_, fixed)| *fixed).map(|(axis, _)| *axis);
             let axes: Vec<&'static str> = axes.collect();
             let whole = group.nodes.iter().all(|&node| on_housing[node]);

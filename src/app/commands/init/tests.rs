@@ -201,20 +201,53 @@ fn what_a_boundary_names_is_not_guessed() {
 
 #[test]
 fn what_a_material_of_the_file_lacks_is_said_as_such() {
-    let own = |elastic, density| {
-        let (name, groups) = ("m".to_owned(), Vec::new());
-        super::text::lacks(&DeckMaterial { name, groups, elastic, density, first_line: true })
+    let of = |elastic, density, law: Option<&str>| {
+        let name = "m".to_owned();
+        let other_law = law.map(str::to_owned);
+        super::text::lacks(&DeckMaterial { name, elastic, density, other_law, ..DeckMaterial::default() })
     };
-    assert_eq!(own(Some([1.0, 0.3]), Some(1.0)), None);
+    let own = |elastic, density| of(elastic, density, None);
+    assert_eq!(own(Some([1.0, 0.499_999_999_999_9]), Some(1.0)), None);
     for (said, expected) in [
         (own(None, Some(1.0)), "it has no isotropic *ELASTIC"),
         (own(Some([1.0, 0.3]), None), "it has no *DENSITY"),
-        (own(Some([1.0, 0.5]), Some(1.0)), "its Poisson's ratio is 0.5, expected -1 to less than 0.5"),
+        (own(Some([1.0, 0.5]), Some(1.0)), "its Poisson's ratio is 0.5, expected more than -1 and less than 0.5"),
+        (own(Some([1.0, -1.0]), Some(1.0)), "its Poisson's ratio is -1, expected more than -1 and less than 0.5"),
         (own(Some([1.0, 0.3]), Some(0.0)), "its density is 0, expected more than 0"),
         (own(Some([0.0, 0.3]), Some(1.0)), "its modulus is 0, expected more than 0"),
+        (
+            of(None, None, Some("*ELASTIC, TYPE=ORTHO")),
+            "it has *ELASTIC, TYPE=ORTHO. Write [materials.\"m\"] by hand: young of x, y, z; poisson and shear of xy, yz, xz; x_axis and y_axis of its *ORIENTATION",
+        ),
+        (
+            of(None, None, Some("*HYPERFOAM")),
+            "it has *HYPERFOAM, and a case has linear materials. Write young and poisson of small strains by hand",
+        ),
     ] {
         assert_eq!(said.as_deref(), Some(expected));
     }
+}
+
+/// A ratio just below 0.5, which the case takes and 0.5 itself it does not.
+#[test]
+fn a_ratio_of_the_file_is_not_rounded() {
+    let deck = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n*MATERIAL,NAME=M\n\
+        *DENSITY\n7.85e-9\n*ELASTIC\n2.1e5,.4999999999999\n*SOLID SECTION,ELSET=E,MATERIAL=M\n";
+    let path = Path::new("a.inp");
+    let mut mesh = Mesh::from_bytes(deck.as_bytes(), path, LengthUnit::Metre).unwrap();
+    let inspection = crate::app::commands::Inspection::of_mesh(&mesh, None);
+    let request = super::DraftRequest {
+        mesh: path,
+        mesh_in_case: "a.inp",
+        title: "a",
+        length_unit: None,
+        bearing: None,
+        straighten: false,
+    };
+    let found = super::found::find(request, &mut mesh, &inspection).unwrap();
+    let text = super::text::case_text(&found).unwrap();
+    assert!(text.contains("\npoisson = 0.4999999999999 "), "{text}");
+    assert!(text.contains("\nyoung = 2.1e11 ") && text.contains("\ndensity = 7850 "), "{text}");
 }
 
 /// A strip of five squares whose lower side bulges by the sagitta `deep`, in sides.

@@ -208,13 +208,22 @@ fn materials(found: &Found<'_>) -> Vec<String> {
 /// Why a material of the file is none of a case.
 pub(super) fn lacks(own: &DeckMaterial) -> Option<String> {
     match (own.elastic, own.density) {
-        (None, _) => Some("it has no isotropic *ELASTIC".to_owned()),
+        (None, _) => Some(match &own.other_law {
+            Some(law) if law.starts_with("*ELASTIC") => format!(
+                "it has {law}. Write [materials.{}] by hand: young of x, y, z; poisson and shear of xy, yz, xz; x_axis and y_axis of its *ORIENTATION",
+                quoted(&own.name)
+            ),
+            Some(law) => format!(
+                "it has {law}, and a case has linear materials. Write young and poisson of small strains by hand"
+            ),
+            None => "it has no isotropic *ELASTIC".to_owned(),
+        }),
         (_, None) => Some("it has no *DENSITY".to_owned()),
         (Some([young, _]), _) if young <= 0.0 => {
             Some(format!("its modulus is {}, expected more than 0", number(young, 4)))
         }
-        (Some([_, poisson]), _) if !(-1.0..0.5).contains(&poisson) => {
-            Some(format!("its Poisson's ratio is {}, expected -1 to less than 0.5", number(poisson, 4)))
+        (Some([_, poisson]), _) if !(poisson > -1.0 && poisson < 0.5) => {
+            Some(format!("its Poisson's ratio is {}, expected more than -1 and less than 0.5", number(poisson, 17)))
         }
         (_, Some(density)) if density <= 0.0 => {
             Some(format!("its density is {}, expected more than 0", number(density, 4)))

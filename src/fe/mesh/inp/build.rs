@@ -2,9 +2,10 @@
 
 use super::MshError;
 use super::block::capitals;
-use super::case_data::CaseData;
+use super::boundaries::Boundaries;
 use super::deck::{Deck, JOINTS};
 use super::kinds::Purpose;
+use super::materials::Materials;
 use super::read::Bodies;
 use super::sets::Set;
 use super::surfaces::{Surface, read_sets, surfaces};
@@ -27,7 +28,7 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
     read_sets(&deck, &mut bodies, &mut allowance)?;
     let surfaces = surfaces(&deck, &bodies, &mut allowance)?;
     check_bodies(&bodies)?;
-    let case_data = CaseData::read(&deck, &mut bodies);
+    let (materials, boundaries) = (Materials::read(&deck, &mut bodies), Boundaries::read(&deck, &mut bodies));
     let notes = notes(&deck, &bodies);
     let Bodies { nodes, node_numbers, mut blocks, places, element_numbers, node_sets, element_sets, .. } = bodies;
     // blocks without elements go
@@ -58,7 +59,8 @@ pub(super) fn mesh(bytes: &[u8], path: &Path, metres: f64) -> Result<Mesh, MshEr
         groups.add_element_set(set.name, members.collect())?;
     }
     groups.finish()?;
-    case_data.note(&mut mesh, &places);
+    materials.note(&mut mesh, &places);
+    boundaries.note(&mut mesh);
     Ok(mesh)
 }
 
@@ -128,8 +130,9 @@ struct Groups<'m> {
     outside: Vec<BoundaryFace>,
     /// For each node where its faces begin in the list, and the list.
     faces_of: (Vec<u32>, Vec<u32>),
-    /// Whether an element of the bodies uses a node.
+    /// Whether an element of the bodies uses a node, and the number of such nodes.
     used: Vec<bool>,
+    used_count: usize,
     next_tag: u64,
     allowance: Allowance,
 }
@@ -161,6 +164,7 @@ impl<'m> Groups<'m> {
             points: HashMap::new(),
             outside,
             faces_of: (begins, list),
+            used_count: used.iter().filter(|used| **used).count(),
             used,
             next_tag,
             allowance,
@@ -228,7 +232,7 @@ impl<'m> Groups<'m> {
         let mut is_in = HashMap::with_capacity(set.members.len());
         is_in.extend(set.members.iter().map(|&node| (node as usize, false)));
         let of_bodies = set.members.iter().filter(|node| self.used[**node as usize]).count();
-        if of_bodies == self.used.iter().filter(|used| **used).count() {
+        if of_bodies == self.used_count {
             return Ok(());
         }
         let mut covered = BTreeSet::new();

@@ -9,7 +9,17 @@ use std::collections::BTreeMap;
 /// Keywords that are read.
 const READ: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
 /// Keywords that say something of the case.
-const OF_CASE: [&str; 5] = ["MATERIAL", "DENSITY", "ELASTIC", "SOLIDSECTION", "BOUNDARY"];
+const OF_CASE: [&str; 6] = ["MATERIAL", "DENSITY", "ELASTIC", "SOLIDSECTION", "BOUNDARY", "TRANSFORM"];
+/// Keywords in place of `*ELASTIC`. CalculiX 2.20 takes the last of all of these, and Abaqus refuses two.
+pub(super) const OTHER_LAWS: [&str; 7] = [
+    "HYPERELASTIC",
+    "ANISOTROPICHYPERELASTIC",
+    "HYPERFOAM",
+    "HYPOELASTIC",
+    "POROUSELASTIC",
+    "DEFORMATIONPLASTICITY",
+    "USERMATERIAL",
+];
 /// Keywords that make nodes and elements, or change them: without these the mesh would be another one.
 const MAKERS: [&str; 9] =
     ["NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "PARAMETER", "SYSTEM", "SYMMETRICMODELGENERATION"];
@@ -42,7 +52,7 @@ const LISTED: usize = 64;
 pub(super) struct Deck<'a> {
     /// In the order of the file; of a file of several parts those of the instance.
     pub(super) blocks: Vec<Block<'a>>,
-    /// Name of the one instance.
+    /// Name of the one instance, in capitals.
     pub(super) instance: Option<String>,
     /// How far it is moved, in the file's unit.
     pub(super) shift: [f64; 3],
@@ -60,7 +70,7 @@ fn continues(line: &[u8]) -> bool {
 }
 
 impl<'a> Deck<'a> {
-    /// Cuts a file up to its first step; of the steps the boundaries alone are kept.
+    /// Cuts a file up to its first step; of the steps boundaries and their axes alone are kept.
     ///
     /// # Errors
     /// Other files that it includes, keywords that make nodes, and anything but one
@@ -96,13 +106,13 @@ impl<'a> Deck<'a> {
             let block = Block { head, rest: lines.clone(), line, scope: scopes.now, step: deck.steps };
             match keyword(head).as_str() {
                 "STEP" => deck.steps += 1,
-                "BOUNDARY" if deck.steps > 0 => deck.blocks.push(block),
+                "BOUNDARY" | "TRANSFORM" if deck.steps > 0 => deck.blocks.push(block),
                 "FREQUENCY" if deck.steps > 0 => deck.frequency = deck.frequency.or(Some(deck.steps)),
                 _ if deck.steps > 0 => {}
                 _ => deck.take(block, &mut scopes)?,
             }
         }
-        let instance = scopes.instance()?;
+        let instance = scopes.instance()?.map(|name| capitals(name.as_bytes()));
         deck.blocks.retain(|block| scopes.holds(block.scope));
         (deck.instance, deck.shift) = (instance, scopes.shift);
         Ok(deck)
@@ -131,7 +141,7 @@ impl<'a> Deck<'a> {
         if is_mesh && block.parameter("INPUT").is_some() {
             return Err(include(&block));
         }
-        if is_mesh || OF_CASE.contains(&name.as_str()) {
+        if is_mesh || OF_CASE.contains(&name.as_str()) || OTHER_LAWS.contains(&name.as_str()) {
             self.blocks.push(block);
         } else if name == "INCLUDE" {
             return Err(include(&block));

@@ -9,10 +9,11 @@
 //! whatever order they stand. As in the reader of gmsh's files, memory is bounded by the length of the file.
 
 mod block;
+mod boundaries;
 mod build;
-mod case_data;
 mod deck;
 mod kinds;
+mod materials;
 mod numbers;
 mod read;
 mod scope;

@@ -121,6 +121,5 @@ impl Sets {
 
 /// What follows `instance.`; both in capitals.
 fn of_part<'n>(name: &'n str, deck: &Deck<'_>) -> Option<&'n str> {
-    let instance = capitals(deck.instance.as_ref()?.as_bytes());
-    name.strip_prefix(&instance)?.strip_prefix('.')
+    name.strip_prefix(deck.instance.as_ref()?)?.strip_prefix('.')
 }
