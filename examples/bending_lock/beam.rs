@@ -3,10 +3,10 @@
 use super::load::end_load;
 
 use plummer::fe::assembly::SystemMatrices;
-use plummer::fe::element::continuum::Formulation;
+use plummer::fe::element::continuum::{Formulation, shape_values};
 use plummer::fe::material::Material;
 use plummer::fe::mesh::{
-    ElementBlock, ElementId, ElementKind, Entity, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
+    ElementBlock, ElementId, ElementKind, Entity, Face, Mesh, MeshNotes, MshFormat, MshVersion, PhysicalGroup,
 };
 use plummer::fe::model::{HousingDescription, HousingModel, HousingPart};
 use plummer::numerics::linalg::{SparseCholesky, submatrix};
@@ -71,35 +71,44 @@ impl Beam {
         self.lines[self.lines.len() - 1]
     }
 
-    /// Position of half step i along x, j along y, k along z, m.
-    fn place(&self, [i, j, k]: [usize; 3]) -> [f64; 3] {
-        let share = |step: usize| step as f64 / (2 * self.across) as f64;
-        let side = |step| HEIGHT * if self.quarter { 0.5 * share(step) } else { share(step) - 0.5 };
-        let z = side(k);
+    /// Position of a place counted in cells along x, y and z, m.
+    fn place(&self, [i, j, k]: [f64; 3]) -> [f64; 3] {
+        let side = |cells: f64| HEIGHT * (cells / self.across as f64 - if self.quarter { 0.0 } else { 0.5 });
+        let z = if self.quarter { 0.5 * side(k) } else { side(k) };
         let line = |i: usize| self.lines[i] + self.tilts[i] * z;
-        [f64::midpoint(line(i / 2), line(i.div_ceil(2))), side(j), z]
+        let cell = (i as usize).min(self.lines.len() - 2);
+        let [from, to] = [line(cell), line(cell + 1)];
+        [from + (i - cell as f64) * (to - from), if self.quarter { 0.5 * side(j) } else { side(j) }, z]
     }
 
     fn mesh(&self, kind: ElementKind) -> Mesh {
         let cells = [self.lines.len() - 1, self.across, self.across];
-        let [a, b, c] = cells.map(|n| 2 * n + 1);
+        let steps = steps_of_a_cell(kind);
+        let [a, b, c] = cells.map(|n| steps * n + 1);
         let index = |p: [usize; 3]| p[0] + a * (p[1] + b * p[2]);
-        let mut nodes: Vec<_> = (0..a * b * c).map(|n| self.place([n % a, n / a % b, n / a / b])).collect();
+        let at = |n: usize| [n % a, n / a % b, n / a / b].map(|step| step as f64 / steps as f64);
+        let mut nodes: Vec<_> = (0..a * b * c).map(|n| self.place(at(n))).collect();
+        let beyond = beyond_corners(kind);
         let mut connectivity = Vec::new();
         for cell in 0..cells.iter().product() {
             let origin = [cell % cells[0], cell / cells[0] % cells[1], cell / cells[0] / cells[1]];
             for corners in corners_in_a_cell(kind) {
-                let corners: Vec<_> = corners.iter().map(|p| [0, 1, 2].map(|i| 2 * origin[i] + p[i])).collect();
-                let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|i| usize::midpoint(corners[a][i], corners[b][i]));
-                connectivity.extend(corners.iter().copied().map(index));
-                connectivity.extend(kind.middle_edges().iter().map(|&edge| index(middle(edge))));
+                let corners: Vec<_> = corners.iter().map(|p| [0, 1, 2].map(|i| steps * origin[i] + p[i])).collect();
+                let mean = |shares: &Vec<f64>| {
+                    [0, 1, 2].map(|i| {
+                        let parts = corners.iter().zip(shares).map(|(corner, share)| corner[i] as f64 * share);
+                        parts.sum::<f64>().round() as usize
+                    })
+                };
+                connectivity.extend(corners.iter().copied().chain(beyond.iter().map(mean)).map(index));
             }
         }
         // the diagonals of a tilted cell are straight, too
         for element in connectivity.chunks_exact(kind.nodes()) {
-            for (&[a, b], &middle) in kind.middle_edges().iter().zip(&element[kind.corners()..]) {
-                let ends: [[f64; 3]; 2] = [nodes[element[a]], nodes[element[b]]];
-                nodes[middle] = [0, 1, 2].map(|i| f64::midpoint(ends[0][i], ends[1][i]));
+            for (shares, &node) in beyond.iter().zip(&element[kind.corners()..]) {
+                let parts =
+                    |i: usize| element.iter().zip(shares).map(|(&corner, share)| nodes[corner][i] * share).sum();
+                nodes[node] = [0, 1, 2].map(parts);
             }
         }
         let count = connectivity.len() / kind.nodes();
@@ -111,12 +120,7 @@ impl Beam {
             nodes: (0..nodes.len()).collect(),
             elements: (0..count).map(|index| ElementId { block: 0, index }).collect(),
         };
-        let block = ElementBlock {
-            kind: ElementKind::all().find(|k| k.name() == kind.name()).expect("has its mesh kind"),
-            tags: (1..=count as u64).collect(),
-            connectivity,
-            entity,
-        };
+        let block = ElementBlock { kind, tags: (1..=count as u64).collect(), connectivity, entity };
         Mesh {
             node_tags: (1..=nodes.len() as u64).collect(),
             nodes,
@@ -157,17 +161,38 @@ impl Beam {
     }
 }
 
-/// Corners of the elements of a cell, in half steps.
+/// Nodes along an edge of a cell, less one: edges end in the centre of a cell of pyramids.
+fn steps_of_a_cell(kind: ElementKind) -> usize {
+    if kind.corners() == 5 { 4 } else { 2 }
+}
+
+/// Shares of the corners in each node behind them, on a straight element.
+fn beyond_corners(kind: ElementKind) -> Vec<Vec<f64>> {
+    let linear = match kind.corners() {
+        4 => ElementKind::Tet4,
+        5 => ElementKind::Pyramid5,
+        6 => ElementKind::Wedge6,
+        _ => ElementKind::Hex8,
+    };
+    kind.natural_nodes()[kind.corners()..].iter().map(|&at| shape_values(linear, at).to_vec()).collect()
+}
+
+/// Corners of the elements of a cell, in steps.
 fn corners_in_a_cell(kind: ElementKind) -> Vec<Vec<[usize; 3]>> {
+    let far = steps_of_a_cell(kind);
+    let whole = ElementKind::Hex8.natural_nodes().iter().map(|x| x.map(|x| if x > 0.0 { far } else { 0 }));
+    let whole: Vec<[usize; 3]> = whole.collect();
     match kind.corners() {
         4 => tetrahedra(),
+        5 => {
+            // each face as seen from the centre, which is the apex
+            let base = |face: &Face| face.nodes.iter().rev().map(|&corner| whole[corner]).chain([[2; 3]]).collect();
+            ElementKind::Hex8.faces().iter().map(base).collect()
+        }
         6 => [[[0, 0], [2, 0], [0, 2]], [[2, 2], [0, 2], [2, 0]]]
             .map(|base| [0, 2].map(|y| base.map(|[z, x]| [x, y, z])).concat())
             .to_vec(),
-        _ => {
-            let steps = |x: f64| if x > 0.0 { 2 } else { 0 };
-            vec![kind.natural_nodes()[..8].iter().map(|x| x.map(steps)).collect()]
-        }
+        _ => vec![whole],
     }
 }
 

@@ -43,7 +43,7 @@ const COLOURS: [(f64, &str, &str); 6] = [
 
 const CELL: [f64; 2] = [45.0, 24.0];
 const NAMES: f64 = 92.0;
-const PANEL: [f64; 2] = [NAMES + 6.0 * CELL[0] + 24.0, 244.0];
+const PANEL: [f64; 2] = [NAMES + 6.0 * CELL[0] + 24.0, 364.0];
 const TOP: f64 = 96.0;
 const ACROSS: usize = 2;
 

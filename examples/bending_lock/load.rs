@@ -2,42 +2,21 @@
 
 use super::beam::HEIGHT;
 use plummer::fe::element::continuum::{QuadratureRule, measure, shape_values};
-use plummer::fe::mesh::ElementKind;
-use plummer::fe::mesh::Mesh;
+use plummer::fe::mesh::{ElementKind, Face, Mesh};
 use std::error::Error;
 
 /// Force along z of every node: `int N tau dA`, `tau = 1 - (2 z / h)^2`.
 pub fn end_load(mesh: &Mesh, kind: ElementKind, length: f64) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut load = vec![0.0; mesh.nodes.len()];
     let end = length * (1.0 - 1e-9);
-    for element in mesh.blocks[0].elements() {
-        let on_end = |node: &&usize| mesh.nodes[**node][0] > end;
-        let mut corners: Vec<usize> = element[..kind.corners()].iter().filter(on_end).copied().collect();
-        let face = match (corners.len(), kind.middle_edges().is_empty()) {
-            (3, true) => ElementKind::Tri3,
-            (3, false) => ElementKind::Tri6,
-            (4, true) => ElementKind::Quad4,
-            (4, false) => ElementKind::Quad8,
-            _ => continue,
-        };
-        let flat = |node: usize| [mesh.nodes[node][1], mesh.nodes[node][2], 0.0];
-        let count = corners.len() as f64;
-        let centre = [0, 1].map(|i| corners.iter().map(|&n| flat(n)[i]).sum::<f64>() / count);
-        let angle = |node: &usize| {
-            let [y, z, _] = flat(*node);
-            (z - centre[1]).atan2(y - centre[0])
-        };
-        corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        let mut nodes = corners.clone();
-        for &[a, b] in face.middle_edges() {
-            let ends = [corners[a], corners[b]];
-            let place = |node: usize| element.iter().position(|&other| other == node);
-            let same = |edge: &[usize; 2]| ends.iter().all(|&n| edge.iter().any(|&e| Some(e) == place(n)));
-            let edge = kind.middle_edges().iter().position(same).ok_or("an edge of the face")?;
-            nodes.push(element[kind.corners() + edge]);
-        }
-        let coords: Vec<_> = nodes.iter().map(|&node| flat(node)).collect();
-        let rule = if corners.len() == 3 { QuadratureRule::Triangle12 } else { QuadratureRule::Square4 };
+    let on_end = |node: &usize| mesh.nodes[*node][0] > end;
+    let faces = mesh.blocks[0].elements().flat_map(|element| {
+        let nodes_of = |face: &Face| face.nodes.iter().map(|&local| element[local]).collect::<Vec<usize>>();
+        kind.faces().iter().map(move |face| (face.kind, nodes_of(face)))
+    });
+    for (face, nodes) in faces.filter(|(_, nodes)| nodes.iter().all(on_end)) {
+        let coords: Vec<_> = nodes.iter().map(|&node| [mesh.nodes[node][1], mesh.nodes[node][2], 0.0]).collect();
+        let rule = if face.corners() == 3 { QuadratureRule::Triangle12 } else { QuadratureRule::Square4 };
         let natural: f64 = rule.points().iter().map(|point| point.weight).sum();
         // triangles and rectangles: the Jacobian is constant
         let jacobian = measure(face, &coords)? / natural;

@@ -45,7 +45,7 @@ const ACROSS: usize = 4;
 const SHORT: [f64; 3] = [0.05, 0.1, 0.15];
 
 /// Rows of the chart.
-const ELEMENTS: [(&str, ElementKind, LinearFormulation); 7] = [
+const ELEMENTS: [(&str, ElementKind, LinearFormulation); 12] = [
     ("Hex8 plain", ElementKind::Hex8, LinearFormulation::Plain),
     ("Hex8 (default)", ElementKind::Hex8, LinearFormulation::Incompatible),
     ("Hex20", ElementKind::Hex20, LinearFormulation::Plain),
@@ -53,6 +53,11 @@ const ELEMENTS: [(&str, ElementKind, LinearFormulation); 7] = [
     ("Tet10", ElementKind::Tet10, LinearFormulation::Plain),
     ("Wedge6", ElementKind::Wedge6, LinearFormulation::Plain),
     ("Wedge15", ElementKind::Wedge15, LinearFormulation::Plain),
+    ("Hex27", ElementKind::Hex27, LinearFormulation::Plain),
+    ("Wedge18", ElementKind::Wedge18, LinearFormulation::Plain),
+    ("Pyramid5", ElementKind::Pyramid5, LinearFormulation::Plain),
+    ("Pyramid13", ElementKind::Pyramid13, LinearFormulation::Plain),
+    ("Pyramid14", ElementKind::Pyramid14, LinearFormulation::Plain),
 ];
 const PLAIN: usize = 0;
 const DEFAULT: usize = 1;
