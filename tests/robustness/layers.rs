@@ -117,3 +117,15 @@ fn single_elements_of_rubber_between_held_faces_are_told() {
         assert_eq!(stiff > 1.25 * right, told, "{material}: {stiff} and {right} Hz");
     }
 }
+
+#[test]
+fn materials_that_keep_their_volume_are_told() {
+    let folder = scratch("gel");
+    write(&folder, &[("a", 0.1, 1, false)]);
+    for (poisson, told) in [(0.4901, true), (0.49, false)] {
+        let gel = format!("[materials.gel]\nyoung = 5e6\npoisson = {poisson}\ndensity = 1000");
+        let housing = format!("parts = [{{ group = 'a', material = 'gel' }}]\n{gel}");
+        let (warnings, _) = result(&folder, &modes(&folder, &housing));
+        assert_eq!(warnings.contains("a Poisson's ratio above 0.49"), told, "{poisson}: {warnings}");
+    }
+}

@@ -41,6 +41,9 @@ const GAP: f64 = 0.5;
 /// Width of a section over the outer diameter of its ring that is told: rings and housings about a bearing are narrower.
 const WIDTH: f64 = 2.0;
 
+/// Lame's first constant over the shear modulus at a Poisson's ratio of 0.49, with round-off (docs/elements.md, chart of bending).
+const VOLUME_KEEPS: f64 = 49.0 + 1e-9;
+
 /// Elements of constant strain across their thickness, which lock in bending (docs/elements.md).
 const STIFF_IN_BENDING: [ElementKind; 4] =
     [ElementKind::Tri3, ElementKind::Tet4, ElementKind::Wedge6, ElementKind::Pyramid5];
@@ -175,6 +178,13 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
             )
         })
     });
+    let parts = model.description.parts.iter().zip(&model.properties);
+    let soft = parts.filter(|(_, own)| own.lame_over_shear() > VOLUME_KEEPS).map(|(part, _)| {
+        format!(
+            "part \"{}\" has a Poisson's ratio above 0.49, at which every element is too stiff in bending: with one layer across a thickness, long elements of second order lose 28 % of the deflection and more; give several layers of elements as long as they are high",
+            part.group
+        )
+    });
     let held = model.held_masses().map(|mass| {
         format!(
             "the mass of {} kg on the group \"{}\" is where supports hold every direction: it counts in the mass of the model and moves nothing",
@@ -182,7 +192,15 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
         )
     });
     let tied = overlaps.chain(touching).chain(crossings).chain(apart);
-    tied.chain(shared).chain(flat).chain(trapezoids).chain(thin).chain(confined).chain(stiff).chain(held).collect()
+    tied.chain(shared)
+        .chain(flat)
+        .chain(trapezoids)
+        .chain(thin)
+        .chain(confined)
+        .chain(stiff)
+        .chain(soft)
+        .chain(held)
+        .collect()
 }
 
 /// Sections that do not touch their neighbours, or that are wider than a ring: a value in another unit.
