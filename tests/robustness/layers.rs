@@ -80,8 +80,22 @@ fn flat_layers_are_said_where_they_are_too_soft() {
             format!("{fixed}\n{}", ply([2e11, 2e11, 1e9], [8e10, 1e8, 1e8])),
             false,
         ),
+        (
+            "soft along it, half as high as its edges",
+            &[("a", 0.1, 1, false), ("b", 0.05, 1, true)],
+            ["steel", "ply"],
+            format!("{fixed}\n{}", ply([1e9, 1e9, 2e11], [1e9, 8e10, 8e10])),
+            true,
+        ),
+        (
+            "stiff along it, held",
+            plate,
+            ["ply", ""],
+            format!("{fixed}\n{}", ply([2e11, 2e11, 1e9], [8e10, 1e8, 1e8])),
+            false,
+        ),
         ("as high as its edges", &[("a", 0.1, 1, false)], ["steel", ""], fixed.to_owned(), false),
-    ] as [(&str, Stack, [&str; 2], String, bool); 11]
+    ] as [(&str, Stack, [&str; 2], String, bool); 13]
     {
         write(&folder, stack);
         let parts = ["a", "b"].into_iter().zip(materials).filter(|(_, material)| !material.is_empty());

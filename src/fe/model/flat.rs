@@ -65,6 +65,13 @@ pub(super) struct Ply {
     mean: f64,
 }
 
+impl Ply {
+    /// How many times as flat an isotropic layer is that its bubbles make as soft.
+    fn flatter(self) -> f64 {
+        (self.shear / self.stretch).sqrt()
+    }
+}
+
 impl HousingModel {
     /// The flat layers of incompatible elements on held faces, from there to the next face without a neighbour or to the
     /// next held one; `None` if there are none.
@@ -78,8 +85,8 @@ impl HousingModel {
         for (index, element) in self.elements.iter().enumerate() {
             for face in self.faces(element) {
                 let [edge, height] = self.shape(element, &face);
-                let held = self.held(&face, self.ply(element, &face), &holds);
-                if held <= 0.0 || edge <= FLAT_BETWEEN * height {
+                let ply = self.ply(element, &face);
+                if self.held(&face, ply, &holds) <= 0.0 || ply.flatter() * edge <= FLAT_BETWEEN * height {
                     continue;
                 }
                 let behind = behind.get_or_insert_with(|| self.elements_behind_faces());
@@ -176,7 +183,7 @@ impl HousingModel {
     /// Longest edge of a face over the height of the layer that begins there; `None` if that is not flat.
     fn layer_flatness(&self, index: usize, face: &[usize], behind: &Behind, holds: &[Hold]) -> Option<f64> {
         let ply = self.ply(&self.elements.list[index], face);
-        let (held, more) = (self.held(face, ply, holds), (ply.shear / ply.stretch).sqrt());
+        let (held, more) = (self.held(face, ply, holds), ply.flatter());
         let (mut sum, mut whole) = (0.0, 0.0); // of heights over the longest edge, and of heights
         let told = |flat: f64, [sum, whole]: [f64; 2]| {
             let limit = flat * (1.0 + OF_SHEAR * ply.shear / (whole * held)).sqrt();

@@ -139,12 +139,17 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// The beginning of some bytes, for a message.
-pub(in crate::fe::mesh) fn quoted(bytes: &[u8]) -> String {
+/// The first 40 characters of a text that may be of any length, without those that control a terminal.
+pub(in crate::fe::mesh) fn short(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     // a character takes four bytes at most
     let start = &bytes[..bytes.len().min(4 * LONGEST)];
-    let shown: String = String::from_utf8_lossy(start).chars().filter(|c| !c.is_control()).take(LONGEST).collect();
+    String::from_utf8_lossy(start).chars().filter(|c| !c.is_control()).take(LONGEST).collect()
+}
+
+/// The beginning of some bytes, for a message.
+pub(in crate::fe::mesh) fn quoted(bytes: &[u8]) -> String {
+    let shown = short(bytes);
     if bytes.is_empty() {
         "nothing".to_owned()
     } else if shown.is_empty() {

@@ -21,7 +21,7 @@ mod sections;
 mod tests;
 
 pub(super) use build::Allowance;
-pub(super) use cursor::quoted;
+pub(super) use cursor::{quoted, short};
 pub(super) use numbers::NodeIndex;
 
 use super::MshError;

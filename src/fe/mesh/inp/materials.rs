@@ -6,7 +6,7 @@ use super::block::{capitals, items};
 use super::deck::{Deck, OTHER_LAWS};
 use super::numbers::coordinate;
 use super::read::Bodies;
-use crate::fe::mesh::gmsh::quoted;
+use crate::fe::mesh::gmsh::{quoted, short};
 use crate::fe::mesh::{DeckMaterial, ElementId, Mesh, MeshNote};
 use std::collections::HashMap;
 
@@ -112,7 +112,7 @@ fn read_list(deck: &Deck<'_>) -> (Vec<DeckMaterial>, Vec<usize>) {
                 own.density = numbers.first().copied().flatten();
                 own.first_line |= is_first;
             }
-            (Some(kind), _) => own.other_law = Some(format!("*ELASTIC, TYPE={kind}")),
+            (Some(kind), _) => own.other_law = Some(format!("*ELASTIC, TYPE={}", short(kind.as_bytes()))),
             (None, numbers) => {
                 own.elastic = match *numbers {
                     [Some(young), Some(poisson), ..] => Some([young, poisson]),

@@ -6,7 +6,7 @@ use super::deck::Deck;
 use super::kinds::{self, Purpose, Type, inp_nodes};
 use super::numbers::{Numbers, coordinate, number};
 use super::sets::Sets;
-use crate::fe::mesh::gmsh::quoted;
+use crate::fe::mesh::gmsh::{quoted, short};
 use crate::fe::mesh::{ElementBlock, ElementId, ElementKind, Entity};
 use std::collections::BTreeMap;
 
@@ -76,9 +76,10 @@ impl Bodies {
 
     fn read_nodes(&mut self, block: &Block<'_>, metres: f64) -> Result<(), MshError> {
         if let Some(system) = block.parameter("SYSTEM").filter(|system| !system.eq_ignore_ascii_case("R")) {
-            return Err(
-                block.fault(block.line, format_args!("found SYSTEM={system}: expected rectangular coordinates"))
-            );
+            return Err(block.fault(
+                block.line,
+                format_args!("found SYSTEM={}: expected rectangular coordinates", short(system.as_bytes())),
+            ));
         }
         let set = block.parameter("NSET").map(|name| self.node_sets.named(&name, false));
         for (line, text) in block.lines() {
@@ -112,7 +113,9 @@ impl Bodies {
 
     fn read_elements(&mut self, block: &Block<'_>) -> Result<(), MshError> {
         let name = capitals(block.required("TYPE")?.as_bytes());
-        let known = match kinds::of_name(&name) {
+        let found = kinds::of_name(&name);
+        let name = short(name.as_bytes());
+        let known = match found {
             Type::Known(kind, purpose) => Some((kind, purpose)),
             Type::LeftOut => None,
             Type::Refused => {

@@ -35,7 +35,7 @@ impl Scopes {
                 if let Some((first, _)) = &self.instance {
                     return Err(block.fault(
                         block.line,
-                        format_args!("found a second instance, \"{name}\" after \"{first}\": expected one; merge the instances into one part and write the file again"),
+                        format_args!("found a second instance, {} after {}: expected one; merge the instances into one part and write the file again", quoted(name.as_bytes()), quoted(first.as_bytes())),
                     ));
                 }
                 self.instance = Some((name, own.map(|part| part as u32)));

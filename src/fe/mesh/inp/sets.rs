@@ -106,7 +106,10 @@ impl Sets {
                     let index = numbers.get(tag).ok_or_else(|| {
                         block.fault(
                             line,
-                            format_args!("the set \"{name}\" has {tag}: expected {what} that the file lists"),
+                            format_args!(
+                                "the set {} has {tag}: expected {what} that the file lists",
+                                quoted(name.as_bytes())
+                            ),
                         )
                     })?;
                     members.push(index as u32);

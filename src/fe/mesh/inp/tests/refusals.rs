@@ -71,6 +71,23 @@ fn what_cannot_be_read_is_refused_by_line() {
     assert!(read(b"").unwrap_err().contains("the file has no *NODE with data"));
 }
 
+#[test]
+fn a_message_is_short_whatever_the_names() {
+    let long = "\u{1f529}\u{7}a".repeat(3000);
+    for (deck, text, other) in [
+        (CUBES, "c3d8r", format!("C3D{}", "9".repeat(5000))),
+        (CUBES, "*Node, nset", format!("*Node, system={long}, nset")),
+        (CUBES, "nset=sensor\n7", format!("nset={long}\n77")),
+        (CUBES, "LOWER ONE, upper", format!("LOWER ONE, {long}")),
+        (CAE, "*End Instance\n", format!("*End Instance\n*Instance, name={long}, part=Other\n*End Instance\n")),
+        (CAE, "type=C3D4", format!("type=MASS{long}")),
+    ] {
+        assert!(deck.contains(text), "{text}");
+        let message = read(deck.replacen(text, &other, 1).as_bytes()).unwrap_err();
+        assert!(message.len() < 1000 && !message.contains('\u{7}'), "{text}: {} bytes", message.len());
+    }
+}
+
 /// What says something of the case.
 const HELD: &str = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n*NSET,NSET=N\n1,2,3\n\
     *MATERIAL,NAME=M\n*DENSITY\n7.8\n*ELASTIC\n2.,.3\n*SOLID SECTION,ELSET=E,MATERIAL=M\n*BOUNDARY\nN,1,3\n1,2\n*STEP\n*END STEP\n";
