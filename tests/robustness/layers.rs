@@ -121,7 +121,7 @@ fn single_elements_of_rubber_between_held_faces_are_told() {
         let json = std::fs::read_to_string(folder.join("out/modes.json")).unwrap();
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         (
-            warnings.contains("16 elements of first order stand alone between held faces"),
+            warnings.contains("elements of first order stand alone between held faces"),
             json["frequencies_hz"][3].as_f64().unwrap(),
         )
     };
