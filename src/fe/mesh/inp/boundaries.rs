@@ -70,6 +70,8 @@ pub(super) struct Boundaries {
     valued: Vec<usize>,
     /// Which step counts, where the file has several.
     step: Option<String>,
+    /// Line of the first file that a step takes in.
+    include: Option<usize>,
 }
 
 impl Boundaries {
@@ -77,6 +79,7 @@ impl Boundaries {
     pub(super) fn read(deck: &Deck<'_>, bodies: &mut Bodies) -> Self {
         let counted = deck.frequency.unwrap_or(1);
         let mut found = Self { turned: Turned::read(deck, bodies, counted), ..Self::default() };
+        found.include = deck.of("INCLUDE").find(|block| block.step <= counted).map(|block| block.line);
         let mut step = 0;
         for block in deck.of("BOUNDARY") {
             // of the first of a step alone
@@ -202,9 +205,14 @@ impl Boundaries {
                 self.first_node
             ));
         }
+        if let Some(line) = self.include {
+            notes.not_supports.push(format!(
+                "*INCLUDE in line {line} takes another file into a step, which is not read: what it holds is no support"
+            ));
+        }
         if let [first, ..] = self.others[..] {
             notes.not_supports.push(format!(
-                "*BOUNDARY has lines ({}, first line {first}) that move nodes over time, stand in turned axes or another file, or cannot be read: they are no support",
+                "*BOUNDARY has lines ({}, first line {first}) that move nodes over time, stand in axes of *TRANSFORM or in another file, or cannot be read: they are no support",
                 self.others.len()
             ));
         }

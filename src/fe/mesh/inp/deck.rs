@@ -106,7 +106,7 @@ impl<'a> Deck<'a> {
             let block = Block { head, rest: lines.clone(), line, scope: scopes.now, step: deck.steps };
             match keyword(head).as_str() {
                 "STEP" => deck.steps += 1,
-                "BOUNDARY" | "TRANSFORM" if deck.steps > 0 => deck.blocks.push(block),
+                "BOUNDARY" | "TRANSFORM" | "INCLUDE" if deck.steps > 0 => deck.blocks.push(block),
                 "FREQUENCY" if deck.steps > 0 => deck.frequency = deck.frequency.or(Some(deck.steps)),
                 _ if deck.steps > 0 => {}
                 _ => deck.take(block, &mut scopes)?,

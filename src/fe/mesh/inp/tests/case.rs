@@ -46,6 +46,12 @@ fn materials_and_what_is_held_are_notes() {
     let anew = read(deck.replace("*BOUNDARY\nFEET", "*BOUNDARY, OP=NEW\nFEET").as_bytes()).unwrap();
     assert_eq!(held(&anew), ["Feet z"]);
     assert_eq!(anew.notes.not_supports, notes.not_supports[..2]);
+    let other = deck.replace("*FREQUENCY", "*INCLUDE, INPUT=held.inp\n*FREQUENCY");
+    let other = read(other.as_bytes()).unwrap().notes.not_supports;
+    let [_, _, _, _, include] = &other[..] else { panic!("{other:?}") };
+    assert!(include.starts_with("*INCLUDE in line 68 takes another file into a step"), "{include}");
+    let later = deck.replace("*END STEP\n*STEP\n", "*END STEP\n*STEP\n*INCLUDE, INPUT=held.inp\n");
+    assert_eq!(read(later.as_bytes()).unwrap().notes.not_supports, notes.not_supports);
     // what was picked in Abaqus/CAE, and a surface of the set's name
     let picked = read(deck.replace("NSET=Feet, GENERATE", "NSET=Feet, GENERATE, INTERNAL").as_bytes()).unwrap().notes;
     assert_eq!(picked.supports[0].group, "Feet");
